@@ -1,0 +1,3 @@
+"""polycnc: an open CNC control in software."""
+
+__version__ = "0.1.0"

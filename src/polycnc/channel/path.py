@@ -1,0 +1,72 @@
+"""The way of a move from the interpreter to the toolpath: a short chain of stages.
+
+The interpreter gives every move and event to the first stage. A stage that must look ahead (corner rounding, cutter
+compensation) holds moves back and passes them on, changed, in order; the last stage writes rows. A stage that is not
+active is not in the chain, so plain motion goes straight to the table.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import nan
+from typing import TYPE_CHECKING, Protocol
+
+from polycnc.toolpath.kinds import Kind
+
+if TYPE_CHECKING:
+    from polycnc.geometry.frames import Vector
+    from polycnc.toolpath import Event
+
+
+@dataclass(slots=True)
+class Move:
+    """One motion on its way to the toolpath. Positions are work coordinates of all channel axes (mm, radius, degrees).
+
+    Attributes:
+        kind: Row kind.
+        start: Position where the move begins.
+        end: Position where it ends.
+        feed: In internal units, NaN for none.
+        program: Number of the program in the toolpath's list.
+        line: Line in that program, from 1.
+        context: Number of the context that holds.
+        center: Arc centre on the geometry axes, or None for a straight move.
+        normal: Unit normal of the arc's plane; a `CCW` arc turns counter-clockwise seen from its tip.
+        turns: Full turns beyond the first part of an arc.
+        parameters: Other curve parameters (lead, start angle, seconds), as `CURVE_WIDTH` documents.
+    """
+
+    kind: Kind
+    start: list[float]
+    end: list[float]
+    feed: float = nan
+    program: int = 0
+    line: int = 0
+    context: int = 0
+    center: Vector | None = None
+    normal: Vector = (0.0, 0.0, 1.0)
+    turns: float = 0.0
+    parameters: tuple[float, ...] = ()
+
+    @property
+    def is_arc(self) -> bool:
+        """Whether the move is an arc, a helix or a spiral."""
+        return self.center is not None
+
+
+class PathStage(Protocol):
+    """One stage of the chain; `after` is the next one."""
+
+    after: PathStage
+
+    def move(self, move: Move) -> None:
+        """Take the next move."""
+
+    def event(self, event: Event, program: int, line: int, context: int) -> None:
+        """Take an event; it keeps its place between the moves."""
+
+    def block(self) -> None:
+        """Called after every block of the program, with or without motion (look-ahead limits count blocks)."""
+
+    def flush(self) -> None:
+        """Pass on everything that is held back: no more moves will come that could change it."""

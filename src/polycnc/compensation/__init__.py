@@ -1,0 +1,1 @@
+"""Cutter and nose radius compensation as a stage of the path, with each control's rules as a policy."""

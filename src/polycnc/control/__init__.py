@@ -1,0 +1,1 @@
+"""The control families: code tables, handlers, alarms; each states only how it differs."""

@@ -1,0 +1,1 @@
+"""Machining cycles as generators of moves, free of any control's words."""

@@ -1,0 +1,6 @@
+"""Alarms as values, and every text that a user reads, in English and Traditional Chinese."""
+
+from polycnc.messages.alarm import Alarm, AlarmError
+from polycnc.messages.catalogue import Catalogue, text
+
+__all__ = ["Alarm", "AlarmError", "Catalogue", "text"]

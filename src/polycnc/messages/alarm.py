@@ -1,0 +1,50 @@
+"""What a control says when it refuses to go on.
+
+An alarm is a value. It is raised inside a channel as `AlarmError`, which knows only the cause; the channel adds the
+place at the block boundary and keeps the resulting `Alarm`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+
+class AlarmError(Exception):
+    """The cause of an alarm, raised where it is found.
+
+    Args:
+        code: The control's own code, such as `PS0010`, `COR-006` or `12080`.
+        column: Column in the block, from 1; 0 when the whole block is meant.
+        hint: Message id of what the user can do about this very case, beside the catalogue's general remedy.
+        detail: Free text that replaces the catalogue's text (user alarms such as `#3000`).
+        args: Values for the placeholders of the text.
+    """
+
+    def __init__(self, code: str, *, column: int = 0, hint: str = "", detail: str = "", **args: object) -> None:
+        super().__init__(code)
+        self.code = code
+        self.column = column
+        self.hint = hint
+        self.detail = detail
+        self.args_by_name: Mapping[str, object] = args
+
+
+@dataclass(frozen=True, slots=True)
+class Alarm:
+    """An alarm with its place; `line` and `column` count from 1, 0 is unknown."""
+
+    control: str
+    code: str
+    program: str = ""
+    line: int = 0
+    column: int = 0
+    block: str = ""
+    args: Mapping[str, object] = field(default_factory=dict)
+    hint: str = ""
+    detail: str = ""
+    file: str = ""
+    call_chain: tuple[tuple[str, int], ...] = ()

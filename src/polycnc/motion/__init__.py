@@ -1,0 +1,1 @@
+"""From path to time: look-ahead speed planning."""

@@ -1,0 +1,1 @@
+"""Part programs as text: encodings, tape and archive formats, directories, search paths."""

@@ -1,0 +1,47 @@
+"""What holds over many moves and changes rarely: kept once, referred to by number."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from polycnc.geometry.frames import IDENTITY, Frame
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """The state under which a run of moves was made. Immutable; equal contexts share one number.
+
+    Attributes:
+        plane: Working plane as `G17`, `G18` or `G19`.
+        inch: Words and display are in inches. Lengths in the table stay in millimetres.
+        feed_mode: `G93`, `G94` or `G95`, in FANUC milling terms whatever the control writes.
+        frame: Work coordinates to machine coordinates of the geometry axes, without the tool.
+        offsets: Shift from work to machine of every channel axis beside `frame`, tool included, in mm or degrees.
+        tool: Tool number in the spindle, 0 for none; `tool_name` where the control calls tools by name.
+        radius_mm: Radius that cutter compensation applies, 0 when it is off.
+        side: Cutter compensation: 0 off, 1 left, -1 right.
+        spindle_rpm: Programmed speed (rpm; m/min under constant surface speed), spindle direction 1, -1 or 0.
+        path_mode: The control's own word for exact stop or continuous path (`G61`, `G64`, `G642` …).
+        tolerance_mm: Contour tolerance for the planner where a code names one, else 0.
+        diameter_axes: Bit mask of channel axes that show diameters.
+        wcs: Name of the active work coordinate system.
+    """
+
+    plane: str = "G17"
+    inch: bool = False
+    feed_mode: str = "G94"
+    frame: Frame = IDENTITY
+    offsets: tuple[float, ...] = ()
+    tool: int = 0
+    tool_name: str = ""
+    radius_mm: float = 0.0
+    side: int = 0
+    spindle: int = 1
+    spindle_rpm: float = 0.0
+    spindle_direction: int = 0
+    surface_speed: bool = False
+    spindle_limit_rpm: float = 0.0
+    path_mode: str = "G64"
+    tolerance_mm: float = 0.0
+    diameter_axes: int = 0
+    wcs: str = "G54"

@@ -1,0 +1,28 @@
+"""Kinds of rows in a toolpath."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+
+class Kind(IntEnum):
+    """What a row is. The lower-case name is the `type` of the trace; `EVENT` rows point to an `Event`."""
+
+    RAPID = 0
+    FEED = 1
+    CW = 2
+    CCW = 3
+    HELIX_CW = 4
+    HELIX_CCW = 5
+    SPLINE = 6
+    THREAD = 7
+    TAP = 8
+    REF = 9
+    SKIP = 10
+    DWELL = 11
+    EVENT = 12
+
+
+#: The `type` of each kind in the trace, by its number.
+TYPE_NAMES = tuple(kind.name.lower() for kind in Kind)
+ARC_KINDS = frozenset((Kind.CW, Kind.CCW, Kind.HELIX_CW, Kind.HELIX_CCW))

@@ -1,0 +1,224 @@
+"""The toolpath: columns in chunks, contexts and events beside them.
+
+Columns are plain `array.array` buffers while a chunk is being written, so that a short program needs no array library;
+`Chunk.numpy()` gives views of the same memory. Lengths are millimetres (radius, never diameter), rotary positions
+degrees, feeds mm/s, mm/rev or 1/s as the context's feed mode says.
+"""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Callable, Iterator
+from math import isnan, nan
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from polycnc.toolpath.events import Event
+from polycnc.toolpath.kinds import Kind
+
+if TYPE_CHECKING:
+    from polycnc.toolpath.context import Context
+
+#: Value of the `curve` column where a row has no curve parameters.
+NO_CURVE = -1
+#: Numbers a curve row: centre x y z (work coordinates, mm), unit normal x y z of the arc's plane, full turns beyond
+#: the first, spare. A dwell: seconds, revolutions. A thread or tap: lead mm, start angle degrees.
+CURVE_WIDTH = 8
+CHUNK_ROWS = 65_536
+NO_FEED = nan
+
+
+class Row(NamedTuple):
+    """One row as Python values, for those who read a toolpath row by row."""
+
+    number: int
+    kind: Kind
+    program: str
+    line: int
+    end: tuple[float, ...]
+    feed: float
+    curve: tuple[float, ...]
+    context: Context
+    event: Event | None
+
+    @property
+    def has_feed(self) -> bool:
+        """Whether the row names a feed."""
+        return not isnan(self.feed)
+
+
+class Chunk:
+    """Up to `CHUNK_ROWS` rows. `axes` is the number of channel axes; `end` is flat, `axes` numbers a row."""
+
+    __slots__ = ("axes", "context", "curve", "curves", "end", "events", "feed", "first", "kind", "line", "program")
+
+    def __init__(self, axes: int, first: int) -> None:
+        self.axes = axes
+        self.first = first
+        self.kind = array("B")
+        self.program = array("H")
+        self.line = array("I")
+        self.context = array("I")
+        self.feed = array("d")
+        self.end = array("d")
+        self.curve = array("i")
+        self.curves = array("d")
+        self.events: list[Event] = []
+
+    def __len__(self) -> int:
+        return len(self.kind)
+
+    def numpy(self) -> dict[str, Any]:
+        """The columns as NumPy views: `end` is (n, axes), `curves` (m, CURVE_WIDTH), the others (n,)."""
+        import numpy as np
+
+        return {
+            "kind": np.frombuffer(self.kind, np.uint8),
+            "program": np.frombuffer(self.program, np.uint16),
+            "line": np.frombuffer(self.line, np.uint32),
+            "context": np.frombuffer(self.context, np.uint32),
+            "feed": np.frombuffer(self.feed, np.float64),
+            "end": np.frombuffer(self.end, np.float64).reshape(-1, self.axes),
+            "curve": np.frombuffer(self.curve, np.int32),
+            "curves": np.frombuffer(self.curves, np.float64).reshape(-1, CURVE_WIDTH),
+        }
+
+    def truncate(self, rows: int) -> None:
+        """Drop every row from number `rows` (within the chunk) on, with its curve and event."""
+        events = sum(1 for kind in self.kind[rows:] if kind == Kind.EVENT)
+        curves = sum(1 for k, c in zip(self.kind[rows:], self.curve[rows:], strict=True) if c >= 0 and k != Kind.EVENT)
+        if events:
+            del self.events[-events:]
+        if curves:
+            del self.curves[-curves * CURVE_WIDTH :]
+        for column in (self.kind, self.program, self.line, self.context, self.feed, self.curve):
+            del column[rows:]
+        del self.end[rows * self.axes :]
+
+
+class Toolpath:
+    """Moves and events of one channel, in order.
+
+    Args:
+        axes: Names of the channel's axes, in column order.
+        on_full: Called with each chunk that is full; a consumer that returns true has taken it, and it is dropped.
+    """
+
+    def __init__(
+        self,
+        axes: tuple[str, ...],
+        *,
+        chunk_rows: int = CHUNK_ROWS,
+        on_full: Callable[[Chunk], bool] | None = None,
+    ) -> None:
+        self.axes = axes
+        self.chunks: list[Chunk] = []
+        self.contexts: list[Context] = []
+        self.programs: list[str] = []
+        self._context_numbers: dict[Context, int] = {}
+        self._program_numbers: dict[str, int] = {}
+        self._chunk_rows = chunk_rows
+        self._on_full = on_full
+        self._rows_before = 0
+        self.chunk = Chunk(len(axes), 0)
+        self.chunks.append(self.chunk)
+
+    def __len__(self) -> int:
+        return self._rows_before + len(self.chunk.kind)
+
+    def context_number(self, context: Context) -> int:
+        """The number of a context; a new one is added."""
+        number = self._context_numbers.get(context)
+        if number is None:
+            number = self._context_numbers[context] = len(self.contexts)
+            self.contexts.append(context)
+        return number
+
+    def program_number(self, name: str) -> int:
+        """The number of a program name; a new one is added."""
+        number = self._program_numbers.get(name)
+        if number is None:
+            number = self._program_numbers[name] = len(self.programs)
+            self.programs.append(name)
+        return number
+
+    def append(
+        self, kind: int, program: int, line: int, context: int, feed: float, end: list[float], curve: int = NO_CURVE
+    ) -> None:
+        """Add a row. `curve` is what `add_curve` gave for it, or `NO_CURVE`."""
+        chunk = self.chunk
+        chunk.kind.append(kind)
+        chunk.program.append(program)
+        chunk.line.append(line)
+        chunk.context.append(context)
+        chunk.feed.append(feed)
+        chunk.end.extend(end)
+        chunk.curve.append(curve)
+
+    def add_curve(self, *parameters: float) -> int:
+        """Store curve parameters in the current chunk (padded with zeros) and give their row."""
+        curves = self.chunk.curves
+        number = len(curves) // CURVE_WIDTH
+        curves.extend(parameters)
+        curves.extend([0.0] * (CURVE_WIDTH - len(parameters)))
+        return number
+
+    def append_event(self, event: Event, program: int, line: int, context: int, end: list[float]) -> None:
+        """Add an event in order with the moves."""
+        self.chunk.events.append(event)
+        self.append(Kind.EVENT, program, line, context, NO_FEED, end, len(self.chunk.events) - 1)
+
+    def block_boundary(self) -> None:
+        """Called between blocks: hands on a full chunk and starts the next one."""
+        if len(self.chunk.kind) >= self._chunk_rows:
+            self._next_chunk()
+
+    def _next_chunk(self) -> None:
+        full = self.chunk
+        self._rows_before += len(full.kind)
+        if self._on_full is not None and self._on_full(full):
+            self.chunks.remove(full)
+        self.chunk = Chunk(len(self.axes), self._rows_before)
+        self.chunks.append(self.chunk)
+
+    def mark(self) -> int:
+        """The number of rows now; `truncate` goes back to it as long as no block boundary lies between."""
+        return len(self.chunk.kind)
+
+    def truncate(self, mark: int) -> None:
+        """Forget the rows of a block that alarmed."""
+        self.chunk.truncate(mark)
+
+    def rows(self) -> Iterator[Row]:
+        """All rows that are still held, as Python values."""
+        for chunk in self.chunks:
+            yield from self.rows_of(chunk)
+
+    def rows_of(self, chunk: Chunk) -> Iterator[Row]:
+        """The rows of one chunk as Python values."""
+        n = chunk.axes
+        for i, kind in enumerate(chunk.kind):
+            c = chunk.curve[i]
+            is_event = kind == Kind.EVENT
+            yield Row(
+                chunk.first + i,
+                Kind(kind),
+                self.programs[chunk.program[i]],
+                chunk.line[i],
+                tuple(chunk.end[i * n : (i + 1) * n]),
+                chunk.feed[i],
+                tuple(chunk.curves[c * CURVE_WIDTH : (c + 1) * CURVE_WIDTH]) if c >= 0 and not is_event else (),
+                self.contexts[chunk.context[i]],
+                chunk.events[c] if is_event else None,
+            )
+
+    def to_machine(self, end: tuple[float, ...] | list[float], context: Context, geometry: tuple[int, ...]) -> list[float]:
+        """Machine position of a row's end point: the frame acts on the `geometry` axes, the offsets on all."""
+        machine = list(end)
+        if not context.frame.is_identity:
+            image = context.frame.apply(*(end[i] if i >= 0 else 0.0 for i in geometry))
+            for i, value in zip(geometry, image, strict=True):
+                if i >= 0:
+                    machine[i] = value
+        if context.offsets:
+            machine = [value + offset for value, offset in zip(machine, context.offsets, strict=True)]
+        return machine
