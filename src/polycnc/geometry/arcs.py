@@ -1,0 +1,196 @@
+"""Circular arcs: the plane arc of every control, and the circle through three points in space.
+
+Points of the plane are `(u, v)` pairs in millimetres, angles are radians counted from +u towards +v, `ccw`
+says whether the arc turns that way. An arc whose start and end coincide is a full circle. All functions work
+on plain floats.
+"""
+
+from __future__ import annotations
+
+from math import acos, atan2, ceil, cos, hypot, pi, sin, sqrt
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from polycnc.geometry.frames import Vector
+
+Point = tuple[float, float]
+TAU = 2.0 * pi
+#: Two points nearer than this (mm) are the same point: far below any control's least input increment.
+SAME_POINT_MM = 1e-9
+
+
+def center_from_radius(start: Point, end: Point, radius: float, ccw: bool, tolerance: float = 1e-6) -> Point:
+    """Centre of the arc of a given radius through two points.
+
+    The centre lies on the chord's perpendicular bisector, `h = sqrt(r² - (chord/2)²)` from its middle: to the
+    left of the chord for a counter-clockwise arc of up to 180 degrees, to the right for the long way round, and
+    the other way about for a clockwise arc.
+
+    Args:
+        start: Start point, mm.
+        end: End point, mm.
+        radius: Positive for an arc of up to 180 degrees, negative for a longer one.
+        ccw: Sense of rotation.
+        tolerance: A chord longer than the diameter by up to this much (mm) is taken for the diameter.
+
+    Raises:
+        ValueError: The radius is zero, start and end coincide (a radius cannot tell where a full circle's
+            centre lies), or no circle of this radius reaches both points.
+    """
+    du, dv = end[0] - start[0], end[1] - start[1]
+    chord = hypot(du, dv)
+    if radius == 0.0 or chord <= SAME_POINT_MM:
+        raise ValueError("no circle")
+    if chord > 2.0 * abs(radius) + tolerance:
+        raise ValueError("chord longer than the diameter")
+    height = sqrt(max(radius * radius - 0.25 * chord * chord, 0.0))
+    if (radius > 0.0) != ccw:
+        height = -height
+    return (0.5 * (start[0] + end[0]) - height * dv / chord, 0.5 * (start[1] + end[1]) + height * du / chord)
+
+
+def angle_at(center: Point, point: Point) -> float:
+    """Direction from the centre to a point, radians in (-pi, pi]."""
+    return atan2(point[1] - center[1], point[0] - center[0])
+
+
+def point_at(center: Point, radius: float, angle: float) -> Point:
+    """The point of a circle in a direction (radians)."""
+    return (center[0] + radius * cos(angle), center[1] + radius * sin(angle))
+
+
+def sweep_angle(start: Point, end: Point, center: Point, ccw: bool) -> float:
+    """Angle of an arc, radians: positive counter-clockwise, negative clockwise; start = end is a full circle.
+
+    The angle from `a = start - center` to `b = end - center` is `atan2(a x b, a · b)`: no difference of two
+    angles, so that short arcs of large circles keep their digits.
+    """
+    if hypot(end[0] - start[0], end[1] - start[1]) <= SAME_POINT_MM:
+        return TAU if ccw else -TAU
+    au, av = start[0] - center[0], start[1] - center[1]
+    bu, bv = end[0] - center[0], end[1] - center[1]
+    angle = atan2(au * bv - av * bu, au * bu + av * bv)
+    if ccw:
+        return angle if angle > 0.0 else angle + TAU
+    return angle if angle < 0.0 else angle - TAU
+
+
+def radius_of(center: Point, point: Point) -> float:
+    """Distance of a point from the centre, mm."""
+    return hypot(point[0] - center[0], point[1] - center[1])
+
+
+def radius_mismatch(start: Point, end: Point, center: Point) -> float:
+    """End radius less start radius, mm: what a control compares with its arc tolerance."""
+    return radius_of(center, end) - radius_of(center, start)
+
+
+def arc_length(
+    start: Point, end: Point, center: Point, ccw: bool, turns: float = 0.0, rise: float = 0.0
+) -> float:
+    """Length of an arc, helix or spiral, mm.
+
+    Args:
+        start: Start point, mm.
+        end: End point, mm.
+        center: Centre, mm.
+        ccw: Sense of rotation.
+        turns: Full turns beyond the first part.
+        rise: Way across the plane, mm.
+
+    A radius that grows from start to end counts with its mean: exact for arcs, and for spirals to second
+    order in the growth per turn.
+    """
+    angle = abs(sweep_angle(start, end, center, ccw)) + TAU * turns
+    mean = 0.5 * (radius_of(center, start) + radius_of(center, end))
+    growth = radius_mismatch(start, end, center)
+    return hypot(mean * angle, growth, rise)
+
+
+def point_on_arc(
+    start: Point, end: Point, center: Point, ccw: bool, fraction: float, turns: float = 0.0
+) -> Point:
+    """The point after a fraction (0 to 1) of the angle; a radius that differs changes in proportion."""
+    angle = sweep_angle(start, end, center, ccw) + (TAU if ccw else -TAU) * turns
+    radius = radius_of(center, start) + fraction * radius_mismatch(start, end, center)
+    return point_at(center, radius, angle_at(center, start) + fraction * angle)
+
+
+def tangent_at(center: Point, point: Point, ccw: bool) -> Point:
+    """Unit direction of travel at a point of an arc: the radius turned by 90 degrees in its sense."""
+    u, v = point[0] - center[0], point[1] - center[1]
+    radius = hypot(u, v)
+    return (-v / radius, u / radius) if ccw else (v / radius, -u / radius)
+
+
+def contains_direction(
+    start: Point, end: Point, center: Point, ccw: bool, point: Point, slack: float = 1e-12
+) -> bool:
+    """Whether the ray from the centre through `point` meets the arc; `slack` (radians) widens both ends."""
+    total = abs(sweep_angle(start, end, center, ccw))
+    if hypot(point[0] - start[0], point[1] - start[1]) <= SAME_POINT_MM:
+        return True
+    part = abs(sweep_angle(start, point, center, ccw))
+    return part <= total + slack or part >= TAU - slack
+
+
+def bounding_box(
+    start: Point, end: Point, center: Point, ccw: bool, turns: float = 0.0
+) -> tuple[float, float, float, float]:
+    """Smallest `(u min, v min, u max, v max)` around an arc, mm.
+
+    The extremes are the ends and those of the circle's four axis points that the arc passes. Where the end
+    radius differs, the larger one is used at the axis points, so the box is never too small.
+    """
+    radius = max(radius_of(center, start), radius_of(center, end))
+    us, vs = [start[0], end[0]], [start[1], end[1]]
+    for du, dv in ((radius, 0.0), (0.0, radius), (-radius, 0.0), (0.0, -radius)):
+        if turns > 0.0 or contains_direction(start, end, center, ccw, (center[0] + du, center[1] + dv)):
+            us.append(center[0] + du)
+            vs.append(center[1] + dv)
+    return min(us), min(vs), max(us), max(vs)
+
+
+def split(start: Point, end: Point, center: Point, ccw: bool, parts: int) -> list[Point]:
+    """End points of `parts` pieces of equal angle; the last one is `end` itself."""
+    points = [point_on_arc(start, end, center, ccw, k / parts) for k in range(1, parts)]
+    return [*points, end]
+
+
+def parts_for_chord_error(radius: float, sweep: float, error: float) -> int:
+    """How many equal pieces keep the chord within `error` (mm) of the arc.
+
+    The sagitta of a piece of angle `a` is `r·(1 - cos(a/2))`; no piece is longer than half a turn.
+    """
+    piece = 2.0 * acos(max(1.0 - error / radius, 0.0))
+    return max(1, ceil(abs(sweep) / piece - 1e-9))
+
+
+def three_point_circle(a: Vector, b: Vector, c: Vector) -> tuple[Vector, Vector]:
+    """Centre and unit normal of the circle through three points in space.
+
+    The arc from `a` over `b` to `c` is counter-clockwise seen from the normal's tip. With `p = b - a`,
+    `q = c - a` and `n = p x q` the point of the plane that is equally far from all three is
+    `a + (|p|²·(q x n) + |q|²·(n x p)) / (2·|n|²)`.
+
+    Raises:
+        ValueError: The points lie on one straight line, or two of them coincide.
+    """
+    p = (b[0] - a[0], b[1] - a[1], b[2] - a[2])
+    q = (c[0] - a[0], c[1] - a[1], c[2] - a[2])
+    n = cross(p, q)
+    nn = n[0] * n[0] + n[1] * n[1] + n[2] * n[2]
+    pp = p[0] * p[0] + p[1] * p[1] + p[2] * p[2]
+    qq = q[0] * q[0] + q[1] * q[1] + q[2] * q[2]
+    # |n| = |p||q| sin: below a sine of 1e-9 the centre has no digit left.
+    if nn <= 1e-18 * pp * qq or min(pp, qq) <= SAME_POINT_MM**2:
+        raise ValueError("points on a line")
+    qn, np = cross(q, n), cross(n, p)
+    center = tuple(a[i] + (pp * qn[i] + qq * np[i]) / (2.0 * nn) for i in range(3))
+    length = sqrt(nn)
+    return (center[0], center[1], center[2]), (n[0] / length, n[1] / length, n[2] / length)
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """Vector product."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
