@@ -19,15 +19,29 @@ class AlarmError(Exception):
     Args:
         code: The control's own code, such as `PS0010`, `COR-006` or `12080`.
         column: Column in the block, from 1; 0 when the whole block is meant.
+        line: Line of the program, where it is not the running block (found by a stage that looks ahead).
+        address: Word or code of the block (`X`, `G41`) whose column is to be looked up.
         hint: Message id of what the user can do about this very case, beside the catalogue's general remedy.
         detail: Free text that replaces the catalogue's text (user alarms such as `#3000`).
         args: Values for the placeholders of the text.
     """
 
-    def __init__(self, code: str, *, column: int = 0, hint: str = "", detail: str = "", **args: object) -> None:
+    def __init__(
+        self,
+        code: str,
+        *,
+        column: int = 0,
+        line: int = 0,
+        address: str = "",
+        hint: str = "",
+        detail: str = "",
+        **args: object,
+    ) -> None:
         super().__init__(code)
         self.code = code
         self.column = column
+        self.line = line
+        self.address = address
         self.hint = hint
         self.detail = detail
         self.args_by_name: Mapping[str, object] = args

@@ -1,0 +1,356 @@
+"""The interpreter: runs the blocks of a program ahead and writes their motion and events into the toolpath.
+
+A channel is a coroutine: `run()` yields a `Wait` when something outside must happen first (an operator's start after
+M00, a chunk to be taken) and goes on when it is resumed. It knows no control: blocks are callables that a control's
+language compiled, and what differs between controls lies behind `Control`.
+"""
+
+from __future__ import annotations
+
+from math import nan
+from typing import TYPE_CHECKING, Any, Protocol
+
+from polycnc.channel.coordinates import Coordinates
+from polycnc.channel.mode import Mode, ModeTable
+from polycnc.channel.path import Move, PathStage
+from polycnc.channel.stack import Executable, Level
+from polycnc.channel.waits import CHUNK, Wait
+from polycnc.messages import Alarm, AlarmError
+from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from polycnc.geometry.frames import Vector
+    from polycnc.machine.model import Machine
+    from polycnc.machine.setup import Setup
+    from polycnc.program import Program
+    from polycnc.program.store import ProgramStore
+
+DEFAULT_BLOCK_LIMIT = 100_000_000
+
+
+class Control(Protocol):
+    """What a channel asks of a control family."""
+
+    id: str
+
+    def compile(self, program: Program) -> Executable:
+        """Make a program ready to run."""
+
+    def start(self, channel: Channel) -> None:
+        """Bring a channel into the state of power-on and program start; sets `mode` and `memory`."""
+
+    def end_of_program(self, channel: Channel) -> None:
+        """A level has run out of blocks."""
+
+    def context(self, channel: Channel) -> Context:
+        """The context that holds now."""
+
+    def over_travel(self, axis: str, direction: int) -> AlarmError:
+        """The alarm for a target beyond a limit of an axis; direction is 1 or -1."""
+
+    def block_limit(self) -> AlarmError:
+        """The alarm for a program that has run more blocks than allowed."""
+
+
+class Channel:
+    """One channel of a control: state, program stack, and the way of its moves.
+
+    Attributes:
+        mode: Active codes of all modal groups.
+        coordinates: Positions and frames.
+        feed: Feed in force in internal units (mm/s, mm/rev, 1/s as the feed mode says), NaN when none was programmed.
+        level: The running program level, `stack[-1]`.
+        head: First stage of the path, or None while moves go straight to the table.
+        memory: The control's own state (variables, offsets, tools), set by `Control.start`.
+    """
+
+    def __init__(
+        self,
+        control: Control,
+        machine: Machine,
+        setup: Setup,
+        store: ProgramStore,
+        *,
+        number: int = 1,
+        block_limit: int = DEFAULT_BLOCK_LIMIT,
+        toolpath: Toolpath | None = None,
+    ) -> None:
+        self.control = control
+        self.machine = machine
+        self.setup = setup
+        self.store = store
+        self.number = number
+        self.axes: tuple[str, ...] = machine.channel_axes(number)
+        self.axis_index = {name: i for i, name in enumerate(self.axes)}
+        geometry = machine.geometry_indices(number)
+        start = [setup.start.get(name, 0.0) for name in self.axes]
+        self.coordinates = Coordinates(self.axes, geometry, start)
+        self.toolpath = toolpath or Toolpath(self.axes)
+        self.modes = ModeTable()
+        self.mode: Mode = self.modes.mode({})
+        self.feed = nan
+        self.stack: list[Level] = []
+        self.level: Level
+        self.head: PathStage | None = None
+        self.table = TableStage(self)
+        self.memory: Any = None
+        self.alarms: list[Alarm] = []
+        self.finished = False
+        self.blocks = 0
+        self.block_limit = block_limit
+        self.wait: Wait | None = None
+        self.skip_levels = setup.switches.block_skip_levels
+        self.optional_stop = setup.switches.optional_stop
+        self.variables_at_end: dict[str, Any] | None = None
+        self._context = 0
+        self._context_changed = True
+        self._limits = machine.limits(number)
+        self._executables: dict[int, Executable] = {}
+
+    # ---- program stack -------------------------------------------------------------------------------------------
+
+    def executable(self, program: Program) -> Executable:
+        """The compiled form of a program; each program is compiled once."""
+        key = id(program)
+        if key not in self._executables:
+            self._executables[key] = self.control.compile(program)
+        return self._executables[key]
+
+    def push(self, program: Program, *, kind: str, repeats: int = 0, index: int = 0, local: Any = None) -> Level:
+        """Call a program: it runs next, `repeats` more times after the first pass."""
+        name = self.toolpath.program_number(program.name)
+        level = Level(self.executable(program), index, index, name, repeats, index, kind, local)
+        self.stack.append(level)
+        self.level = level
+        return level
+
+    def pop(self) -> Level:
+        """End the running level; the level below becomes the running one."""
+        ended = self.stack.pop()
+        if self.stack:
+            self.level = self.stack[-1]
+        else:
+            self.finished = True
+        return ended
+
+    # ---- running -------------------------------------------------------------------------------------------------
+
+    def run(self, program: Program) -> Iterator[Wait]:
+        """Run a program to its end or to an alarm, yielding whenever the channel must wait."""
+        self.level = self.push(program, kind="main")
+        try:
+            self.control.start(self)
+        except AlarmError as error:
+            self._alarm(error)
+        while not self.finished:
+            yield from self._run_blocks()
+        self.flush()
+
+    def _run_blocks(self) -> Iterator[Wait]:
+        """Run blocks until the channel has finished or has to hand over."""
+        toolpath = self.toolpath
+        mark = toolpath.mark()
+        try:
+            while not self.finished:
+                level = self.level
+                index = level.index
+                step = level.code.step(index)
+                if step is None:
+                    self.control.end_of_program(self)
+                    continue
+                level.current = index
+                level.index = index + 1
+                chunk = toolpath.chunk
+                mark = len(chunk.kind)
+                step(self)
+                if self.head is not None:
+                    self.head.block()
+                self.blocks += 1
+                if self.blocks >= self.block_limit:
+                    raise self.control.block_limit()
+                if mark >= 65_536:
+                    toolpath.block_boundary()
+                    mark = toolpath.mark()
+                    yield CHUNK
+                if self.wait is not None:
+                    mark = toolpath.mark()
+                    wait, self.wait = self.wait, None
+                    yield wait
+        except AlarmError as error:
+            toolpath.truncate(mark)
+            self._alarm(error)
+        except RecursionError:
+            toolpath.truncate(mark)
+            self._alarm(self.control.block_limit())
+
+    def flush(self) -> None:
+        """Pass on every move that a stage still holds back."""
+        if self.head is not None:
+            try:
+                self.head.flush()
+            except AlarmError as error:
+                self._alarm(error)
+
+    def _alarm(self, error: AlarmError) -> None:
+        level = self.stack[-1] if self.stack else None
+        line = error.line or (level.code.line(level.current) if level else 0)
+        program = level.code.program if level else None
+        column = error.column
+        if level and error.address and not column and not error.line:
+            column = level.code.column(level.current, error.address)
+        alarm = Alarm(
+            control=self.control.id,
+            code=error.code,
+            program=program.name if program else "",
+            line=line,
+            column=column,
+            args=dict(error.args_by_name),
+            hint=error.hint,
+            detail=error.detail,
+            file=str(program.path or "") if program else "",
+            call_chain=tuple((lv.code.program.name, lv.code.line(lv.current)) for lv in self.stack[:-1]),
+        )
+        self.alarms.append(alarm)
+        data = {"code": alarm.code, "line": alarm.line, "column": alarm.column, "program": alarm.program}
+        number = level.program_number if level else self.toolpath.program_number("")
+        self.toolpath.append_event(
+            Event("alarm", data), number, line, self.context_number(), self.coordinates.position
+        )
+        self.head = None
+        self.finished = True
+
+    # ---- writing -------------------------------------------------------------------------------------------------
+
+    @property
+    def line(self) -> int:
+        """Line of the running block, from 1."""
+        return self.level.code.line(self.level.current)
+
+    def context_changed(self) -> None:
+        """Something that a context holds has changed; the next row gets a new context."""
+        self._context_changed = True
+
+    def context_number(self) -> int:
+        """Number of the context that holds now."""
+        if self._context_changed:
+            self._context = self.toolpath.context_number(self.control.context(self))
+            self._context_changed = False
+        return self._context
+
+    def straight(self, kind: Kind, end: list[float], feed: float, programmed: list[float] | None = None) -> None:
+        """Move to `end` (absolute display, all axes) in a straight line. No way, no row."""
+        coordinates = self.coordinates
+        if end == coordinates.position:
+            coordinates.arrive(end, programmed)
+            return
+        level = self.level
+        context = self._context if not self._context_changed else self.context_number()
+        if self._limits:
+            self._check_limits(end)
+        line = level.code.line(level.current)
+        if self.head is None:
+            self.toolpath.append(kind, level.program_number, line, context, feed, end)
+        else:
+            start = coordinates.position
+            self.head.move(Move(kind, start, end, feed, level.program_number, line, context))
+        coordinates.arrive(end, programmed)
+
+    def curve(
+        self,
+        kind: Kind,
+        end: list[float],
+        feed: float,
+        *,
+        center: Vector | None = None,
+        normal: Vector = (0.0, 0.0, 1.0),
+        turns: float = 0.0,
+        parameters: Sequence[float] = (),
+        programmed: list[float] | None = None,
+    ) -> None:
+        """Move along an arc, or make another move with curve parameters (thread, tap, dwell)."""
+        level = self.level
+        line = level.code.line(level.current)
+        start = self.coordinates.position
+        move = Move(
+            kind, start, end, feed, level.program_number, line, self.context_number(), center, normal, turns,
+            tuple(parameters),
+        )
+        if self._limits:
+            self._check_limits(end)
+        if self.head is None:
+            self.write(move)
+        else:
+            self.head.move(move)
+        if kind != Kind.DWELL:
+            self.coordinates.arrive(end, programmed)
+
+    def write(self, move: Move) -> None:
+        """Write a finished move as a row: the last stage of the path."""
+        toolpath = self.toolpath
+        if move.center is not None:
+            number = toolpath.add_curve(*move.center, *move.normal, move.turns)
+        elif move.parameters:
+            number = toolpath.add_curve(*move.parameters)
+        else:
+            number = NO_CURVE
+        toolpath.append(move.kind, move.program, move.line, move.context, move.feed, move.end, number)
+
+    def event(self, type_: str, **data: Any) -> None:
+        """Record an event in order with the moves."""
+        level = self.level
+        line = level.code.line(level.current)
+        event = Event(type_, data)
+        context = self.context_number()
+        if self.head is None:
+            end = self.coordinates.position
+            self.toolpath.append_event(event, level.program_number, line, context, end)
+        else:
+            self.head.event(event, level.program_number, line, context)
+
+    def stop(self, code: str) -> None:
+        """A programmed stop: recorded, then the channel waits for a start."""
+        self.event("stop", code=code)
+        self.wait = Wait("stop", code)
+
+    def dwell(self, *, seconds: float = 0.0, revolutions: float = 0.0) -> None:
+        """Stand still for a time or a number of spindle revolutions; nothing for zero."""
+        if seconds > 0.0 or revolutions > 0.0:
+            position = self.coordinates.position
+            self.curve(Kind.DWELL, position, nan, parameters=(seconds, revolutions))
+
+    def _check_limits(self, end: list[float]) -> None:
+        """Refuse a target outside the machine's travel before anything moves."""
+        machine = self.coordinates.to_machine(end)
+        for i, (low, high) in enumerate(self._limits):
+            if machine[i] < low - 1e-9:
+                raise self.control.over_travel(self.axes[i], -1)
+            if machine[i] > high + 1e-9:
+                raise self.control.over_travel(self.axes[i], 1)
+
+
+class TableStage:
+    """The last stage of every path: writes rows."""
+
+    def __init__(self, channel: Channel) -> None:
+        self.after: PathStage = self
+        self._channel = channel
+        self.end: list[float] = []
+
+    def move(self, move: Move) -> None:
+        """Write a move; one without way and without parameters gives no row."""
+        self.end = move.end
+        if move.end != move.start or move.center is not None or move.parameters:
+            self._channel.write(move)
+
+    def event(self, event: Event, program: int, line: int, context: int) -> None:
+        """Write an event at the place of the last move."""
+        end = self.end or self._channel.coordinates.position
+        self._channel.toolpath.append_event(event, program, line, context, end)
+
+    def block(self) -> None:
+        """Nothing waits here."""
+
+    def flush(self) -> None:
+        """Nothing is held back here."""

@@ -1,0 +1,101 @@
+"""Where a channel is, in every coordinate system that matters.
+
+    programmed --(programming frame)--> position --(zero frame + offsets)--> machine
+
+`programmed` is what words name (after units and diameters). The programming frame is what the control puts *before* its
+absolute display: on the word-address controls scaling, mirror and rotation; on SINUMERIK nothing. `position` is the
+absolute display. The zero frame and the offsets lead to the machine's axes: work offsets, shifts, tool.
+
+When offsets change, the machine stays where it is and the other positions follow. Whether a later *incremental* word
+travels the change as well differs: a tool length does, a work offset does not. `pending` holds what is still owed to
+incremental words.
+"""
+
+from __future__ import annotations
+
+from polycnc.geometry.frames import IDENTITY, Frame
+
+
+class Coordinates:
+    """Positions and frames of one channel; all lists have one number for each channel axis (mm, radius, degrees).
+
+    Args:
+        axes: Channel axis names, in column order.
+        geometry: For X, Y, Z of the geometry the index of the channel axis, or -1.
+    """
+
+    def __init__(self, axes: tuple[str, ...], geometry: tuple[int, int, int], machine: list[float]) -> None:
+        self.axes = axes
+        self.geometry = geometry
+        self.programming = IDENTITY
+        self.zero = IDENTITY
+        self.offsets = [0.0] * len(axes)
+        self.pending = [0.0] * len(axes)
+        self.position = list(machine)
+        self.programmed = self.position
+
+    def image(self, frame: Frame, point: list[float]) -> list[float]:
+        """A point of all axes mapped by a frame of the geometry axes; axes that do not exist count as zero."""
+        if frame.is_identity:
+            return point
+        mapped = frame.apply(*(point[i] if i >= 0 else 0.0 for i in self.geometry))
+        result = list(point)
+        for i, value in zip(self.geometry, mapped, strict=True):
+            if i >= 0:
+                result[i] = value
+        return result
+
+    def to_position(self, programmed: list[float]) -> list[float]:
+        """Programmed point to absolute display."""
+        return self.image(self.programming, programmed)
+
+    def to_machine(self, position: list[float]) -> list[float]:
+        """Absolute display to machine axes."""
+        return [value + offset for value, offset in zip(self.image(self.zero, position), self.offsets, strict=True)]
+
+    def from_machine(self, machine: list[float]) -> list[float]:
+        """Machine axes to absolute display."""
+        inner = [value - offset for value, offset in zip(machine, self.offsets, strict=True)]
+        return self.image(self.zero.inverse(), inner)
+
+    @property
+    def machine(self) -> list[float]:
+        """Position of the machine's axes."""
+        return self.to_machine(self.position)
+
+    def arrive(self, position: list[float], programmed: list[float] | None = None) -> None:
+        """The channel has moved to a position of the absolute display."""
+        self.position = position
+        if programmed is not None:
+            self.programmed = programmed
+        elif self.programming is IDENTITY:
+            self.programmed = position
+        else:
+            self.programmed = self.image(self.programming.inverse(), position)
+
+    def arrive_machine(self, machine: list[float]) -> None:
+        """The channel has moved to a machine position."""
+        self.arrive(self.from_machine(machine))
+
+    def set_programming(self, frame: Frame) -> None:
+        """Choose the frame before the display; the position stays."""
+        self.programming = frame
+        self.arrive(self.position)
+
+    def set_zero(self, frame: Frame, offsets: list[float], *, travelled: bool = False) -> None:
+        """Choose the way from the display to the machine. The machine stays, the display follows.
+
+        Args:
+            frame: Zero frame of the geometry axes.
+            offsets: Shift of every axis, tool included.
+            travelled: The next incremental word of an axis travels the change as well (tool lengths).
+        """
+        machine = self.machine
+        before = self.position
+        self.zero = frame
+        self.offsets = offsets
+        self.arrive(self.from_machine(machine))
+        if travelled:
+            self.pending = [
+                owed + old - new for owed, old, new in zip(self.pending, before, self.position, strict=True)
+            ]

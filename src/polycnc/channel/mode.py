@@ -1,0 +1,65 @@
+"""Modal state as immutable, interned values.
+
+A `Mode` names the active code of every modal group. Changing a group is a transition to another `Mode`; each mode and
+each transition exists once. Whatever can be worked out from a modal state alone (how a block of some shape acts in it)
+is therefore worked out once and kept on the mode, in `plans`.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+
+class Mode:
+    """The active code of every modal group, as an interned value. Compare modes with `is`."""
+
+    __slots__ = ("_table", "_transitions", "codes", "plans")
+
+    def __init__(self, table: ModeTable, codes: dict[str, str]) -> None:
+        self._table = table
+        self._transitions: dict[tuple[str, str], Mode] = {}
+        self.codes = codes
+        self.plans: dict[Any, Any] = {}
+
+    def __getitem__(self, group: str) -> str:
+        return self.codes[group]
+
+    def with_code(self, group: str, code: str) -> Mode:
+        """The mode that differs in one group."""
+        mode = self._transitions.get((group, code))
+        if mode is None:
+            mode = self._transitions[group, code] = self._table.mode({**self.codes, group: code})
+        return mode
+
+    def with_codes(self, changes: Iterable[tuple[str, str]]) -> Mode:
+        """The mode after several changes, in order."""
+        mode = self
+        for group, code in changes:
+            mode = mode.with_code(group, code)
+        return mode
+
+    def __repr__(self) -> str:
+        return "Mode(" + " ".join(self.codes.values()) + ")"
+
+
+class ModeTable:
+    """All modes of one channel."""
+
+    def __init__(self) -> None:
+        self._modes: dict[tuple[tuple[str, str], ...], Mode] = {}
+
+    def mode(self, codes: Mapping[str, str]) -> Mode:
+        """The one mode with these codes."""
+        key = tuple(sorted(codes.items()))
+        mode = self._modes.get(key)
+        if mode is None:
+            mode = self._modes[key] = Mode(self, dict(codes))
+        return mode
+
+    def forget_plans(self) -> None:
+        """Called when something beside the modal state that plans rest on has changed (a parameter)."""
+        for mode in self._modes.values():
+            mode.plans.clear()

@@ -1,0 +1,59 @@
+"""Programs ready to run, and the stack of program levels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.program import Program
+
+    Step = Callable[[Channel], None]
+
+
+class Executable(Protocol):
+    """A program whose blocks are compiled when they are first reached.
+
+    Steps are numbered from 0. A step is a callable that does what its block says; jumps set `level.index`.
+    """
+
+    program: Program
+
+    def step(self, index: int) -> Step | None:
+        """The step of a block, compiled on demand; None behind the last block."""
+
+    def line(self, index: int) -> int:
+        """The line of the program's file, from 1, at which the block of a step begins."""
+
+    def column(self, index: int, address: str) -> int:
+        """The column of an address or a code in the block of a step, from 1; 0 when unknown."""
+
+
+@dataclass(slots=True)
+class Level:
+    """One level of the program stack: where a program stands, and what belongs to this call of it.
+
+    Attributes:
+        code: The program.
+        index: The step that runs next.
+        current: The step that is running.
+        program_number: Number of the program in the toolpath.
+        repeats: How often the program is still to be run after this pass.
+        entry: Step at which each pass begins.
+        kind: `main`, or how the level came about: `sub`, `macro`, `modal`, `interrupt`.
+        locals: Local variables, shared with the caller or its own, as the kind of call has it.
+        data: What the control's language keeps for this level.
+    """
+
+    code: Executable
+    index: int = 0
+    current: int = 0
+    program_number: int = 0
+    repeats: int = 0
+    entry: int = 0
+    kind: str = "main"
+    locals: Any = None
+    data: dict[Any, Any] = field(default_factory=dict)

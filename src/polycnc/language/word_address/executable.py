@@ -1,0 +1,331 @@
+"""A word-address program made ready to run: each line becomes a step when it is first reached."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from polycnc.language.word_address.macro_b import Evaluate, Reader
+from polycnc.language.word_address.statements import KEYWORD, parse_statement
+from polycnc.language.word_address.words import ExpressionBlock, WordBlock, code_key, is_fixed_code, word_key
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from polycnc.channel.channel import Channel
+    from polycnc.program import Program
+
+    Step = Callable[[Channel], None]
+
+#: Longer blocks are refused: no control stores one, and a damaged file must not fill the memory.
+MAX_BLOCK_LENGTH = 4096
+_PLAIN = re.compile(r"(?:[A-Z][-+]?(?:\d+\.?\d*|\.\d+))+;?")
+_WORD = re.compile(r"([A-Z])([-+]?)([\d.]+)")
+_COMMENT = re.compile(r"\([^)]*\)?")
+_SEQUENCE = re.compile(r"^[ \t]*(?:/\d?[ \t]*)*N[ \t]*0*(\d+)")
+_LOOP = re.compile(r"(?<![A-Z])(DO|END)[ \t]*(\d)")
+_HEAD = re.compile(r"[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?")
+_SKIP = re.compile(r"[ \t]*/[ \t]*(\d?)")
+_NUMBER_TEXT = re.compile(r"[ \t]*([-+]?)[ \t]*(\d+\.?\d*|\.\d+)")
+_NAME = re.compile(r"[ \t]*<([^>]*)>")
+
+
+@dataclass(frozen=True)
+class Grammar:
+    """What a control's word-address text looks like, and its alarms for mistakes in it.
+
+    Attributes:
+        alarms: Names of mistakes to alarm codes.
+        max_digits: Digits that a number may have.
+        comma_addresses: Letters that may follow a comma (`,R` `,C`); they become addresses `,R`.
+        letters: Letters that may be addresses.
+        string_addresses: Addresses that may be given a `<NAME>` (program names).
+    """
+
+    alarms: Mapping[str, str]
+    max_digits: int = 8
+    comma_addresses: str = "RCAD"
+    letters: str = "ABCDEFGHIJKLMNPQRSTUVWXYZ"
+    string_addresses: str = "P"
+
+
+def empty_block(_channel: Channel) -> None:
+    """The step of a line without a block."""
+
+
+class WordAddressProgram:
+    """The steps of one program. A line is a step; a line with several `;` keeps its blocks in one step.
+
+    Args:
+        program: The text.
+        grammar: The control's way of writing.
+    """
+
+    def __init__(self, program: Program, grammar: Grammar) -> None:
+        self.program = program
+        self.grammar = grammar
+        self.lines = program.lines
+        self._steps: list[Step | None] = [None] * len(self.lines)
+        self._reached = bytearray(len(self.lines))
+        self._sequences: dict[int, list[int]] | None = None
+        self._loops: dict[tuple[int, int], int] = {}
+
+    # ---- what the channel asks ----------------------------------------------------------------------------------
+
+    def line(self, index: int) -> int:
+        """The line in the file."""
+        return self.program.first_line + index
+
+    def step(self, index: int) -> Step | None:
+        """The step of a line; kept from its second run on, so that a long program does not fill the memory."""
+        if index >= len(self.lines):
+            return None
+        step = self._steps[index]
+        if step is None:
+            step = self.compile(self.lines[index], index)
+            if self._reached[index]:
+                self._steps[index] = step
+            self._reached[index] = 1
+        return step
+
+    def column(self, index: int, address: str) -> int:
+        """Column, from 1, of an address (`X`, `,R`) or a code (`G41`) in a line; 0 when it is not there."""
+        text = self.blank_comments(self.lines[index])
+        if is_fixed_code(address):
+            for match in _WORD.finditer(text):
+                if match[1] == address[0] and code_key(match[1], match[3]) == address:
+                    return match.start() + 1
+        return text.find(address) + 1 if address else 0
+
+    # ---- jumps --------------------------------------------------------------------------------------------------
+
+    def find_sequence(self, number: int, index: int, mistake: str = "no_sequence") -> int:
+        """The step of `N number`: the first behind `index`, else the first from the top."""
+        if self._sequences is None:
+            self._sequences = {}
+            for i, line in enumerate(self.lines):
+                match = _SEQUENCE.match(line)
+                if match:
+                    self._sequences.setdefault(int(match[1]), []).append(i)
+        places = self._sequences.get(number)
+        if not places:
+            raise AlarmError(self.grammar.alarms[mistake], number=number)
+        after = bisect_right(places, index)
+        return places[after] if after < len(places) else places[0]
+
+    def loop_end(self, index: int, number: int) -> int:
+        """The step of the END that belongs to the DO in step `index`; loops must not cross."""
+        end = self._loops.get((index, number))
+        if end is None:
+            end = self._loops[index, number] = self._search_loop_end(index, number)
+        return end
+
+    def _search_loop_end(self, index: int, number: int) -> int:
+        open_loops = [number]
+        for i in range(index + 1, len(self.lines)):
+            match = _LOOP.search(self.blank_comments(self.lines[i]))
+            if match is None:
+                continue
+            word, n = match[1], int(match[2])
+            if word == "DO":
+                if n in open_loops:
+                    break
+                open_loops.append(n)
+            elif open_loops[-1] != n:
+                break
+            else:
+                open_loops.pop()
+                if not open_loops:
+                    return i
+        raise AlarmError(self.grammar.alarms["missing_end"], number=number)
+
+    # ---- compiling ----------------------------------------------------------------------------------------------
+
+    def compile(self, line: str, index: int) -> Step:
+        """The step of one line."""
+        text = line.strip()
+        if _PLAIN.fullmatch(text) and text[0] not in "O":
+            return self._plain(text)
+        if not text or text == "%":
+            return empty_block
+        if len(text) > MAX_BLOCK_LENGTH:
+            raise AlarmError(self.grammar.alarms["block_too_long"], column=MAX_BLOCK_LENGTH)
+        return self._general(line, index)
+
+    def _plain(self, text: str) -> Step:
+        """A block of words with numbers only."""
+        signature: list[str] = []
+        values: list[float] = []
+        max_digits = self.grammar.max_digits
+        for letter, sign, number in _WORD.findall(text):
+            if letter in "GM" and not sign:
+                signature.append(code_key(letter, number))
+                continue
+            if letter == "N" and not signature:
+                continue
+            if len(number) > max_digits and len(number.replace(".", "").lstrip("0")) > max_digits:
+                raise AlarmError(self.grammar.alarms["too_many_digits"], address=letter)
+            if letter in "GM":
+                raise AlarmError(self.grammar.alarms["minus"], address=letter)
+            signature.append(word_key(letter, number))
+            values.append(float(sign + number))
+        return WordBlock(tuple(signature), values)
+
+    def blank_comments(self, line: str) -> str:
+        """The line in upper case with its comments turned into blanks of the same length."""
+        if "(" in line:
+            line = _COMMENT.sub(lambda match: " " * len(match.group()), line)
+        return line.upper()
+
+    def _general(self, line: str, index: int) -> Step:
+        text = self.blank_comments(line)
+        blocks: list[Step] = []
+        start = 0
+        while True:
+            end = text.find(";", start)
+            stop = len(text) if end < 0 else end
+            piece = " " * start + text[start:stop]
+            if piece.strip() or end >= 0:
+                blocks.append(self._block(piece, line, index))
+            if end < 0 or not text[end + 1 :].strip():
+                break
+            start = end + 1
+        if len(blocks) <= 1:
+            return blocks[0] if blocks else empty_block
+        return _several(blocks)
+
+    def _block(self, text: str, line: str, index: int) -> Step:
+        """One block: program number, skip marks, sequence number, then a statement or words."""
+        reader = BlockReader(text, self.grammar, line)
+        head = _HEAD.match(text)
+        reader.pos = head.end() if head else 0
+        levels = reader.skip_levels()
+        reader.match(re.compile(r"N[ \t]*\d+"))
+        levels |= reader.skip_levels()
+        keyword = reader.match(KEYWORD)
+        if keyword:
+            step = parse_statement(reader, keyword, self, index)
+        elif not reader.peek():
+            step = WordBlock((), [])
+        else:
+            step = self._words(reader)
+        return SkippedBlock(levels, step, empty_block) if levels else step
+
+    def _words(self, reader: BlockReader) -> Step:
+        """The words of a block; a `/` between them skips the rest."""
+        keys: list[str] = []
+        values: list[float | Evaluate] = []
+        while reader.peek():
+            if reader.text[reader.pos] == "/":
+                levels = reader.skip_levels()
+                before = _block_of(keys, values)
+                self._rest(reader, keys, values)
+                return SkippedBlock(levels, _block_of(keys, values), before)
+            self._word(reader, keys, values)
+        return _block_of(keys, values)
+
+    def _rest(self, reader: BlockReader, keys: list[str], values: list[float | Evaluate]) -> None:
+        while reader.peek():
+            self._word(reader, keys, values)
+
+    def _word(self, reader: BlockReader, keys: list[str], values: list[float | Evaluate]) -> None:
+        """Read one word."""
+        start = reader.pos
+        address = reader.address()
+        name = _NAME.match(reader.text, reader.pos)
+        if name and address in self.grammar.string_addresses:
+            raise reader.fail("not_supported", start)
+        number = _NUMBER_TEXT.match(reader.text, reader.pos)
+        if number:
+            sign, digits = number[1], number[2]
+            reader.pos = number.end()
+            if address in ("G", "M") and not sign:
+                keys.append(code_key(address, digits))
+                return
+            if len(digits.replace(".", "").lstrip("0")) > self.grammar.max_digits:
+                raise reader.fail("too_many_digits", start)
+            if address in ("G", "M", "N", "O"):
+                raise reader.fail("minus" if sign else "address", start)
+            keys.append(word_key(address, digits))
+            values.append(float(sign + digits))
+            if reader.pos < len(reader.text) and reader.text[reader.pos] == ".":
+                raise reader.fail("point", reader.pos)
+            return
+        if reader.peek() not in ("#", "[", "-", "+"):
+            raise reader.fail("no_data", start)
+        reader.in_word = True
+        source = reader.factor()
+        reader.in_word = False
+        keys.append(address if address in ("G", "M") else address + "#")
+        values.append(reader.evaluator(source))
+
+
+class BlockReader(Reader):
+    """A reader that knows words and the comment behind a statement."""
+
+    def __init__(self, text: str, grammar: Grammar, line: str) -> None:
+        super().__init__(text, grammar.alarms)
+        self._grammar = grammar
+        self._line = line
+
+    def address(self) -> str:
+        """The address of the next word; `,R` counts as one."""
+        char = self.peek()
+        if char == ",":
+            self.pos += 1
+            letter = self.peek()
+            if not letter or letter not in self._grammar.comma_addresses:
+                raise self.fail("address")
+            self.pos += 1
+            return "," + letter
+        if char not in self._grammar.letters:
+            raise self.fail("address")
+        self.pos += 1
+        return char
+
+    def skip_levels(self) -> int:
+        """Bit mask of the block skip levels marked here: `/` and `/1` are level 1."""
+        levels = 0
+        while match := _SKIP.match(self.text, self.pos):
+            levels |= 1 << int(match[1] or 1)
+            self.pos = match.end()
+        return levels
+
+    def program_text_comment(self) -> str:
+        """The text in brackets behind a statement (`#3000=1(TEXT)`), as the program's author wrote it."""
+        match = _COMMENT.search(self._line, self.pos)
+        return match.group().strip("() ") if match else ""
+
+
+class SkippedBlock:
+    """A block under block skip: which of two steps runs depends on the operator's switches at that moment."""
+
+    __slots__ = ("_levels", "_off", "_on")
+
+    def __init__(self, levels: int, off: Step, on: Step) -> None:
+        self._levels = levels
+        self._off = off
+        self._on = on
+
+    def __call__(self, channel: Channel) -> None:
+        (self._on if channel.skip_levels & self._levels else self._off)(channel)
+
+
+def _block_of(keys: list[str], values: list[float | Evaluate]) -> Step:
+    if any(callable(value) for value in values):
+        return ExpressionBlock(tuple(keys), list(values))
+    return WordBlock(tuple(keys), [value for value in values if not callable(value)])
+
+
+def _several(blocks: list[Step]) -> Step:
+    def run(channel: Channel) -> None:
+        level, index = channel.level, channel.level.index
+        for block in blocks:
+            block(channel)
+            if channel.level is not level or level.index != index or channel.finished:
+                return
+
+    return run

@@ -1,0 +1,271 @@
+"""Macro statements: assignments, IF, WHILE, GOTO, DO/END, printing. Each parser gives a step.
+
+A statement stands alone in its block (after N and /). Steps that jump set `channel.level.index`; loops keep their DO
+steps in `channel.level.data`, so that a jump into a loop is found out at its END.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+from polycnc.language.word_address.functions import round_half_away
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.language.word_address.executable import WordAddressProgram
+    from polycnc.language.word_address.macro_b import Evaluate, Reader
+
+    Step = Callable[[Channel], None]
+
+KEYWORD = re.compile(r"IF|WHILE|WH(?=\s*\[)|GOTO|GO(?=\s*[\d#\[])|DO|END|POPEN|PCLOS|DPRNT|BPRNT|SETVN|#")
+_INTEGER = re.compile(r"\d+")
+_PRINT_FORMAT = re.compile(r"#\s*(\[[^\]]*\]|\d+)\s*\[\s*(\d)\s*(\d)?\s*\]")
+MAX_SEQUENCE_NUMBER = 99_999_999
+
+
+def parse_statement(reader: Reader, keyword: str, program: WordAddressProgram, index: int) -> Step:
+    """The step of the macro statement that begins with `keyword` (already read)."""
+    parser = _PARSERS[keyword]
+    step = parser(reader, program, index)
+    if reader.peek():
+        raise reader.fail("nc_and_macro" if reader.peek().isalpha() else "expression")
+    return step
+
+
+# ---- assignments ----------------------------------------------------------------------------------------------------
+
+
+def parse_assignment(reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
+    """`#n = expression`, `#[expression] = …`, `#3000 = n (TEXT)`."""
+    if reader.peek() == "[":
+        target: Evaluate | int = reader.evaluator(reader.bracket())
+    else:
+        digits = reader.match(_INTEGER)
+        if not digits:
+            raise reader.fail("expression")
+        target = int(digits)
+    if not reader.accept("="):
+        raise reader.fail("missing_equals")
+    value = reader.evaluator(reader.sum())
+    text = reader.program_text_comment()
+    if callable(target):
+        index_of = target
+        return lambda channel: channel.memory.write_indirect(index_of(channel), value(channel), text)
+    return _assign(target, value, text)
+
+
+def _assign(number: int, value: Evaluate, text: str) -> Step:
+    """Writing to a constant variable number."""
+    if 1 <= number <= 33:
+
+        def assign_local(channel: Channel) -> None:
+            channel.memory.locals[number] = value(channel)
+
+        return assign_local
+    if 100 <= number <= 199:
+
+        def assign_common(channel: Channel) -> None:
+            channel.memory.common[number] = value(channel)
+
+        return assign_common
+    return lambda channel: channel.memory.write(number, value(channel), text)
+
+
+def parse_names(reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
+    """`SETVN n[NAME,NAME]`: names for common variables."""
+    digits = reader.match(_INTEGER)
+    if not digits or not reader.accept("["):
+        raise reader.fail("setvn")
+    names: list[str] = []
+    while True:
+        name = reader.match(re.compile(r"[A-Z][A-Z0-9_]*"))
+        if not name:
+            raise reader.fail("setvn")
+        if len(name) > 8:
+            raise reader.fail("long_name")
+        names.append(name)
+        if not reader.accept(","):
+            break
+    if not reader.accept("]"):
+        raise reader.fail("setvn")
+    first = int(digits)
+
+    def name_variables(channel: Channel) -> None:
+        for offset, name in enumerate(names):
+            channel.memory.names[name] = first + offset
+
+    return name_variables
+
+
+# ---- flow -----------------------------------------------------------------------------------------------------------
+
+
+def parse_goto(reader: Reader, program: WordAddressProgram, index: int) -> Step:
+    """`GOTO n`, with a constant, a variable or an expression."""
+    if digits := reader.match(_INTEGER):
+        number = int(digits)
+        if not 1 <= number <= MAX_SEQUENCE_NUMBER:
+            raise reader.fail("sequence_range")
+        found: list[int] = []
+
+        def jump(channel: Channel) -> None:
+            if not found:
+                found.append(program.find_sequence(number, index))
+            channel.level.index = found[0]
+
+        return jump
+    target = reader.evaluator(reader.factor())
+    out_of_range = reader.fail("sequence_range")
+
+    def computed_jump(channel: Channel) -> None:
+        number = int(round_half_away(target(channel) or 0.0))
+        if not 1 <= number <= MAX_SEQUENCE_NUMBER:
+            raise out_of_range
+        channel.level.index = program.find_sequence(number, index)
+
+    return computed_jump
+
+
+def parse_if(reader: Reader, program: WordAddressProgram, index: int) -> Step:
+    """`IF [c] GOTO n` and `IF [c] THEN statement`."""
+    if reader.peek() != "[":
+        raise reader.fail("if_format")
+    condition: Callable[[Channel], Any] = reader.evaluator(reader.condition())
+    if reader.accept("THEN"):
+        keyword = reader.match(re.compile("#|GOTO|POPEN|PCLOS|DPRNT|BPRNT"))
+        if not keyword:
+            raise reader.fail("if_format")
+    elif reader.match(re.compile("GOTO|GO(?=[ \t]*[\\d#\\[])")):
+        keyword = "GOTO"
+    else:
+        raise reader.fail("if_format")
+    then = _PARSERS[keyword](reader, program, index)
+
+    def branch(channel: Channel) -> None:
+        if condition(channel):
+            then(channel)
+
+    return branch
+
+
+def parse_while(reader: Reader, program: WordAddressProgram, index: int) -> Step:
+    """`WHILE [c] DO m`."""
+    if reader.peek() != "[":
+        raise reader.fail("while_format")
+    condition: Callable[[Channel], Any] = reader.evaluator(reader.condition())
+    if not reader.accept("DO"):
+        raise reader.fail("while_format")
+    number = _loop_number(reader)
+
+    def test(channel: Channel) -> None:
+        end = program.loop_end(index, number)
+        if condition(channel):
+            channel.level.data[number] = index
+        else:
+            channel.level.data.pop(number, None)
+            channel.level.index = end + 1
+
+    return test
+
+
+def parse_do(reader: Reader, program: WordAddressProgram, index: int) -> Step:
+    """`DO m`: an endless loop."""
+    number = _loop_number(reader)
+
+    def enter(channel: Channel) -> None:
+        program.loop_end(index, number)
+        channel.level.data[number] = index
+
+    return enter
+
+
+def parse_end(reader: Reader, program: WordAddressProgram, index: int) -> Step:
+    """`END m`: back to the DO that was passed."""
+    number = _loop_number(reader)
+    missing = reader.fail("missing_do", 0)
+
+    def back(channel: Channel) -> None:
+        start = channel.level.data.get(number)
+        if start is None or program.loop_end(start, number) != index:
+            raise missing
+        channel.level.index = start
+
+    return back
+
+
+def _loop_number(reader: Reader) -> int:
+    digits = reader.match(_INTEGER)
+    if digits not in ("1", "2", "3"):
+        raise reader.fail("loop_number")
+    return int(digits)
+
+
+# ---- printing -------------------------------------------------------------------------------------------------------
+
+
+def parse_open(_reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
+    """`POPEN`."""
+    return lambda channel: channel.memory.print_open(True)
+
+
+def parse_close(_reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
+    """`PCLOS`."""
+    return lambda channel: channel.memory.print_open(False)
+
+
+def parse_print(reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
+    """`DPRNT[text#n[cd]…]`: `*` prints a blank, `#n[cd]` c digits before and d behind the point (FANUC macro B §8)."""
+    if not reader.accept("["):
+        raise reader.fail("print_format")
+    parts: list[str | tuple[Evaluate, int, int]] = []
+    while True:
+        char = reader.peek()
+        if char == "]":
+            reader.pos += 1
+            break
+        if not char:
+            raise reader.fail("print_format")
+        if char == "#":
+            if not _PRINT_FORMAT.match(reader.text, reader.pos):
+                raise reader.fail("print_format")
+            value = reader.evaluator(reader.variable())
+            reader.expect("[", "print_format")
+            digits = reader.match(_INTEGER)
+            reader.expect("]", "print_format")
+            whole, decimals = int(digits[0]), int(digits[1:] or 0)
+            if len(digits) > 2 or whole + decimals > 8:
+                raise reader.fail("print_format")
+            parts.append((value, whole, decimals))
+        else:
+            parts.append(" " if char == "*" else char)
+            reader.pos += 1
+
+    def print_line(channel: Channel) -> None:
+        channel.memory.print_line([p if isinstance(p, str) else (p[0](channel), p[1], p[2]) for p in parts])
+
+    return print_line
+
+
+def parse_binary_print(reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
+    """`BPRNT[…]`: known, not executed: its binary output has no text form in a trace."""
+    raise reader.fail("not_supported")
+
+
+_PARSERS: dict[str, Callable[[Reader, WordAddressProgram, int], Step]] = {
+    "#": parse_assignment,
+    "IF": parse_if,
+    "WHILE": parse_while,
+    "WH": parse_while,
+    "GOTO": parse_goto,
+    "GO": parse_goto,
+    "DO": parse_do,
+    "END": parse_end,
+    "POPEN": parse_open,
+    "PCLOS": parse_close,
+    "DPRNT": parse_print,
+    "BPRNT": parse_binary_print,
+    "SETVN": parse_names,
+}
