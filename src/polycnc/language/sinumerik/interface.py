@@ -1,0 +1,89 @@
+"""What the NC language and the control ask of each other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from polycnc.channel.channel import Channel
+    from polycnc.language.sinumerik.values import Axis, Type
+    from polycnc.language.sinumerik.words import Block
+
+
+class SystemVariable(Protocol):
+    """A variable of the control (`$…`).
+
+    Attributes:
+        type: Type of its values.
+        stop: Reading or writing it in a program waits for the main run (implicit preprocessing stop).
+    """
+
+    @property
+    def type(self) -> Type: ...
+
+    @property
+    def stop(self) -> bool: ...
+
+    def read(self, channel: Channel, indices: tuple[Any, ...]) -> Any:
+        """The value; indices are ints, axes or frame components (text) as programmed."""
+
+    def write(self, channel: Channel, indices: tuple[Any, ...], value: Any) -> None:
+        """Set the value, already converted to `type`."""
+
+
+class LanguageControl(Protocol):
+    """What compiled blocks call. Procedures, functions and cycles are named as in `keywords.py`."""
+
+    def execute(self, channel: Channel, block: Block, values: tuple[Any, ...]) -> bool:
+        """Run the functions and words of a block; true if a modal subprogram (MCALL) follows the block."""
+
+    def procedure(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> None:
+        """Run a predefined procedure or a cycle; an omitted argument is None, a VAR argument a `Reference`."""
+
+    def function(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> Any:
+        """The value of a predefined function that depends on the control's state (`keywords.py` knows its type)."""
+
+    def system_variable(self, name: str) -> SystemVariable:
+        """The variable `$NAME`; alarm 12550 for one that does not exist (or is not supported yet)."""
+
+    def preprocessing_stop(self, channel: Channel) -> bool:
+        """Wait for the main run before a block; true if the block has to come again later."""
+
+    def skipped(self, channel: Channel, level: int) -> bool:
+        """Whether blocks marked `/` with this level (0…9) are skipped now."""
+
+    def restore(self, channel: Channel, saved: object) -> None:
+        """Bring back what `save` returned (PROC … SAVE)."""
+
+    def save(self, channel: Channel) -> object:
+        """What a subprogram with SAVE brings back at its end."""
+
+
+@dataclass(slots=True, eq=False)
+class LanguageMemory:
+    """What the NC language keeps for one channel: the control puts it into `channel.memory.language`.
+
+    Attributes:
+        r: R parameters. Compiled blocks hold this very list: change it in place only.
+        axes: Every axis and spindle identifier of the channel (channel, geometry and machine axes, `S1`…), upper case.
+        exact_order: `<` and `>` compare exactly (MD10280 bit 0); otherwise equal within 1E-12 is neither.
+        main_variables_everywhere: Variables of the main program are known in subprograms (MD11120).
+        global_variables: User variables of the definition files (GUD), upper case.
+        macros: Texts of DEFINE … AS of the definition files, upper case names.
+        call_path: Directory of CALLPATH, or empty.
+        modal_call: What MCALL has set: called after every block with path motion.
+        in_modal_call: A modal subprogram is running; its blocks do not call it again.
+    """
+
+    r: list[float]
+    axes: Mapping[str, Axis]
+    exact_order: bool = False
+    main_variables_everywhere: bool = False
+    global_variables: dict[str, Any] = field(default_factory=dict)
+    macros: dict[str, str] = field(default_factory=dict)
+    call_path: str = ""
+    modal_call: Callable[[Channel], None] | None = None
+    in_modal_call: bool = False

@@ -1,0 +1,93 @@
+"""What a compiled NC block hands to the control: G functions and words.
+
+A block without calculation is a `Block` (what was programmed, without the numbers) and a tuple of values, one for each
+word. Blocks are interned: two blocks with the same functions and addresses are one object, so a control works out once
+how such a block acts in some modal state and keeps that in `channel.mode.plans[block]`.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from polycnc.messages import AlarmError
+
+
+class WordShape(NamedTuple):
+    """A word of a block without its value.
+
+    Attributes:
+        address: Upper case: `X`, `X1`, `F`, `S`, `M`, `T`, `CR`, `AR`, `TURN`, `POS`, `SPOS`, `LIMS`, `RND`, …
+        index: Extension of the address: `S2=` and `S[2]` give 2, `POS[X]` and `AX[X]` give `Axis("X")`, else None.
+            An axis word `AX[A]=` has the address of its axis, not `AX`.
+        modifier: What stands round the value: `AC`, `IC`, `DC`, `ACP`, `CAC`, `DIC`, `PM`, `QU`, `FPO`, … or empty.
+    """
+
+    address: str
+    index: object = None
+    modifier: str = ""
+
+
+class NcWord(NamedTuple):
+    """A word of a block with its value; `position` counts the words of the block from 0."""
+
+    address: str
+    index: object
+    value: object
+    modifier: str
+    position: int
+
+
+class Block:
+    """G functions and words of a block without the values. Interned by `block_of`; compare with `is`.
+
+    Attributes:
+        codes: G functions and keywords in canonical names, as programmed: `G1`, `G54`, `CIP`, `TRANS`, `KONT`, …
+        words: The words in the order programmed.
+        positions: Addresses without index, with the place of their (first) value.
+    """
+
+    __slots__ = ("codes", "positions", "words")
+
+    def __init__(self, codes: tuple[str, ...], words: tuple[WordShape, ...]) -> None:
+        self.codes = codes
+        self.words = words
+        self.positions: dict[str, int] = {}
+        for i, word in enumerate(words):
+            if word.index is None:
+                self.positions.setdefault(word.address, i)
+
+    def with_values(self, values: tuple[object, ...]) -> tuple[NcWord, ...]:
+        """The words with their values."""
+        return tuple(
+            NcWord(word.address, word.index, value, word.modifier, i)
+            for i, (word, value) in enumerate(zip(self.words, values, strict=True))
+        )
+
+    def __repr__(self) -> str:
+        return f"Block({' '.join((*self.codes, *(w.address for w in self.words)))})"
+
+
+_blocks: dict[tuple[tuple[str, ...], tuple[WordShape, ...]], Block] = {}
+
+
+def block_of(codes: tuple[str, ...], words: tuple[WordShape, ...]) -> Block:
+    """The one block with these functions and words."""
+    key = (codes, words)
+    block = _blocks.get(key)
+    if block is None:
+        block = _blocks[key] = Block(codes, words)
+    return block
+
+
+class WordAlarm(AlarmError):
+    """An alarm about one word of the running block; the language adds the column.
+
+    Args:
+        code: The control's alarm code.
+        position: Which word of the block, from 0.
+        args: Values for the placeholders of the text.
+    """
+
+    def __init__(self, code: str, position: int, **args: object) -> None:
+        super().__init__(code, **args)
+        self.position = position
