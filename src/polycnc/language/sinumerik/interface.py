@@ -37,6 +37,12 @@ class SystemVariable(Protocol):
 class LanguageControl(Protocol):
     """What compiled blocks call. Procedures, functions and cycles are named as in `keywords.py`."""
 
+    g_groups: Mapping[str, int]
+    """Group number of every G function in canonical spelling (`G1`, `CIP`, `KONT`)."""
+
+    def g_function(self, group: int, number: int) -> str:
+        """The function that `G[group]=number` names; alarm 12470 if there is none or the group is not modal."""
+
     def execute(self, channel: Channel, block: Block, values: tuple[Any, ...]) -> bool:
         """Run the functions and words of a block; true if a modal subprogram (MCALL) follows the block."""
 
