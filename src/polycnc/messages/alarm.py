@@ -29,6 +29,7 @@ class AlarmError(Exception):
     def __init__(
         self,
         code: str,
+        /,
         *,
         column: int = 0,
         line: int = 0,
