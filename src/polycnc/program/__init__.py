@@ -1,1 +1,27 @@
-"""Part programs as text: encodings, tape and archive formats, directories, search paths."""
+"""Part programs as text: encodings, tape and archive formats, directories, search paths.
+
+A file goes through `encoding` (bytes to characters), `text` (characters to lines) and `split` (lines to
+programs); `store` keeps what a run can call, `detect` guesses the control. Nothing here knows what a block
+means.
+"""
+
+from polycnc.program.detect import Guess, guess_control
+from polycnc.program.encoding import Decoded, decode
+from polycnc.program.errors import ProgramFileError
+from polycnc.program.program import Form, Program
+from polycnc.program.split import split_channels, split_programs
+from polycnc.program.store import ProgramStore, load_programs
+
+__all__ = [
+    "Decoded",
+    "Form",
+    "Guess",
+    "Program",
+    "ProgramFileError",
+    "ProgramStore",
+    "decode",
+    "guess_control",
+    "load_programs",
+    "split_channels",
+    "split_programs",
+]

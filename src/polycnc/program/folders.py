@@ -1,0 +1,155 @@
+"""Files and folders of the host, read when they are first wanted. Every failure is a `ProgramFileError`."""
+
+from __future__ import annotations
+
+import os
+import re
+import stat
+from functools import cached_property
+from pathlib import Path
+
+from polycnc.program.errors import ProgramFileError
+from polycnc.program.names import stored_name
+from polycnc.program.text import TAPE_CONTROLS
+
+MAX_FILE_BYTES = 2 * 1024**3
+
+SUFFIXES = (
+    "", ".nc", ".cnc", ".tap", ".ngc", ".mpf", ".spf", ".eia", ".min", ".h",
+    ".gcode", ".fnc", ".pim", ".prg", ".txt",
+)  # fmt: skip
+"""Suffixes of part programs on a PC, in the order in which they are preferred."""
+
+_NUMBERED = re.compile(r"([oO]?)(\d{1,8})")
+_HEADING = re.compile(rb"(?:^|[\r\n])[ \t]*%?[ \t]*(?:[oO]|:)[ \t]*(\d{1,8})(?![\d.])")
+_HEADING_BYTES = 65_536
+
+
+def read_file(path: str) -> bytes:
+    """All bytes of a regular file or a pipe.
+
+    Raises:
+        ProgramFileError: Missing, a directory, a device, not readable or too large.
+    """
+    try:
+        mode = os.stat(path).st_mode  # noqa: PTH116 - Path(path) hides what the user typed
+        if stat.S_ISDIR(mode):
+            raise ProgramFileError("program.directory", path)
+        if not (stat.S_ISREG(mode) or stat.S_ISFIFO(mode)):
+            raise ProgramFileError("program.not-a-file", path)
+        with Path(path).open("rb") as file:
+            data = file.read(MAX_FILE_BYTES + 1)
+    except (FileNotFoundError, NotADirectoryError) as error:
+        raise ProgramFileError("program.missing", path) from error
+    except (OSError, ValueError) as error:
+        # ValueError: a name that no file system takes, such as one with a zero byte.
+        reason = getattr(error, "strerror", None) or str(error)
+        raise ProgramFileError("program.unreadable", path, reason=reason) from error
+    if len(data) > MAX_FILE_BYTES:
+        raise ProgramFileError("program.too-large", path, limit=MAX_FILE_BYTES)
+    return data
+
+
+def program_stem(path: Path) -> str:
+    """The file's name without a suffix of part programs; `PART.V2` has none."""
+    return path.stem if path.suffix.lower() in SUFFIXES else path.name
+
+
+def number_of_file(path: Path) -> int | None:
+    """The program number in a file's name: 10 for `O0010`, `O10.NC` and `0010.nc`."""
+    match = _NUMBERED.fullmatch(program_stem(path))
+    return int(match[2]) if match else None
+
+
+def stored_name_of_file(path: Path) -> str:
+    """The name under which SINUMERIK stores a file of a PC; others than MPF and SPF are main programs."""
+    is_foreign = path.suffix.lower() in SUFFIXES and path.suffix.lower() not in (".mpf", ".spf")
+    if is_foreign and not path.name.upper().startswith("_N_"):
+        return stored_name(path.stem) + "_MPF"
+    return stored_name(path.name)
+
+
+class Folder:
+    """One folder of the host, its entries by the names under which controls ask for them.
+
+    Entries are sorted by name, so that every machine finds the same one first.
+
+    Raises:
+        ProgramFileError: From any method, if the folder cannot be listed.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    @cached_property
+    def _entries(self) -> tuple[list[Path], list[Path]]:
+        """Files and folders in it."""
+        try:
+            with os.scandir(self.path) as entries:
+                found = sorted((entry.name, entry.is_dir()) for entry in entries)
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or str(error)
+            raise ProgramFileError("program.unreadable", str(self.path), reason=reason) from error
+        files = [self.path / name for name, is_folder in found if not is_folder]
+        return files, [self.path / name for name, is_folder in found if is_folder]
+
+    @cached_property
+    def _by_name(self) -> dict[str, Path]:
+        return {path.name.casefold(): path for path in reversed(self._entries[0])}
+
+    @cached_property
+    def _by_stored_name(self) -> dict[str, Path]:
+        return {stored_name(path.name): path for path in reversed(self._entries[0])}
+
+    @cached_property
+    def _folders(self) -> dict[str, Path]:
+        return {stored_name(path.name): path for path in reversed(self._entries[1])}
+
+    @cached_property
+    def _by_number(self) -> dict[int, list[Path]]:
+        found: dict[int, list[Path]] = {}
+        for path in self._entries[0]:
+            number = number_of_file(path)
+            if number is not None:
+                found.setdefault(number, []).append(path)
+        return found
+
+    def folder(self, name: str) -> Path | None:
+        """The folder inside it with this SINUMERIK name (`_N_SPF_DIR` is `SPF.DIR` on a PC)."""
+        return self._folders.get(name)
+
+    def named(self, name: str, suffixes: tuple[str, ...]) -> Path | None:
+        """The file of this name with the first of the suffixes that exists; case does not matter."""
+        wanted = (name.casefold() + suffix.casefold() for suffix in suffixes)
+        return next((self._by_name[each] for each in wanted if each in self._by_name), None)
+
+    def stored(self, name: str) -> Path | None:
+        """The file with this SINUMERIK name (`_N_SUB1_SPF` is `SUB1.SPF` on a PC)."""
+        return self._by_stored_name.get(name)
+
+    def numbered(self, number: int, digits: int) -> Path | None:
+        """The file whose name is this program number: `O0010` before `O10` before `0010`, then by suffix."""
+
+        def preference(path: Path) -> tuple[bool, bool, int, str]:
+            stem = program_stem(path)
+            figures = stem.lstrip("oO")
+            suffix = path.name[len(stem) :].lower()
+            return stem == figures, len(figures) != digits, SUFFIXES.index(suffix), path.name
+
+        return min(self._by_number.get(number, []), key=preference, default=None)
+
+    def headed(self, number: int) -> list[Path]:
+        """The program files, whatever their names, in which a program of this number starts near the top."""
+        programs = (path for path in self._entries[0] if path.suffix.lower() in SUFFIXES)
+        return [path for path in programs if number in _numbers_at_top(path)]
+
+
+def _numbers_at_top(path: Path) -> set[int]:
+    try:
+        if not path.is_file():
+            return set()
+        with path.open("rb") as file:
+            top = file.read(_HEADING_BYTES)
+    except OSError:
+        return set()  # It may be anybody's file: only one that is asked for by name has to be readable.
+    return {int(number) for number in _HEADING.findall(top.translate(None, TAPE_CONTROLS.encode("ascii")))}

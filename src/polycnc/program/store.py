@@ -1,0 +1,400 @@
+"""The programs that a run can reach: those of the main file, and those that calls find elsewhere.
+
+Programs live in directories as on a SINUMERIK control (`/_N_WKS_DIR/_N_TEST_WPD`); on all other controls
+there is one directory, `""`. Names are compared as `names.stored_name` spells them on SINUMERIK, else without
+regard to case. Whatever was added as text or stands in the main file wins over files of the host; those are
+read when a call asks for them, once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from polycnc.program import names
+from polycnc.program.encoding import decode
+from polycnc.program.errors import ProgramFileError
+from polycnc.program.folders import Folder, number_of_file, read_file, stored_name_of_file
+from polycnc.program.program import Form, Program
+from polycnc.program.split import Source, split_programs
+from polycnc.program.text import split_lines
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+EXTERNAL = "external:"
+"""Prefix of the directories of an external memory: reached by EXTCALL and M198, never by a normal call."""
+
+
+def load_programs(
+    path: str, encoding: str | None = None, default: Form = Form.WORD_ADDRESS
+) -> tuple[Program, ...]:
+    """All programs of one file of the host, at least one.
+
+    Args:
+        path: The file.
+        encoding: What the user says it is; None to detect it.
+        default: Form of a file whose own headings do not tell.
+
+    Raises:
+        ProgramFileError: The file cannot be read, or a line is too long for a block.
+    """
+    decoded = decode(read_file(path), encoding)
+    source = Source(Path(path).name, path, decoded.encoding, decoded.replaced)
+    programs = split_programs(split_lines(decoded.text, path), source, default)
+    number = number_of_file(Path(path))
+    first = programs[0]
+    if (
+        number is not None
+        and first.number is None
+        and first.form is not Form.SINUMERIK
+        and first.name == source.name
+    ):
+        first = replace(first, number=number, name=names.program_name(number))
+    return (first, *programs[1:])
+
+
+class ProgramStore:
+    """Programs by name, by number and by SINUMERIK path.
+
+    Args:
+        search: Folders of `--search`, in their order.
+        form: Form of files whose own headings do not tell; `Form.SINUMERIK` for that control.
+        encoding: Encoding that the user asked for; None to detect it file by file.
+        directory: SINUMERIK directory of a main program that does not name its own.
+
+    Raises:
+        ProgramFileError: A search folder is none.
+    """
+
+    def __init__(
+        self,
+        *,
+        search: Sequence[str | Path] = (),
+        form: Form = Form.WORD_ADDRESS,
+        encoding: str | None = None,
+        directory: str = names.MPF_DIR,
+    ) -> None:
+        for path in search:
+            if not Path(path).is_dir():
+                raise ProgramFileError("program.search-missing", str(path))
+        self.search = [Path(path) for path in search]
+        self.form = form
+        self.encoding = encoding
+        self.shadowed: list[Program] = []
+        """Programs that no call reaches, because one added earlier has the same name or number."""
+        self._directory = directory
+        self._added: list[Program] = []
+        self._main: Program | None = None
+        self._beside: Path | None = None
+        self._by_name: dict[tuple[str, str], Program] = {}
+        self._by_number: dict[tuple[str, int], Program] = {}
+        self._removed: set[tuple[str, str]] = set()
+        self._folders: dict[Path, Folder] = {}
+        self._files: dict[Path, tuple[Program, ...]] = {}
+
+    # --- filling --------------------------------------------------------------------------------------------
+
+    @property
+    def main(self) -> Program:
+        """The program added first (of an archive its first main program); `LookupError` if there is none."""
+        if self._main is None:
+            raise LookupError
+        return self._main
+
+    def __iter__(self) -> Iterator[Program]:
+        """Every program that was added, in order; files found by calls are not among them."""
+        return iter(tuple(self._added))
+
+    def add_file(self, path: str | Path) -> Program:
+        """Add all programs of a host file. The first file added is the main one: calls look beside it.
+
+        Returns:
+            The program of the file that a start would run.
+
+        Raises:
+            ProgramFileError: The file cannot be used.
+        """
+        programs = load_programs(str(path), self.encoding, self.form)
+        if self._main is None:
+            self._beside = Path(path).parent
+        return self._add([self._placed(program, Path(path)) for program in programs])
+
+    def add_text(self, key: str, text: str) -> Program:
+        """Add the programs of a text under a key such as `O9010`, `SUB1.SPF`, `/_N_CUS_DIR/_N_X_SPF`.
+
+        A bare name lies beside the main program, a bare `_N_…_DEF` in the definitions directory, `external:`
+        in front puts it into the external memory. The key names the first program of the text, however its
+        own heading calls it; numbers of the text count too.
+        """
+        external = EXTERNAL if key.startswith(EXTERNAL) else ""
+        key = key.removeprefix(EXTERNAL)
+        sinumerik = (
+            key.startswith("/") or key.upper().startswith("_N_") or key.upper().endswith((".MPF", ".SPF"))
+        )
+        default = Form.SINUMERIK if sinumerik else self.form
+        programs = list(split_programs(split_lines(text, key), Source(key), default))
+        first = programs[0]
+        if sinumerik or first.form is Form.SINUMERIK:
+            directory, name = self._place_of_key(key, external)
+            programs[0] = replace(first, name=name, directory=external + directory)
+            return self._add(programs)
+        number = number_of_file(Path(key))
+        if number is not None and first.number is None:
+            programs[0] = replace(first, name=names.program_name(number), number=number)
+        placed = [replace(program, directory=external) for program in programs]
+        added = self._add(placed)
+        self._by_name.setdefault((external, key.casefold()), added)
+        if number is not None:
+            self._by_number.setdefault((external, number), added)
+        return added
+
+    def replace(self, program: Program) -> None:
+        """Put a program in the place of the one with its name and directory (WRITE, edit functions)."""
+        key = _key(program.directory, program.name)
+        known = self._by_name.get(key)
+        self._added = [each for each in self._added if each is not known] + [program]
+        self._by_name[key] = program
+        self._removed.discard(key)
+        if program.number is not None:
+            self._by_number[program.directory, program.number] = program
+
+    def remove(self, program: Program) -> None:
+        """Forget a program (DELETE); a file of the host stays where it is, but is not found again."""
+        self._removed.add(_key(program.directory, program.name))
+        self._added = [each for each in self._added if each is not program]
+        self._by_name = {key: each for key, each in self._by_name.items() if each is not program}
+        self._by_number = {key: each for key, each in self._by_number.items() if each is not program}
+
+    def _add(self, programs: list[Program]) -> Program:
+        for program in programs:
+            known = self._by_name.setdefault(_key(program.directory, program.name), program)
+            if program.number is not None:
+                known = self._by_number.setdefault((program.directory, program.number), program)
+            if known is not program:
+                self.shadowed.append(program)
+        self._added += programs
+        start = next((each for each in programs if each.name.endswith("_MPF")), programs[0])
+        if self._main is None and not start.directory.startswith(EXTERNAL):
+            self._main = start
+        return start
+
+    def _place_of_key(self, key: str, external: str) -> tuple[str, str]:
+        directory, name = names.split_stored_path(key)
+        typed = key.rpartition("/")[2]
+        if "." not in typed and not typed.upper().startswith("_N_"):
+            name += "_SPF"
+        if not directory and not external:
+            directory = names.DEF_DIR if name.endswith("_DEF") else self._directory_beside()
+        return directory, name
+
+    def _directory_beside(self) -> str:
+        return self._main.directory if self._main and self._main.directory else self._directory
+
+    def _placed(self, program: Program, path: Path) -> Program:
+        """A SINUMERIK program of the host gets its stored name and the directory of its folder."""
+        if program.form is not Form.SINUMERIK:
+            return program
+        is_named = program.name.startswith("_N_")
+        return replace(
+            program,
+            name=program.name if is_named else stored_name_of_file(path),
+            directory=program.directory or self._directory_of_folder(path.parent),
+        )
+
+    def _directory_of_folder(self, folder: Path) -> str:
+        name = names.stored_name(folder.resolve().name)
+        if name.endswith("_WPD"):
+            return "/_N_WKS_DIR/" + name
+        return "/" + name if "/" + name in names.STANDARD_DIRS else self._directory_beside()
+
+    # --- word address: numbers and names --------------------------------------------------------------------
+
+    def find_number(self, number: int, digits: int = 4) -> Program | None:
+        """The program with this number: in the main file, then beside it, then in the search folders.
+
+        In a folder a file that is named so (`O0010`, `0010.nc`) wins; otherwise the one file in which a
+        program of this number starts.
+
+        Args:
+            number: Program number.
+            digits: Digits that file names have on this control.
+
+        Raises:
+            ProgramFileError: A file that is named so cannot be read, or several files hold this number.
+        """
+        known = self._by_number.get(("", number))
+        if known is not None or _key("", names.program_name(number)) in self._removed:
+            return known
+        return self._number_on_host(number, digits)
+
+    def find_name(self, name: str, extensions: Sequence[str] = ()) -> Program | None:
+        """The program with this name (`<NAME>`, `G0200`, `T0000`), with or without one of the suffixes.
+
+        Raises:
+            ProgramFileError: The file of this name cannot be read.
+        """
+        suffixes = ("", *extensions)
+        for suffix in suffixes:
+            if found := self._by_name.get(_key("", name + suffix)):
+                return found
+        if _key("", name) in self._removed:
+            return None
+        for folder in self._call_folders():
+            if path := folder.named(name, suffixes):
+                programs = self._load(path)
+                named = (each for each in programs if each.name.casefold() == name.casefold())
+                return next(named, programs[0])
+        return None
+
+    def find_external_number(self, number: int, digits: int = 4) -> Program | None:
+        """The program that M198 calls: external memory, else as `find_number`; host files are read anew."""
+        known = self._by_number.get((EXTERNAL, number))
+        if known is not None:
+            return known
+        self._files.clear()
+        return self._number_on_host(number, digits) or self.find_number(number, digits)
+
+    def _number_on_host(self, number: int, digits: int) -> Program | None:
+        for folder in self._call_folders():
+            if path := folder.numbered(number, digits):
+                programs = self._load(path)
+                return next((each for each in programs if each.number == number), programs[0])
+            holders = folder.headed(number)
+            if len(holders) > 1:
+                files = ", ".join(path.name for path in holders)
+                raise ProgramFileError(
+                    "program.number-twice", str(folder.path), number=f"{number:04d}", files=files
+                )
+            for each in self._load(holders[0]) if holders else ():
+                if each.number == number:
+                    return each
+        return None
+
+    # --- SINUMERIK: directories -----------------------------------------------------------------------------
+
+    def find_sinumerik(
+        self, name: str, current_directory: str, call_paths: Iterable[str] = ()
+    ) -> Program | None:
+        """The program that a call finds (job planning 2.1, search order of calls without path).
+
+        Args:
+            name: As written: `SUB1`, `_N_SUB1_SPF`, or with a path `/_N_CST_DIR/_N_CYCLE1_SPF`.
+            current_directory: Directory of the calling program.
+            call_paths: Directories of CALLPATH.
+
+        Raises:
+            ProgramFileError: The file of this name cannot be read.
+        """
+        directory, stored = names.split_stored_path(name)
+        if directory:
+            return self._first(directory, _with_types(stored))
+        found = self._first(names.stored_directory(current_directory), _with_types(stored))
+        subprogram = stored if stored.endswith("_SPF") else stored + "_SPF"
+        for each in (names.SPF_DIR, *map(names.stored_directory, call_paths), *names.CYCLE_DIRS):
+            found = found or self.find_in(each, subprogram)
+        return found
+
+    def find_in(self, directory: str, name: str) -> Program | None:
+        """The program with exactly this stored name in this directory.
+
+        Raises:
+            ProgramFileError: The file of this name cannot be read.
+        """
+        key = _key(directory, name)
+        if key in self._by_name or key in self._removed:
+            return self._by_name.get(key)
+        for folder in self._host_folders(directory):
+            if path := folder.stored(name):
+                programs = self._load(path, Form.SINUMERIK)
+                program = next((each for each in programs if each.name == name), programs[0])
+                found = replace(program, name=name, directory=directory, form=Form.SINUMERIK)
+                return self._by_name.setdefault(key, found)
+        return None
+
+    def has_directory(self, directory: str) -> bool:
+        """Whether a SINUMERIK directory exists (CALLPATH demands it)."""
+        directory = names.stored_directory(directory)
+        if directory in names.STANDARD_DIRS or any(each == directory for each, _ in self._by_name):
+            return True
+        return any(True for _ in self._host_folders(directory))
+
+    def find_external(self, name: str, setting: str = "") -> Program | None:
+        """The program that EXTCALL finds in the external memory (job planning 1.25.3.10).
+
+        Args:
+            name: As written: bare, relative or absolute.
+            setting: Directory of SD42700 $SC_EXT_PROG_PATH.
+
+        Raises:
+            ProgramFileError: The file of this name cannot be read.
+        """
+        directory, stored = names.split_stored_path(name)
+        is_absolute = name.replace("\\", "/").startswith("/")
+        places = [directory] if is_absolute else [names.stored_directory(setting) + directory, directory]
+        for place in dict.fromkeys(places):
+            if found := self._first(EXTERNAL + place, _with_types(stored)):
+                return found
+        return None
+
+    def _first(self, directory: str, stored_names: Iterable[str]) -> Program | None:
+        for name in stored_names:
+            if found := self.find_in(directory, name):
+                return found
+        return None
+
+    def _host_folders(self, directory: str) -> Iterator[Folder]:
+        """The folders of the host that stand for a directory.
+
+        The main program's own directory is the folder of its file. Others are looked up by their names
+        (`/_N_CUS_DIR` is `CUS.DIR`) in that folder, in the one that holds `WKS.DIR`, and in the search
+        folders; the search folders themselves count as global subprograms.
+        """
+        path = directory.removeprefix(EXTERNAL)
+        if self._beside and path == ("" if directory.startswith(EXTERNAL) else self._directory_beside()):
+            yield self._folder(self._beside)
+        for root in self._roots():
+            folder: Path | None = root
+            for part in path.split("/")[1:]:
+                folder = self._folder(folder).folder(part) if folder else None
+            if folder and path:
+                yield self._folder(folder)
+        if directory in (names.SPF_DIR, EXTERNAL):
+            yield from map(self._folder, self.search)
+
+    def _roots(self) -> Iterator[Path]:
+        if self._beside:
+            yield self._beside
+            root = self._beside.resolve()
+            for part in reversed(self._directory_beside().split("/")[1:]):
+                if names.stored_name(root.name) != part:
+                    break
+                root = root.parent
+            else:
+                yield root
+        yield from self.search
+
+    # --- host files -----------------------------------------------------------------------------------------
+
+    def _call_folders(self) -> Iterator[Folder]:
+        if self._beside:
+            yield self._folder(self._beside)
+        yield from map(self._folder, self.search)
+
+    def _folder(self, path: Path) -> Folder:
+        return self._folders.setdefault(path, Folder(path))
+
+    def _load(self, path: Path, default: Form | None = None) -> tuple[Program, ...]:
+        if path not in self._files:
+            self._files[path] = load_programs(str(path), self.encoding, default or self.form)
+        return self._files[path]
+
+
+def _key(directory: str, name: str) -> tuple[str, str]:
+    return directory, name.casefold()
+
+
+def _with_types(stored: str) -> tuple[str, ...]:
+    """The name as typed, then as subprogram, then as main program."""
+    return (stored,) if stored.endswith(("_SPF", "_MPF")) else (stored, stored + "_SPF", stored + "_MPF")
