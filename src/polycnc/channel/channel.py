@@ -7,7 +7,7 @@ language compiled, and what differs between controls lies behind `Control`.
 
 from __future__ import annotations
 
-from math import nan
+from math import inf, nan
 from typing import TYPE_CHECKING, Any, Protocol
 
 from polycnc.channel.coordinates import Coordinates
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from polycnc.geometry.frames import Vector
-    from polycnc.machine.model import Machine
+    from polycnc.machine.model import Axis, Machine
     from polycnc.machine.setup import Setup
     from polycnc.program import Program
     from polycnc.program.store import ProgramStore
@@ -82,9 +82,14 @@ class Channel:
         self.setup = setup
         self.store = store
         self.number = number
-        self.axes: tuple[str, ...] = machine.channel_axes(number)
+        definition = next(channel for channel in machine.channels if channel.number == number)
+        self.axes: tuple[str, ...] = definition.names
         self.axis_index = {name: i for i, name in enumerate(self.axes)}
-        geometry = machine.geometry_indices(number)
+        self.axis_data: tuple[Axis, ...] = tuple(machine.axis[name] for name in definition.axes)
+        x, y, z = (
+            definition.axes.index(definition.geometry[name]) if name in definition.geometry else -1 for name in "XYZ"
+        )
+        geometry = (x, y, z)
         start = [setup.start.get(name, 0.0) for name in self.axes]
         self.coordinates = Coordinates(self.axes, geometry, start)
         self.toolpath = toolpath or Toolpath(self.axes)
@@ -106,7 +111,8 @@ class Channel:
         self.variables_at_end: dict[str, Any] | None = None
         self._context = 0
         self._context_changed = True
-        self._limits = machine.limits(number)
+        limits = tuple((axis.limit_minus, axis.limit_plus) for axis in self.axis_data)
+        self._limits = limits if any(low > -inf or high < inf for low, high in limits) else ()
         self._executables: dict[int, Executable] = {}
 
     # ---- program stack -------------------------------------------------------------------------------------------
@@ -134,6 +140,11 @@ class Channel:
         else:
             self.finished = True
         return ended
+
+    def end(self) -> None:
+        """The program is over (M02, M30): everything held back is written, nothing more runs."""
+        self.flush()
+        self.finished = True
 
     # ---- running -------------------------------------------------------------------------------------------------
 

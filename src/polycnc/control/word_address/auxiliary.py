@@ -1,0 +1,125 @@
+"""F, S, T and M: feed, spindle, tool, stops and program end."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.numbers import INCH_MM
+from polycnc.control.word_address.path import FEED_MODES
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.plan import Builder
+    from polycnc.control.word_address.words import Words
+
+
+def plan_feed(builder: Builder) -> Step:
+    """F: mm/min or inch/min, mm/rev or inch/rev, 1/min, as the feed mode says."""
+    slot = builder.slots["F"][0]
+    mode = FEED_MODES[builder.mode["feed"]]
+    unit = INCH_MM if builder.inch and mode != "G93" else 1.0
+    factor = builder.control.feed_factor(builder, builder.slots["F"][1], mode) * unit
+    if mode == "G95":
+
+        def set_feed_per_revolution(channel: Channel, values: list[float]) -> None:
+            channel.feed = values[slot] * factor
+
+        return set_feed_per_revolution
+
+    def set_feed(channel: Channel, values: list[float]) -> None:
+        channel.feed = values[slot] * factor / 60.0
+
+    return set_feed
+
+
+def plan_spindle_speed(builder: Builder) -> Step:
+    """S: programmed speed of the spindle (surface speed under G96)."""
+    slot = builder.slots["S"][0]
+
+    def set_speed(channel: Channel, values: list[float]) -> None:
+        channel.memory.spindle_speed = values[slot]
+        channel.context_changed()
+        channel.event("s", speed=_number(values[slot]), spindle=1)
+
+    return set_speed
+
+
+def plan_tool(builder: Builder) -> Step:
+    """T: selects the next tool; M06 brings it into the spindle."""
+    slot = builder.slots["T"][0]
+
+    def select(channel: Channel, values: list[float]) -> None:
+        channel.memory.next_tool = int(values[slot])
+        channel.event("t", tool=_number(values[slot]))
+
+    return select
+
+
+def plan_second_auxiliary(builder: Builder) -> Step:
+    """B (where no axis has that name): second auxiliary function, for the machine's builder."""
+    slot = builder.slots["B"][0]
+
+    def send(channel: Channel, values: list[float]) -> None:
+        channel.event("b", code=_number(values[slot]))
+
+    return send
+
+
+def _number(value: float) -> float | int:
+    return int(value) if value == int(value) else value
+
+
+def change_tool(channel: Channel, _words: Words) -> None:
+    """M06: the selected tool comes into the spindle."""
+    channel.memory.tool = channel.memory.next_tool
+    channel.context_changed()
+
+
+def spindle_clockwise(channel: Channel, _words: Words) -> None:
+    """M03."""
+    channel.memory.spindle_direction = 1
+    channel.context_changed()
+
+
+def spindle_counter_clockwise(channel: Channel, _words: Words) -> None:
+    """M04."""
+    channel.memory.spindle_direction = -1
+    channel.context_changed()
+
+
+def spindle_stop(channel: Channel, _words: Words) -> None:
+    """M05."""
+    channel.memory.spindle_direction = 0
+    channel.context_changed()
+
+
+def stop(channel: Channel, _words: Words) -> None:
+    """M00: stop until the operator starts again."""
+    channel.stop("M00")
+
+
+def optional_stop(channel: Channel, _words: Words) -> None:
+    """M01: as M00 while the operator's switch is on."""
+    if channel.optional_stop:
+        channel.stop("M01")
+
+
+def end_program(channel: Channel, _words: Words) -> None:
+    """M02, M30: the run is over."""
+    channel.end()
+
+
+def dwell(channel: Channel, words: Words) -> None:
+    """G04 X or U (seconds; without a point least increments of time) or P (milliseconds)."""
+    milliseconds = words.integer("P")
+    if milliseconds is not None:
+        channel.dwell(seconds=milliseconds / 1000.0)
+        return
+    for address in ("X", "U"):
+        value = words.typed(address)
+        if value is not None:
+            rules = words.plan.rules
+            whole = words.form(address) == "" and not rules.calculator
+            channel.dwell(seconds=value / 1000.0 if whole else value)
+            return

@@ -1,0 +1,194 @@
+"""The base of all word-address controls: how blocks become plans, and what a family may state differently."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from importlib import resources
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from polycnc.control.word_address import coordinates, path
+from polycnc.control.word_address.codes import GCode, MCode
+from polycnc.control.word_address.memory import Memory
+from polycnc.control.word_address.numbers import NumberRules
+from polycnc.control.word_address.plan import Builder, Plan
+from polycnc.language.word_address import Grammar, WordAddressProgram
+from polycnc.messages import AlarmError, Catalogue
+from polycnc.toolpath import Context
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.mode import Mode
+    from polycnc.channel.stack import Executable
+    from polycnc.control.word_address.codes import Planner, Step
+    from polycnc.program import Program
+
+
+class WordAddressControl:
+    """A word-address control. A family states its tables as class attributes and overrides what differs.
+
+    Attributes:
+        id: Control id.
+        g_codes: The G table.
+        m_codes: The M table; a number that is not in it passes as an event.
+        addresses: What words beside axis words and code arguments do (F, S, T, H, D …).
+        power_on: Code of every modal group at power-on.
+        alarms: Names of mistakes to alarm codes.
+        FEED_AT_START: Feed that holds before any F (mm/s), or None for the alarm of a missing feed.
+        DIAMETER_PROGRAMMING: Axes marked as transverse are programmed in diameters.
+        INCREMENTAL_ADDRESSES: Addresses that are increments of an axis whatever the mode (U is X …).
+    """
+
+    id: ClassVar[str] = ""
+    alarm_package: ClassVar[str] = ""
+    g_codes: ClassVar[Mapping[str, GCode]] = {}
+    m_codes: ClassVar[Mapping[int, MCode]] = {}
+    addresses: ClassVar[Mapping[str, Planner]] = {}
+    power_on: ClassVar[Mapping[str, str]] = {}
+    alarms: ClassVar[Mapping[str, str]] = {}
+    foreign_codes: ClassVar[Mapping[str, str]] = {}
+    FEED_AT_START: ClassVar[float | None] = None
+    DIAMETER_PROGRAMMING: ClassVar[bool] = False
+    INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {}
+    INCH_CODE: ClassVar[str] = "G20"
+
+    # ---- texts and alarms ---------------------------------------------------------------------------------------
+
+    @cached_property
+    def catalogue(self) -> Catalogue:
+        """Texts of the control's alarms."""
+        return Catalogue(resources.files(self.alarm_package).joinpath("alarms.toml"))
+
+    def fail(self, mistake: str, **where: Any) -> AlarmError:
+        """The control's alarm for a named mistake."""
+        return AlarmError(self.alarms[mistake], **where)
+
+    def unknown_code(self, code: str) -> AlarmError:
+        """The alarm for a G code that is not in the table; with a hint where the code is another maker's."""
+        return self.fail("improper_g", address=code, code=code, hint=self.foreign_codes.get(code, ""))
+
+    def over_travel(self, axis: str, direction: int) -> AlarmError:
+        """The alarm for a target beyond a limit."""
+        return self.fail("over_travel_plus" if direction > 0 else "over_travel_minus", address=axis, axis=axis)
+
+    def block_limit(self) -> AlarmError:
+        """The alarm for a program that does not end."""
+        return AlarmError("PC0002", hint="hint.block-limit")
+
+    def untaken(self, address: str, _builder: Builder) -> AlarmError:
+        """The alarm for a word that nothing in its block takes."""
+        return self.fail("address", address=address, word=address)
+
+    # ---- programs -----------------------------------------------------------------------------------------------
+
+    @cached_property
+    def grammar(self) -> Grammar:
+        """How programs are written."""
+        return Grammar(self.alarms)
+
+    def compile(self, program: Program) -> Executable:
+        """Make a program ready to run."""
+        return WordAddressProgram(program, self.grammar)
+
+    def make_memory(self, channel: Channel) -> Memory:
+        """The control's memory as the setup fills it."""
+        return Memory(channel)
+
+    def start(self, channel: Channel) -> None:
+        """Power-on state."""
+        channel.mode = channel.modes.mode(self.start_codes(channel))
+        channel.memory = self.make_memory(channel)
+        if self.FEED_AT_START is not None:
+            channel.feed = self.FEED_AT_START
+        coordinates.refresh_zero(channel)
+
+    def start_codes(self, channel: Channel) -> dict[str, str]:
+        """Code of every modal group at program start."""
+        return dict(self.power_on)
+
+    def end_of_program(self, channel: Channel) -> None:
+        """The text ends: at level 0 the run ends, a subprogram without M99 is an alarm."""
+        if len(channel.stack) > 1:
+            raise self.fail("end_of_record")
+        channel.pop()
+
+    # ---- blocks -------------------------------------------------------------------------------------------------
+
+    def plan(self, channel: Channel, signature: tuple[str, ...]) -> Plan:
+        """The plan of a shape in the present modal state, made and kept."""
+        plan = Builder(channel, self, signature).build()
+        channel_mode: Mode = channel.mode
+        channel_mode.plans[signature] = plan
+        return plan
+
+    def call_by_code(self, _builder: Builder, _plan: Plan) -> Step | None:
+        """A step that calls a program in place of the block, where a code is registered for that."""
+        return None
+
+    def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
+        """The step of the active motion code for the axis words of a block."""
+        planner = self.g_codes[builder.mode["motion"]].planner
+        return planner(builder, plan) if planner is not None else None
+
+    def after_motion(self, _builder: Builder, _plan: Plan) -> list[Step]:
+        """Further steps behind the motion (modal macro calls)."""
+        return []
+
+    def m_code(self, number: int) -> MCode:
+        """The row of an M code; one that the table does not know is an event of the machine's builder."""
+        return self.m_codes.get(number) or MCode(number)
+
+    # ---- what a family may state differently ----------------------------------------------------------------------
+
+    def is_inch(self, mode: Mode) -> bool:
+        """Whether words are inches."""
+        return mode["unit"] == self.INCH_CODE
+
+    def number_rules(self, _channel: Channel) -> NumberRules:
+        """How numbers are read."""
+        return NumberRules()
+
+    def is_diameter(self, channel: Channel, axis: int) -> bool:
+        """Whether words of an axis are diameters."""
+        return self.DIAMETER_PROGRAMMING and channel.axis_data[axis].diameter
+
+    def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
+        """The axis that an address names and whether the word is an increment; None for another address."""
+        index = channel.axis_index.get(address)
+        if index is not None:
+            return index, builder.mode["distance"] == "G91"
+        name = self.INCREMENTAL_ADDRESSES.get(address)
+        if name is None or name not in channel.axis_index:
+            return None
+        return channel.axis_index[name], True
+
+    def context(self, channel: Channel) -> Context:
+        """The context that holds now."""
+        mode, memory, c = channel.mode, channel.memory, channel.coordinates
+        diameters = sum(1 << i for i in range(len(channel.axes)) if self.is_diameter(channel, i))
+        return Context(
+            plane=mode["plane"],
+            inch=self.is_inch(mode),
+            feed_mode=path.FEED_MODES[mode["feed"]],
+            frame=c.zero,
+            offsets=tuple(c.offsets),
+            tool=memory.tool,
+            spindle_rpm=memory.spindle_speed,
+            spindle_direction=memory.spindle_direction,
+            surface_speed=mode.codes.get("surface_speed") == "G96",
+            spindle_limit_rpm=memory.spindle_limit_rpm,
+            path_mode=mode.codes.get("path", "G64"),
+            diameter_axes=diameters,
+            wcs=memory.wcs,
+        )
+
+    # ---- variables by name, for reports and test cases ---------------------------------------------------------------
+
+    def read_variable(self, channel: Channel, name: str) -> object:
+        """The value of a variable as a user names it; None for a vacant one."""
+        return channel.memory.read_text(name)
+
+    def write_variable(self, channel: Channel, name: str, value: object) -> None:
+        """Set a variable as a user names it."""
+        channel.memory.write_text(name, value)

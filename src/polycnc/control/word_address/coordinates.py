@@ -1,0 +1,148 @@
+"""Coordinate systems and reference points: G52 to G59, G92, G53, G27 to G30, planes, units."""
+
+from __future__ import annotations
+
+from math import nan
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.memory import EXTERNAL
+from polycnc.geometry.frames import IDENTITY
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.words import Words
+
+
+def refresh_zero(channel: Channel, *, travelled: bool = False) -> None:
+    """Work out the shift from display to machine anew: external + work + local + G92 offset + tool length."""
+    memory = channel.memory
+    parts = zip(
+        memory.work_offset(EXTERNAL),
+        memory.work_offset(memory.wcs),
+        memory.local_shift,
+        memory.preset_shift,
+        memory.length_offset,
+        strict=True,
+    )
+    channel.coordinates.set_zero(IDENTITY, [sum(values) for values in parts], travelled=travelled)
+    channel.context_changed()
+
+
+def select_work_offset(channel: Channel, _words: Words) -> None:
+    """G54 to G59: the work coordinate system of the active code."""
+    channel.memory.wcs = channel.mode["wcs"]
+    refresh_zero(channel)
+
+
+def set_local_system(channel: Channel, words: Words) -> None:
+    """G52: zero of a local system within every work coordinate system; no motion."""
+    for axis, value, _ in words.axes():
+        channel.memory.local_shift[axis] = value
+    refresh_zero(channel)
+
+
+def set_position(channel: Channel, words: Words) -> None:
+    """G92: the present position gets these coordinates; every work coordinate system shifts with it (Hartford 3.2)."""
+    position = channel.coordinates.position
+    for axis, value, _ in words.axes():
+        channel.memory.preset_shift[axis] += position[axis] - value
+    refresh_zero(channel)
+
+
+def preset_system(channel: Channel, words: Words) -> None:
+    """G92.1: shifts by G92 and G52 of the named axes vanish."""
+    for axis, _, _ in words.axes():
+        channel.memory.preset_shift[axis] = 0.0
+        channel.memory.local_shift[axis] = 0.0
+    refresh_zero(channel)
+
+
+def move_in_machine_system(channel: Channel, words: Words) -> None:
+    """G53: rapid to machine coordinates, offsets and tool length left out; absolute only."""
+    c = channel.coordinates
+    machine = c.machine
+    for axis, value, incremental in words.axes():
+        machine[axis] = machine[axis] + value if incremental else value
+    channel.straight(Kind.RAPID, c.from_machine(machine), nan)
+
+
+def intermediate_point(channel: Channel, words: Words) -> list[float]:
+    """The intermediate point that a reference return names, programmed coordinates; it is kept for G29."""
+    c = channel.coordinates
+    point = c.programmed[:]
+    for axis, value, incremental in words.axes():
+        point[axis] = point[axis] + value if incremental else value
+    channel.memory.intermediate = point
+    return point
+
+
+def go_to_reference(channel: Channel, words: Words, number: int) -> None:
+    """Rapid over the intermediate point to a reference point, with the named axes only."""
+    c = channel.coordinates
+    point = intermediate_point(channel, words)
+    channel.straight(Kind.RAPID, c.to_position(point), nan, point)
+    machine = c.machine
+    for axis, _, _ in words.axes():
+        machine[axis] = channel.control.reference_point(channel, axis, number)
+    channel.straight(Kind.REF, c.from_machine(machine), nan)
+
+
+def return_to_reference(channel: Channel, words: Words) -> None:
+    """G28: over the intermediate point to the first reference point."""
+    go_to_reference(channel, words, 1)
+
+
+def return_to_further_reference(channel: Channel, words: Words) -> None:
+    """G30 [P2 … P4]: over the intermediate point to another reference point."""
+    number = words.integer("P")
+    number = 2 if number is None else number
+    if number not in channel.control.FURTHER_REFERENCES:
+        raise words.fail("reference_number", "P")
+    go_to_reference(channel, words, number)
+
+
+def return_from_reference(channel: Channel, words: Words) -> None:
+    """G29: rapid to the intermediate point of the last G28/G30, then to the target (an increment counts from there)."""
+    c = channel.coordinates
+    middle = channel.memory.intermediate
+    if middle is None:
+        raise words.fail("no_intermediate", "G29")
+    named = words.axes()
+    via = c.programmed[:]
+    for axis, _, _ in named:
+        via[axis] = middle[axis]
+    channel.straight(Kind.RAPID, c.to_position(via), nan, via)
+    end = via[:]
+    for axis, value, incremental in named:
+        end[axis] = via[axis] + value if incremental else value
+    channel.straight(Kind.RAPID, c.to_position(end), nan, end)
+
+
+def check_reference(channel: Channel, words: Words) -> None:
+    """G27: rapid to the point, which must be the reference point of the named axes."""
+    c = channel.coordinates
+    end = c.programmed[:]
+    for axis, value, incremental in words.axes():
+        end[axis] = end[axis] + value if incremental else value
+    channel.straight(Kind.RAPID, c.to_position(end), nan, end)
+    machine = c.machine
+    for axis, _, _ in words.axes():
+        if abs(machine[axis] - channel.control.reference_point(channel, axis, 1)) > REFERENCE_WINDOW_MM:
+            raise words.fail("not_at_reference", "G27")
+
+
+#: How close to the reference point an axis must stand to count as there.
+REFERENCE_WINDOW_MM = 0.0015
+
+
+def forget_feed(channel: Channel, words: Words) -> None:
+    """G93 to G95: a change of the feed mode asks for a new F, which a block may bring with it."""
+    if "F" not in words:
+        channel.feed = nan
+    channel.context_changed()
+
+
+def note_context(channel: Channel, _words: Words) -> None:
+    """A modal code that only shows in the context (plane, unit, path mode)."""
+    channel.context_changed()

@@ -1,0 +1,104 @@
+"""The memory of a word-address control during a run: offsets, tools, spindle, what modal words left behind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from polycnc.geometry.frames import IDENTITY, Frame
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+
+#: Name of the offset that is added to every work coordinate system.
+EXTERNAL = "EXT"
+
+
+@dataclass(slots=True)
+class ToolOffset:
+    """One number of the offset memory, mm: length and radius by geometry and wear, turning offsets by axis name."""
+
+    length: float = 0.0
+    length_wear: float = 0.0
+    radius: float = 0.0
+    radius_wear: float = 0.0
+    tip: int = 0
+
+    @property
+    def total_length(self) -> float:
+        """Geometry and wear."""
+        return self.length + self.length_wear
+
+    @property
+    def total_radius(self) -> float:
+        """Geometry and wear."""
+        return self.radius + self.radius_wear
+
+
+class ProgrammingFrames:
+    """The parts of a channel's programming frame: scaling or mirror, then rotation."""
+
+    def __init__(self) -> None:
+        self.scale = IDENTITY
+        self.mirror = IDENTITY
+        self.mirrored: dict[int, float] = {}
+        self.rotation = IDENTITY
+
+    def product(self) -> Frame:
+        """The whole frame."""
+        frame = self.rotation @ self.mirror @ self.scale
+        return IDENTITY if frame.is_identity else frame
+
+
+class Memory:
+    """State of the control beside modal codes and positions.
+
+    Attributes:
+        work_offsets: Zero of each work coordinate system in machine coordinates, by name (`EXT`, `G54` …).
+        wcs: Name of the active one.
+        local_shift: G52.
+        preset_shift: G92.
+        length_offset: Shift of each axis by the active tool length.
+        tool: Tool in the spindle; `next_tool` is selected.
+        h: Number of the active length offset; `d` of the radius offset.
+        intermediate: Intermediate point of the last G28/G30 (programmed coordinates), for G29.
+    """
+
+    def __init__(self, channel: Channel) -> None:
+        setup = channel.setup
+        count = len(channel.axes)
+        self.parameters = setup.parameters
+        self.work_offsets: dict[str, list[float]] = {EXTERNAL: [0.0] * count}
+        for name, values in setup.work_offsets.items():
+            self.work_offsets[name] = [values.get(axis, 0.0) for axis in channel.axes]
+        self.tools: dict[int, ToolOffset] = {
+            int(number): ToolOffset(
+                tool.length, tool.wear.length, tool.radius, tool.wear.radius, int(tool.tip)
+            )
+            for number, tool in setup.tools.items()
+        }
+        self.wcs = "G54"
+        self.local_shift = [0.0] * count
+        self.preset_shift = [0.0] * count
+        self.length_offset = [0.0] * count
+        self.tool = 0
+        self.next_tool = 0
+        self.h = 0
+        self.d = 0
+        self.spindle_speed = 0.0
+        self.spindle_direction = 0
+        self.spindle_limit_rpm = 0.0
+        self.intermediate: list[float] | None = None
+        self.frames = ProgrammingFrames()
+        self.polar_pole = (0.0, 0.0)
+        self.polar_radius = 0.0
+        self.polar_angle = 0.0
+        self._count = count
+
+    def work_offset(self, name: str) -> list[float]:
+        """The offset of a work coordinate system; zero until it is set."""
+        return self.work_offsets.setdefault(name, [0.0] * self._count)
+
+    def offset_number(self, number: int) -> ToolOffset:
+        """An offset number; zero until it is set."""
+        return self.tools.setdefault(number, ToolOffset())

@@ -1,0 +1,204 @@
+"""Rapid, line and arc: the motion codes G00 to G03 of the word-address controls.
+
+Each planner looks at the shape of a block once and gives the step that moves. Words are programmed coordinates; the
+step turns them into a target of the absolute display and hands the move to the channel.
+"""
+
+from __future__ import annotations
+
+from math import hypot, nan
+from typing import TYPE_CHECKING
+
+from polycnc.geometry import arcs
+from polycnc.geometry.frames import IDENTITY
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.plan import AxisWord, Builder, Plan
+    from polycnc.geometry.frames import Vector
+
+#: Feed codes of all word-address families to the meaning that the toolpath uses.
+FEED_MODES = {"G93": "G93", "G94": "G94", "G95": "G95", "G98": "G94", "G99": "G95"}
+#: First, second and third axis of a plane as geometry axes, and the centre words of the first two.
+PLANES: dict[str, tuple[int, int, int]] = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
+CENTER_WORDS = "IJK"
+
+
+def target(channel: Channel, words: tuple[AxisWord, ...], values: list[float]) -> list[float]:
+    """The programmed end point that axis words name."""
+    c = channel.coordinates
+    end = c.programmed[:]
+    for word in words:
+        value = values[word.slot]
+        if word.convert is not None:
+            value = word.convert(value)
+        axis = word.axis
+        if word.incremental:
+            end[axis] += value + c.pending[axis]
+        else:
+            end[axis] = value
+        c.pending[axis] = 0.0
+    return end
+
+
+def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
+    """G00."""
+    return _plan_straight(builder, plan, Kind.RAPID)
+
+
+def plan_line(builder: Builder, plan: Plan) -> Step | None:
+    """G01."""
+    return _plan_straight(builder, plan, Kind.FEED)
+
+
+def _plan_straight(builder: Builder, plan: Plan, kind: Kind) -> Step | None:
+    words = plan.axis_words
+    control = builder.control
+    corner = control.plan_corner(builder)
+    if not words:
+        return corner
+    rapid = kind == Kind.RAPID
+    feed_named = builder.has("F")
+    polar = builder.mode.codes.get("polar") == "G16"
+    plain = all(not word.incremental and word.convert is None for word in words) and not polar
+    pairs = tuple((word.axis, word.slot) for word in words)
+
+    def move(channel: Channel, values: list[float]) -> None:
+        if rapid:
+            feed = channel.feed if feed_named else nan
+        else:
+            feed = channel.feed
+            if not feed > 0.0:
+                raise control.fail("no_feed")
+        c = channel.coordinates
+        if plain and c.programming is IDENTITY:
+            end = c.position[:]
+            for axis, slot in pairs:
+                end[axis] = values[slot]
+                c.pending[axis] = 0.0
+            if corner is not None:
+                corner(channel, values)
+            channel.straight(kind, end, feed)
+            return
+        programmed = control.polar_target(channel, plan, values) if polar else target(channel, words, values)
+        if corner is not None:
+            corner(channel, values)
+        channel.straight(kind, c.to_position(programmed), feed, programmed)
+
+    return move
+
+
+def plan_arc_cw(builder: Builder, plan: Plan) -> Step | None:
+    """G02."""
+    return _plan_arc(builder, plan, ccw=False)
+
+
+def plan_arc_ccw(builder: Builder, plan: Plan) -> Step | None:
+    """G03."""
+    return _plan_arc(builder, plan, ccw=True)
+
+
+def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
+    """An arc, helix or full circle in the active plane.
+
+    Centre words are increments from the start. With R the arc is up to 180 degrees, with a negative R longer. R wins
+    over centre words. Neither: what the control has for it.
+    """
+    control = builder.control
+    words = plan.axis_words
+    u, v, w = PLANES[builder.mode["plane"]]
+    centers = [CENTER_WORDS[axis] for axis in (u, v, w) if builder.has(CENTER_WORDS[axis])]
+    builder.take("R", *centers)
+    corner = control.plan_corner(builder)
+    radius_slot = builder.slot("R")
+    if not words and radius_slot is None and not centers:
+        return corner
+    if CENTER_WORDS[w] in centers and radius_slot is None:
+        raise control.fail("center_off_plane", address=CENTER_WORDS[w])
+    if radius_slot is None and not centers:
+        return control.plan_arc_without_center(builder, plan)
+    polar = builder.mode.codes.get("polar") == "G16"
+    radius_of = builder.length("R") if radius_slot is not None else None
+    offsets = [(u, builder.slot(CENTER_WORDS[u])), (v, builder.slot(CENTER_WORDS[v]))]
+    converts = [builder.length(CENTER_WORDS[axis]) if slot is not None else None for axis, slot in offsets]
+
+    def move(channel: Channel, values: list[float]) -> None:
+        feed = channel.feed
+        if not feed > 0.0:
+            raise control.fail("no_feed")
+        c = channel.coordinates
+        geometry = c.geometry
+        if geometry[u] < 0 or geometry[v] < 0:
+            raise control.fail("plane")
+        if polar:
+            programmed = control.polar_target(channel, plan, values)
+        else:
+            programmed = target(channel, words, values) if words else c.programmed[:]
+        begin = (c.programmed[geometry[u]], c.programmed[geometry[v]])
+        end = (programmed[geometry[u]], programmed[geometry[v]])
+        if radius_slot is not None:
+            radius = values[radius_slot]
+            center = _center_by_radius(channel, begin, end, radius_of(radius) if radius_of else radius, ccw)
+        else:
+            shift = [0.0, 0.0]
+            for i, (_, slot) in enumerate(offsets):
+                if slot is not None:
+                    convert = converts[i]
+                    shift[i] = convert(values[slot]) if convert else values[slot]
+            center = (begin[0] + shift[0], begin[1] + shift[1])
+            control.check_arc(channel, begin, end, center)
+        if corner is not None:
+            corner(channel, values)
+        if center is not None:
+            emit_arc(channel, programmed, center, (u, v, w), ccw=ccw, feed=feed)
+        else:
+            channel.straight(Kind.FEED, c.to_position(programmed), feed, programmed)
+
+    return move
+
+
+def _center_by_radius(
+    channel: Channel, begin: arcs.Point, end: arcs.Point, radius: float, ccw: bool
+) -> arcs.Point | None:
+    """The centre for an R word; None where start and end coincide (an arc of 0 degrees: no motion in the plane)."""
+    control = channel.control
+    if radius == 0.0:
+        raise control.fail("radius_zero", address="R")
+    if hypot(end[0] - begin[0], end[1] - begin[1]) < 1e-9:
+        return None
+    try:
+        return arcs.center_from_radius(begin, end, radius, ccw, control.arc_tolerance(channel))
+    except ValueError as error:
+        raise control.fail("radius_too_small", address="R") from error
+
+
+def emit_arc(
+    channel: Channel,
+    programmed: list[float],
+    center: arcs.Point,
+    plane: tuple[int, int, int],
+    *,
+    ccw: bool,
+    feed: float,
+    turns: float = 0.0,
+) -> None:
+    """Write an arc from programmed coordinates: the programming frame maps it, a mirror swaps its sense."""
+    u, v, w = plane
+    c = channel.coordinates
+    point = [0.0, 0.0, 0.0]
+    for i, axis in enumerate(c.geometry):
+        point[i] = c.programmed[axis] if axis >= 0 else 0.0
+    point[u], point[v] = center
+    normal: Vector = (float(w == 0), float(w == 1), float(w == 2))
+    third = c.geometry[w]
+    helix = third >= 0 and programmed[third] != c.programmed[third]
+    position = c.to_position(programmed)
+    middle: Vector = (point[0], point[1], point[2])
+    if c.programming is not IDENTITY:
+        middle = c.programming.apply(*point)
+        if c.programming.mirrors:
+            ccw = not ccw
+    kind = (Kind.HELIX_CCW if ccw else Kind.HELIX_CW) if helix else (Kind.CCW if ccw else Kind.CW)
+    channel.curve(kind, position, feed, center=middle, normal=normal, turns=turns, programmed=programmed)

@@ -1,0 +1,227 @@
+"""Plans: what a block of some shape does in some modal state.
+
+The first block of a shape (its *signature*, see `language.word_address.words`) is checked whole against the control's
+tables: every code known and executed, every word taken by somebody. The outcome is a `Plan`: the modal state that the
+block leaves and the steps that it takes, in the order in which the control works a block off. Plans are kept on the
+modal state; later blocks of the same shape only bring new numbers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.codes import GCode, MCode, Order, Step
+from polycnc.control.word_address.numbers import Convert, NumberRules, angle_converter, length_converter
+from polycnc.control.word_address.words import Words
+from polycnc.language.word_address.words import is_fixed_code
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.mode import Mode
+    from polycnc.control.word_address.codes import Handler
+    from polycnc.control.word_address.control import WordAddressControl
+
+#: The alarm of a code that a control knows and polycnc does not execute yet, on every control.
+NOT_YET = "PC0001"
+
+
+@dataclass(frozen=True, slots=True)
+class AxisWord:
+    """An axis word of a shape: which axis, which value, how it converts, absolute or incremental."""
+
+    address: str
+    axis: int
+    slot: int
+    convert: Convert | None
+    incremental: bool
+
+
+class Plan:
+    """What the blocks of one shape do in one modal state."""
+
+    __slots__ = ("axis_words", "control", "inch", "mode", "rules", "slots", "steps", "typed")
+
+    def __init__(self, builder: Builder) -> None:
+        self.control = builder.control
+        self.mode = builder.mode
+        self.slots = builder.slots
+        self.typed = builder.typed
+        self.rules: NumberRules = builder.rules
+        self.inch = builder.inch
+        self.axis_words: tuple[AxisWord, ...] = ()
+        self.steps: tuple[Step, ...] = ()
+
+    def run(self, channel: Channel, values: list[float]) -> None:
+        """Run one block."""
+        channel.mode = self.mode
+        for step in self.steps:
+            step(channel, values)
+
+
+class Builder:
+    """Works out one plan.
+
+    Attributes:
+        before: Modal state before the block.
+        mode: Modal state that the block brings.
+        slots: Address to (index of its value, how it was written); of a repeated address the last one counts.
+        typed: All words in the order typed, repeated ones included: (address, index, how written).
+        codes: Rows of the block's G codes; of one group only the last.
+    """
+
+    def __init__(self, channel: Channel, control: WordAddressControl, signature: tuple[str, ...]) -> None:
+        self.channel = channel
+        self.control = control
+        self.signature = signature
+        self.before: Mode = channel.mode
+        self.slots: dict[str, tuple[int, str]] = {}
+        self.typed: list[tuple[str, int, str]] = []
+        self.order: list[str] = []
+        self.codes: list[GCode] = []
+        self.m_codes: list[int] = []
+        self._taken: set[str] = set()
+        self._read_signature()
+        self.mode = self.before.with_codes((row.group, row.code) for row in self.codes if row.group)
+        self.inch = control.is_inch(self.mode)
+        self.rules = control.number_rules(channel)
+
+    def _read_signature(self) -> None:
+        position = 0
+        by_group: dict[str, GCode] = {}
+        for key in self.signature:
+            if is_fixed_code(key):
+                self.order.append(key)
+                if key[0] == "M":
+                    self.m_codes.append(int(float(key[1:])))
+                else:
+                    row = self._row(key)
+                    by_group[row.group or row.code] = row
+                continue
+            cut = 2 if key[0] == "," else 1
+            address, form = key[:cut], key[cut:]
+            self.typed.append((address, position, form))
+            self.slots[address] = (position, form)
+            self.order.append(address)
+            position += 1
+        self.codes = list(by_group.values())
+
+    def _row(self, code: str) -> GCode:
+        row = self.control.g_codes.get(code)
+        if row is None:
+            raise self.control.unknown_code(code)
+        if row.not_yet:
+            raise AlarmError(NOT_YET, address=code, hint="hint.not-supported", code=code)
+        return row
+
+    # ---- what planners and handlers of the table ask ---------------------------------------------------------------
+
+    def has(self, address: str) -> bool:
+        """Whether the block holds a word."""
+        return address in self.slots
+
+    def take(self, *addresses: str) -> None:
+        """Somebody deals with these addresses."""
+        self._taken.update(addresses)
+
+    def slot(self, address: str) -> int | None:
+        """Index of a word's value, or None."""
+        slot = self.slots.get(address)
+        return None if slot is None else slot[0]
+
+    def length(self, address: str, *, diameter: bool = False) -> Convert | None:
+        """Converter of a length word that the block holds."""
+        return length_converter(self.slots[address][1], self.rules, inch=self.inch, diameter=diameter)
+
+    def handled(self, handler: Handler, plan: Plan) -> Step:
+        """A step that calls a handler with the block's words."""
+        return lambda channel, values: handler(channel, Words(plan, values))
+
+    def axis_words(self) -> tuple[AxisWord, ...]:
+        """The axis words of the block; they count as taken."""
+        words: list[AxisWord] = []
+        channel, control = self.channel, self.control
+        for address, (position, form) in self.slots.items():
+            target = control.axis_of_address(channel, address, self)
+            if target is None:
+                continue
+            index, incremental = target
+            if channel.axis_data[index].rotary:
+                convert = angle_converter(form, self.rules)
+            else:
+                diameter = control.is_diameter(channel, index)
+                convert = length_converter(form, self.rules, inch=self.inch, diameter=diameter)
+            words.append(AxisWord(address, index, position, convert, incremental))
+            self.take(address)
+        return tuple(words)
+
+    # ---- the plan ---------------------------------------------------------------------------------------------------
+
+    def build(self) -> Plan:
+        """The plan; raises the control's alarm for what the block must not hold."""
+        plan = Plan(self)
+        call = self.control.call_by_code(self, plan)
+        if call is not None:
+            plan.mode = self.before
+            plan.steps = (call,)
+            return plan
+        rows = sorted(self.codes, key=lambda row: row.order)
+        for row in rows:
+            self.take(*row.addresses)
+        plan.axis_words = self.axis_words()
+        before, after = self._auxiliary_steps(plan)
+        steps = [*before, *(self.handled(r.handler, plan) for r in rows if r.handler and r.order < Order.MOTION)]
+        if not any(row.axis_words for row in rows):
+            motion = self.control.plan_motion(self, plan)
+            if motion is not None:
+                steps.append(motion)
+        steps += [self.handled(r.handler, plan) for r in rows if r.handler and r.order >= Order.MOTION]
+        plan.steps = (*steps, *self.control.after_motion(self, plan), *after)
+        self._check_all_taken()
+        return plan
+
+    def _auxiliary_steps(self, plan: Plan) -> tuple[list[Step], list[Step]]:
+        """Steps of F, S, T, D and the like, and of M codes: those with the motion, in the order typed, and those after."""
+        before: list[Step] = []
+        after: list[Step] = []
+        for key in self.order:
+            if key in self._taken and key in self.slots:
+                continue
+            if key[0] == "M" and is_fixed_code(key):
+                row = self.control.m_code(int(float(key[1:])))
+                self.take(*row.takes.split())
+                (after if row.after else before).append(_m_step(row, self, plan))
+                continue
+            planner = self.control.addresses.get(key)
+            if planner is not None:
+                step = planner(self)
+                self.take(key)
+                if step is not None:
+                    before.append(step)
+        return before, after
+
+    def _check_all_taken(self) -> None:
+        if "*" in self._taken:
+            return
+        for address in self.slots:
+            if address not in self._taken:
+                raise self.control.untaken(address, self)
+
+
+def _m_step(row: MCode, builder: Builder, plan: Plan) -> Step:
+    handler = builder.handled(row.handler, plan) if row.handler else None
+    if row.silent:
+        return handler or _nothing
+    code = row.code
+
+    def act(channel: Channel, values: list[float]) -> None:
+        channel.event("m", code=code)
+        if handler is not None:
+            handler(channel, values)
+
+    return act
+
+
+def _nothing(_channel: Channel, _values: list[float]) -> None:
+    """An M code that only exists."""

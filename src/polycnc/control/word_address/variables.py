@@ -1,0 +1,202 @@
+"""Variables of custom macro B: local, common, system; vacant is None (reference: FANUC macro B §1, §2).
+
+System variables stand in a registry of ranges, each with what reads and what writes it. A family gives its registry;
+the store looks a number up and calls.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.memory import Memory
+from polycnc.control.word_address.numbers import INCH_MM
+from polycnc.language.word_address.functions import round_half_away
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.messages import AlarmError
+
+Read = Callable[["MacroMemory", int], "float | None"]
+Write = Callable[["MacroMemory", int, "float | None", str], None]
+LOCALS = 34
+COMMONS = 1000
+
+
+@dataclass(frozen=True, slots=True)
+class SystemRange:
+    """System variables `first` to `last`. `read` and `write` get the offset from `first`; None refuses.
+
+    `name` is the system name of the range (`_ABSIO`), by which `[#_ABSIO[1]]` finds it.
+    """
+
+    first: int
+    last: int
+    read: Read | None = None
+    write: Write | None = None
+    name: str = ""
+
+
+class Registry:
+    """The system variables of a control."""
+
+    def __init__(self, ranges: Sequence[SystemRange]) -> None:
+        self._ranges = sorted(ranges, key=lambda item: item.first)
+        self._firsts = [item.first for item in self._ranges]
+        self.names = {item.name: item for item in self._ranges if item.name}
+
+    def find(self, number: int) -> SystemRange | None:
+        """The range that holds a number."""
+        i = bisect_right(self._firsts, number) - 1
+        if i < 0 or number > self._ranges[i].last:
+            return None
+        return self._ranges[i]
+
+
+class MacroMemory(Memory):
+    """A control's memory with the variables of custom macro B.
+
+    Attributes:
+        locals: #1 to #33 of the running macro level (index 0 is #0, vacant).
+        common: #100 to #199 and #500 to #999.
+        names: Names given by SETVN.
+    """
+
+    def __init__(self, channel: Channel, registry: Registry) -> None:
+        super().__init__(channel)
+        self.channel = channel
+        self.registry = registry
+        self.locals: list[float | None] = [None] * LOCALS
+        self.common: list[float | None] = [None] * COMMONS
+        self.more: dict[int, float | None] = {}
+        self.names: dict[str, int] = {}
+        self.printing = False
+        self.angle_range_signed = self.parameters.bit(6004, 0)
+        self.joined_conditions = self.parameters.bit(6006, 0)
+        self.skip_position: list[float] | None = None
+
+    # ---- what generated expressions call ------------------------------------------------------------------------
+
+    def fail(self, mistake: str) -> AlarmError:
+        """The control's alarm for a mistake in an expression."""
+        control = self.channel.control
+        return control.fail(mistake)  # type: ignore[attr-defined, no-any-return]
+
+    @property
+    def increment(self) -> float:
+        """Least increment of lengths in the program's unit."""
+        return 0.0001 if self.is_inch else 0.001
+
+    @property
+    def is_inch(self) -> bool:
+        """Whether the program's unit is the inch."""
+        control = self.channel.control
+        return bool(control.is_inch(self.channel.mode))  # type: ignore[attr-defined]
+
+    def read(self, number: int) -> float | None:
+        """A variable by number."""
+        if 1 <= number < LOCALS:
+            return self.locals[number]
+        if number == 0:
+            return None
+        if 100 <= number <= 199 or 500 <= number <= 999:
+            return self.common[number]
+        if 98000 <= number <= 98499:
+            return self.more.get(number)
+        found = self.registry.find(number)
+        if found is None:
+            raise self.fail("variable_number")
+        if found.read is None:
+            raise self.fail("read_protected")
+        return found.read(self, number - found.first)
+
+    def write(self, number: int, value: float | None, text: str = "") -> None:
+        """Set a variable; `text` is the comment behind the statement (#3000, #3006)."""
+        if 1 <= number < LOCALS:
+            self.locals[number] = value
+        elif 100 <= number <= 199 or 500 <= number <= 999:
+            self.common[number] = value
+        elif 98000 <= number <= 98499:
+            self.more[number] = value
+        else:
+            found = self.registry.find(number)
+            if found is None and number != 0:
+                raise self.fail("variable_number")
+            if found is None or found.write is None:
+                raise self.fail("write_protected")
+            found.write(self, number - found.first, value, text)
+
+    def read_indirect(self, number: float) -> float | None:
+        """`#[expression]`: the index is rounded to a whole number."""
+        return self.read(self._index(number))
+
+    def write_indirect(self, number: float | None, value: float | None, text: str) -> None:
+        """Set `#[expression]`."""
+        self.write(self._index(number or 0.0), value, text)
+
+    def _index(self, number: float) -> int:
+        index = int(round_half_away(number))
+        if index < 0:
+            raise self.fail("variable_number")
+        return index
+
+    def read_named(self, name: str, index: float | None) -> float | None:
+        """`[#NAME]`, `[#_ABSIO[n]]`: names of SETVN, then system names."""
+        offset = 0 if index is None else self._index(index)
+        if name in self.names:
+            return self.read(self.names[name] + offset)
+        found = self.registry.names.get(name)
+        if found is None:
+            raise self.fail("variable_name")
+        number = found.first + max(offset - 1, 0)
+        if number > found.last:
+            raise self.fail("variable_number")
+        return self.read(number)
+
+    # ---- printing -----------------------------------------------------------------------------------------------
+
+    def print_open(self, opened: bool) -> None:  # noqa: FBT001 - POPEN and PCLOS are the two values
+        """POPEN, PCLOS."""
+        self.printing = opened
+
+    def print_line(self, parts: list[str | tuple[float | None, int, int]]) -> None:
+        """DPRNT: one line of text; vacant variables print nothing (6001#1: without leading blanks)."""
+        pads = not self.parameters.bit(6001, 1)
+        text = "".join(part if isinstance(part, str) else format_number(*part, pads=pads) for part in parts)
+        self.channel.event("print", text=text)
+
+    # ---- by name, for reports and test cases --------------------------------------------------------------------
+
+    def read_text(self, name: str) -> float | None:
+        """`#100` or `#DEPTH` as a user names it."""
+        body = name.lstrip("#")
+        return self.read(int(body)) if body.isdigit() else self.read_named(body, None)
+
+    def write_text(self, name: str, value: object) -> None:
+        """Set a variable as a user names it."""
+        number = None if value is None else float(str(value))
+        self.write(int(name.lstrip("#")), number)
+
+    def to_program_unit(self, millimetres: float) -> float:
+        """A length as the program sees it."""
+        return millimetres / INCH_MM if self.is_inch else millimetres
+
+    def from_program_unit(self, value: float | None) -> float:
+        """A length of the program in millimetres."""
+        return (value or 0.0) * (INCH_MM if self.is_inch else 1.0)
+
+
+def format_number(value: float | None, whole: int, decimals: int, *, pads: bool) -> str:
+    """A number as DPRNT sends it: rounded, a sign place and leading blanks where `pads`."""
+    if value is None:
+        return ""
+    rounded = round_half_away(abs(value) * 10**decimals) / 10**decimals
+    digits = f"{rounded:.{decimals}f}"
+    sign = "-" if value < 0 and rounded else ""
+    if not pads:
+        return sign + digits
+    return (sign or " ") + digits.rjust(whole + decimals + (1 if decimals else 0))
