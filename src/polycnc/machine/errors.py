@@ -1,0 +1,51 @@
+"""What is wrong with a machine or setup file, with the place, as a value that every language can show."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+from polycnc.messages import Catalogue
+
+
+@cache
+def catalogue() -> Catalogue:
+    """The texts of this folder."""
+    return Catalogue(Path(__file__).with_name("messages.toml"))
+
+
+class FileError(Exception):
+    """A mistake in a file that the user wrote.
+
+    Attributes:
+        path: The file as the user named it, or what stands for it (a case id); may be empty.
+        line: From 1; 0 when the whole file is meant.
+        column: From 1; 0 when the whole line is meant.
+        message_id: Id of the text in the folder's catalogue.
+        args_by_name: Values for the placeholders of the text.
+    """
+
+    def __init__(self, path: str, line: int, column: int, message_id: str, **args: object) -> None:
+        super().__init__(message_id)
+        self.path = path
+        self.line = line
+        self.column = column
+        self.message_id = message_id
+        self.args_by_name = args
+
+    def text(self, lang: str | None = None) -> str:
+        """`file:line:column: what is wrong`; parts that are not known are left out."""
+        place = ":".join(str(part) for part in (self.path, self.line, self.column) if part)
+        message = catalogue().text(self.message_id, lang, **self.args_by_name)
+        return f"{place}: {message}" if place else message
+
+    def __str__(self) -> str:
+        return self.text()
+
+
+class MachineFileError(FileError):
+    """A mistake in a machine file."""
+
+
+class SetupError(FileError):
+    """A mistake in a setup file, or in the `setup` of a case."""

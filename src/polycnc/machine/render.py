@@ -1,0 +1,202 @@
+"""A machine as a complete TOML file with a comment at every key: the starting point for one's own."""
+
+from __future__ import annotations
+
+from functools import cache
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from polycnc.machine.load import load_machine
+from polycnc.machine.model import Text
+from polycnc.messages import Catalogue
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+    from polycnc.machine.model import Axis, Channel, Joint, Machine, Magazine, MFunction, Solid, Spindle
+
+_SECONDS_PER_MINUTE = 60.0
+#: Comments of a table stand in one column, no further right than this.
+_COMMENT_COLUMN = 48
+_Keys = list[tuple[str, object]]
+
+
+@cache
+def fields() -> Catalogue:
+    """What each key of a machine file means; ids are `table.key`."""
+    return Catalogue(Path(__file__).with_name("fields.toml"))
+
+
+def builtin_toml(machine_id: str, lang: str | None = None) -> str:
+    """The complete file of a built-in machine, with comments in the language of the user.
+
+    Raises:
+        MachineFileError: There is no such machine.
+    """
+    return machine_toml(load_machine(machine_id), lang)
+
+
+def machine_toml(machine: Machine, lang: str | None = None) -> str:
+    """Any machine as the text of a machine file; reading it gives the same machine."""
+    return "\n".join(_lines(machine, lang))
+
+
+def _lines(machine: Machine, lang: str | None) -> Iterator[str]:
+    explained: set[str] = set()
+    yield from _comment("head", lang, machine=machine.id)
+    yield ""
+    for table, header, keys in _tables(machine):
+        if table in explained:
+            yield header
+            yield from (f"{key} = {_toml(value)}" for key, value in keys if value is not None)
+        else:
+            if header:
+                yield from _comment(table, lang)
+                yield header
+            yield from _explained(table, keys, lang)
+            explained.add(table)
+        yield ""
+
+
+def _comment(field: str, lang: str | None, **args: object) -> Iterator[str]:
+    return (f"# {line}" for line in fields().text(field, lang, **args).splitlines())
+
+
+def _explained(table: str, keys: _Keys, lang: str | None) -> Iterator[str]:
+    """The keys of a table with a comment each; a key without a value stands as a commented example."""
+    lines = []
+    for key, value in keys:
+        field = f"{table}.{key}" if table else key
+        example = f"# {key} = {fields().entry(field).get('example')}"
+        shown = example if value is None else f"{key} = {_toml(value)}"
+        lines.append((shown, fields().text(field, lang)))
+    width = min(max(len(shown) for shown, _ in lines), _COMMENT_COLUMN)
+    return (f"{shown:{width}}  # {comment}" for shown, comment in lines)
+
+
+def _tables(machine: Machine) -> Iterator[tuple[str, str, _Keys]]:
+    """Every table: its kind, its header and its keys in file units; None leaves a key out."""
+    top: _Keys = [("name", machine.name), ("description", _or_none(machine.description))]
+    yield "", "", [*top, ("interpolation_cycle_s", machine.interpolation_cycle_s)]
+    for channel in machine.channels:
+        yield "channel", f"[channel.{channel.number}]", _channel(channel)
+    for axis in machine.axes:
+        yield "axis", f"[axis.{axis.name}]", _axis(axis)
+    for spindle in machine.spindles:
+        yield "spindle", f"[spindle.{spindle.number}]", _spindle(spindle)
+    yield "magazine", "[magazine]", _magazine(machine.magazine)
+    for function in machine.m_functions.values():
+        yield "m_function", f"[m_function.{function.code}]", _m_function(function)
+    for joint in machine.joints:
+        yield "joint", "[[joint]]", _joint(joint)
+    for solid in machine.solids:
+        yield "solid", "[[solid]]", _solid(solid)
+
+
+def _channel(channel: Channel) -> _Keys:
+    return [
+        ("axes", channel.axes),
+        ("names", channel.names if channel.names != channel.axes else None),
+        ("geometry", channel.geometry),
+        ("virtual", channel.virtual or None),
+        ("spindles", channel.spindles),
+    ]
+
+
+def _axis(axis: Axis) -> _Keys:
+    return [
+        ("kind", "rotary" if axis.rotary else "linear"),
+        ("modulo", axis.modulo if axis.rotary else None),
+        ("diameter", axis.diameter or None),
+        ("parallel_to", axis.parallel_to or None),
+        ("aliases", axis.aliases or None),
+        ("machine_name", axis.machine_name),
+        ("limit_minus", axis.limit_minus if isfinite(axis.limit_minus) else None),
+        ("limit_plus", axis.limit_plus if isfinite(axis.limit_plus) else None),
+        ("rapid", axis.rapid * _SECONDS_PER_MINUTE),
+        ("max_feed", axis.max_feed * _SECONDS_PER_MINUTE),
+        ("acceleration", axis.acceleration),
+        ("jerk", axis.jerk),
+        ("reference_points", axis.reference_points),
+        ("in_position_fine", axis.in_position_fine),
+        ("in_position_coarse", axis.in_position_coarse),
+    ]
+
+
+def _spindle(spindle: Spindle) -> _Keys:
+    gears = [{"min_rpm": gear.min_rpm, "max_rpm": gear.max_rpm} for gear in spindle.gears]
+    return [
+        ("name", spindle.name),
+        ("min_rpm", spindle.min_rpm),
+        ("max_rpm", spindle.max_rpm),
+        ("acceleration", spindle.acceleration_rpm_s),
+        ("orient_s", spindle.orient_s),
+        ("carries", spindle.carries),
+        ("axis", spindle.axis or None),
+        ("gears", gears or None),
+    ]
+
+
+def _magazine(magazine: Magazine) -> _Keys:
+    return [
+        ("kind", magazine.kind),
+        ("places", magazine.places),
+        ("change_time_s", magazine.change_time_s),
+        ("change_at", magazine.change_at or None),
+    ]
+
+
+def _m_function(function: MFunction) -> _Keys:
+    return [("name", function.name), ("seconds", function.seconds), ("timing", function.timing)]
+
+
+def _joint(joint: Joint) -> _Keys:
+    place: _Keys = [("direction", joint.direction), ("offset", joint.offset)]
+    return [("axis", joint.axis), ("carries", joint.carries), *place]
+
+
+def _solid(solid: Solid) -> _Keys:
+    return [
+        ("name", solid.name),
+        ("role", solid.role),
+        ("shape", solid.shape),
+        ("position", solid.position),
+        ("size", solid.size[:2] if solid.shape == "cylinder" else solid.size),
+        ("direction", solid.direction if solid.shape == "cylinder" else None),
+        ("moves_with", solid.moves_with),
+    ]
+
+
+def _or_none(text: Text) -> Text | None:
+    return text if text.en else None
+
+
+def _toml(value: object) -> str:
+    """A value as TOML writes it."""
+    if isinstance(value, Text):
+        return _toml({"en": value.en, "zh-TW": value.zh_tw}) if value.zh_tw else _toml(value.en)
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float):
+        return repr(value).removesuffix(".0") if abs(value) < 1e15 else repr(value)
+    if isinstance(value, str):
+        return _quoted(value)
+    if isinstance(value, dict):
+        return _table(value)
+    if isinstance(value, tuple | list):
+        return _list(value)
+    return str(value)
+
+
+def _quoted(text: str) -> str:
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return '"' + "".join(c if c.isprintable() else f"\\u{ord(c):04X}" for c in escaped) + '"'
+
+
+def _table(values: Mapping[str, object]) -> str:
+    return "{ " + ", ".join(f"{key} = {_toml(value)}" for key, value in values.items()) + " }"
+
+
+def _list(values: Iterable[object]) -> str:
+    return "[" + ", ".join(map(_toml, values)) + "]"

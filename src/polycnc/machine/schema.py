@@ -1,0 +1,225 @@
+"""What may stand in a machine file: names, types and ranges of keys, in the units of the file.
+
+Every key is optional here, because a file may build on a `base`; what must be there in the end, and what must
+fit together, is checked on the whole machine in `check`. Only files of the user come here: importing pydantic
+takes longer than a short program runs, and the shipped files are held to this schema by a test.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, ValidationError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from polycnc.machine.places import Key
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
+
+
+class TextTable(_Table):
+    """A text in one or two languages."""
+
+    en: str
+    zh_tw: str | None = Field(default=None, alias="zh-TW")
+
+
+def _one_language(value: object) -> object:
+    return {"en": value} if isinstance(value, str) else value
+
+
+TextKey = Annotated[TextTable, BeforeValidator(_one_language)]
+Number = Annotated[str, StringConstraints(pattern=r"^[0-9]+$")]
+Name = Annotated[str, StringConstraints(pattern=r"^[A-Z_][A-Z0-9_]*$")]
+Positive = Annotated[float, Field(gt=0)]
+NotNegative = Annotated[float, Field(ge=0)]
+Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
+ReferenceNumber = Annotated[int, Field(ge=1, le=4)]
+
+
+class Dynamics(_Table):
+    """Speeds and accelerations of an axis, or the defaults of a kind."""
+
+    rapid: Positive | None = None
+    max_feed: Positive | None = None
+    acceleration: Positive | None = None
+    jerk: Positive | None = None
+    in_position_fine: Positive | None = None
+    in_position_coarse: Positive | None = None
+
+
+class Defaults(_Table):
+    """`[defaults]`."""
+
+    linear: Dynamics | None = None
+    rotary: Dynamics | None = None
+
+
+class AxisTable(Dynamics):
+    """`[axis.NAME]`."""
+
+    kind: Literal["linear", "rotary"] | None = None
+    modulo: bool | None = None
+    diameter: bool | None = None
+    parallel_to: Name | None = None
+    aliases: list[Name] | None = None
+    machine_name: Name | None = None
+    limit_minus: float | None = None
+    limit_plus: float | None = None
+    reference_points: Annotated[list[float], Field(min_length=1, max_length=4)] | None = None
+
+
+class ChannelTable(_Table):
+    """`[channel.NUMBER]`."""
+
+    axes: Annotated[list[Name], Field(min_length=1)] | None = None
+    names: list[Name] | None = None
+    geometry: dict[Literal["X", "Y", "Z"], Name] | None = None
+    virtual: list[Literal["X", "Y", "Z"]] | None = None
+    spindles: list[int] | None = None
+
+
+class GearTable(_Table):
+    """One entry of `gears`."""
+
+    min_rpm: NotNegative
+    max_rpm: Positive
+
+
+class SpindleTable(_Table):
+    """`[spindle.NUMBER]`."""
+
+    name: Name | None = None
+    min_rpm: NotNegative | None = None
+    max_rpm: Positive | None = None
+    acceleration: Positive | None = None
+    orient_s: NotNegative | None = None
+    carries: Literal["tool", "work"] | None = None
+    axis: Name | None = None
+    gears: list[GearTable] | None = None
+
+
+class MagazineTable(_Table):
+    """`[magazine]`."""
+
+    kind: Literal["magazine", "turret"] | None = None
+    places: Annotated[int, Field(ge=1)] | None = None
+    change_time_s: NotNegative | None = None
+    change_at: dict[Name, Annotated[list[ReferenceNumber], Field(min_length=1)]] | None = None
+
+
+class MFunctionTable(_Table):
+    """`[m_function.CODE]`."""
+
+    name: TextKey | None = None
+    seconds: NotNegative | None = None
+    timing: Literal["before", "with", "after"] | None = None
+
+
+class JointTable(_Table):
+    """`[[joint]]`."""
+
+    axis: Name
+    carries: Literal["tool", "work"]
+    direction: Vector
+    offset: Vector | None = None
+
+
+class SolidTable(_Table):
+    """`[[solid]]`."""
+
+    name: TextKey
+    role: Literal["table", "chuck", "tailstock", "fixture", "head", "guard"]
+    shape: Literal["box", "cylinder"]
+    position: Vector
+    size: Annotated[list[NotNegative], Field(min_length=2, max_length=3)]
+    direction: Vector | None = None
+    moves_with: str
+
+
+class MachineTable(_Table):
+    """A whole file."""
+
+    base: str | None = None
+    name: TextKey | None = None
+    description: TextKey | None = None
+    interpolation_cycle_s: Positive | None = None
+    defaults: Defaults | None = None
+    channel: dict[Number, ChannelTable] | None = None
+    axis: dict[Name, AxisTable] | None = None
+    spindle: dict[Number, SpindleTable] | None = None
+    magazine: MagazineTable | None = None
+    m_function: dict[Number, MFunctionTable] | None = None
+    joint: list[JointTable] | None = None
+    solid: list[SolidTable] | None = None
+
+
+#: Message of each kind of mistake, by the start of the name that pydantic gives it; the first fit counts.
+_MESSAGES = (
+    ("extra_forbidden", "unknown-key"),
+    ("missing", "missing-key"),
+    ("literal_error", "not-one-of"),
+    ("float", "needs-number"),
+    ("finite", "needs-number"),
+    ("int", "needs-whole-number"),
+    ("bool", "needs-true-or-false"),
+    ("string_pattern", "bad-name"),
+    ("string", "needs-text"),
+    ("list", "needs-list"),
+    ("too_", "wrong-length"),
+    ("dict", "needs-table"),
+    ("model", "needs-table"),
+    ("greater", "out-of-range"),
+    ("less", "out-of-range"),
+)
+#: Longest piece of a wrong value that a message repeats.
+_SHOWN = 40
+Mistake = tuple[tuple["Key", ...], str, dict[str, object]]
+
+
+def mistakes(data: dict[str, Any]) -> Iterator[Mistake]:
+    """What is wrong with the keys of one file: key path, message id and arguments."""
+    try:
+        MachineTable.model_validate(data)
+    except ValidationError as error:
+        for found in error.errors(include_url=False):
+            path = tuple(part for part in found["loc"] if part != "[key]")
+            kind = found["type"]
+            message = next((text for start, text in _MESSAGES if kind.startswith(start)), "bad-value")
+            near = _nearest(str(path[-1])) if message == "unknown-key" else ""
+            about = {"key": ".".join(map(str, path)), "value": _short(found.get("input")), "near": near}
+            yield (
+                path,
+                "near-key" if near else message,
+                {"detail": found["msg"], **found.get("ctx", {}), **about},
+            )
+
+
+def field_names() -> dict[str, set[str]]:
+    """All keys by the table that they stand in (`axis`, `spindle` …; empty for the top level)."""
+    tables: dict[str, type[BaseModel]] = {
+        "": MachineTable,
+        "axis": AxisTable,
+        "channel": ChannelTable,
+        "spindle": SpindleTable,
+        "magazine": MagazineTable,
+        "m_function": MFunctionTable,
+        "joint": JointTable,
+        "solid": SolidTable,
+    }
+    return {name: set(table.model_fields) for name, table in tables.items()}
+
+
+def _short(value: object) -> str:
+    text = value if isinstance(value, str) else repr(value)
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}…"
+
+
+def _nearest(key: str) -> str:
+    from difflib import get_close_matches
+
+    return next(iter(get_close_matches(key, sorted(set().union(*field_names().values())), 1, 0.7)), "")
