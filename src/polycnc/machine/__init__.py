@@ -17,6 +17,7 @@ from polycnc.machine.setup import (
     Switches,
     Tool,
 )
+from polycnc.machine.setup_file import load_setup, parse_setup
 
 __all__ = [
     "Axis",
@@ -40,4 +41,6 @@ __all__ = [
     "Tool",
     "builtin_ids",
     "load_machine",
+    "load_setup",
+    "parse_setup",
 ]

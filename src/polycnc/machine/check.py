@@ -19,7 +19,7 @@ def gaps(data: Mapping[str, Any]) -> Iterator[Mistake]:
     channels = data.get("channel", {})
     for number, channel in channels.items():
         if "axes" not in channel:
-            yield ("channel", number), "missing-key", {"key": f"channel.{number}.axes"}
+            yield ("channel", number), "missing-key", {"where": f"channel.{number}.axes"}
     names = {name for channel in channels.values() for name in channel.get("axes", ())}
     if not names:
         yield ("channel",), "no-axes", {}
@@ -80,7 +80,7 @@ def _axes(machine: Machine) -> Iterator[Mistake]:
         if axis.parallel_to and axis.parallel_to not in machine.axis:
             yield (*path, "parallel_to"), "unknown-axis", {"axis": axis.parallel_to}
         for point in axis.reference_points:
-            if axis.overtravel(point):
+            if axis.limit_minus < axis.limit_plus and axis.overtravel(point):
                 yield (
                     (*path, "reference_points"),
                     "reference-beyond-limit",

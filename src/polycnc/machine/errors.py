@@ -4,14 +4,25 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from polycnc.messages import Catalogue
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 
 @cache
 def catalogue() -> Catalogue:
     """The texts of this folder."""
     return Catalogue(Path(__file__).with_name("messages.toml"))
+
+
+def nearest(key: str, known: Iterable[str]) -> str:
+    """The known key that a mistyped one was probably meant to be, or an empty text."""
+    from difflib import get_close_matches
+
+    return next(iter(get_close_matches(key, sorted(known), 1, 0.7)), "")
 
 
 class FileError(Exception):

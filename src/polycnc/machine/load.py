@@ -47,6 +47,8 @@ _DYNAMICS = {
     "linear": {"rapid": 24000, "max_feed": 15000, "acceleration": 3000, "jerk": 50000},
     "rotary": {"rapid": 7200, "max_feed": 7200, "acceleration": 400, "jerk": 8000},
 }
+#: How many reference points an axis has; those that its table does not tell lie on the last that it tells.
+_REFERENCE_POINTS = 4
 _IN_POSITION = {"in_position_fine": 0.01, "in_position_coarse": 0.04}
 _UNIT = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 _ORIGIN = (0.0, 0.0, 0.0)
@@ -193,6 +195,7 @@ def _axis(name: str, table: Mapping[str, Any], defaults: Mapping[str, Any], name
     kind = table.get("kind") or ("rotary" if name[0] in _ROTARY_LETTERS else "linear")
     values = {**_IN_POSITION, **_DYNAMICS[kind], **defaults.get(kind, {}), **table}
     points = [float(point) for point in table.get("reference_points", (0.0,))]
+    points += points[-1:] * (_REFERENCE_POINTS - len(points))
     parallel = _PARALLEL.get(name, "") if kind == "linear" else ""
     return Axis(
         name=name,
@@ -208,7 +211,7 @@ def _axis(name: str, table: Mapping[str, Any], defaults: Mapping[str, Any], name
         max_feed=values["max_feed"] / _PER_MINUTE,
         acceleration=float(values["acceleration"]),
         jerk=float(values["jerk"]),
-        reference_points=cast("tuple[float, float, float, float]", (*points, 0.0, 0.0, 0.0)[:4]),
+        reference_points=cast("tuple[float, float, float, float]", tuple(points)),
         in_position_fine=float(values["in_position_fine"]),
         in_position_coarse=float(values["in_position_coarse"]),
     )

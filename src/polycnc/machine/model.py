@@ -231,6 +231,26 @@ class Machine:
         """The rotary joints, head before table, each chain from the base outwards."""
         return tuple(joint for joint in self.tool_chain + self.work_chain if joint.rotary)
 
+    def channel(self, number: int) -> Channel:
+        """A channel by its number; raises `KeyError` where there is none."""
+        for channel in self.channels:
+            if channel.number == number:
+                return channel
+        raise KeyError(number)
+
+    def channel_axes(self, number: int) -> tuple[str, ...]:
+        """What programs of a channel call its axes, in order."""
+        return self.channel(number).names
+
+    def geometry_indices(self, number: int) -> tuple[int, int, int]:
+        """Where X, Y and Z of the Cartesian system stand among the axes of a channel; -1 for none."""
+        channel = self.channel(number)
+        x, y, z = (
+            channel.axes.index(channel.geometry[letter]) if letter in channel.geometry else -1
+            for letter in "XYZ"
+        )
+        return x, y, z
+
     def owner(self, axis: str) -> int:
         """Number of the channel that owns an axis at power-on."""
         return next(channel.number for channel in self.channels if axis in channel.axes)

@@ -74,6 +74,8 @@ def _toml_keys(text: str) -> Iterator[Found]:
         if header and not _looks_like_key(line):
             table = _resolved(_parts(header[2])[0], counts)
             if header[1] == "[[":
+                if table not in counts:
+                    yield table, (number, header.start(2) + 1)
                 counts[table] = counts.get(table, -1) + 1
                 table = (*table, str(counts[table]))
             yield table, (number, header.start(2) + 1)

@@ -7,12 +7,17 @@ takes longer than a short program runs, and the shipped files are held to this s
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, ValidationError
 
+from polycnc.machine.errors import nearest
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    from pydantic_core import ErrorDetails
 
     from polycnc.machine.places import Key
 
@@ -176,6 +181,7 @@ _MESSAGES = (
     ("greater", "out-of-range"),
     ("less", "out-of-range"),
 )
+_LIMITS = {"gt": ">", "ge": "≥", "lt": "<", "le": "≤", "min_length": "≥", "max_length": "≤"}
 #: Longest piece of a wrong value that a message repeats.
 _SHOWN = 40
 Mistake = tuple[tuple["Key", ...], str, dict[str, object]]
@@ -187,16 +193,24 @@ def mistakes(data: dict[str, Any]) -> Iterator[Mistake]:
         MachineTable.model_validate(data)
     except ValidationError as error:
         for found in error.errors(include_url=False):
-            path = tuple(part for part in found["loc"] if part != "[key]")
-            kind = found["type"]
-            message = next((text for start, text in _MESSAGES if kind.startswith(start)), "bad-value")
-            near = _nearest(str(path[-1])) if message == "unknown-key" else ""
-            about = {"key": ".".join(map(str, path)), "value": _short(found.get("input")), "near": near}
-            yield (
-                path,
-                "near-key" if near else message,
-                {"detail": found["msg"], **found.get("ctx", {}), **about},
-            )
+            yield _mistake(found)
+
+
+def _mistake(found: ErrorDetails) -> Mistake:
+    path = tuple(part for part in found["loc"] if part != "[key]")
+    kind = found["type"]
+    message = next((text for start, text in _MESSAGES if kind.startswith(start)), "bad-value")
+    about: dict[str, object] = {"where": ".".join(map(str, path)), "value": _short(found["input"])}
+    limits = found.get("ctx", {})
+    if message == "unknown-key":
+        about["near"] = nearest(str(path[-1]), set().union(*field_names().values()))
+        message = "near-key" if about["near"] else message
+    elif message == "not-one-of":
+        about["expected"] = ", ".join(re.findall(r"'([^']*)'", limits["expected"]))
+    else:
+        signs = [f"{sign} {limits[name]}" for name, sign in _LIMITS.items() if name in limits]
+        about["detail"] = ", ".join(signs) or found["msg"]
+    return path, message, about
 
 
 def field_names() -> dict[str, set[str]]:
@@ -217,9 +231,3 @@ def field_names() -> dict[str, set[str]]:
 def _short(value: object) -> str:
     text = value if isinstance(value, str) else repr(value)
     return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}…"
-
-
-def _nearest(key: str) -> str:
-    from difflib import get_close_matches
-
-    return next(iter(get_close_matches(key, sorted(set().union(*field_names().values())), 1, 0.7)), "")

@@ -175,7 +175,7 @@ class ProbeEdge:
 
 @dataclass(frozen=True, slots=True)
 class Interrupt:
-    """Interrupt input `input` comes at a work position while a line runs (of `program`, if not the main one)."""
+    """Interrupt input `input` comes at a work position while a line of `program` (else the main one) runs."""
 
     input: int
     line: int
@@ -214,6 +214,17 @@ class Switches:
     plc: Mapping[str, Value] = field(default_factory=dict)
     thread_chamfer: bool | None = None
     signals: Mapping[str, Value] = field(default_factory=dict)
+
+    @property
+    def block_skip_levels(self) -> int:
+        """The levels as a bit mask for controls on which plain `/` is level 1: bit n is level n."""
+        return self.block_skip_mask(plain=1)
+
+    def block_skip_mask(self, plain: int) -> int:
+        """The levels as a bit mask: bit n is level n as the control writes it, plain `/` is level `plain`."""
+        if isinstance(self.block_skip, bool):
+            return 1 << plain if self.block_skip else 0
+        return sum(1 << level for level in set(self.block_skip))
 
 
 @dataclass(frozen=True, slots=True)

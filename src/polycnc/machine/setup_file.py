@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from difflib import get_close_matches
 from functools import partial
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
-from polycnc.machine.errors import SetupError
+from polycnc.machine.errors import SetupError, nearest
 from polycnc.machine.places import Key, toml_error_place, toml_place, yaml_place
 from polycnc.machine.setup import (
     Interrupt,
@@ -31,6 +30,7 @@ T = TypeVar("T")
 K = TypeVar("K")
 Where = tuple[Key, ...]
 Reader = Callable[[Where, Any], Any]
+_LAST_SKIP_LEVEL = 9
 
 
 class _BadValueError(Exception):
@@ -40,7 +40,7 @@ class _BadValueError(Exception):
         super().__init__(message)
         self.where = where
         self.message = message
-        self.args_by_name = {"key": ".".join(map(str, where)), **args}
+        self.args_by_name = {"where": ".".join(map(str, where)), **args}
 
 
 def parse_setup(data: object, *, source: str = "") -> Setup:
@@ -183,8 +183,8 @@ def _record(readers: Mapping[str, Reader], where: Where, value: object) -> dict[
     for key, element in _items(where, value):
         read = readers.get(str(key))
         if read is None:
-            near = get_close_matches(str(key), readers, 1, 0.7)
-            raise _BadValueError((*where, key), "near-key" if near else "unknown-key", near="".join(near))
+            near = nearest(str(key), readers)
+            raise _BadValueError((*where, key), "near-key" if near else "unknown-key", near=near)
         record[str(key)] = read((*where, key), element)
     return record
 
@@ -271,8 +271,15 @@ def _single_block(where: Where, value: object) -> str:
     return str(_one_of("SBL1", "SBL2", "SBL3")(where, value))
 
 
+def _skip_level(where: Where, value: object) -> int:
+    level = _whole(where, value)
+    if not 0 <= level <= _LAST_SKIP_LEVEL:
+        _bad(where, "out-of-range", value, detail=f"0 … {_LAST_SKIP_LEVEL}")
+    return level
+
+
 def _block_skip(where: Where, value: object) -> bool | tuple[int, ...]:
-    return value if isinstance(value, bool) else _list_of(_whole, where, value)
+    return value if isinstance(value, bool) else _list_of(_skip_level, where, value)
 
 
 def _mode(where: Where, value: object) -> str:
