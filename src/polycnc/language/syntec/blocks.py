@@ -1,0 +1,159 @@
+"""Blocks of words of the SYNTEC language, in the form of the word-address blocks.
+
+A word takes a number, a variable, a function or an expression, in brackets or bare (`X30./2.`, `G#32`).
+What such a value is when the block runs decides how the word counts as written: a Long as without a
+decimal point, a Double as with one; a VACANT word counts as not written. See `language.word_address.words`.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from polycnc.language.syntec.expressions import ARITHMETIC_RANK, BINARY, Reader, evaluator
+from polycnc.language.syntec.tokens import Token, fault
+from polycnc.language.syntec.values import VACANT, Text, storable
+from polycnc.language.word_address.words import WordBlock, code_key, word_key
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.language.syntec.expressions import Evaluate
+
+    Step = Callable[[Channel], None]
+
+WRONG_SUFFIX = "COR-034"
+#: Letters that may follow a comma: chamfer, rounding, angle.
+SUFFIXES = "CRA"
+MAX_DIGITS = 18
+#: How a word counts as written when its value is of a type; see `language.word_address.words`.
+FORMS: dict[type, str] = {int: "", float: ".", Text: '"'}
+
+
+class TypedBlock:
+    """A block with at least one word whose value is known only when it runs.
+
+    Args:
+        keys: Signature keys of fixed codes, else `G`, `M` or an address.
+        values: Gives one value for each word that is not a fixed code.
+    """
+
+    __slots__ = ("keys", "values")
+
+    def __init__(self, keys: Sequence[tuple[str, bool]], values: Evaluate) -> None:
+        self.keys = tuple(keys)
+        self.values = values
+
+    def __call__(self, channel: Channel) -> None:
+        """Run the block with the values of this moment."""
+        signature: list[str] = []
+        numbers: list[Any] = []
+        values = iter(self.values(channel))
+        for key, fixed in self.keys:
+            if fixed:
+                signature.append(key)
+                continue
+            value = next(values)
+            if value is VACANT:
+                continue
+            if key in ("G", "M"):
+                signature.append(code_of(key, value))
+            else:
+                signature.append(key + FORMS[type(value)])
+                numbers.append(storable(value))
+        WordBlock(tuple(signature), numbers)(channel)
+
+
+def code_of(letter: str, value: Any) -> str:
+    """The code that a value names: 43.4 behind `G` is `G43.4`."""
+    if isinstance(value, Text) or value < 0:
+        raise AlarmError("COR-023", address=letter)
+    return code_key(letter, f"{value:.6g}" if isinstance(value, float) else str(value))
+
+
+class BlockReader(Reader):
+    """A reader that knows words."""
+
+    def block(self) -> Step:
+        """The words up to the end of the block, which stays unread."""
+        keys: list[tuple[str, bool]] = []
+        sources: list[str] = []
+        literal_words: list[tuple[str, float]] = []
+        while not self.at_end() and not (keys and self.next.first and self.next.text != ","):
+            address = self.address()
+            literal = self._literal_word(address)
+            if literal is not None:
+                key, value = literal
+                keys.append((key if value is None else address, value is None))
+                if value is not None:
+                    literal_words.append((key, value))
+                    sources.append(self._literal(_typed(key, value)))
+                continue
+            keys.append((address, False))
+            sources.append(self.expression(ARITHMETIC_RANK))
+        literals = self.take_literals()
+        if len(literal_words) == len(sources):
+            numbers = iter(literal_words)
+            signature = tuple(key if fixed else next(numbers)[0] for key, fixed in keys)
+            return WordBlock(signature, [value for _, value in literal_words])
+        return TypedBlock(keys, evaluator(f"({''.join(source + ',' for source in sources)})", literals))
+
+    def at_end(self) -> bool:
+        """Whether nothing more of the statement comes."""
+        return self.next.kind == "end" or (self.next.kind == "symbol" and self.next.text == ";")
+
+    def address(self) -> str:
+        """The address of the next word: `X`, `X1` (with `=`), `,R`."""
+        token = self.take()
+        if token.kind == "symbol" and token.text == ",":
+            letter = self.take()
+            if letter.kind != "letter" or letter.text not in SUFFIXES:
+                raise fault(letter, WRONG_SUFFIX)
+            return "," + letter.text
+        if token.kind != "letter":
+            raise fault(token)
+        if self.next.kind == "number" and self.next.text.isdigit():
+            equals = self.tokens[self.at + 1]
+            if equals.kind == "symbol" and equals.text == "=":
+                index = self.take().text
+                self.take()
+                return token.text + index
+        elif self.next.kind == "symbol" and self.next.text == "=":
+            self.take()
+        return token.text
+
+    def _literal_word(self, address: str) -> tuple[str, float | None] | None:
+        """Key and value of a word with a plain number, None as value for a code; None for an expression."""
+        at = self.at
+        sign = ""
+        if self.next.kind == "symbol" and self.next.text in ("-", "+"):
+            sign = self.take().text
+        token = self.next
+        following = self.tokens[self.at + 1] if token.kind == "number" else token
+        if token.kind != "number" or token.text[:2] in ("0x", "0X") or self._goes_on(following):
+            self.at = at
+            return None
+        self.take()
+        if len(token.text) > MAX_DIGITS:
+            raise fault(token)
+        if address in ("G", "M") and not sign:
+            return code_key(address, token.text), None
+        if address in ("G", "M"):
+            raise fault(token)
+        return _word_key(address, token.text), float(sign + token.text)
+
+    def _goes_on(self, token: Token) -> bool:
+        """Whether an operator makes a number part of an expression."""
+        if token.kind not in ("symbol", "name") or (token.first and token.text == "/"):
+            return False
+        return token.text in BINARY and BINARY[token.text][0] <= ARITHMETIC_RANK
+
+
+def _word_key(address: str, number: str) -> str:
+    return address + word_key("", number)
+
+
+def _typed(key: str, value: float) -> int | float:
+    """A literal among expressions: a Long where it has no decimal point."""
+    return value if key[-1] in ".:;" or (value == 0.0 and str(value)[0] == "-") else int(value)

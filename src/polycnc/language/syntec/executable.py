@@ -1,0 +1,145 @@
+"""SYNTEC programs made ready to run: macro files as a whole, ISO files line by line."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left
+from typing import TYPE_CHECKING
+
+from polycnc.language.syntec.layout import NO_SEQUENCE
+from polycnc.language.syntec.statements import StatementReader
+from polycnc.language.syntec.tokens import tokenize
+from polycnc.language.word_address.executable import Grammar, WordAddressProgram, empty_block
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.program import Program
+
+    Step = Callable[[Channel], None]
+
+NO_LINE = "COR-018"
+_BLANKS = str.maketrans("", "", " \t")
+_HEAD = re.compile(r"[ \t]*[O:][ \t]*\d+", re.IGNORECASE)
+
+
+class MacroProgram:
+    """The steps of a macro file (`%@MACRO`): blocks, assignments, tests and jumps.
+
+    Args:
+        program: The text.
+    """
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        tokens = tokenize(program.lines, macro=True, first_line=program.first_line)
+        self._layout = StatementReader(tokens).read()
+
+    @property
+    def mistakes(self) -> Sequence[AlarmError]:
+        """The alarms of everything that cannot be read, in the order of the text."""
+        return self._layout.mistakes
+
+    @property
+    def unclosed(self) -> Sequence[int]:
+        """Lines of statements without their semicolon."""
+        return self._layout.unclosed
+
+    def step(self, index: int) -> Step | None:
+        """A step; None behind the last one."""
+        steps = self._layout.steps
+        return steps[index] if index < len(steps) else None
+
+    def line(self, index: int) -> int:
+        """The line of the file at which a step's statement begins."""
+        lines = self._layout.lines
+        if not lines:
+            return self.program.first_line
+        return lines[min(index, len(lines) - 1)]
+
+    def column(self, index: int, address: str) -> int:
+        """Column, from 1, of an address or a code in the line of a step; 0 when it is not there."""
+        text = self.program.lines[self.line(index) - self.program.first_line].upper()
+        return text.find(address) + 1 if address else 0
+
+    def find_sequence(self, number: int, _index: int = 0) -> int:
+        """The step of `N number`, the first of equal ones in the file."""
+        step = self._layout.sequences.get(number)
+        if step is None:
+            raise AlarmError(NO_SEQUENCE, number=number)
+        return step
+
+    def find_line(self, line: int) -> int:
+        """The first step of a line, or of the next line that has one."""
+        return _in_file(self.program, line, bisect_left(self._layout.lines, line))
+
+
+class IsoProgram(WordAddressProgram):
+    """The steps of an ISO file: words, and the assignments that the control accepts there."""
+
+    def compile(self, line: str, index: int) -> Step:
+        """The step of one line. Blanks between words mean nothing."""
+        return super().compile(line.translate(_BLANKS) if "/" not in line else line, index)
+
+    def blank_comments(self, line: str) -> str:
+        """The line in upper case with its comments turned into blanks of the same length."""
+        line = super().blank_comments(line)
+        start = line.find("//")
+        return line if start < 0 else line[:start].ljust(len(line))
+
+    def _general(self, _line: str, index: int) -> Step:
+        line = self.lines[index]
+        head = _HEAD.match(line)
+        if head:
+            line = " " * head.end() + line[head.end() :]
+        tokens = tokenize([line], macro=False, first_line=self.line(index))
+        steps = StatementReader(tokens, macro=False).read().steps
+        if len(steps) <= 1:
+            return steps[0] if steps else empty_block
+        return _several(steps)
+
+    def find_sequence(self, number: int, _index: int = 0, mistake: str = "no_sequence") -> int:
+        """The step of `N number`, the first of equal ones in the file."""
+        return super().find_sequence(number, -1, mistake)
+
+    def find_line(self, line: int) -> int:
+        """The step of a line."""
+        return _in_file(self.program, line, line - self.program.first_line)
+
+
+#: Mistakes in ISO blocks that the shared lexer can find by itself.
+GRAMMAR = Grammar(
+    alarms={
+        "no_sequence": NO_SEQUENCE,
+        "block_too_long": "COM-005",
+        "too_many_digits": "COM-003",
+        "minus": "COM-003",
+    },
+    max_digits=18,
+)
+
+
+def executable(program: Program, *, macro: bool) -> MacroProgram | IsoProgram:
+    """A program ready to run."""
+    return MacroProgram(program) if macro else IsoProgram(program, GRAMMAR)
+
+
+def _in_file(program: Program, line: int, index: int) -> int:
+    if not 0 < line < program.first_line + len(program.lines) or index < 0:
+        raise AlarmError(NO_LINE, number=line)
+    return index
+
+
+def _several(steps: Sequence[Step]) -> Step:
+    """The blocks of one line, one after the other, up to one that leaves the line."""
+
+    def run(channel: Channel) -> None:
+        level, index = channel.level, channel.level.index
+        for step in steps:
+            step(channel)
+            if channel.level is not level or level.index != index or channel.finished:
+                return
+
+    return run
