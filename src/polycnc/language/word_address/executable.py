@@ -7,7 +7,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.language.word_address.macro_b import Evaluate, Reader
+from polycnc.language.word_address.macro_b import Reader
 from polycnc.language.word_address.statements import KEYWORD, parse_statement
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock, code_key, is_fixed_code, word_key
 from polycnc.messages import AlarmError
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.language.word_address.macro_b import Evaluate
     from polycnc.program import Program
 
     Step = Callable[[Channel], None]
