@@ -23,8 +23,8 @@ def center_from_radius(start: Point, end: Point, radius: float, ccw: bool, toler
     """Centre of the arc of a given radius through two points.
 
     The centre lies on the chord's perpendicular bisector, `h = sqrt(r² - (chord/2)²)` from its middle: to the
-    left of the chord for a counter-clockwise arc of up to 180 degrees, to the right for the long way round, and
-    the other way about for a clockwise arc.
+    left of the chord for a counter-clockwise arc of up to 180 degrees, to the right for the long way round,
+    and the other way about for a clockwise arc.
 
     Args:
         start: Start point, mm.

@@ -1,0 +1,88 @@
+"""How each control compensates: differences as data, the engine knows no control.
+
+`N` stands for the number of blocks that a control reads before it executes the first of them. FANUC 0i-TF
+Plus 5.4.3 and 5.4.6 state what follows from it: the intersection at a block's end is possible while at most
+N - 2 blocks without motion lie between, the interference check while at most N - 3 do. The engine gets both
+from one rule: *a block is executed as soon as it and N - 1 more blocks have been read*.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import Enum
+
+from polycnc.geometry.offset import Joint, Outer
+
+
+class Approach(Enum):
+    """Where start-up ends and cancel begins at an outer corner; at inner corners all are square."""
+
+    #: Square on the contour (FANUC type A, SINUMERIK NORM).
+    SQUARE = "square"
+    #: As if the start-up block itself were compensated (FANUC type B).
+    CORNER = "corner"
+    #: As `CORNER`, for the line that touches the tool circle about the corner (SINUMERIK KONT).
+    TANGENT = "tangent"
+
+
+class Violation(Enum):
+    """What can be wrong with compensation. A control maps those that it checks to its alarm codes."""
+
+    ARC_START = "arc in the start-up block"
+    ARC_CANCEL = "arc in the cancel block"
+    INNER_RADIUS_TOO_SMALL = "tool radius larger than the radius of an inner arc, or an arc without radius"
+    NO_INTERSECTION = "the offset paths of two blocks do not meet"
+    INTERFERENCE = "the compensated path runs against the programmed one"
+    NO_AVOIDANCE = "no path leads round the interference"
+    AVOIDANCE_DANGEROUS = "the path round the interference would cut the workpiece"
+    AVOIDANCE_INTERFERES = "the path round the interference interferes again"
+
+
+@dataclass(frozen=True, slots=True)
+class Policy:
+    """The behaviour of one control, or of one setting of it.
+
+    Attributes:
+        approach: Start-up and cancel with motion.
+        shifts_without_motion: A start-up or cancel block without motion shifts the tool by the radius (C).
+        blind_start_is_square: A start-up block whose next plane motion lies beyond the look-ahead ends
+            square on itself; otherwise it gets no offset and the next plane motion is the start-up.
+        outer: Outer corners.
+        least_move_mm: Corner motion up to this length is left out (FANUC 5010).
+        read_blocks: N, the blocks read until the first of them is executed, itself included.
+        recommand_is_square: G41 or G42 written again on the same side makes the block in front end square.
+        checks_direction: Interference is where a compensated path runs against the programmed (5008).
+        avoids: Interference is avoided by leaving moves out where possible; otherwise it is an alarm.
+    """
+
+    approach: Approach = Approach.SQUARE
+    shifts_without_motion: bool = False
+    blind_start_is_square: bool = True
+    outer: Outer = field(default_factory=Outer)
+    least_move_mm: float = 0.001
+    read_blocks: int = 3
+    recommand_is_square: bool = False
+    checks_direction: bool = True
+    avoids: bool = False
+
+
+#: FANUC 5003#0 SUP = 0, #1 SUV = 0 (0i-TF Plus 5.4.1), 19625 = 3.
+FANUC_A = Policy(recommand_is_square=True)
+#: SUP = 1.
+FANUC_B = Policy(approach=Approach.CORNER, recommand_is_square=True)
+#: SUV = 1, blocks with motion as type A or B.
+FANUC_C = Policy(shifts_without_motion=True, recommand_is_square=True)
+#: FANUC and MELDAS of a Hartford machining centre: two blocks are read ahead, and a start-up that does not
+#: see the next plane motion makes no offset (training manual 3.3.1 D).
+HARTFORD = Policy(recommand_is_square=True, blind_start_is_square=False)
+#: MELDAS with its own look-ahead of five blocks.
+MELDAS = Policy(read_blocks=5)
+#: SYNTEC 2.27; its figures of outer corners are those of the word-address family.
+SYNTEC = Policy()
+#: SINUMERIK: MD20250 = 5 blocks without motion are bridged; MD20210 = 100 degrees.
+SINUMERIK_NORM_G450 = Policy(outer=Outer(0.0, Joint.ARC), read_blocks=7, avoids=True)
+SINUMERIK_NORM_G451 = Policy(
+    outer=Outer(100.0, Joint.ARC, extend_as_circles=True), read_blocks=7, avoids=True
+)
+SINUMERIK_KONT_G450 = Policy(Approach.TANGENT, outer=SINUMERIK_NORM_G450.outer, read_blocks=7, avoids=True)
+SINUMERIK_KONT_G451 = Policy(Approach.TANGENT, outer=SINUMERIK_NORM_G451.outer, read_blocks=7, avoids=True)
