@@ -5,7 +5,7 @@ The order of detection, which `docs/programs.md` explains to users:
 1. a byte order mark (UTF-8, UTF-16);
 2. pure ASCII;
 3. valid UTF-8;
-4. the best score of Big5, GB18030, Shift-JIS and Latin-1, the earlier one if two are equal.
+4. the best score of damaged UTF-8, Big5, GB18030, Shift-JIS and Latin-1, the earlier one if two are equal.
 
 Scores look only at the runs of bytes that are not ASCII. In a part program these are comments and messages: a
 few characters of shop talk, written by hand. So a character counts most if it is one of the field (`tool`,
@@ -67,7 +67,7 @@ _BIG5 = _DoubleByte(
         "程式刀具加工粗精銑鑽孔外徑內軸主換座標補正償工件夾治面深度進給轉速攻牙倒角輪廓槽中心定位暫停開始結束檔名"
         "日期材料鋁鋼銅鐵模仁球圓鼻平端長半直號第一二三四五六七八九十上下左右前後高低大小時間分秒完成檢查注意測試"
         "機台床客戶產品圖作者版本修改安全原點回零切削液冷卻水關吹氣副呼叫循環迴圈距絞鏜搪絲預側光清不的有為到用"
-        "車尾座頭螺紋斷差餘量留寬厚毛胚胎料請先再次尺寸寸精修底壁邊，、。：（）"
+        "車尾座頭螺紋斷差餘量留寬厚毛胚胎料請先再次尺寸修底壁邊滑塊頂針電極，、。：（）"
     ),
 )
 _GB18030 = _DoubleByte(
@@ -78,7 +78,7 @@ _GB18030 = _DoubleByte(
         "程序刀具加工粗精铣钻孔外径内轴主换坐标补正偿工件夹治面深度进给转速攻丝牙倒角轮廓槽中心定位暂停开始结束文件名"
         "日期材料铝钢铜铁模仁球圆鼻平端长半直号第一二三四五六七八九十上下左右前后高低大小时间分秒完成检查注意测试"
         "机台床客户产品图作者版本修改安全原点回零切削液冷却水关吹气子调用循环圈距铰镗锪预侧光清不的有为到"
-        "车尾座头螺纹断差余量留宽厚毛坯料请先再次尺寸底壁边，、。：（）"
+        "车尾座头螺纹断差余量留宽厚毛坯料请先再次尺寸修底壁边滑块顶针电极，、。：（）"
     ),
 )
 _SHIFT_JIS = _DoubleByte(
@@ -91,6 +91,9 @@ _SHIFT_JIS = _DoubleByte(
         "のをはにとがでしてるすたれなあいうおかきくけこもよらりンドリルタップエミバイトスクッコアイセオラシフテネジー"
     ),
 )
+
+_NARROW_KANA = re.compile("[\uff61-\uff9f]+")
+_NARROW_WORDS = re.compile("ﾄﾞﾘﾙ|ﾀｯﾌﾟ|ﾐﾙ|ｾﾝﾀ|ﾒﾝ|ｼｱｹ|ｱﾗ|ﾈｼﾞ|ﾎﾞｰ|ｶｯﾀ|ﾘｰﾏ|ﾐｿﾞ|ﾅｲｹｲ|ｶﾞｲｹｲ|ﾊﾞｲﾄ|ｺｳｸﾞ|ﾜｰｸ|ｱﾅ")
 
 _LATIN = frozenset("ÀÁÂÄÅÆÇÈÉÊËÍÎÏÑÓÔÖØÙÚÛÜßàáâäåæçèéêëíîïñóôöøùúûü°±²³µ×")
 _LATIN_SIGNS = frozenset("¡£§©«®´·»¼½¾¿ÃÌÒÕÝãìòõýÿ")
@@ -147,7 +150,9 @@ def _sample(data: bytes) -> list[bytes]:
 
 
 def _best_codec(runs: list[bytes]) -> str:
-    scores = {codec.codec: _mean(_double_byte_scores(codec, runs)) for codec in (_BIG5, _GB18030, _SHIFT_JIS)}
+    scores = {"utf-8": _mean(_utf8_scores(runs))}
+    for encoding in (_BIG5, _GB18030, _SHIFT_JIS):
+        scores[encoding.codec] = _mean(_double_byte_scores(encoding, runs))
     scores["latin-1"] = _mean(_latin_scores(runs))
     return max(scores, key=lambda codec: scores[codec])
 
@@ -157,20 +162,29 @@ def _mean(scores: Iterator[float]) -> float:
     return sum(values) / len(values) if values else 0.0
 
 
+def _utf8_scores(runs: list[bytes]) -> Iterator[float]:
+    """Valid sequences hardly ever come about by chance: a file with few broken ones is UTF-8 all the same."""
+    for run in runs:
+        for char in run.decode("utf-8", "replace"):
+            if char >= "\x80":
+                yield _UNREADABLE if char == "\ufffd" else _OF_THE_FIELD
+
+
 def _double_byte_scores(encoding: _DoubleByte, runs: list[bytes]) -> Iterator[float]:
     for run in runs:
         text = run.decode(encoding.codec, "replace")
-        for index, char in enumerate(text):
-            if _is_narrow_kana(char):
-                # Narrow kana are written in words; alone, such a byte is a letter of another alphabet.
-                neighbours = text[max(index - 1, 0) : index] + text[index + 1 : index + 2]
-                yield _FREQUENT if any(map(_is_narrow_kana, neighbours)) else _RARE
-            elif char >= "\x80":
+        for word in _NARROW_KANA.findall(text):
+            yield from [_narrow_kana_score(word)] * len(word)
+        for char in _NARROW_KANA.sub("", text):
+            if char >= "\x80":
                 yield _score(char, encoding)
 
 
-def _is_narrow_kana(char: str) -> bool:
-    return "\uff61" <= char <= "\uff9f"
+def _narrow_kana_score(word: str) -> float:
+    """Narrow kana are written in words; alone, such a byte is a letter of another alphabet."""
+    if _NARROW_WORDS.search(word):
+        return _OF_THE_FIELD
+    return _FREQUENT if len(word) > 1 else _RARE
 
 
 def _score(char: str, encoding: _DoubleByte) -> float:

@@ -127,6 +127,10 @@ class Folder:
         """The file with this SINUMERIK name (`_N_SUB1_SPF` is `SUB1.SPF` on a PC)."""
         return self._by_stored_name.get(name)
 
+    def stored_names(self) -> list[str]:
+        """The SINUMERIK names of all files in it."""
+        return list(self._by_stored_name)
+
     def numbered(self, number: int, digits: int) -> Path | None:
         """The file whose name is this program number: `O0010` before `O10` before `0010`, then by suffix."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING
 
@@ -38,7 +38,7 @@ class Program:
     """
 
     name: str
-    lines: Sequence[str]
+    lines: Sequence[str] = field(repr=False)
     number: int | None = None
     path: str = ""
     directory: str = ""

@@ -313,6 +313,19 @@ class ProgramStore:
                 return self._by_name.setdefault(key, found)
         return None
 
+    def programs_in(self, directory: str) -> list[Program]:
+        """Every program of a SINUMERIK directory, sorted by name (definition files in `/_N_DEF_DIR`).
+
+        Raises:
+            ProgramFileError: A file of that directory cannot be read.
+        """
+        stored = {program.name for program in self._added if program.directory == directory}
+        stored.update(name for folder in self._host_folders(directory) for name in folder.stored_names())
+        if directory == names.DEF_DIR:
+            stored = {name for name in stored if name.endswith("_DEF")}
+        found = (self.find_in(directory, name) for name in sorted(stored))
+        return [program for program in found if program]
+
     def has_directory(self, directory: str) -> bool:
         """Whether a SINUMERIK directory exists (CALLPATH demands it)."""
         directory = names.stored_directory(directory)
@@ -360,7 +373,9 @@ class ProgramStore:
                 folder = self._folder(folder).folder(part) if folder else None
             if folder and path:
                 yield self._folder(folder)
-        if directory in (names.SPF_DIR, EXTERNAL):
+        if directory == names.DEF_DIR and self._beside:
+            yield self._folder(self._beside)
+        if directory in (names.SPF_DIR, names.DEF_DIR, EXTERNAL):
             yield from map(self._folder, self.search)
 
     def _roots(self) -> Iterator[Path]:
