@@ -1,1 +1,5 @@
-"""The command line."""
+"""The command line: one module for each command, imported when it is called."""
+
+from polycnc.cli.app import main
+
+__all__ = ["main"]

@@ -1,0 +1,5 @@
+"""`python -m polycnc`."""
+
+from polycnc.cli import main
+
+main()

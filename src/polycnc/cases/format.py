@@ -1,0 +1,144 @@
+"""The case format: what a file may say, checked when it is read."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from polycnc.messages import text
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+Number = float
+Match = Literal["exact", "subsequence"]
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+
+
+class ExpectedMove(_Strict):
+    """A move of the trace; what is not named is not compared."""
+
+    type: str | None = None
+    to: dict[str, Number] = Field(default_factory=dict)
+    machine: dict[str, Number] = Field(default_factory=dict)
+    center: dict[str, Number] = Field(default_factory=dict)
+    feed: Number | None = None
+    line: int | None = None
+    program: str | None = None
+    seconds: Number | None = None
+    revolutions: Number | None = None
+    turns: Number | None = None
+    lead: Number | None = None
+
+
+class ExpectedAlarm(_Strict):
+    """An alarm; `code: any` is whatever comes. `block` is its N word where it lies in a called file."""
+
+    code: str | int
+    line: int | None = None
+    column: int | None = None
+    program: str | None = None
+    block: str | int | None = None
+
+
+class ExpectedPosition(_Strict):
+    """Where the axes stand at the end, on the work and on the machine display."""
+
+    work: dict[str, Number] = Field(default_factory=dict)
+    machine: dict[str, Number] = Field(default_factory=dict)
+
+
+class ExpectedEvent(_Strict):
+    """An event; exactly one of the keys beside `spindle` says which."""
+
+    m: int | str | None = None
+    s: Number | None = None
+    t: int | str | None = None
+    h: Number | None = None
+    d: int | str | None = None
+    b: Number | None = None
+    spindle: int | None = None
+    message: str | Number | None = None
+    print: str | Number | None = None
+    stop: str | None = None
+
+
+class Expectation(_Strict):
+    """What a run must give. Absent keys are not compared, except `alarms`: without it none may come."""
+
+    moves: list[ExpectedMove] | None = None
+    moves_match: Match = "exact"
+    final: ExpectedPosition | None = None
+    variables: dict[str, Any] = Field(default_factory=dict)
+    alarms: list[ExpectedAlarm] = Field(default_factory=list)
+    events: list[ExpectedEvent] = Field(default_factory=list)
+    stops: list[str | int] | None = None
+    stops_match: Match = "exact"
+    no_stop: list[str | int] = Field(default_factory=list)
+    tolerance: Number = 0.001
+
+
+class Case(_Strict):
+    """One case: a program, what it starts from, and what must come of it."""
+
+    id: str
+    feature: str = ""
+    control: str
+    source: str = ""
+    note: str = ""
+    setup: dict[str, Any] = Field(default_factory=dict)
+    files: dict[str, str] = Field(default_factory=dict)
+    program: str
+    expect: Expectation = Field(default_factory=Expectation)
+
+
+class CaseError(Exception):
+    """A case that does not follow the format; `str()` names the key and what is wrong with it."""
+
+
+def case_id(data: object, number: int) -> str:
+    """The id of a case as it stands in the file, or its place there when it has none."""
+    if isinstance(data, dict) and data.get("id") not in (None, ""):
+        return str(data["id"])
+    return f"#{number}"
+
+
+def parse_case(data: object) -> Case:
+    """Check one case.
+
+    Raises:
+        CaseError: A key is unknown, missing, or holds what it cannot hold.
+    """
+    if not isinstance(data, dict):
+        raise CaseError(text("case.no-mapping"))
+    try:
+        return Case.model_validate(_without_empty(data))
+    except ValidationError as error:
+        raise CaseError("; ".join(_explain(e) for e in error.errors())) from None
+
+
+def _without_empty(data: dict[Any, Any]) -> dict[str, Any]:
+    """A section that is named but left empty (`setup:`) is the same as an absent one; ids may be numbers."""
+    cleaned = {str(key): value for key, value in data.items() if value is not None}
+    for key in ("id", "feature", "source", "note"):
+        if key in cleaned:
+            cleaned[key] = str(cleaned[key])
+    return cleaned
+
+
+def _explain(error: Any) -> str:
+    where = _dotted(error["loc"])
+    if error["type"] == "extra_forbidden":
+        return text("case.unknown-key", name=where)
+    if error["type"] == "missing":
+        return text("case.missing-key", name=where)
+    return text("case.wrong-value", name=where, reason=error["msg"], value=repr(error["input"])[:60])
+
+
+def _dotted(path: Sequence[str | int]) -> str:
+    parts = [f"[{part}]" if isinstance(part, int) else f".{part}" for part in path]
+    return "".join(parts).lstrip(".")

@@ -1,0 +1,127 @@
+"""Runs cases: prepares the run that a case describes, lets it run, compares."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+from polycnc.cases import compare
+from polycnc.cases.format import Case, CaseError, case_id, parse_case
+from polycnc.machine.errors import FileError
+from polycnc.messages import text
+from polycnc.program import ProgramFileError
+from polycnc.session import Result, SessionError, block_number, open_session
+from polycnc.toolpath.kinds import TYPE_NAMES, Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from polycnc.cases.selection import Selection
+    from polycnc.messages import Alarm
+
+Status = Literal["passed", "failed", "skipped"]
+#: A case that runs longer than this has got into a loop.
+CASE_BLOCK_LIMIT = 1_000_000
+_MOVES = frozenset(TYPE_NAMES) - {TYPE_NAMES[Kind.EVENT]}
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What became of a case. `readable` is false where the case itself does not follow the format."""
+
+    id: str
+    status: Status
+    message: str = ""
+    feature: str = ""
+    control: str = ""
+    readable: bool = True
+
+
+def run_cases(data: list[Any], selection: Selection, folder: Path) -> Iterator[Outcome]:
+    """Run the selected cases of a file, in order; `folder` is that of the file."""
+    for number, entry in enumerate(data, 1):
+        name = case_id(entry, number)
+        if not selection.names(name):
+            continue
+        try:
+            case = parse_case(entry)
+        except CaseError as error:
+            yield Outcome(name, "failed", str(error), readable=False)
+            continue
+        yield run_case(case, folder) if selection.features(case.feature) else _skipped(case)
+
+
+def _skipped(case: Case) -> Outcome:
+    return Outcome(
+        case.id, "skipped", text("case.feature-skipped", feature=case.feature), case.feature, case.control
+    )
+
+
+def run_case(case: Case, folder: Path) -> Outcome:
+    """Run one case."""
+    try:
+        differences = _differences(case, folder)
+    except (SessionError, FileError, ProgramFileError) as error:
+        return Outcome(case.id, "failed", str(error), case.feature, case.control, readable=False)
+    except Exception as error:  # noqa: BLE001 - a mistake of polycnc in one case must not end all others
+        where = _where(error)
+        message = text("case.internal", error=f"{type(error).__name__}: {error}", where=where)
+        return Outcome(case.id, "failed", message, case.feature, case.control)
+    status: Status = "failed" if differences else "passed"
+    return Outcome(case.id, status, "; ".join(differences), case.feature, case.control)
+
+
+def _where(error: BaseException) -> str:
+    trace = error.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    if trace is None:
+        return ""
+    return f"{trace.tb_frame.f_code.co_filename.rpartition('polycnc/')[2]}:{trace.tb_lineno}"
+
+
+def _differences(case: Case, folder: Path) -> list[str]:
+    session = open_session(
+        case.program,
+        control=case.control,
+        setup=case.setup,
+        files=case.files,
+        folder=folder,
+        block_limit=CASE_BLOCK_LIMIT,
+    )
+    result = session.run()
+    expect = case.expect
+    positions = compare.Positions(expect.tolerance, result.display.modulo_axes)
+    moves = [row for row in result.rows if row["type"] in _MOVES]
+    events = [row for row in result.rows if row["type"] not in _MOVES]
+    differences = compare.compare_alarms(
+        case.control,
+        expect.alarms,
+        result.alarms,
+        lambda alarm: _block(result, alarm),
+        lambda alarm: _shown(result, alarm),
+    )
+    if expect.moves is not None:
+        exact = expect.moves_match == "exact"
+        differences += compare.compare_moves(expect.moves, moves, positions, exact=exact)
+    if expect.final is not None:
+        final = result.final
+        differences += compare.compare_final(expect.final, final["work"], final["machine"], positions)
+    differences += compare.compare_variables(expect.variables, result.variables.__getitem__, expect.tolerance)
+    differences += compare.compare_events(expect.events, events, expect.tolerance)
+    exact = expect.stops_match == "exact"
+    return differences + compare.compare_stops(expect.stops, result.stops, expect.no_stop, exact=exact)
+
+
+def _block(result: Result, alarm: Alarm) -> str:
+    """The N word of the block in which an alarm arose."""
+    if alarm.block:
+        return alarm.block
+    program = result.program_of(alarm)
+    return block_number(program, alarm.line) if program is not None else ""
+
+
+def _shown(result: Result, alarm: Alarm) -> str:
+    place = f"{alarm.program}:{alarm.line}" + (f":{alarm.column}" if alarm.column else "")
+    return f"{alarm.code} {result.alarm_text(alarm)} ({place})"

@@ -1,0 +1,110 @@
+"""The entry point: finds the command, and turns what can go wrong into one line and an exit status."""
+
+from __future__ import annotations
+
+import os
+import sys
+from importlib import import_module
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+
+import typer
+from typer.core import TyperGroup
+
+from polycnc.cli.console import fail
+from polycnc.messages import text
+from polycnc.messages.catalogue import LANGUAGES, language_of_environment, set_language
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+#: Each command is the module of this name in `polycnc.cli`, which has a Typer `app`.
+COMMANDS = ("run", "check", "test", "plot", "features", "machines", "alarms")
+BAD_USE, INTERRUPTED = 2, 130
+
+
+class _Commands(TyperGroup):
+    """Imports the module of a command when the command is called."""
+
+    def list_commands(self, ctx: Any) -> list[str]:  # noqa: ARG002
+        return list(COMMANDS)
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:  # noqa: ARG002
+        if cmd_name not in COMMANDS:
+            return None
+        command = typer.main.get_command(import_module(f"polycnc.cli.{cmd_name}").app)
+        command.name = cmd_name
+        return command
+
+
+def _root() -> typer.Typer:
+    app = typer.Typer(
+        cls=_Commands, add_completion=True, rich_markup_mode=None, pretty_exceptions_enable=False
+    )
+
+    @app.callback(invoke_without_command=True, help=text("help.polycnc"))
+    def root(
+        ctx: typer.Context,
+        version: Annotated[bool, typer.Option("--version", help=text("help.version"), is_eager=True)] = False,
+    ) -> None:
+        if version:
+            from polycnc import __version__
+
+            typer.echo(f"polycnc {__version__}")
+        elif ctx.invoked_subcommand is None:
+            typer.echo(ctx.get_help())
+            raise typer.Exit(BAD_USE)
+
+    return app
+
+
+def main(arguments: Sequence[str] | None = None) -> NoReturn:
+    """Run the command line and leave the process with its exit status.
+
+    0: fine; 1: the program alarmed, or a check or a case failed; 2: wrong usage or unreadable input;
+    130: interrupted.
+    """
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        status = _run(words)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # Whoever read our output has gone; Python would complain once more when it exits.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        status = BAD_USE
+    except (KeyboardInterrupt, typer.Abort):
+        status = fail(text("cli.interrupted"), INTERRUPTED)
+    sys.exit(status)
+
+
+def _run(words: list[str]) -> int:
+    try:
+        set_language(_language_of(words))
+        status = _root()(words, prog_name="polycnc", standalone_mode=False)
+    except typer.Exit as leave:
+        return leave.exit_code
+    except Exception as error:  # noqa: BLE001 - `_told` raises what is no user's mistake
+        return fail(_told(error), BAD_USE)
+    return status if isinstance(status, int) else 0
+
+
+def _told(error: Exception) -> str:
+    """What the user did wrong, in one line; what is no user's mistake goes on as it is."""
+    message = getattr(error, "text", None) or getattr(error, "format_message", None)
+    if callable(message):
+        told = " ".join(str(message()).split())
+        context = getattr(error, "ctx", None)
+        return text("cli.usage", message=told, command=context.command_path) if context is not None else told
+    if isinstance(error, OSError) and not isinstance(error, BrokenPipeError):
+        return f"{error.filename or ''}: {error.strerror or error}".removeprefix(": ")
+    if isinstance(error, MemoryError):
+        return text("cli.memory")
+    raise error
+
+
+def _language_of(words: Sequence[str]) -> str:
+    """The language must be known before the first help text is looked up, so `--lang` is read here."""
+    for word, following in zip(words, [*words[1:], ""], strict=True):
+        chosen = following if word == "--lang" else word.removeprefix("--lang=") if "=" in word else ""
+        if word.startswith("--lang") and chosen in LANGUAGES:
+            return chosen
+    return language_of_environment()

@@ -1,0 +1,94 @@
+"""`polycnc check`: diagnostics, one a line."""
+
+from __future__ import annotations
+
+import sys
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
+from polycnc.cli import diagnostics, options
+from polycnc.cli.console import note, show
+from polycnc.messages import text
+
+if TYPE_CHECKING:
+    from polycnc.session import Session
+
+app = typer.Typer(add_completion=False, rich_markup_mode=None)
+STDIN = "-"
+
+
+class Format(StrEnum):
+    """How the findings are written."""
+
+    TEXT = "text"
+    JSON = "json"
+    SARIF = "sarif"
+    GITHUB = "github"
+    JUNIT = "junit"
+
+
+@app.command(help=text("help.check"))
+def check(
+    files: Annotated[list[str], typer.Argument(metavar="FILE…", help=text("help.check.files"))],
+    form: Annotated[Format, typer.Option("--format", help=text("help.option.format"))] = Format.TEXT,
+    output: options.Output = None,
+    exit_zero: Annotated[bool, typer.Option("--exit-zero", help=text("help.check.exit-zero"))] = False,
+    stdin_filename: Annotated[
+        str, typer.Option(metavar="NAME", help=text("help.check.stdin-filename"))
+    ] = "<stdin>",
+    control: options.Control = None,
+    machine: options.Machine = None,
+    setup: options.Setup = None,
+    search: options.Search = None,
+    encoding: options.Encoding = None,
+    block_limit: options.BlockLimit = DEFAULT_BLOCK_LIMIT,
+    _lang: options.Lang = None,
+) -> int:
+    """Run each program without keeping its motion, and tell what alarmed."""
+    from polycnc.machine.errors import FileError
+    from polycnc.program import ProgramFileError
+    from polycnc.session import SessionError, open_session
+
+    def session(source: bytes | Path, name: str) -> Session:
+        return open_session(
+            source, name=name, control=control, machine=machine, setup=setup, search=search or (),
+            encoding=encoding, block_limit=block_limit, keep=False,
+        )  # fmt: skip
+
+    found: list[diagnostics.Diagnostic] = []
+    names = [stdin_filename if file == STDIN else file for file in files]
+    unreadable = False
+    for file, name in zip(files, names, strict=True):
+        try:
+            source: bytes | Path = sys.stdin.buffer.read() if file == STDIN else Path(file)
+            found += diagnostics.diagnostics_of(session(source, name).run(), name)
+        except (SessionError, FileError, ProgramFileError) as error:
+            note(f"polycnc: {error}")
+            unreadable = True
+    failed = any(diagnostic.severity == "error" for diagnostic in found)
+    status = 2 if unreadable else int(failed and not exit_zero)
+    _write(found, names, form, status, output)
+    return status
+
+
+def _write(
+    found: list[diagnostics.Diagnostic], names: list[str], form: Format, status: int, output: Path | None
+) -> None:
+    from polycnc.cli.output import write_whole
+    from polycnc.cli.sarif import as_sarif
+
+    content = {
+        Format.TEXT: lambda: diagnostics.as_text(found),
+        Format.JSON: lambda: diagnostics.as_json(found),
+        Format.SARIF: lambda: as_sarif(found, status),
+        Format.GITHUB: lambda: diagnostics.as_github(found),
+        Format.JUNIT: lambda: diagnostics.as_junit(found, names),
+    }[form]()
+    if output is not None:
+        write_whole(output, content)
+    else:
+        show(content)

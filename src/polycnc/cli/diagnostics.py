@@ -1,0 +1,187 @@
+"""What `polycnc check` found, as values, and the formats in which people and programs read it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+from xml.etree import ElementTree
+
+from polycnc.messages import text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from polycnc.messages import Alarm
+    from polycnc.session import Result
+
+Severity = Literal["error", "warning"]
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A place in a file; `line` and `column` count from 1, 0 is unknown."""
+
+    file: str
+    line: int = 0
+    column: int = 0
+
+    def __str__(self) -> str:
+        return ":".join([self.file, *(str(number) for number in (self.line, self.column) if number)])
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding.
+
+    Attributes:
+        place: Where it is.
+        code: The control's alarm code, or polycnc's own word for a warning.
+        message: What it is, in the language of the run.
+        rule: Stable id of what was found, such as `fanuc/PS0010`.
+        severity: An alarm is an error.
+        source: Text of the line.
+        calls: The calls that led there, outermost first.
+        summary: What the rule is about, without the values of this case.
+        cause: Why such an alarm comes, where the control's catalogue tells it.
+        remedy: What to do about it, where the catalogue tells it.
+    """
+
+    place: Place
+    code: str
+    message: str
+    rule: str
+    severity: Severity = "error"
+    source: str = ""
+    calls: tuple[Place, ...] = ()
+    summary: str = ""
+    cause: str = ""
+    remedy: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.place}: {self.code} {self.message}".rstrip()
+
+
+def diagnostics_of(result: Result, main: str) -> list[Diagnostic]:
+    """The findings of a run, each place and cause once; `main` is the main file as the user named it."""
+    found = [_of_alarm(result, alarm, main) for alarm in result.alarms]
+    found += _of_files(result, main)
+    return list({(d.place, d.code, d.message): d for d in found}.values())
+
+
+def _of_alarm(result: Result, alarm: Alarm, main: str) -> Diagnostic:
+    catalogue = result.control.catalogue
+    entry = catalogue.entry(alarm.code) if alarm.code in catalogue else {}
+    program = result.program_of(alarm)
+    index = alarm.line - program.first_line if program is not None else -1
+    source = program.lines[index] if program is not None and 0 <= index < len(program.lines) else ""
+    calls = tuple(Place(result.file_of(name) or main, line) for name, line in alarm.call_chain)
+    return Diagnostic(
+        place=Place(_shown_file(alarm.file, result, main), alarm.line, alarm.column),
+        code=alarm.code,
+        message=result.alarm_text(alarm),
+        rule=f"{alarm.control.partition('-')[0]}/{alarm.code}",
+        source=source,
+        calls=calls,
+        summary=_in_language(entry, ""),
+        cause=_in_language(entry, "cause"),
+        remedy=_in_language(entry, "remedy"),
+    )
+
+
+def _shown_file(file: str, result: Result, main: str) -> str:
+    """The main file as the user named it, others by their path."""
+    return main if not file or file == result.program.path else file
+
+
+def _in_language(entry: dict[str, str], part: str) -> str:
+    from polycnc.messages.catalogue import language
+
+    return entry.get(
+        "-".join(filter(None, (part, language()))), entry.get("-".join(filter(None, (part, "en"))), "")
+    )
+
+
+def _of_files(result: Result, main: str) -> Iterable[Diagnostic]:
+    """What is odd about the files: characters that could not be read, programs that no call reaches."""
+    program = result.program
+    if program.replaced:
+        message = text("check.replaced", count=program.replaced, encoding=program.encoding)
+        yield Diagnostic(Place(main), "encoding", message, "polycnc/encoding", "warning")
+    for hidden in result.channel.store.shadowed:
+        message = text("check.shadowed", program=hidden.name)
+        place = Place(_shown_file(hidden.path, result, main), hidden.first_line)
+        yield Diagnostic(place, "shadowed", message, "polycnc/shadowed", "warning")
+
+
+def as_text(found: Sequence[Diagnostic]) -> str:
+    """One finding a line: `file:line:col: code message`."""
+    return "".join(f"{diagnostic}\n" for diagnostic in found)
+
+
+def as_json(found: Sequence[Diagnostic]) -> str:
+    """A list of objects with `file`, `line`, `column`, `code`, `message`, `rule`, `severity`, `calls`."""
+    entries = [
+        {
+            "file": d.place.file,
+            "line": d.place.line,
+            "column": d.place.column,
+            "code": d.code,
+            "message": d.message,
+            "rule": d.rule,
+            "severity": d.severity,
+            "calls": [{"file": call.file, "line": call.line} for call in d.calls],
+        }
+        for d in found
+    ]
+    return json.dumps(entries, ensure_ascii=False, indent=1) + "\n"
+
+
+def as_github(found: Sequence[Diagnostic]) -> str:
+    """Workflow commands of GitHub: `::error file=…,line=…,col=…,title=…::message`."""
+    return "".join(_github_line(diagnostic) for diagnostic in found)
+
+
+def _github_line(d: Diagnostic) -> str:
+    values = {"file": d.place.file, "line": d.place.line, "col": d.place.column, "title": d.code}
+    properties = ",".join(
+        f"{key}={_github_escaped(str(value), ':,')}" for key, value in values.items() if value
+    )
+    return f"::{d.severity} {properties}::{_github_escaped(d.message)}\n"
+
+
+def _github_escaped(value: str, more: str = "") -> str:
+    for char in "%\r\n" + more:
+        value = value.replace(char, f"%{ord(char):02X}")
+    return value
+
+
+def as_junit(found: Sequence[Diagnostic], files: Sequence[str]) -> str:
+    """JUnit XML: one test case a file, failed where something was found."""
+    suite = ElementTree.Element("testsuite", name="polycnc check", tests=str(len(files)))
+    failures = 0
+    for file in files:
+        case = ElementTree.SubElement(suite, "testcase", name=file, classname="polycnc.check")
+        own = [
+            diagnostic
+            for diagnostic in found
+            if diagnostic.place.file == file or _calls_from(diagnostic, file)
+        ]
+        failures += bool(own)
+        for diagnostic in own:
+            failure = ElementTree.SubElement(
+                case, "failure", type=diagnostic.rule, message=_xml(diagnostic.message)
+            )
+            failure.text = _xml(str(diagnostic))
+    suite.set("failures", str(failures))
+    ElementTree.indent(suite)
+    return '<?xml version="1.0" encoding="utf-8"?>\n' + ElementTree.tostring(suite, encoding="unicode") + "\n"
+
+
+def _calls_from(diagnostic: Diagnostic, file: str) -> bool:
+    return bool(diagnostic.calls) and diagnostic.calls[0].file == file
+
+
+def _xml(value: str) -> str:
+    """Without the control characters that XML cannot hold."""
+    return "".join(char if char >= " " or char in "\t\n" else "�" for char in value)

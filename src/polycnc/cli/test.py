@@ -1,0 +1,97 @@
+"""`polycnc test`: programs against expectations."""
+
+from __future__ import annotations
+
+import sys
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from polycnc.cli import options
+from polycnc.cli.console import coloured, note, say
+from polycnc.messages import text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from polycnc.cases.runner import Outcome
+    from polycnc.cases.selection import Selection
+
+app = typer.Typer(add_completion=False, rich_markup_mode=None)
+
+
+class Format(StrEnum):
+    """How the outcomes are written to standard output."""
+
+    TEXT = "text"
+    JSON = "json"
+    JUNIT = "junit"
+
+
+@app.command(help=text("help.test"))
+def run_tests(
+    files: Annotated[list[Path], typer.Argument(metavar="CASE.yaml…", help=text("help.test.files"))],
+    words: Annotated[str, typer.Option("-k", metavar="TEXT", help=text("help.test.k"))] = "",
+    feature: Annotated[list[str] | None, typer.Option(metavar="ID", help=text("help.test.feature"))] = None,
+    skip_feature: Annotated[
+        list[str] | None, typer.Option(metavar="ID", help=text("help.test.skip-feature"))
+    ] = None,
+    report: Annotated[Path | None, typer.Option(metavar="OUT.json", help=text("help.test.report"))] = None,
+    form: Annotated[Format, typer.Option("--format", help=text("help.option.format"))] = Format.TEXT,
+    _lang: options.Lang = None,
+) -> int:
+    """Run the cases of all files."""
+    from polycnc.cases.selection import Selection
+
+    selection = Selection(words, frozenset(feature or ()), frozenset(skip_feature or ()))
+    outcomes: list[Outcome] = []
+    unreadable = False
+    for path in files:
+        for outcome in _run_file(path, selection):
+            if outcome is None:
+                unreadable = True
+                continue
+            outcomes.append(outcome)
+            unreadable |= not outcome.readable
+            if form is Format.TEXT and outcome.status == "failed":
+                _tell(outcome)
+    _write(outcomes, form, report)
+    if unreadable:
+        return 2
+    return 1 if any(outcome.status == "failed" for outcome in outcomes) else 0
+
+
+def _run_file(path: Path, selection: Selection) -> Iterator[Outcome | None]:
+    """The outcomes of one file; None for a file that cannot be read."""
+    from polycnc.cases.reading import UnreadableError, read_cases
+    from polycnc.cases.runner import run_cases
+
+    try:
+        data = read_cases(path)
+    except UnreadableError as error:
+        note(f"polycnc: {error.text()}")
+        yield None
+        return
+    yield from run_cases(data, selection, path.parent)
+
+
+def _tell(outcome: Outcome) -> None:
+    from polycnc.cases.report import failure_line
+
+    say(failure_line(outcome))
+    sys.stdout.flush()
+
+
+def _write(outcomes: Sequence[Outcome], form: Format, report: Path | None) -> None:
+    from polycnc.cases.report import as_json, as_junit, summary
+    from polycnc.cli.output import write_whole
+
+    if report is not None:
+        write_whole(report, as_json(outcomes))
+    if form is Format.TEXT:
+        failed = any(outcome.status == "failed" for outcome in outcomes)
+        say(coloured(summary(outcomes), "red" if failed else "green"))
+    else:
+        say((as_json if form is Format.JSON else as_junit)(outcomes).rstrip("\n"))

@@ -1,0 +1,382 @@
+"""One program on one control and one machine, from the file to the result.
+
+result = polycnc.run("part.nc", control="fanuc-m", setup={"work_offsets": {"G54": {"Z": -100}}})
+result.alarms, result.time, result.moves.to_pandas()
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
+from polycnc.messages import text
+from polycnc.toolpath import Toolpath
+from polycnc.toolpath.trace import AxisLayout, Display
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from polycnc.channel.waits import Wait
+    from polycnc.control.interface import Control
+    from polycnc.machine.model import Machine
+    from polycnc.machine.setup import Setup
+    from polycnc.messages import Alarm
+    from polycnc.program import Program, ProgramStore
+    from polycnc.toolpath.table import Chunk
+
+#: A wait of this reason is a halt in single block mode.
+SINGLE_BLOCK = "single-block"
+_BLOCK_NUMBER = re.compile(r"\s*(?:/\d*\s*)?(N\d+)", re.IGNORECASE)
+
+
+class SessionError(Exception):
+    """A run cannot even begin: the caller asked for something that does not exist or cannot be decided.
+
+    Args:
+        message: Id of the text.
+        args: Values for its placeholders.
+    """
+
+    def __init__(self, message: str, **args: object) -> None:
+        super().__init__(message)
+        self.message = message
+        self.args_by_name = args
+
+    def text(self, lang: str | None = None) -> str:
+        """What is wrong, for the user."""
+        return text(self.message, lang, **self.args_by_name)
+
+    def __str__(self) -> str:
+        return self.text()
+
+
+class Consumer(Protocol):
+    """Takes the toolpath chunk by chunk, in order, while the program runs."""
+
+    def take(self, display: Display, chunk: Chunk) -> None:
+        """The next rows."""
+
+
+class Variables(Mapping[str, Any]):
+    """The control's variables by the names that programs use, as they stood at the end of the program."""
+
+    def __init__(self, control: Control, channel: Channel) -> None:
+        self._control = control
+        self._channel = channel
+
+    def __getitem__(self, name: str) -> Any:
+        """A variable: number, text, or None where it is vacant; `KeyError` where there is none."""
+        return self._control.read_variable(self._channel, name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._control.variable_names(self._channel))
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+
+@dataclass
+class Result:
+    """What a run gave.
+
+    Attributes:
+        program: The main program.
+        control: The control.
+        machine: The machine that it moved.
+        channel: The channel in its last state.
+        display: Turns rows of the toolpath into what the control shows.
+        alarms: In order.
+        stops: Where the run halted in single block mode, as N words.
+    """
+
+    program: Program
+    control: Control
+    machine: Machine
+    channel: Channel
+    display: Display
+    stops: list[str] = field(default_factory=list)
+
+    @property
+    def alarms(self) -> list[Alarm]:
+        """Every alarm, in order."""
+        return self.channel.alarms
+
+    @property
+    def ok(self) -> bool:
+        """Whether the program ran to its end without an alarm."""
+        return not self.channel.alarms
+
+    @property
+    def toolpath(self) -> Toolpath:
+        """The table itself, in internal units."""
+        return self.channel.toolpath
+
+    @cached_property
+    def rows(self) -> list[dict[str, Any]]:
+        """Moves and events in order, as the trace shows them."""
+        return list(self.display.records())
+
+    @cached_property
+    def variables(self) -> Variables:
+        """The control's variables at the end of the program, before its implicit reset."""
+        return Variables(self.control, self.channel)
+
+    @property
+    def final(self) -> dict[str, dict[str, float]]:
+        """`work` and `machine` display at the end of the program, before its implicit reset."""
+        channel = self.channel
+        end, context = channel.coordinates.position, self.control.context(channel)
+        return {"work": self.display.work(end, context), "machine": self.display.machine(end, context)}
+
+    def alarm_text(self, alarm: Alarm, lang: str | None = None) -> str:
+        """The control's own text of an alarm, with the hint on this very case if there is one."""
+        catalogue = self.control.catalogue
+        told = alarm.detail or (
+            catalogue.text(alarm.code, lang, **alarm.args) if alarm.code in catalogue else ""
+        )
+        hint = text(alarm.hint, lang, **alarm.args) if alarm.hint else ""
+        return ": ".join(filter(None, (told, hint)))
+
+    def program_of(self, alarm: Alarm) -> Program | None:
+        """The program in which an alarm arose."""
+        return self._program(alarm.program)
+
+    def file_of(self, name: str) -> str:
+        """The file of a program that ran, by the program's name; empty where it came as a text."""
+        program = self._program(name)
+        return program.path if program is not None else ""
+
+    def _program(self, name: str) -> Program | None:
+        return next((program for program in self.channel.programs if program.name == name), None)
+
+
+class Session:
+    """A program that is ready to run on a control and a machine.
+
+    Args:
+        control: The control.
+        machine: The machine.
+        setup: Offsets, tools, parameters, switches that the run starts from.
+        store: Where the control finds subprograms.
+        program: The main program.
+        block_limit: The run ends with the control's alarm after so many blocks.
+        keep: Keep the whole toolpath for the result; without it, chunks are dropped once consumed.
+        consumers: Take the toolpath while the program runs.
+    """
+
+    def __init__(
+        self,
+        control: Control,
+        machine: Machine,
+        setup: Setup,
+        store: ProgramStore,
+        program: Program,
+        *,
+        block_limit: int = DEFAULT_BLOCK_LIMIT,
+        keep: bool = True,
+        consumers: Sequence[Consumer] = (),
+    ) -> None:
+        self.program = program
+        self._consumers = consumers
+        self._keep = keep
+        toolpath = Toolpath(machine.channel_axes(1), on_full=self._take)
+        self.channel = Channel(control, machine, setup, store, block_limit=block_limit, toolpath=toolpath)
+        self.display = Display(toolpath, axis_layout(machine, 1))
+        self.result = Result(program, control, machine, self.channel, self.display)
+
+    def run(self, progress: Callable[[Channel], None] | None = None) -> Result:
+        """Run to the end of the program or to an alarm. Programmed stops are recorded and started again.
+
+        Args:
+            progress: Called now and then in a long run.
+        """
+        for wait in self.channel.run(self.program):
+            if wait.reason == SINGLE_BLOCK:
+                self.result.stops.append(self._halt(wait))
+            elif progress is not None:
+                progress(self.channel)
+        self._take(self.channel.toolpath.chunk)
+        return self.result
+
+    def _take(self, chunk: Chunk) -> bool:
+        for consumer in self._consumers:
+            consumer.take(self.display, chunk)
+        return not self._keep
+
+    def _halt(self, wait: Wait) -> str:
+        """The N word of the block at which the run has halted, or its line."""
+        if wait.code:
+            return wait.code
+        level = self.channel.level
+        return block_number(level.code.program, level.code.line(level.current))
+
+
+def block_number(program: Program, line: int) -> str:
+    """The N word at the start of a line, or the line's number where it has none."""
+    index = line - program.first_line
+    match = _BLOCK_NUMBER.match(program.lines[index]) if 0 <= index < len(program.lines) else None
+    return match[1].upper() if match else str(line)
+
+
+def axis_layout(machine: Machine, channel: int) -> AxisLayout:
+    """What the displays must know of a channel's axes."""
+    axes = [machine.axis[name] for name in machine.channel(channel).axes]
+    return AxisLayout(
+        geometry=machine.geometry_indices(channel),
+        rotary=frozenset(i for i, axis in enumerate(axes) if axis.rotary),
+        modulo=frozenset(i for i, axis in enumerate(axes) if axis.modulo),
+    )
+
+
+# ---- preparing a run ---------------------------------------------------------------------------------------
+
+
+def open_session(
+    source: str | bytes | Path,
+    *,
+    name: str = "",
+    control: str | None = None,
+    machine: str | Path | None = None,
+    setup: Mapping[str, Any] | str | Path | None = None,
+    search: Sequence[str | Path] = (),
+    encoding: str | None = None,
+    files: Mapping[str, str] | None = None,
+    folder: Path | None = None,
+    block_limit: int = DEFAULT_BLOCK_LIMIT,
+    keep: bool = True,
+    consumers: Sequence[Consumer] = (),
+) -> Session:
+    """Find everything that a run needs: program, control, machine, setup.
+
+    Args:
+        source: A file, or the program itself: `bytes`, or a `str` that holds a line end.
+        name: Name of a program that is no file.
+        control: Control id; guessed from the program where it is certain.
+        machine: Built-in machine or machine file; the setup's, or else the control's usual one.
+        setup: What a case writes under `setup`, or a YAML or TOML file with that.
+        search: Folders in which calls look for subprograms beside that of the program.
+        encoding: Encoding of program files; detected where it is not told.
+        files: Further programs as texts, by name.
+        folder: Where a machine file that `setup` names is looked up, if `setup` is no file.
+        block_limit: See `Session`.
+        keep: See `Session`.
+        consumers: See `Session`.
+
+    Raises:
+        SessionError: The control is unknown, or cannot be told from the program.
+        ProgramFileError: A program file cannot be read.
+        FileError: The machine or the setup is wrong.
+    """
+    from polycnc.program import Form, ProgramStore, decode
+
+    content = decode(source, encoding).text if isinstance(source, bytes) else source
+    is_text = isinstance(source, bytes) or (isinstance(source, str) and "\n" in source)
+    chosen = _control(control) if control else _guess(content, name, is_text=is_text, encoding=encoding)
+    form = getattr(chosen, "form", Form.WORD_ADDRESS)
+    store = ProgramStore(search=search, form=form, encoding=encoding)
+    if is_text:
+        program = store.add_text(_MAIN_PROGRAM if form is Form.SINUMERIK else "MAIN", str(content))
+    else:
+        program = store.add_file(content)
+    for key, text_of_file in (files or {}).items():
+        store.add_text(key, text_of_file)
+    built, start = _machine_and_setup(machine, setup, folder, getattr(chosen, "default_machine", "mill3"))
+    return Session(
+        chosen, built, start, store, program, block_limit=block_limit, keep=keep, consumers=consumers
+    )
+
+
+#: Where a SINUMERIK program lies that comes as a text.
+_MAIN_PROGRAM = "/_N_WKS_DIR/_N_TEST_WPD/_N_MAIN_MPF"
+
+
+def _machine_and_setup(
+    machine: str | Path | None,
+    setup: Mapping[str, Any] | str | Path | None,
+    folder: Path | None,
+    default: str,
+) -> tuple[Machine, Setup]:
+    """The machine of the call, else that of the setup, else the default; and the setup itself."""
+    from polycnc.machine import load_machine
+    from polycnc.machine.setup_file import load_setup, parse_setup
+
+    if setup is None or isinstance(setup, Mapping):
+        start = parse_setup(setup)
+    else:
+        start = load_setup(setup)
+        folder = Path(setup).parent
+    chosen = machine or _beside(folder, start.machine) or default
+    built = load_machine(chosen)
+    if not start.channels:
+        return built, start
+    try:
+        return built.with_channels(start.channels), start
+    except KeyError as error:
+        raise SessionError("session.channel-axis", axis=error.args[0], machine=built.id) from None
+
+
+def _beside(folder: Path | None, machine: str) -> str:
+    """A machine file is looked up from the folder of the file that names it."""
+    return str(folder / machine) if folder is not None and machine.endswith(".toml") else machine
+
+
+def _control(control_id: str) -> Control:
+    from polycnc.control import registry
+
+    if control_id not in registry.ids():
+        raise SessionError("session.control-unknown", control=control_id, known=", ".join(registry.ids()))
+    return registry.control(control_id)
+
+
+def _guess(content: str | Path, name: str, *, is_text: bool, encoding: str | None) -> Control:
+    """The control that a program is certainly written for."""
+    from polycnc.control import registry
+    from polycnc.program import guess_control, load_programs, split_programs
+    from polycnc.program.split import Source
+    from polycnc.program.text import split_lines
+
+    if is_text:
+        programs = split_programs(split_lines(str(content)), Source(name or "MAIN"))
+    else:
+        programs = load_programs(str(content), encoding)
+    guess = guess_control(programs, name)
+    if guess.control is not None:
+        return _control(guess.control)
+    known = ", ".join(registry.ids())
+    shown = name or (programs[0].name if is_text else str(content))
+    if guess.reasons:
+        reasons = "; ".join(reason.text() for reason in guess.reasons)
+        raise SessionError("session.control-doubtful", program=shown, known=known, reasons=reasons)
+    raise SessionError("session.control-open", program=shown, known=known)
+
+
+def run(
+    source: str | bytes | Path,
+    *,
+    control: str | None = None,
+    machine: str | Path | None = None,
+    setup: Mapping[str, Any] | str | Path | None = None,
+    search: Sequence[str | Path] = (),
+    encoding: str | None = None,
+    block_limit: int = DEFAULT_BLOCK_LIMIT,
+    print_to: str | Path | None = None,
+) -> Result:
+    """Run a program and give what came of it.
+
+    `print_to` is a file for what the program prints (DPRNT and the like); the other arguments, and what is
+    raised, are those of `open_session`.
+    """
+    session = open_session(
+        source, control=control, machine=machine, setup=setup, search=search, encoding=encoding,
+        block_limit=block_limit,
+    )  # fmt: skip
+    result = session.run()
+    if print_to is not None:
+        printed = (f"{row['text']}\n" for row in result.rows if row["type"] == "print")
+        Path(print_to).write_text("".join(printed), encoding="utf-8")
+    return result

@@ -1,0 +1,166 @@
+"""Writes the trace: JSON lines, CSV, and Arrow tables (Parquet).
+
+All three show the same values, those of the control's displays; see `trace.Display`. Writers take the
+toolpath chunk by chunk, so that a long program needs no more memory than a short one.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+from typing import IO, TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    from polycnc.toolpath.table import Chunk
+    from polycnc.toolpath.trace import Display
+
+#: Decimals of the values in text formats: finer than any control resolves, far above rounding noise.
+DECIMALS = 7
+#: Columns that stand before the positions, and behind them. Values of events go into the last ones.
+_FIRST = ("type", "program", "line")
+_NUMBERS = ("feed", "turns", "seconds", "revolutions", "lead", "start_angle", "speed", "spindle")
+_TEXTS = ("code", "tool", "text")
+Record = dict[str, Any]
+
+
+class TraceWriter(Protocol):
+    """Writes records as they come. `close` finishes the file's content; the stream stays open."""
+
+    def take(self, display: Display, chunk: Chunk) -> None:
+        """Write the rows of a chunk."""
+
+    def close(self, display: Display) -> None:
+        """Write what belongs behind the last row."""
+
+
+class JsonLines:
+    """One JSON object a line."""
+
+    def __init__(self, stream: IO[str]) -> None:
+        self._stream = stream
+        self._encode = json.JSONEncoder(ensure_ascii=False, separators=(", ", ": "), default=str).encode
+
+    def take(self, display: Display, chunk: Chunk) -> None:
+        """Write the rows of a chunk."""
+        encode = self._encode
+        self._stream.writelines(encode(rounded(record)) + "\n" for record in display.records_of(chunk))
+
+    def close(self, display: Display) -> None:
+        """Nothing stands behind the last line."""
+
+
+class Csv:
+    """A header line and one line a row, in the columns of `table_columns`."""
+
+    def __init__(self, stream: IO[str]) -> None:
+        self._writer = csv.writer(stream, lineterminator="\n")
+        self._columns: tuple[str, ...] = ()
+
+    def take(self, display: Display, chunk: Chunk) -> None:
+        """Write the rows of a chunk."""
+        self._head(display)
+        for record in display.records_of(chunk):
+            flat = flattened(rounded(record))
+            self._writer.writerow([flat.get(column, "") for column in self._columns])
+
+    def close(self, display: Display) -> None:
+        """A run without rows still has its header."""
+        self._head(display)
+
+    def _head(self, display: Display) -> None:
+        if not self._columns:
+            self._columns = table_columns(display)
+            self._writer.writerow(self._columns)
+
+
+class Parquet:
+    """An Arrow table in Parquet; one row group a chunk. Needs pyarrow."""
+
+    def __init__(self, stream: IO[bytes], metadata: dict[str, str]) -> None:
+        self._stream = stream
+        self._metadata = metadata
+        self._writer: Any = None
+
+    def take(self, display: Display, chunk: Chunk) -> None:
+        """Write the rows of a chunk."""
+        self._open(display).write_table(arrow_table(display, display.records_of(chunk), self._metadata))
+
+    def close(self, display: Display) -> None:
+        """Write the end of the file."""
+        self._open(display).close()
+
+    def _open(self, display: Display) -> Any:
+        if self._writer is None:
+            from pyarrow import parquet
+
+            self._writer = parquet.ParquetWriter(self._stream, arrow_schema(display, self._metadata))
+        return self._writer
+
+
+#: Writers by the suffix of the file, with the mode in which it is opened.
+WRITERS: dict[str, tuple[str, Callable[[IO[Any], dict[str, str]], TraceWriter]]] = {
+    ".jsonl": ("w", lambda stream, _metadata: JsonLines(stream)),
+    ".csv": ("w", lambda stream, _metadata: Csv(stream)),
+    ".parquet": ("wb", Parquet),
+}
+
+
+def rounded(record: Record) -> Record:
+    """The record with rounding noise taken off its numbers."""
+    return {key: _rounded(value) for key, value in record.items()}
+
+
+def _rounded(value: Any) -> Any:
+    if isinstance(value, float):
+        return round(value, DECIMALS) + 0.0  # -0.0 becomes 0.0
+    if isinstance(value, dict):
+        return {key: _rounded(item) for key, item in value.items()}
+    return value
+
+
+def table_columns(display: Display) -> tuple[str, ...]:
+    """Names of the columns: positions as `x`, `machine_x`, `center_x`."""
+    names = [axis.lower() for axis in display.axes]
+    positions = [prefix + name for prefix in ("", "machine_", "center_") for name in names]
+    return (*_FIRST, *positions, *_NUMBERS, *_TEXTS)
+
+
+def flattened(record: Record) -> Record:
+    """A record with its positions as columns of their own."""
+    flat = {key: value for key, value in record.items() if not isinstance(value, dict)}
+    for key, prefix in (("to", ""), ("machine", "machine_"), ("center", "center_")):
+        for axis, value in record.get(key, {}).items():
+            flat[prefix + axis.lower()] = value
+    return flat
+
+
+def arrow_schema(display: Display, metadata: dict[str, str]) -> Any:
+    """The Arrow schema of a run's table; `metadata` says control, machine and units."""
+    import pyarrow as pa
+
+    texts = {"type": pa.dictionary(pa.int8(), pa.string()), "program": pa.dictionary(pa.int32(), pa.string())}
+    texts |= dict.fromkeys(_TEXTS, pa.string())
+    types = {"line": pa.int32(), **texts}
+    fields = [pa.field(name, types.get(name, pa.float64())) for name in table_columns(display)]
+    return pa.schema(fields, metadata=metadata)
+
+
+def arrow_table(display: Display, records: Iterable[Record], metadata: dict[str, str]) -> Any:
+    """Records as an Arrow table; a value that a row does not have is null."""
+    import pyarrow as pa
+
+    schema = arrow_schema(display, metadata)
+    flat = [flattened(record) for record in records]
+    columns = [
+        pa.array(_column(flat, field.name, is_text=field.name in _TEXTS), type=field.type) for field in schema
+    ]
+    return pa.Table.from_arrays(columns, schema=schema)
+
+
+def _column(flat: list[Record], name: str, *, is_text: bool) -> Iterator[Any]:
+    """The values of one column; codes and tools may be numbers or names, as texts they are both."""
+    for record in flat:
+        value = record.get(name)
+        yield str(value) if is_text and value is not None else value
