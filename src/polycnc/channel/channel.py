@@ -54,6 +54,13 @@ class Control(Protocol):
         """The alarm for a program that has run more blocks than allowed."""
 
 
+class Zone(Protocol):
+    """A part of the machine's travel that a program has forbidden."""
+
+    def violated(self, machine: list[float]) -> int:
+        """Index of the axis to blame for a machine position, or -1."""
+
+
 class Channel:
     """One channel of a control: state, program stack, and the way of its moves.
 
@@ -92,7 +99,7 @@ class Channel:
         geometry = (x, y, z)
         start = [setup.start.get(name, 0.0) for name in self.axes]
         self.coordinates = Coordinates(self.axes, geometry, start)
-        self.toolpath = toolpath or Toolpath(self.axes)
+        self.toolpath = Toolpath(self.axes) if toolpath is None else toolpath
         self.modes = ModeTable()
         self.mode: Mode = self.modes.mode({})
         self.feed = nan
@@ -106,7 +113,8 @@ class Channel:
         self.blocks = 0
         self.block_limit = block_limit
         self.wait: Wait | None = None
-        self.skip_levels = setup.switches.block_skip_levels
+        self.skip_levels = 0
+        self.stroke_zone: Zone | None = None
         self.optional_stop = setup.switches.optional_stop
         self.variables_at_end: dict[str, Any] | None = None
         self._context = 0
@@ -124,6 +132,11 @@ class Channel:
             self._executables[key] = self.control.compile(program)
         return self._executables[key]
 
+    @property
+    def programs(self) -> list[Program]:
+        """Every program of this run, in the order of their first use."""
+        return [executable.program for executable in self._executables.values()]
+
     def push(self, program: Program, *, kind: str, repeats: int = 0, index: int = 0, local: Any = None) -> Level:
         """Call a program: it runs next, `repeats` more times after the first pass."""
         name = self.toolpath.program_number(program.name)
@@ -140,6 +153,10 @@ class Channel:
         else:
             self.finished = True
         return ended
+
+    def put_stage(self, stage: PathStage) -> None:
+        """Put a stage in front of the path; its `after` must be what was in front before, or the table."""
+        self.head = stage
 
     def end(self) -> None:
         """The program is over (M02, M30): everything held back is written, nothing more runs."""
@@ -258,7 +275,7 @@ class Channel:
             return
         level = self.level
         context = self._context if not self._context_changed else self.context_number()
-        if self._limits:
+        if self._limits or self.stroke_zone is not None:
             self._check_limits(end)
         line = level.code.line(level.current)
         if self.head is None:
@@ -288,7 +305,7 @@ class Channel:
             kind, start, end, feed, level.program_number, line, self.context_number(), center, normal, turns,
             tuple(parameters),
         )
-        if self._limits:
+        if self._limits or self.stroke_zone is not None:
             self._check_limits(end)
         if self.head is None:
             self.write(move)
@@ -339,6 +356,10 @@ class Channel:
                 raise self.control.over_travel(self.axes[i], -1)
             if machine[i] > high + 1e-9:
                 raise self.control.over_travel(self.axes[i], 1)
+        if self.stroke_zone is not None:
+            axis = self.stroke_zone.violated(machine)
+            if axis >= 0:
+                raise self.control.over_travel(self.axes[axis], 1)
 
 
 class TableStage:

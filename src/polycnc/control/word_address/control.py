@@ -13,6 +13,7 @@ from polycnc.control.word_address.numbers import NumberRules
 from polycnc.control.word_address.plan import Builder, Plan
 from polycnc.language.word_address import Grammar, WordAddressProgram
 from polycnc.messages import AlarmError, Catalogue
+from polycnc.program import Form
 from polycnc.toolpath import Context
 
 if TYPE_CHECKING:
@@ -30,11 +31,15 @@ class WordAddressControl:
 
     Attributes:
         id: Control id.
+        alarm_package: Package whose `alarms.toml` holds the alarm texts.
+        form: How program files are marked off.
+        default_machine: Built-in machine of a run that names none.
         g_codes: The G table.
         m_codes: The M table; a number that is not in it passes as an event.
         addresses: What words beside axis words and code arguments do (F, S, T, H, D …).
         power_on: Code of every modal group at power-on.
         alarms: Names of mistakes to alarm codes.
+        foreign_codes: Codes of other makers to message ids of hints.
         FEED_AT_START: Feed that holds before any F (mm/s), or None for the alarm of a missing feed.
         DIAMETER_PROGRAMMING: Axes marked as transverse are programmed in diameters.
         INCREMENTAL_ADDRESSES: Addresses that are increments of an axis whatever the mode (U is X …).
@@ -52,6 +57,8 @@ class WordAddressControl:
     DIAMETER_PROGRAMMING: ClassVar[bool] = False
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {}
     INCH_CODE: ClassVar[str] = "G20"
+    form: ClassVar[Form] = Form.WORD_ADDRESS
+    default_machine: ClassVar[str] = "mill3"
 
     # ---- texts and alarms ---------------------------------------------------------------------------------------
 
@@ -99,6 +106,8 @@ class WordAddressControl:
         """Power-on state."""
         channel.mode = channel.modes.mode(self.start_codes(channel))
         channel.memory = self.make_memory(channel)
+        skip = channel.setup.switches.block_skip
+        channel.skip_levels = sum(1 << level for level in ((1,) if skip is True else skip or ()))
         if self.FEED_AT_START is not None:
             channel.feed = self.FEED_AT_START
         coordinates.refresh_zero(channel)
@@ -188,6 +197,11 @@ class WordAddressControl:
     def read_variable(self, channel: Channel, name: str) -> object:
         """The value of a variable as a user names it; None for a vacant one."""
         return channel.memory.read_text(name)
+
+    def variable_names(self, channel: Channel) -> list[str]:
+        """Names of all variables that hold something."""
+        names: list[str] = channel.memory.variable_names()
+        return names
 
     def write_variable(self, channel: Channel, name: str, value: object) -> None:
         """Set a variable as a user names it."""

@@ -47,6 +47,12 @@ def plan_length_number(builder: Builder) -> Step | None:
     return change
 
 
+def renew_length(channel: Channel) -> None:
+    """The offset memory has changed: an active compensation takes the new value with its next move."""
+    if channel.mode["length"] in _SIGN:
+        _shift(channel)
+
+
 def _apply(channel: Channel, words: Words) -> None:
     _shift(channel)
     z = channel.coordinates.geometry[2]

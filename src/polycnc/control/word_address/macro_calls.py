@@ -62,6 +62,8 @@ def arguments_of(words: Words, skip: str = "") -> list[float | None]:
             if form == "" and convert is not None:
                 value = convert(value) / (25.4 if words.plan.inch else 1.0)
         local[variable] = value
+    for code in words.plan.m_codes:
+        local[ARGUMENTS["M"]] = float(code)
     return local
 
 

@@ -9,6 +9,8 @@ from polycnc.geometry.frames import IDENTITY, Frame
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.compensation import CutterCompensation
+    from polycnc.control.word_address.macro_calls import ModalCall
 
 #: Name of the offset that is added to every work coordinate system.
 EXTERNAL = "EXT"
@@ -61,6 +63,8 @@ class Memory:
         length_offset: Shift of each axis by the active tool length.
         tool: Tool in the spindle; `next_tool` is selected.
         h: Number of the active length offset; `d` of the radius offset.
+        side: Side that G41/G42 ask for: 1, -1, 0 off.
+        compensation: The stage that compensates, once it was needed.
         intermediate: Intermediate point of the last G28/G30 (programmed coordinates), for G29.
     """
 
@@ -85,10 +89,17 @@ class Memory:
         self.next_tool = 0
         self.h = 0
         self.d = 0
+        self.side = 0
+        self.engaged_side = 0
+        self.compensation: CutterCompensation | None = None
+        self.contour_control = False
+        self.exact_stop_block = False
+        self.modal_calls: list[ModalCall] = []
         self.spindle_speed = 0.0
         self.spindle_direction = 0
         self.spindle_limit_rpm = 0.0
         self.intermediate: list[float] | None = None
+        self.skip_position: list[float] | None = None
         self.frames = ProgrammingFrames()
         self.polar_pole = (0.0, 0.0)
         self.polar_radius = 0.0
@@ -98,6 +109,14 @@ class Memory:
     def work_offset(self, name: str) -> list[float]:
         """The offset of a work coordinate system; zero until it is set."""
         return self.work_offsets.setdefault(name, [0.0] * self._count)
+
+    def note_skip(self, position: list[float]) -> None:
+        """A skip move has ended here (absolute display)."""
+        self.skip_position = position
+
+    def variable_names(self) -> list[str]:
+        """Names of all variables that hold something; a control without variables has none."""
+        return []
 
     def offset_number(self, number: int) -> ToolOffset:
         """An offset number; zero until it is set."""

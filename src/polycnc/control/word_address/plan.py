@@ -41,13 +41,14 @@ class AxisWord:
 class Plan:
     """What the blocks of one shape do in one modal state."""
 
-    __slots__ = ("axis_words", "control", "inch", "mode", "rules", "slots", "steps", "typed")
+    __slots__ = ("axis_words", "control", "inch", "m_codes", "mode", "rules", "slots", "steps", "typed")
 
     def __init__(self, builder: Builder) -> None:
         self.control = builder.control
         self.mode = builder.mode
         self.slots = builder.slots
         self.typed = builder.typed
+        self.m_codes = builder.m_codes
         self.rules: NumberRules = builder.rules
         self.inch = builder.inch
         self.axis_words: tuple[AxisWord, ...] = ()
@@ -185,6 +186,8 @@ class Builder:
         """Steps of F, S, T, D and the like, and of M codes: those with the motion, in the order typed, and those after."""
         before: list[Step] = []
         after: list[Step] = []
+        if "*" in self._taken:
+            return before, after
         for key in self.order:
             if key in self._taken and key in self.slots:
                 continue

@@ -64,6 +64,10 @@ class MacroMemory(Memory):
         locals: #1 to #33 of the running macro level (index 0 is #0, vacant).
         common: #100 to #199 and #500 to #999.
         names: Names given by SETVN.
+        signals: Interface signals between macro and machine by name (UI000 …, UO000 …).
+        control_switches: Settings by #3001 to #3005, #3901, #3902.
+        date: Date of the simulated clock, YYYYMMDD; `time` HHMMSS. The clock does not depend on the host's, so that
+            the same input gives the same output.
     """
 
     def __init__(self, channel: Channel, registry: Registry) -> None:
@@ -75,9 +79,15 @@ class MacroMemory(Memory):
         self.more: dict[int, float | None] = {}
         self.names: dict[str, int] = {}
         self.printing = False
+        self.signals: dict[str, int] = {
+            name: int(bool(value)) for name, value in channel.setup.switches.signals.items()
+        }
+        self.control_switches: dict[str, int] = {}
+        self.last_m = 0
+        self.date = 20000101
+        self.time = 0
         self.angle_range_signed = self.parameters.bit(6004, 0)
         self.joined_conditions = self.parameters.bit(6006, 0)
-        self.skip_position: list[float] | None = None
 
     # ---- what generated expressions call ------------------------------------------------------------------------
 
@@ -175,6 +185,11 @@ class MacroMemory(Memory):
         """`#100` or `#DEPTH` as a user names it."""
         body = name.lstrip("#")
         return self.read(int(body)) if body.isdigit() else self.read_named(body, None)
+
+    def variable_names(self) -> list[str]:
+        """Local and common variables that are not vacant."""
+        numbers = [n for values in (self.locals, self.common) for n, value in enumerate(values) if value is not None]
+        return [f"#{n}" for n in numbers + [n for n, value in self.more.items() if value is not None]]
 
     def write_text(self, name: str, value: object) -> None:
         """Set a variable as a user names it."""

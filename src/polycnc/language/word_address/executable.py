@@ -101,6 +101,14 @@ class WordAddressProgram:
                     return match.start() + 1
         return text.find(address) + 1 if address else 0
 
+    def sequence(self, index: int) -> int:
+        """The sequence number of a line, or of the last line above that has one; 0 for none."""
+        for i in range(index, -1, -1):
+            match = _SEQUENCE.match(self.lines[i])
+            if match:
+                return int(match[1])
+        return 0
+
     # ---- jumps --------------------------------------------------------------------------------------------------
 
     def find_sequence(self, number: int, index: int, mistake: str = "no_sequence") -> int:

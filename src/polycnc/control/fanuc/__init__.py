@@ -1,0 +1,1 @@
+"""The FANUC family: machining centres (Hartford) and the 0i-TF Plus lathe."""

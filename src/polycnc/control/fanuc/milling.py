@@ -1,0 +1,34 @@
+"""FANUC control of a Hartford machining centre (control id `fanuc-m`)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
+from polycnc.control.fanuc.milling_codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
+from polycnc.control.fanuc.system_variables import MILLING_VARIABLES
+from polycnc.control.word_address.milling import MillingControl
+from polycnc.control.word_address.variables import MacroMemory
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.codes import GCode, MCode, Planner
+
+
+class FanucMilling(MillingControl):
+    """FANUC 0i-M / 18M class with custom macro B."""
+
+    id: ClassVar[str] = "fanuc-m"
+    alarm_package: ClassVar[str] = "polycnc.control.fanuc"
+    g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
+    m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
+    addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
+    power_on: ClassVar[Mapping[str, str]] = POWER_ON
+    alarms: ClassVar[Mapping[str, str]] = ALARMS
+    foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
+
+    def make_memory(self, channel: Channel) -> MacroMemory:
+        """Offsets, tools and variables."""
+        return MacroMemory(channel, MILLING_VARIABLES)

@@ -1,0 +1,37 @@
+"""What the rest of polycnc asks of a control, whatever its family."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+from polycnc.channel.channel import Control as ChannelControl
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.messages import Catalogue
+    from polycnc.program import Form
+
+
+class Control(ChannelControl, Protocol):
+    """A control: what a channel needs, and what reports, cases and the command line ask.
+
+    Attributes:
+        form: How program files are marked off.
+        default_machine: Built-in machine of a run that names none.
+    """
+
+    form: Form
+    default_machine: str
+
+    @property
+    def catalogue(self) -> Catalogue:
+        """Texts of the control's alarms."""
+
+    def read_variable(self, channel: Channel, name: str) -> object:
+        """The value of a variable as a user names it; None where it is vacant, `KeyError` where there is none."""
+
+    def write_variable(self, channel: Channel, name: str, value: object) -> None:
+        """Set a variable as a user names it; `KeyError` where there is none."""
+
+    def variable_names(self, channel: Channel) -> list[str]:
+        """Names of all variables that hold something."""

@@ -1,0 +1,104 @@
+"""Codes of machining centres beyond plain motion: G54.1, G92 with S, exact stop, look-ahead modes, stroke limits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.coordinates import refresh_zero, set_position
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.words import Words
+
+
+def select_work_offset(channel: Channel, words: Words) -> None:
+    """G54 to G59, G54.1 P1 … (also `G54 P1`): the work coordinate system; no motion by itself."""
+    code = channel.mode["wcs"]
+    number = words.integer("P") if "P" in words else None
+    if number is not None and not 0 <= number <= channel.control.EXTENDED_WORK_SYSTEMS:
+        raise words.fail("offset_number", "P")
+    if number:
+        channel.memory.wcs = f"G54.1 P{number}"
+    else:
+        channel.memory.wcs = "G54" if code == "G54.1" else code
+    refresh_zero(channel)
+
+
+def set_position_or_limit(channel: Channel, words: Words) -> None:
+    """G92: sets the position; with S the highest speed under constant surface speed."""
+    if words.axes():
+        set_position(channel, words)
+    limit = words.typed("S")
+    if limit is not None:
+        channel.memory.spindle_limit_rpm = limit
+        channel.context_changed()
+
+
+def exact_stop_block(channel: Channel, _words: Words) -> None:
+    """G09: exact stop at the end of this block."""
+    channel.memory.exact_stop_block = True
+    channel.context_changed()
+
+
+def high_speed_machining(channel: Channel, words: Words) -> None:
+    """G05 P10000 / P0: the path is unchanged; the planner looks further ahead."""
+    if words.integer("P") not in (0, 10000):
+        raise words.fail("address", "P")
+    channel.memory.contour_control = words.integer("P") == 10000
+    channel.context_changed()
+
+
+def contour_control(channel: Channel, words: Words) -> None:
+    """G05.1 Q1 [R1 … R10] / Q0: AI contour control; R chooses a level of precision."""
+    level = words.integer("R") if "R" in words else None
+    if words.integer("Q") not in (0, 1) or (level is not None and not 1 <= level <= 10):
+        raise words.fail("address", "Q")
+    channel.memory.contour_control = words.integer("Q") == 1
+    channel.context_changed()
+
+
+def advance_preview(channel: Channel, words: Words) -> None:
+    """G08 P1 / P0."""
+    if words.integer("P") not in (0, 1):
+        raise words.fail("address", "P")
+    channel.memory.contour_control = words.integer("P") == 1
+    channel.context_changed()
+
+
+@dataclass(frozen=True, slots=True)
+class StrokeZone:
+    """A box in machine coordinates that the tool must not enter (`inside`) or not leave."""
+
+    low: tuple[float, ...]
+    high: tuple[float, ...]
+    axes: tuple[int, ...]
+    inside: bool
+
+    def violated(self, machine: list[float]) -> int:
+        """Index of the axis to blame, or -1."""
+        within = [lo <= machine[a] <= hi for a, lo, hi in zip(self.axes, self.low, self.high, strict=True)]
+        if self.inside:
+            return self.axes[0] if all(within) else -1
+        return next((a for a, ok in zip(self.axes, within, strict=True) if not ok), -1)
+
+
+def stroke_check_on(channel: Channel, words: Words) -> None:
+    """G22 X Y Z I J K: stored stroke check 2; X Y Z the upper corner, I J K the lower, machine coordinates."""
+    upper = {axis: value for axis, value, _ in words.axes()}
+    named: list[tuple[int, float, float]] = []
+    for letter, axis in zip("IJK", channel.coordinates.geometry, strict=True):
+        low = words.length(letter)
+        if (low is None) != (axis not in upper):
+            raise words.fail("address", letter)
+        if low is not None:
+            named.append((axis, min(low, upper[axis]), max(low, upper[axis])))
+    if named:
+        axes, lows, highs = zip(*named, strict=True)
+        inside = not channel.memory.parameters.bit(1300, 0)
+        channel.stroke_zone = StrokeZone(tuple(lows), tuple(highs), tuple(axes), inside)
+
+
+def stroke_check_off(channel: Channel, _words: Words) -> None:
+    """G23."""
+    channel.stroke_zone = None
