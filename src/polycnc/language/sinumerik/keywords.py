@@ -1,0 +1,236 @@
+"""The vocabulary of the NC language (job planning 16.1), G functions excepted: those are the control's table.
+
+Every word is in one of these tables; a word that is known but in none of the executed ones raises an alarm that says
+so. Arguments are written as letters: I INT, R REAL, B BOOL, C CHAR, S STRING, A AXIS, F FRAME, `?` any value, `*` any
+number of any values, `V` a variable to write to (array, element or single), `[` a whole array; a small letter may be left
+out.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from polycnc.language.sinumerik.values import Type
+
+TYPE_LETTERS = {
+    "I": Type.INT,
+    "R": Type.REAL,
+    "B": Type.BOOL,
+    "C": Type.CHAR,
+    "S": Type.STRING,
+    "A": Type.AXIS,
+    "F": Type.FRAME,
+}
+
+
+class Function(NamedTuple):
+    """A predefined function: types of its arguments, of its value, and for the language's own ones their code."""
+
+    arguments: str
+    result: Type
+    code: str = ""
+
+
+def _functions(table: str) -> dict[str, Function]:
+    functions = {}
+    for line in table.strip().splitlines():
+        name, arguments, result, *code = line.split(maxsplit=3)
+        functions[name] = Function(arguments.strip("()"), Type[result], code[0] if code else "")
+    return functions
+
+
+#: Functions whose value depends on their arguments alone. `{0}` stands for the code of the first argument.
+FUNCTIONS = _functions("""
+SIN       (R)    REAL   sind({0})
+COS       (R)    REAL   cosd({0})
+TAN       (R)    REAL   tand({0})
+ASIN      (R)    REAL   asind({0})
+ACOS      (R)    REAL   acosd({0})
+ATAN2     (RR)   REAL   atan2d({0}, {1})
+SQRT      (R)    REAL   root({0})
+POT       (R)    REAL   square({0})
+LN        (R)    REAL   natural_log({0})
+EXP       (R)    REAL   power_of_e({0})
+TRUNC     (R)    REAL   float(trunc({0}))
+ROUND     (R)    REAL   float(floor({0} + 0.5))
+ROUNDUP   (R)    REAL   float(ceil({0}))
+BOUND     (RRR)  REAL   bound({0}, {1}, {2})
+AXSTRING  (A)    STRING {0}.name
+AXNAME    (S)    AXIS   axis_named(memory, {0})
+NUMBER    (S)    REAL   number_in({0})
+ISNUMBER  (S)    BOOL   is_number({0})
+TOUPPER   (S)    STRING {0}.upper()
+TOLOWER   (S)    STRING {0}.lower()
+STRLEN    (S)    INT    len({0})
+INDEX     (SC)   INT    {0}.find(chr({1}))
+RINDEX    (SC)   INT    {0}.rfind(chr({1}))
+MINDEX    (SS)   INT    first_of({0}, {1})
+MATCH     (SS)   INT    {0}.find({1})
+SUBSTR    (SIi)  STRING part_of({0}, {1}, {2})
+INVFRAME  (F)    FRAME  inverse_frame({0})
+""")
+
+#: Functions whose result has the type of their arguments.
+SAME_TYPE_FUNCTIONS = {"ABS": (1, "abs({0})"), "MINVAL": (2, "min({0}, {1})"), "MAXVAL": (2, "max({0}, {1})")}
+
+#: Frame functions with pairs of axis and value; CMIRROR has axes only.
+FRAME_FUNCTIONS = {"CTRANS": "ctrans", "CFINE": "cfine", "CROT": "crot", "CSCALE": "cscale", "CMIRROR": "cmirror"}
+
+#: Functions that the control answers.
+CONTROL_FUNCTIONS = _functions("""
+ADDFRAME    (FS)        INT
+AXTOSPI     (A)         INT
+CALCDAT     ([I[)       BOOL
+CALCPOSI    ([[[[bi)    INT
+CHKDNO      (iii)       BOOL
+CHKDM       (ii)        INT
+CROTS       (*)         FRAME
+CRPL        (IR)        FRAME
+CTAB        (RIVaa)     REAL
+CTABEXISTS  (I)         BOOL
+CTABFNO     (s)         INT
+CTABFPOL    (s)         INT
+CTABFSEG    (ss)        INT
+CTABID      (Is)        INT
+CTABINV     (RRIVaa)    REAL
+CTABISLOCK  (I)         INT
+CTABMEMTYP  (I)         INT
+CTABMPOL    (s)         INT
+CTABMSEG    (ss)        INT
+CTABNO      ()          INT
+CTABNOMEM   (s)         INT
+CTABPERIOD  (I)         INT
+CTABPOL     (s)         INT
+CTABPOLID   (I)         INT
+CTABSEG     (ss)        INT
+CTABSEGID   (Is)        INT
+CTABSEV     (RIVa)      REAL
+CTABSSV     (RIVa)      REAL
+CTABTEP     (Iva)       REAL
+CTABTEV     (Iva)       REAL
+CTABTMAX    (Iaa)       REAL
+CTABTMIN    (Iaa)       REAL
+CTABTSP     (Iva)       REAL
+CTABTSV     (Iva)       REAL
+GETACTTD    (VI)        INT
+GETDNO      (II)        INT
+GETFREELOC  (VVIII)     INT
+GETT        (Si)        INT
+GETTCOR     ([ssiii)    INT
+GETTENV     (SV)        INT
+DELTOOLENV  (s)         INT
+INTERSEC    ([[[)       BOOL
+ISAXIS      (I)         BOOL
+ISVAR       (S)         BOOL
+LENTOAX     ([[sb)      INT
+MEAFRAME    ([[V)       FRAME
+MEASURE     ()          INT
+MODAXVAL    (AR)        REAL
+NEWT        (Si)        INT
+POSRANGE    (ARRi)      BOOL
+SETDNO      (III)       BOOL
+SETTCOR     ([siiiiii)  INT
+SPI         (I)         AXIS
+STRINGIS    (S)         INT
+TOOLENV     (S)         INT
+""")
+
+#: Functions on files and user arrays, with a leading VAR error argument where they are procedures.
+FILE_PROCEDURES = {
+    "WRITE": "VSS",
+    "DELETE": "VS",
+    "READ": "VSIIV",
+    "FILEDATE": "VSV",
+    "FILETIME": "VSV",
+    "FILESIZE": "VSV",
+    "FILESTAT": "VSV",
+    "FILEINFO": "VSV",
+}
+FILE_FUNCTIONS = {"ISFILE": Function("S", Type.BOOL), "CHECKSUM": Function("VSii", Type.INT)}
+
+#: Predefined procedures that the control executes.
+_ANY_ARGUMENTS = """
+    ADISPOSA AXCTSWAP AXCTSWE AXCTSWED AXTOCHAN BRISKA CANCEL CHANDATA CLEARM CLRINT COARSEA CORROF
+    COUPDEF COUPDEL COUPOF COUPOFS COUPON COUPONC COUPRES CPROT CPROTDEF CTABDEF CTABDEL CTABEND CTABLOCK CTABUNLOCK
+    CUTMOD DELAYFSTOF DELAYFSTON DELDL DELDTG DIAMCHAN DISABLE DRFOF DRIVEA DZERO EGDEF EGDEL EGOFC EGOFS EGON EGONSYN
+    EGONSYNE ENABLE FCTDEF FGROUP FINEA FOCOF FOCON FPR FPRAOF FPRAON FTOC GEOAX GET GETD GWPSOF GWPSON ICYCOF
+    ICYCON INIT IPOBRKA IPOENDA IPTRLOCK IPTRUNLOCK JERKA LEADOF LEADON LOCK MASLDEF MASLDEL MASLOF MASLOFS MASLON
+    MMC MSG MVTOOL NEWCONF NPROT NPROTDEF ORIRESET POLFMASK POLFMLIN POLYPATH POSM PRESETON PUNCHACC PUTFTOC
+    PUTFTOCF QECLRNOF QECLRNON RDISABLE RELEASE RESETMON SCC SEFORM SETAL SETM SETMS SETMTH SETPIECE SETTA SETTIA SIRELAY
+    SIRELIN SIRELOUT SIRELTIME SOFTA SPCOF SPCON SPLINEPATH START STOPRE STOPREOF SYNFCT TANG TANGDEL TANGOF TANGON TCA
+    TCI TLIFT TMOF TMON TOFFOF TOFFON TRAANG TRACON TRACYL TRAFOOF TRAILOF TRAILON TRANSMIT TRAORI UNLOCK WAITC WAITE
+    WAITM WAITMC WAITP WAITS WRTPR RESET PROTA PROTD PROTS WORKPIECE GROUP_BEGIN GROUP_END
+"""
+PROCEDURES: dict[str, str] = {
+    **dict.fromkeys(_ANY_ARGUMENTS.split(), "*"),
+    "CONTPRON": "[?V?",
+    "CONTDCON": "[?",
+    "EXECUTE": "V",
+    "EXECTAB": "V",
+    "GETSELT": "Vi",
+    "GETEXET": "Vi",
+    "GETACTT": "VS",
+}
+
+#: Machining cycles of the control; a program of the same name in a cycle directory comes first.
+CYCLES = frozenset(
+    """
+    CYCLE60 CYCLE61 CYCLE62 CYCLE63 CYCLE64 CYCLE70 CYCLE71 CYCLE72 CYCLE76 CYCLE77 CYCLE78 CYCLE79 CYCLE81 CYCLE82
+    CYCLE83 CYCLE84 CYCLE85 CYCLE86 CYCLE87 CYCLE88 CYCLE89 CYCLE90 CYCLE92 CYCLE93 CYCLE94 CYCLE95 CYCLE96 CYCLE97
+    CYCLE98 CYCLE99 CYCLE800 CYCLE801 CYCLE802 CYCLE830 CYCLE832 CYCLE840 CYCLE899 CYCLE930 CYCLE940 CYCLE950
+    CYCLE951 CYCLE952 CYCLE971 CYCLE973 CYCLE974 CYCLE976 CYCLE977 CYCLE978 CYCLE979 CYCLE982 CYCLE994 CYCLE996
+    CYCLE997 CYCLE998 HOLES1 HOLES2 LONGHOLE POCKET1 POCKET2 POCKET3 POCKET4 SLOT1 SLOT2
+    """.split()
+)
+
+#: Addresses of NC words beside the axes. Any of them may have an index in brackets; the control checks that.
+ADDRESSES = frozenset(
+    """
+    A2 A3 A4 A5 A6 A7 B2 B3 B4 B5 B6 B7 C2 C3 C4 C5 C6 C7
+    ACC ACCLIMA ADIS ADISPOS ALF ANG AP AR ATOL AX CHF CHR CR CTOL CUTMOD D DILF DISC DISCL DISPR DISR DITE DITS DL
+    F FA FAD FB FD FDA FGREF FL FMA FP FRC FRCM FXS FXST FXSW FZ H I I1 IP ISD J J1 JERKLIM JERKLIMA K K1 LEAD LIMS M
+    MEAC MEAS MEASA MEAW MEAWA MOV NUT OFFN OMA1 OMA2 OMA3 OMA4 OMA5 ORIS OS OSB OSCILL OSCTRL OSE OSNSC OSP1 OSP2 OST1
+    OST2 OTOL OVR OVRA OVRRAP P PHI PL PO POLF POLFA POS POSA POSP PSI PW RND RNDM RP RPL S SCPARA SD SF SPN SPOS
+    SPOSA SPP SR SRA ST STA STAT SVC T TCARR THETA THT TILT TOFF TOFFL TOFFR TU TURN VELOLIM VELOLIMA XH YH ZH
+    """.split()
+)
+
+#: Words with an index and no value: `DIAMONA[X]`.
+INDEXED_WORDS = frozenset({"DIAMONA", "DIAMOFA", "DIAM90A", "DIACYCOFA", "DIAMCHANA"})
+
+#: Addresses whose value in parentheses is a list: `MEASA[X]=(1,1,-1)`.
+LIST_ADDRESSES = frozenset(
+    {"MEASA", "MEAWA", "MEAC", "OSCTRL", "OSCILL", "POSP", "PO", "XH", "YH", "ZH", "PHI", "PSI", "THT"}
+)
+
+#: What may stand round the value of a word. Positioning attributes with their number for GP (1.2.2).
+POSITION_ATTRIBUTES = (
+    "", "AC", "IC", "DC", "ACP", "ACN", "OC", "PC", "DAC", "DIC", "RAC", "RIC", "CAC", "CIC", "CDC", "CACP", "CACN",
+)  # fmt: skip
+MODIFIERS = frozenset({*POSITION_ATTRIBUTES[1:], "PM", "PR", "QU", "FPO"})
+FRAME_COMPONENTS = frozenset({"TR", "FI", "RT", "SC", "MI"})
+
+STRUCTURE = frozenset(
+    """
+    IF ELSE ENDIF LOOP ENDLOOP FOR ENDFOR WHILE ENDWHILE REPEAT UNTIL REPEATB
+    CASE GOTO GOTOF GOTOB GOTOC GOTOS
+    """.split()
+)
+DEFINITIONS = frozenset({"DEF", "REDEF", "DEFINE", "PROC", "EXTERN"})
+CALLS = frozenset({"CALL", "PCALL", "MCALL", "EXTCALL", "ISOCALL", "CALLPATH", "RET", "EXECSTRING"})
+OPERATORS = frozenset({"AND", "OR", "NOT", "XOR", "B_AND", "B_OR", "B_NOT", "B_XOR", "DIV", "MOD"})
+
+#: Words that only have a meaning behind others.
+PARTS = frozenset(
+    """
+    ACTBLOCNO APR APRB APRP APW APWB APWP APX AS AXIS BLOCK BLSYNC BOOL CHAN CHAR DEFAULT EX FALSE FRAME GP INICF INIPO
+    INIRE INT LIFTFAST LLI NCK OF PHU PREPRO PRIO PRLOC REAL REP SAVE SET STRING SYNR SYNRW SYNW TO TRUE ULI VAR
+    """.split()
+)
+
+#: Synchronised actions, and what else polycnc knows but does not execute yet.
+SYNCHRONOUS = frozenset({"ID", "IDS", "DO", "WHEN", "WHENEVER", "FROM", "EVERY"})
+NOT_EXECUTED = frozenset({"COMPLETE", "INITIAL", "STRINGFELD", "STRINGVAR", "ENDPROC"})
+
+#: Words of the language that stand as statements by themselves, handled by the language.
+LANGUAGE_PROCEDURES = frozenset({"SBLOF", "SBLON", "DISPLOF", "DISPLON"})
