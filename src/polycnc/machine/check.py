@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from polycnc.machine.model import Machine
     from polycnc.machine.schema import Mistake
 
+_BOX_SIZES = 3
 #: What a solid may move with beside an axis.
 _CHAIN_ENDS = ("base", "tool", "work")
 
@@ -21,7 +22,7 @@ def gaps(data: Mapping[str, Any]) -> Iterator[Mistake]:
         if "axes" not in channel:
             yield ("channel", number), "missing-key", {"where": f"channel.{number}.axes"}
     names = {name for channel in channels.values() for name in channel.get("axes", ())}
-    if not names:
+    if not channels:
         yield ("channel",), "no-axes", {}
     for name in data.get("axis", {}):
         if name not in names:
@@ -31,6 +32,13 @@ def gaps(data: Mapping[str, Any]) -> Iterator[Mistake]:
             yield ("joint", number, "axis"), "axis-unused", {"axis": joint["axis"]}
         if not any(joint["direction"]):
             yield ("joint", number, "direction"), "no-direction", {"axis": joint["axis"]}
+    for number, solid in enumerate(data.get("solid", ())):
+        if solid["shape"] == "box" and len(solid["size"]) != _BOX_SIZES:
+            yield (
+                ("solid", number, "size"),
+                "wrong-length",
+                {"where": f"solid.{number}.size", "detail": _BOX_SIZES},
+            )
 
 
 def contradictions(machine: Machine) -> Iterator[Mistake]:

@@ -91,7 +91,7 @@ def _find(name: str) -> Path:
 
 def _read(path: Path) -> str:
     try:
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise MachineFileError(str(path), 0, 0, "unreadable", detail=str(error)) from error
 

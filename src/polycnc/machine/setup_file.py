@@ -69,7 +69,7 @@ def load_setup(path: str | Path) -> Setup:
     """
     path = Path(path)
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise SetupError(str(path), 0, 0, "unreadable", detail=str(error)) from error
     is_toml = path.suffix.lower() == ".toml"
