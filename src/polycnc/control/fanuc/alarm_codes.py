@@ -86,7 +86,6 @@ ALARMS: dict[str, str] = {
     "long_name": "PS1142",
     "print_format": "PS1143",
     "not_supported": "PC0001",
-    "user_alarm": "MC3000",
 }
 
 #: Codes of other makers that arrive in FANUC programs: message ids of hints.

@@ -117,9 +117,16 @@ def dwell(channel: Channel, words: Words) -> None:
         channel.dwell(seconds=milliseconds / 1000.0)
         return
     for address in ("X", "U"):
-        value = words.typed(address)
-        if value is not None:
-            rules = words.plan.rules
-            whole = words.form(address) == "" and not rules.calculator
-            channel.dwell(seconds=value / 1000.0 if whole else value)
+        if address in words:
+            channel.dwell(seconds=_seconds(words, address))
             return
+
+
+def _seconds(words: Words, address: str) -> float:
+    """The time of an X or U word. Written before G04 it has been read as an axis word, with the decimals of a length."""
+    value = words.typed(address) or 0.0
+    rules = words.plan.rules
+    order = words.plan.order
+    if words.plan.inch and order.index(address) < order.index("G4"):
+        return value if words.form(address) == "" else value * 10.0**rules.decimals_inch / 1000.0
+    return value / 1000.0 if words.form(address) == "" and not rules.calculator else value

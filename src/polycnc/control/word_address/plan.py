@@ -41,13 +41,14 @@ class AxisWord:
 class Plan:
     """What the blocks of one shape do in one modal state."""
 
-    __slots__ = ("axis_words", "control", "inch", "m_codes", "mode", "rules", "slots", "steps", "typed")
+    __slots__ = ("axis_words", "control", "inch", "m_codes", "mode", "order", "rules", "slots", "steps", "typed")
 
     def __init__(self, builder: Builder) -> None:
         self.control = builder.control
         self.mode = builder.mode
         self.slots = builder.slots
         self.typed = builder.typed
+        self.order = builder.order
         self.m_codes = builder.m_codes
         self.rules: NumberRules = builder.rules
         self.inch = builder.inch

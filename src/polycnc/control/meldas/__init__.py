@@ -1,0 +1,1 @@
+"""The MELDAS (Mitsubishi) family."""
