@@ -58,6 +58,19 @@ def test_a_reason_names_its_line_and_words_in_both_languages() -> None:
     assert "第 5 行" in reason.text("zh-TW")
 
 
+@pytest.mark.parametrize(
+    ("text", "line", "found"),
+    [
+        ("\n;%_N_A_MPF\nM30", 2, ";%_N_A_MPF"),
+        ("\n%_N_A_MPF\n;$PATH=/_N_MPF_DIR\nM30", 3, ";$PATH=/_N_MPF_DIR"),
+        ("\n%_N_A_MPF\nM30", 2, "_N_A_MPF"),
+    ],
+)
+def test_a_header_is_told_with_its_line(text: str, line: int, found: str) -> None:
+    (reason,) = guess(text).reasons
+    assert (reason.line, reason.found) == (line, found)
+
+
 def test_contradicting_reasons_are_all_told() -> None:
     found = guess("G50 S2000\nR1=5")
     assert found.control is None

@@ -7,14 +7,23 @@ from hypothesis import strategies as st
 from polycnc.program import ProgramFileError, decode
 
 COMMENTS = {
-    "cp950": "粗加工 換刀 主軸正轉 切削液開 鑽孔循環 平銑刀 回原點 注意夾具高度 攻牙 外徑粗車 內孔精修 "
-    "刀長補正 側面倒角 請先測試 鋁 銅公 檢查尺寸 槽加工 試切 面 刀 孔 滑塊 電極 清角 螺紋 工件翻面 送料 尾座頂緊",
-    "gb18030": "粗加工 换刀 主轴正转 切削液开 钻孔循环 平铣刀 回原点 注意夹具高度 攻丝 外圆粗车 内孔精镗 "
-    "刀长补偿 侧面倒角 请先测试 铝 铜公 检查尺寸 槽加工 试切 面 刀 孔 滑块 电极 清角 螺纹 工件翻面 送料 尾座顶紧",
-    "cp932": "荒加工 仕上げ 工具交換 主軸正転 クーラントON 穴あけ ドリル エンドミル "
-    "プログラム終了 原点復帰 治具に注意 タップ 外径荒削り センタードリル 山田太郎 面取り 溝加工 ﾄﾞﾘﾙ ｴﾝﾄﾞﾐﾙ ｱﾗｶﾞｳ ｼｱｹﾞ ﾒﾝﾄﾘ 旋盤 ねじ切り 突切り",
-    "latin-1": "Fräser Größe Außendurchmesser Rückzug Nullpunkt_prüfen SCHRÄG 45°_Fase 20°C ±0.01 Ø8 "
-    "Ébauche perçage diámetro posición pièce_n°3 contrôle M8×1.25 Kühlmittel à_gauche µm für Fläche Überprüfung Señal",
+    "cp950": (
+        "粗加工 換刀 主軸正轉 切削液開 鑽孔循環 平銑刀 回原點 注意夾具高度 攻牙 外徑粗車 內孔精修 刀長補正 "
+        "側面倒角 請先測試 鋁 銅公 檢查尺寸 槽加工 試切 面 刀 孔 滑塊 電極 清角 螺紋 工件翻面 送料 尾座頂緊"
+    ),
+    "gb18030": (
+        "粗加工 换刀 主轴正转 切削液开 钻孔循环 平铣刀 回原点 注意夹具高度 攻丝 外圆粗车 内孔精镗 刀长补偿 "
+        "侧面倒角 请先测试 铝 铜公 检查尺寸 槽加工 试切 面 刀 孔 滑块 电极 清角 螺纹 工件翻面 送料 尾座顶紧"
+    ),
+    "cp932": (
+        "荒加工 仕上げ 工具交換 主軸正転 クーラントON 穴あけ ドリル エンドミル プログラム終了 原点復帰 "
+        "治具に注意 タップ 外径荒削り センタードリル 山田太郎 面取り 溝加工 旋盤 ねじ切り 突切り "
+        "ﾄﾞﾘﾙ ｴﾝﾄﾞﾐﾙ ｱﾗｶﾞｳ ｼｱｹﾞ ﾒﾝﾄﾘ"
+    ),
+    "latin-1": (
+        "Fräser Größe Außendurchmesser Rückzug Nullpunkt_prüfen SCHRÄG 45°_Fase 20°C ±0.01 Ø8 Ébauche "
+        "perçage diámetro posición pièce_n°3 contrôle M8×1.25 Kühlmittel à_gauche µm für Fläche Señal"
+    ),
 }
 ONE_BY_ONE = [(codec, comment) for codec, text in COMMENTS.items() for comment in text.split()]
 
@@ -99,10 +108,10 @@ def test_utf8_comes_back_as_it_was(text: str) -> None:
     assert decode(text.encode()).text == text
 
 
-@given(st.lists(st.binary(min_size=1).filter(lambda data: not data.isascii()), max_size=5))
-def test_blocks_between_unreadable_comments_survive(comments: list[bytes]) -> None:
-    clean = [comment.translate(None, b"\r\n\0\x11\x12\x13\x14\x1a\x7f\xfe\xff\xef") for comment in comments]
-    data = b"G0 X1\n" + b"".join(b"(" + comment + b" )\nG1 X2 F100\n" for comment in clean)
-    assert decode(data).text.split("\n")[::2][: len(clean) + 1] == ["G0 X1"] + [
-        line for line in decode(data).text.split("\n")[2::2] if line == "G1 X2 F100"
-    ]
+@given(st.lists(st.binary(min_size=1).filter(lambda data: not data.isascii()), min_size=1, max_size=5))
+def test_unreadable_comments_never_swallow_their_end_or_the_next_block(comments: list[bytes]) -> None:
+    bodies = [comment.translate(None, b"\r\n") for comment in comments]
+    lines = decode(b"M0\n" + b"".join(b"(" + body + b")\nG1 X2 F100\n" for body in bodies)).text.split("\n")
+    assert len(lines) == 2 * len(bodies) + 2
+    assert all(line.startswith("(") and line.endswith(")") for line in lines[1:-1:2])
+    assert lines[2::2] == ["G1 X2 F100"] * len(bodies)

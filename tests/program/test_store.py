@@ -246,6 +246,15 @@ def test_a_plain_folder_and_search_folders_serve_sinumerik_too(tmp_path: Path) -
     assert text_of(store.find_sinumerik("A", main.directory)) == "; A"
 
 
+def test_definition_files_may_lie_beside_the_main_program(tmp_path: Path) -> None:
+    write(tmp_path, part_mpf="N10 M30", mgud_def="DEF NCK REAL X")
+    store = ProgramStore(form=Form.SINUMERIK)
+    store.add_file(tmp_path / "part.mpf")
+    assert [(p.name, p.directory) for p in store.programs_in("/_N_DEF_DIR")] == [
+        ("_N_MGUD_DEF", "/_N_DEF_DIR")
+    ]
+
+
 def test_a_deleted_host_file_stays_on_the_host_but_is_not_found(tmp_path: Path) -> None:
     write(tmp_path, part_mpf="N10 M30", A_SPF="; A")
     store = ProgramStore(form=Form.SINUMERIK)

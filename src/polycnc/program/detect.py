@@ -132,7 +132,7 @@ def guess_control(programs: Sequence[Program], name: str = "") -> Guess:
     if form is Form.MACRO:
         return Guess("syntec-mill", (Reason("detect.macro-header", max(first_line - 1, 1)),))
     if form is Form.SINUMERIK:
-        return Guess("sinumerik-840d", (Reason("detect.archive-header", first_line, programs[0].name),))
+        return Guess("sinumerik-840d", (_header_reason(programs[0]),))
     reasons = list(_found_in(programs))
     suffix = "." + (name or programs[0].path or programs[0].name).rpartition(".")[2].lower()
     if suffix in _SINUMERIK_SUFFIXES:
@@ -140,6 +140,14 @@ def guess_control(programs: Sequence[Program], name: str = "") -> Guess:
     controls = {_family(control, reasons) for control, _ in reasons}
     certain = controls.pop() if len(controls) == 1 else None
     return Guess(certain, tuple(reason for _, reason in reasons))
+
+
+def _header_reason(program: Program) -> Reason:
+    """A header in comments is still in the text; that of an archive unit stood in the line above it."""
+    for index, line in enumerate(program.lines[:10]):
+        if re.match(r"\s*;\s*(?:%\s*_N_|\$PATH)", line, re.IGNORECASE):
+            return Reason("detect.archive-header", program.line_number(index), line.strip())
+    return Reason("detect.archive-header", max(program.first_line - 1, 1), program.name)
 
 
 def _family(control: str, reasons: list[tuple[str, Reason]]) -> str:
