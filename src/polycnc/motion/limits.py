@@ -1,0 +1,100 @@
+"""Machine, settings and contexts as the flat columns that the kernels read."""
+
+from __future__ import annotations
+
+from array import array
+from math import inf
+from typing import TYPE_CHECKING
+
+from polycnc.motion.kernels.columns import Limits
+from polycnc.motion.settings import EXACT_STOP_MODES, WITHOUT_DEVIATION_MODES, Settings
+
+if TYPE_CHECKING:
+    from polycnc.machine import Axis, Machine, Spindle
+    from polycnc.toolpath import Context
+
+MM_PER_INCH = 25.4
+
+
+def channel_axes(machine: Machine, channel: int, names: tuple[str, ...]) -> tuple[Axis | None, ...]:
+    """The machine's axes behind the columns of a toolpath; None for one that exists only in a transformation."""
+    built = next((c for c in machine.channels if c.number == channel), machine.channels[0])
+    called = dict(zip(built.names, built.axes, strict=True))
+    return tuple(machine.axis.get(called.get(name, name)) for name in names)
+
+
+def axis_limits(machine: Machine, channel: int, names: tuple[str, ...], settings: Settings) -> Limits:
+    """What bounds each column. An axis that a transformation makes is taken to be as slow as the slowest linear one."""
+    axes = channel_axes(machine, channel, names)
+    linear = [axis for axis in machine.axes if not axis.rotary] or list(machine.axes)
+
+    def numbers(field: str) -> list[float]:
+        slowest = min(_limit(axis, field) for axis in linear)
+        return [slowest if axis is None else _limit(axis, field) for axis in axes]
+
+    built = next((c for c in machine.channels if c.number == channel), machine.channels[0])
+    geometry = [
+        next((i for i, axis in enumerate(axes) if axis is not None and axis.name == built.geometry.get(name)), -1)
+        for name in "XYZ"
+    ]
+    for i, name in enumerate("XYZ"):
+        if geometry[i] < 0 and name in built.virtual and name in names:
+            geometry[i] = names.index(name)
+    acceleration = numbers("acceleration")
+    step = settings.overload * machine.interpolation_cycle_s
+    return Limits(
+        rapid=array("d", numbers("rapid")),
+        max_feed=array("d", numbers("max_feed")),
+        acceleration=array("d", acceleration),
+        jump=array("d", [a * step for a in acceleration]),
+        rotary=array("B", [axis is not None and axis.rotary for axis in axes]),
+        geometry=array("i", geometry),
+        rules=array("B", [settings.rapid_by_axis, settings.rapid_stops]),
+    )
+
+
+def _limit(axis: Axis, field: str) -> float:
+    """A limit of an axis; zero stands for none named, and a bound of 1e9 is never reached."""
+    return float(getattr(axis, field)) or 1e9
+
+
+def context_fields(
+    context: Context, axes: int, spindle: Spindle | None, station: int, settings: Settings
+) -> list[float]:
+    """One row of the kernels' table of contexts, in the order of the constants in `kernels/columns.py`."""
+    highest = spindle.max_rpm if spindle else inf
+    if context.spindle_limit_rpm > 0.0:
+        highest = min(highest, context.spindle_limit_rpm)
+    surface = context.spindle_rpm * 1000.0 / 60.0 if context.surface_speed else 0.0
+    (a, b, c), (d, e, f), (g, h, i) = context.frame.m
+    return [
+        context.feed_mode == "G95",
+        context.feed_mode == "G93",
+        min(context.spindle_rpm, highest),
+        surface,
+        highest,
+        spindle.acceleration_rpm_s / 60.0 if spindle else inf,
+        context.path_mode in EXACT_STOP_MODES,
+        _tolerance(context, settings),
+        rotary_weight(context, settings),
+        station,
+        not context.frame.is_identity,
+        -1.0 if context.frame.mirrors else 1.0,
+        *(a, b, c, d, e, f, g, h, i),
+        *context.frame.t,
+        *(context.offsets or [0.0] * axes),
+    ]
+
+
+def rotary_weight(context: Context, settings: Settings) -> float:
+    """Millimetres that a degree counts in the length that the feed refers to."""
+    if not settings.rotary_in_feed:
+        return 0.0
+    return MM_PER_INCH if context.inch else 1.0
+
+
+def _tolerance(context: Context, settings: Settings) -> float:
+    """Contour tolerance of a context; 0 for corners without deviation."""
+    if context.tolerance_mm > 0.0:
+        return context.tolerance_mm
+    return 0.0 if context.path_mode in WITHOUT_DEVIATION_MODES else settings.tolerance_mm

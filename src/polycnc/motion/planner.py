@@ -1,0 +1,255 @@
+"""Planning as the toolpath grows: chunks come in, speeds and times come out, in bounded memory.
+
+Rows are laid out as pieces in a buffer. When it is full, a look-ahead that ends in a stop at its last joint shows up to where
+nothing behind the buffer can matter any more; so far the pieces are final, timed and dropped, and the rest moves to
+the front. The buffer is looked at only when it is full, however the rows are cut into chunks, and has at least twice the room of
+what the last look left: the result does not depend on the chunks, and the cost stays in proportion to the rows.
+"""
+
+from __future__ import annotations
+
+from array import array
+from typing import TYPE_CHECKING, Any
+
+from polycnc.motion.compiled import PLAIN, compiled, views
+from polycnc.motion.kernels.columns import PIECES, WITHOUT_FEED, Limits, Pieces, Rows, State
+from polycnc.motion.limits import axis_limits, context_fields
+from polycnc.motion.plan import Plan, Times, ToolTimes
+from polycnc.motion.settings import DEFAULT, Settings
+from polycnc.motion.waits import Waits
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from polycnc.machine import Machine
+    from polycnc.toolpath import Context, Toolpath
+    from polycnc.toolpath.table import Chunk
+
+#: From so many rows on the compiler's start pays off.
+COMPILED_ROWS = 20_000
+#: Pieces that the buffer takes at first, and pieces that it takes before it is looked at.
+FIRST_ROOM, FULL_ROOM = 256, 16_384
+
+
+class Planner:
+    """Plans a toolpath chunk by chunk. `take` fits `Toolpath(on_full=...)`.
+
+    Args:
+        toolpath: The toolpath whose chunks will come; its contexts are read as they are added.
+        machine: Limits of axes and spindles, times of tool changes and auxiliary functions.
+        channel: Number of the channel that makes the toolpath.
+        start: Machine position of every column before the first row; all zero where it is left out.
+        tool: Tool in the spindle before the first row.
+        settings: How the control leads the axes.
+        keep_rows: Keep the seconds of every row (8 bytes each).
+        on_pieces: Called with the buffer and the number of its pieces that have become final, before they are dropped.
+        compiled_rows: Rows from which on the kernels are compiled.
+    """
+
+    def __init__(
+        self,
+        toolpath: Toolpath,
+        machine: Machine,
+        *,
+        channel: int = 1,
+        start: Sequence[float] = (),
+        tool: int = 0,
+        settings: Settings = DEFAULT,
+        keep_rows: bool = True,
+        on_pieces: Callable[[Pieces, int], None] | None = None,
+        compiled_rows: int = COMPILED_ROWS,
+    ) -> None:
+        axes = len(toolpath.axes)
+        self.limits: Limits = axis_limits(machine, channel, toolpath.axes, settings)
+        self._toolpath = toolpath
+        self._settings = settings
+        self._keep_rows = keep_rows
+        self._on_pieces = on_pieces
+        self._compiled_rows = compiled_rows
+        self._kernels = PLAIN
+        self._state = _new_state(axes, start)
+        self._pieces = _new_pieces(axes)
+        self._room = FULL_ROOM
+        self._contexts = array("d")
+        self._stations: dict[tuple[object, ...], int] = {}
+        self._seconds = array("d")
+        self._ways = array("d")
+        self._waited: dict[tuple[int, str], float] = {}
+        self._row_s = array("d")
+        self._first_row = 0
+        self._next_row = 0
+        self._waits = Waits(machine, toolpath.contexts, tool, self._wait)
+
+    def take(self, chunk: Chunk) -> bool:
+        """Plan a chunk; true, for it is no longer needed."""
+        if len(chunk) == 0:
+            return True
+        if self._kernels is PLAIN and self._next_row + len(chunk) >= self._compiled_rows:
+            self._kernels = compiled() or PLAIN
+        self._add_contexts()
+        self._row_s.frombytes(bytes(8 * len(chunk)))
+        self._next_row = chunk.first + len(chunk)
+        self._waits.take(chunk, self.limits.geometry[0])
+        stops = array("B", [self._waits.stands_for(event) for event in chunk.events])
+        rows = Rows(chunk.kind, chunk.context, chunk.feed, chunk.end, chunk.curve, chunk.curves, stops)
+        see = _itself if self._kernels is PLAIN else views
+        row, columns, contexts = 0, see(rows), see((self._contexts,))[0]
+        while True:
+            row = self._kernels.lay(
+                columns, row, chunk.first, contexts, see(self.limits), see(self._pieces), see(self._state)
+            )
+            if row == len(chunk):
+                return True
+            self._make_room()
+
+    def finish(self) -> Plan:
+        """Plan the chunks that the toolpath still holds, to a stop behind the last row, and give the result."""
+        for chunk in self._toolpath.chunks:
+            if chunk.first >= self._next_row:
+                self.take(chunk)
+        self._look_ahead(finish=True)
+        self._settle_parallel(self._next_row)
+        return self._plan()
+
+    # ---- the buffer of pieces --------------------------------------------------------------------------------------
+
+    def _make_room(self) -> None:
+        room = len(self._pieces.length)
+        if room >= self._room:
+            self._look_ahead(finish=False)
+            if self._state.count[PIECES] <= room // 2:
+                return
+            self._room = 2 * room
+        for column, width in zip(self._pieces, _widths(len(self._toolpath.axes)), strict=True):
+            column.frombytes(bytes(room * width * column.itemsize))
+
+    def _look_ahead(self, *, finish: bool) -> None:
+        """Find the speeds of all pieces that nothing still to come can change, and drop those pieces.
+
+        The last piece waits for the row behind it, for a spline bends there; the joint before it is taken as a stop.
+        """
+        count = self._state.count[PIECES]
+        last = count if finish else count - 1
+        if last < 0:
+            return
+        self._pieces.reach2[last] = 0.0
+        see = _itself if self._kernels is PLAIN else views
+        pieces, limits = see(self._pieces), see(self.limits)
+        independent = self._kernels.backward(pieces, last, limits)
+        final = count if finish else independent
+        if final <= 0:
+            return  # so far everything hangs on what is still to come
+        totals = see((self._seconds, self._ways, self._row_s))
+        self._kernels.forward(pieces, final, limits, *totals, self._first_row)
+        del pieces, totals
+        if self._on_pieces is not None:
+            self._on_pieces(self._pieces, final)
+        kept = count - final
+        first_kept_row = self._pieces.row[final] if kept else self._next_row
+        for column, width in zip(self._pieces, _widths(len(self._toolpath.axes)), strict=True):
+            column[: kept * width] = column[final * width : count * width]
+        self._state.count[PIECES] = kept
+        self._settle_parallel(first_kept_row)
+        if not self._keep_rows:
+            del self._row_s[: first_kept_row - self._first_row]
+            self._first_row = first_kept_row
+
+    # ---- rows and totals -------------------------------------------------------------------------------------------
+
+    def _add_contexts(self) -> None:
+        axes, known = len(self._toolpath.axes), len(self._seconds) // 2
+        for context in self._toolpath.contexts[known:]:
+            station = self._stations.setdefault(_station(context), len(self._stations))
+            spindle = self._waits.spindle(context)
+            self._contexts.extend(context_fields(context, axes, spindle, station, self._settings))
+            self._seconds.extend((0.0, 0.0))
+            self._ways.extend((0.0, 0.0))
+
+    def _wait(self, row: int, share: str, context: int, seconds: float) -> None:
+        """A row waits: called before its motion is planned."""
+        self._row_s[row - self._first_row] += seconds
+        self._waited[context, share] = self._waited.get((context, share), 0.0) + seconds
+
+    def _settle_parallel(self, planned_rows: int) -> None:
+        """Let blocks whose motion is planned wait for the auxiliary functions that ran beside it and take longer."""
+        open_yet = []
+        for entry in self._waits.parallel:
+            if entry.last >= planned_rows:
+                open_yet.append(entry)
+                continue
+            motion = sum(self._row_s[entry.row - self._first_row : entry.last + 1 - self._first_row])
+            if entry.seconds > motion:
+                self._wait(entry.row, "auxiliary_s", entry.context, entry.seconds - motion)
+        self._waits.parallel[:] = open_yet
+
+    def _plan(self) -> Plan:
+        total, tools = Times(), dict[tuple[int, str], ToolTimes]()
+        for number, context in enumerate(self._toolpath.contexts[: len(self._seconds) // 2]):
+            times = Times(
+                rapid_s=self._seconds[2 * number],
+                cutting_s=self._seconds[2 * number + 1],
+                rapid_mm=self._ways[2 * number],
+                cutting_mm=self._ways[2 * number + 1],
+            )
+            for (of_context, share), seconds in self._waited.items():
+                if of_context == number:
+                    setattr(times, share, getattr(times, share) + seconds)
+            key = (context.tool, context.tool_name)
+            tools.setdefault(key, ToolTimes(*key)).times += times
+            total += times
+        used = tuple(tool for tool in tools.values() if tool.tool or tool.name or tool.times.total_s > 0.0)
+        return Plan(total, used, self._row_s, self._state.count[WITHOUT_FEED])
+
+
+def _station(context: Context) -> tuple[object, ...]:
+    """What the axes stand still for when it changes between two moves."""
+    spindle = (context.spindle, context.spindle_rpm, context.spindle_direction, context.surface_speed)
+    return (context.tool, context.tool_name, *spindle)
+
+
+def _new_state(axes: int, start: Sequence[float]) -> State:
+    def room(size: int) -> array[float]:
+        return array("d", bytes(8 * size))
+
+    position = array("d", start) if len(start) else room(axes)
+    now = array("d", (1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    return State(
+        position=position,
+        tangent=room(axes),
+        target=room(axes),
+        delta=room(axes),
+        unit=room(axes),
+        bend=room(axes),
+        basis=room(9),
+        turn=room(4),
+        now=now,
+        count=array("q", (0, 0)),
+    )
+
+
+def _widths(axes: int) -> tuple[int, ...]:
+    """Numbers a piece in each column of `Pieces`."""
+    return (1,) * (len(Pieces._fields) - 1) + (4 * axes,)
+
+
+def _new_pieces(axes: int) -> Pieces:
+    def room(code: str, width: int = 1, more: int = 0) -> array[float]:
+        return array(code, bytes(array(code).itemsize * (FIRST_ROOM * width + more)))
+
+    return Pieces(
+        length=room("d"),
+        cap2=room("d"),
+        pull=room("d"),
+        entry2=room("d"),
+        reach2=room("d", more=1),
+        speed2=room("d", more=1),
+        time=room("d"),
+        form=room("B"),
+        row=room("q"),
+        slot=room("i"),
+        vectors=room("d", 4 * axes),
+    )
+
+
+def _itself(columns: Any) -> Any:
+    return columns

@@ -1,0 +1,164 @@
+"""Time that passes while the axes stand: tool changes, the spindle's ramps, auxiliary functions, dwells."""
+
+from __future__ import annotations
+
+from itertools import groupby
+from math import pi
+from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.toolpath import Kind
+from polycnc.toolpath.table import CURVE_WIDTH
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from polycnc.machine import Machine, Spindle
+    from polycnc.toolpath import Context, Event
+    from polycnc.toolpath.table import Chunk
+
+#: Events that the control puts out between two blocks and waits for: the axes stand still.
+STANDING = frozenset({"m", "s", "t", "h", "stop", "alarm"})
+ORIENT = 19
+
+
+class Parallel(NamedTuple):
+    """An auxiliary function that runs beside the motion of its block, the rows `row` to `last`."""
+
+    row: int
+    last: int
+    context: int
+    seconds: float
+
+
+class Waits:
+    """Follows tool and spindles through the rows of a toolpath and says what each row waits for.
+
+    Args:
+        machine: Spindle ramps, change time and auxiliary functions come from here.
+        contexts: The toolpath's contexts.
+        tool: Tool in the spindle at the start.
+        wait: Called with row number, share (a field of `Times`), context number and seconds.
+    """
+
+    def __init__(
+        self, machine: Machine, contexts: list[Context], tool: int, wait: Callable[[int, str, int, float], None]
+    ) -> None:
+        self.machine = machine
+        self.contexts = contexts
+        self.wait = wait
+        self.parallel: list[Parallel] = []
+        self._tool = (tool, "")
+        self._rpm: dict[int, float] = {}
+        self._context = -1
+        self._last_kind: int = Kind.EVENT
+
+    def spindle(self, context: Context) -> Spindle | None:
+        """The spindle that a context speaks of."""
+        spindles = self.machine.spindle
+        return spindles.get(context.spindle) or next(iter(spindles.values()), None)
+
+    def stands_for(self, event: Event) -> bool:
+        """Whether the axes stand still for an event."""
+        if event.type == "m":
+            function = self.machine.m_functions.get(event.data.get("code", -1))
+            return function is None or function.timing != "with"
+        return event.type in STANDING
+
+    def take(self, chunk: Chunk, facing: int) -> None:
+        """Note the waits of a chunk's rows; `facing` is the column of X, -1 for none."""
+
+        def radius(row: int) -> float:
+            return abs(chunk.end[row * chunk.axes + facing]) if facing >= 0 else 0.0
+
+        row = 0
+        for number, run in groupby(chunk.context):
+            if number != self._context:
+                self._context = number
+                self._new_context(chunk.first + row, number, radius(row))
+            row += sum(1 for _ in run)
+        kinds = chunk.kind.tobytes()
+        for row in _places(kinds, Kind.EVENT):
+            self._event(chunk, row)
+        for row in _places(kinds, Kind.DWELL):
+            self._dwell(chunk, row, radius(row))
+        self._threads(chunk, kinds, radius)
+
+    def _new_context(self, row: int, number: int, radius_mm: float) -> None:
+        context = self.contexts[number]
+        tool = (context.tool, context.tool_name)
+        if tool != self._tool and (any(tool) or any(self._tool)):
+            self.wait(row, "tool_change_s", number, self.machine.magazine.change_time_s)
+        self._tool = tool
+        spindle = self.spindle(context)
+        if spindle is not None:
+            target = context.spindle_direction * self.rpm(context, radius_mm)
+            change = abs(target - self._rpm.get(spindle.number, 0.0))
+            if change > 0.0 and spindle.acceleration_rpm_s > 0.0:
+                self.wait(row, "spindle_s", number, change / spindle.acceleration_rpm_s)
+            self._rpm[spindle.number] = target
+
+    def rpm(self, context: Context, radius_mm: float) -> float:
+        """Spindle speed of a context at a turning radius."""
+        spindle = self.spindle(context)
+        highest = spindle.max_rpm if spindle else context.spindle_rpm
+        if context.spindle_limit_rpm > 0.0:
+            highest = min(highest, context.spindle_limit_rpm)
+        if not context.surface_speed:
+            return min(context.spindle_rpm, highest)
+        around_m = 2.0 * pi * radius_mm / 1000.0
+        return highest if around_m * highest <= context.spindle_rpm else context.spindle_rpm / around_m
+
+    def _event(self, chunk: Chunk, row: int) -> None:
+        event = chunk.events[chunk.curve[row]]
+        if event.type != "m":
+            return
+        code, context = event.data.get("code", -1), chunk.context[row]
+        function = self.machine.m_functions.get(code)
+        if function is not None and function.seconds > 0.0:
+            if function.timing == "with":
+                last = _end_of_block(chunk, row)
+                self.parallel.append(Parallel(chunk.first + row, chunk.first + last, context, function.seconds))
+            else:
+                self.wait(chunk.first + row, "auxiliary_s", context, function.seconds)
+        if code == ORIENT:
+            spindle = self.spindle(self.contexts[context])
+            self.wait(chunk.first + row, "spindle_s", context, spindle.orient_s if spindle else 0.0)
+
+    def _dwell(self, chunk: Chunk, row: int, radius_mm: float) -> None:
+        number, at = chunk.context[row], chunk.curve[row] * CURVE_WIDTH
+        seconds, turns = chunk.curves[at : at + 2] if at >= 0 else (0.0, 0.0)
+        if turns > 0.0:
+            rpm = self.rpm(self.contexts[number], radius_mm)
+            seconds += turns * 60.0 / rpm if rpm > 0.0 else 0.0
+        self.wait(chunk.first + row, "dwell_s", number, seconds)
+
+    def _threads(self, chunk: Chunk, kinds: bytes, radius: Callable[[int], float]) -> None:
+        """A thread starts at the spindle's zero mark: on average it waits for half a turn."""
+        for row in _places(kinds, Kind.THREAD):
+            if (kinds[row - 1] if row else self._last_kind) != Kind.THREAD:
+                number = chunk.context[row]
+                rpm = self.rpm(self.contexts[number], radius(row))
+                if rpm > 0.0:
+                    self.wait(chunk.first + row, "spindle_s", number, 30.0 / rpm)
+        if kinds:
+            self._last_kind = kinds[-1]
+
+
+def _places(kinds: bytes, kind: Kind) -> Iterator[int]:
+    """Rows of a kind, in order."""
+    at = kinds.find(kind)
+    while at >= 0:
+        yield at
+        at = kinds.find(kind, at + 1)
+
+
+def _end_of_block(chunk: Chunk, row: int) -> int:
+    """The last row that the block of a row made."""
+    last = row
+    while (
+        last + 1 < len(chunk)
+        and chunk.line[last + 1] == chunk.line[row]
+        and chunk.program[last + 1] == chunk.program[row]
+    ):
+        last += 1
+    return last
