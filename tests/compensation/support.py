@@ -42,21 +42,18 @@ class Recorder:
         self.flushed += 1
 
     @property
-    def points(self) -> list[tuple[float, ...]]:
-        """Kind letter aside: end points in X and Y, rounded."""
+    def points(self) -> list[tuple[float, float]]:
+        """End points in X and Y, rounded."""
         return [(round(m.end[0], 4) + 0.0, round(m.end[1], 4) + 0.0) for m in self.moves]
 
     @property
     def rows(self) -> list[tuple[str, float, float]]:
         """Kind and end point of every move."""
-        return [
-            (m.kind.name.lower(), *point)
-            for m, point in zip(self.moves, self.points, strict=True)  # type: ignore[misc]
-        ]
+        return [(m.kind.name.lower(), u, v) for m, (u, v) in zip(self.moves, self.points, strict=True)]
 
 
 class Reader:
-    """Absolute coordinates X Y Z, arc centres I J from the start, D for the radius; `start` is where it stands."""
+    """Absolute X Y Z, arc centres I J from the start, D for the radius; `start` is where it stands."""
 
     def __init__(
         self,

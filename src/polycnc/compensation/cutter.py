@@ -407,7 +407,7 @@ class CutterCompensation:
         # Of several vectors those that cross are left out in pairs, the inmost first; the last pair must
         # not cross.
         while offset.reverses(step.edge, starts[-1], ends[0]):
-            if len(starts) == 1 and len(ends) == 1:
+            if step.policy.avoids or (len(starts) == 1 and len(ends) == 1):
                 self._avoid(previous, step, following)
                 return
             if len(starts) > 1:
@@ -423,6 +423,8 @@ class CutterCompensation:
             return
         if previous.avoided:
             self._violate(Violation.AVOIDANCE_INTERFERES, step.move)
+        if _meets_joint(previous, step):
+            return
         before, beyond = previous.edge, following.edge
         point = None
         if previous.role is following.role is _Role.CONTOUR:
@@ -500,6 +502,26 @@ class CutterCompensation:
 
 def _add(a: Point, b: Point) -> Point:
     return (a[0] + b[0], a[1] + b[1])
+
+
+def _subtract(a: Point, b: Point) -> Point:
+    return (a[0] - b[0], a[1] - b[1])
+
+
+def _meets_joint(previous: _Step, step: _Step) -> bool:
+    """Let the move in front run on to the arc about the corner behind a step too short for the tool."""
+    if step.corner is None or step.corner.joint is not Joint.ARC:
+        return False
+    about, distance = step.edge.end, step.distance
+    first, last = (_add(about, vector) for vector in (step.corner.vectors[0], step.corner.vectors[-1]))
+    joint = offset.arc(first, last, about, distance < 0.0)
+    point = offset.meet(previous.edge, joint, distance, 0.0)
+    if point is None or not arcs.contains_direction(first, last, about, joint.ccw, point):
+        return False
+    previous.corner = Corner([_subtract(point, previous.edge.end)])
+    step.first = _subtract(point, step.edge.start)
+    step.corner.vectors[0] = _subtract(point, about)
+    return True
 
 
 def _moves_elsewhere(move: Move, plane: Plane) -> bool:

@@ -100,7 +100,7 @@ def turn(a: Edge, b: Edge) -> float:
 def is_outer(a: Edge, b: Edge, offset: float) -> bool:
     """Whether the tool goes round the corner: the path turns away from the tool, or back on itself."""
     angle = turn(a, b)
-    return abs(angle) > pi - 1e-9 or angle * offset < 0.0
+    return abs(angle) > pi - 1e-9 or angle * offset < -SMOOTH_MM
 
 
 def offset_radius(radius: float, offset: float, ccw: bool) -> float:

@@ -1,0 +1,316 @@
+"""Chamfers and roundings between two moves: `,C` and `,R` of FANUC, CHR, CHF and RND of SINUMERIK.
+
+The first of the two moves waits until the second one is known; then both are cut short and the new row
+stands between them, with the line of the first. A rounding's centre lies where the parallels of both moves
+at the rounding's radius meet, on the side to which the path turns; so lines and arcs need no cases of their
+own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from enum import Enum
+from math import cos, hypot, isnan, nan, pi
+from typing import TYPE_CHECKING
+
+from polycnc.geometry import arcs, offset
+from polycnc.messages import AlarmError
+from polycnc.toolpath.kinds import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from polycnc.channel.path import Move, PathStage
+    from polycnc.compensation.plane import Plane
+    from polycnc.geometry.arcs import Point
+    from polycnc.toolpath import Event
+
+#: Directions that differ by less (radians) have no corner between them.
+_STRAIGHT_ON = 1e-6
+
+
+class Shape(Enum):
+    """What is put into a corner, and what its size means."""
+
+    #: Straight; size = way from the corner along both moves (`,C`, CHR).
+    CHAMFER = "chamfer"
+    #: Straight; size = length of the chamfer itself (CHF).
+    CHAMFER_LENGTH = "chamfer length"
+    #: Tangent arc; size = radius (`,R`, RND, RNDM).
+    ROUNDING = "rounding"
+
+
+class CornerViolation(Enum):
+    """What can be wrong with a corner; where the control gives no code, the corner is left as it is."""
+
+    NO_NEXT_MOVE = "no move in the plane follows, or the block has none itself"
+    TOO_SHORT = "a move is shorter than the chamfer or rounding needs"
+
+
+@dataclass(frozen=True, slots=True)
+class CornerPolicy:
+    """The behaviour of one control.
+
+    Attributes:
+        idle_blocks: Blocks without plane motion that may stand between the two moves.
+        shrinks: A size that does not fit is reduced to the largest that does (SINUMERIK).
+    """
+
+    idle_blocks: int = 0
+    shrinks: bool = False
+
+
+#: The next block must be the next move (FANUC 0i-TF Plus 4.7); too short is an alarm.
+FANUC_CORNERS = CornerPolicy()
+#: Blocks without motion are bridged as for radius compensation; too large a size is reduced.
+SINUMERIK_CORNERS = CornerPolicy(idle_blocks=5, shrinks=True)
+
+
+@dataclass(frozen=True, slots=True)
+class _Request:
+    shape: Shape
+    size: float
+    feed: float = nan
+    modal: bool = False
+
+
+@dataclass(slots=True)
+class _Held:
+    """A move that waits for the next one, and what came after it, in order."""
+
+    move: Move
+    request: _Request
+    blocks: int = 0
+    after: list[Callable[[], None]] = field(default_factory=list)
+
+
+class CornerStage:
+    """The stage of the path that inserts chamfers and roundings.
+
+    Args:
+        plane: Working plane.
+        policy: The control's behaviour.
+        violations: The control's alarm codes.
+        after: The next stage.
+    """
+
+    def __init__(
+        self, plane: Plane, policy: CornerPolicy, violations: Mapping[CornerViolation, str], after: PathStage
+    ) -> None:
+        self.plane = plane
+        self.policy = policy
+        self.after = after
+        self._violations = violations
+        self._modal: _Request | None = None
+        self._wanted: _Request | None = None
+        self._held: _Held | None = None
+
+    @property
+    def active(self) -> bool:
+        """Whether moves are held back or changed."""
+        return self._modal is not None or self._wanted is not None or self._held is not None
+
+    def insert(self, shape: Shape, size: float, feed: float = nan) -> None:
+        """Put a shape after the move of this block; call it before the move.
+
+        Args:
+            shape: Chamfer or rounding.
+            size: As the shape says, mm, positive.
+            feed: Feed of the inserted row; NaN for that of the move in front (FRC).
+        """
+        self._wanted = _Request(shape, size, feed)
+
+    def round_all(self, radius: float, feed: float = nan) -> None:
+        """Round every corner between cutting moves from this block on (RNDM); radius 0 ends it."""
+        self._modal = _Request(Shape.ROUNDING, radius, feed, modal=True) if radius > 0.0 else None
+
+    def move(self, move: Move) -> None:
+        """Take the next move; see `PathStage`."""
+        if not self.plane.moves(move):
+            self._in_order(lambda: self.after.move(move))
+            return
+        held, wanted, self._wanted = self._held, self._wanted, None
+        if held is not None:
+            move = self._join(held, move)
+        request = wanted or (None if move.kind is Kind.RAPID else self._modal)
+        if request is None:
+            self._pass(move)
+        else:
+            self._held = _Held(move, request)
+
+    def event(self, event: Event, program: int, line: int, context: int) -> None:
+        """Take an event; it keeps its place between the moves."""
+        self._in_order(lambda: self.after.event(event, program, line, context))
+
+    def block(self) -> None:
+        """A block has been read: too many without plane motion, and there is no corner."""
+        self._in_order(self.after.block)
+        if self._wanted is not None:
+            self._wanted = None
+            self._violate(CornerViolation.NO_NEXT_MOVE, 0)
+        if self._held is not None:
+            self._held.blocks += 1
+            if self._held.blocks > self.policy.idle_blocks + 1:
+                self._give_up()
+
+    def flush(self) -> None:
+        """Pass on what is held back: no more moves will come."""
+        self._give_up()
+        self.after.flush()
+
+    def discard(self) -> None:
+        """Forget everything that is held back (alarm, reset)."""
+        self._held = self._wanted = self._modal = None
+
+    # ---- inside --------------------------------------------------------------------------------------------
+
+    def _in_order(self, deed: Callable[[], None]) -> None:
+        if self._held is not None:
+            self._held.after.append(deed)
+        else:
+            deed()
+
+    def _give_up(self) -> None:
+        held = self._held
+        if held is None:
+            return
+        if not held.request.modal:
+            self._violate(CornerViolation.NO_NEXT_MOVE, held.move.line)
+        self._let_go(held)
+
+    def _let_go(self, held: _Held, inserted: Move | None = None) -> None:
+        self._held = None
+        self._pass(held.move)
+        if inserted is not None:
+            self._pass(inserted)
+        for deed in held.after:
+            deed()
+
+    def _pass(self, move: Move) -> None:
+        if move.center is not None or move.start != move.end:
+            self.after.move(move)
+
+    def _violate(self, violation: CornerViolation, line: int) -> None:
+        code = self._violations.get(violation)
+        if code is not None:
+            raise AlarmError(code, line=line)
+
+    def _join(self, held: _Held, move: Move) -> Move:
+        """Cut both moves, pass on the first and the inserted row; gives the second as cut."""
+        a, b = self.plane.edge(held.move), self.plane.edge(move)
+        request = held.request
+        if Kind.RAPID in (held.move.kind, move.kind):
+            if not request.modal:
+                self._violate(CornerViolation.NO_NEXT_MOVE, held.move.line)
+        elif a is not None and b is not None and abs(offset.turn(a, b)) > _STRAIGHT_ON:
+            size = request.size
+            cuts = _cuts(request.shape, a, b, size)
+            if cuts is None and self.policy.shrinks:
+                size = _largest(request.shape, a, b, size)
+                cuts = _cuts(request.shape, a, b, size)
+            if cuts is not None:
+                return self._cut(held, move, cuts, offset.turn(a, b) > 0.0)
+            if not self.policy.shrinks:
+                self._violate(CornerViolation.TOO_SHORT, held.move.line)
+        self._let_go(held)
+        return move
+
+    def _cut(self, held: _Held, move: Move, cuts: _Cuts, ccw: bool) -> Move:
+        plane, first = self.plane, held.move
+        leaving = plane.at(_between(first, cuts.part_a), cuts.leaving)
+        entering = plane.at(_between(move, cuts.part_b), cuts.entering)
+        inserted = replace(
+            first, kind=Kind.FEED, start=leaving, end=entering, center=None, turns=0.0, parameters=(),
+            feed=first.feed if isnan(held.request.feed) else held.request.feed,
+        )  # fmt: skip
+        if cuts.center is not None:
+            inserted.kind = plane.arc_kind(ccw, leaving, entering)
+            inserted.center, inserted.normal = plane.lift(cuts.center, leaving), plane.normal
+        held.move = _rest(replace(first, end=leaving), cuts.part_a > 0.0)
+        self._let_go(held, inserted)
+        return _rest(replace(move, start=entering), cuts.part_b < 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class _Cuts:
+    """Where a corner is cut off: points, the part of each move before them (0 to 1), a rounding's centre."""
+
+    leaving: Point
+    part_a: float
+    entering: Point
+    part_b: float
+    center: Point | None = None
+
+
+def _cuts(shape: Shape, a: offset.Edge, b: offset.Edge, size: float) -> _Cuts | None:
+    """The cuts for a shape between two edges; None where it does not fit."""
+    turn = offset.turn(a, b)
+    if abs(turn) > pi - _STRAIGHT_ON:
+        return None
+    if shape is Shape.ROUNDING:
+        distance = size if turn > 0.0 else -size
+        center = offset.meet(a, b, distance, distance)
+        if center is None:
+            return None
+        leaving, entering = _nearest(a, center), _nearest(b, center)
+        part_a, part_b = _part(a, leaving), _part(b, entering)
+        if abs(arcs.radius_of(center, leaving) - size) + abs(arcs.radius_of(center, entering) - size) > 1e-6:
+            # A rounding larger than an arc does not fit inside it.
+            return None
+    else:
+        leg = size if shape is Shape.CHAMFER else 0.5 * size / cos(0.5 * turn)
+        center = None
+        part_a, part_b = 1.0 - leg / a.length, leg / b.length
+        leaving, entering = _at(a, part_a), _at(b, part_b)
+    slack = 1e-9
+    if not (-slack <= part_a < 1.0 and 0.0 < part_b <= 1.0 + slack):
+        return None
+    return _Cuts(leaving, max(part_a, 0.0), entering, min(part_b, 1.0), center)
+
+
+def _largest(shape: Shape, a: offset.Edge, b: offset.Edge, size: float) -> float:
+    """The largest size up to `size` that fits, by bisection down to a nanometre; smaller ones fit as well."""
+    low, high = 0.0, size
+    while high - low > 1e-9 * max(size, 1.0):
+        middle = 0.5 * (low + high)
+        if _cuts(shape, a, b, middle) is None:
+            high = middle
+        else:
+            low = middle
+    return low
+
+
+def _nearest(edge: offset.Edge, center: Point) -> Point:
+    """Where a circle about `center` touches the line or circle of an edge."""
+    if edge.center is None:
+        du, dv = edge.departing
+        along = (center[0] - edge.start[0]) * du + (center[1] - edge.start[1]) * dv
+        return (edge.start[0] + along * du, edge.start[1] + along * dv)
+    radius = arcs.radius_of(edge.center, edge.end)
+    return arcs.point_at(edge.center, radius, arcs.angle_at(edge.center, center))
+
+
+def _part(edge: offset.Edge, point: Point) -> float:
+    """How much of an edge lies before a point on it; below 0 before its start, above 1 behind its end."""
+    if edge.center is None:
+        du, dv = edge.departing
+        return ((point[0] - edge.start[0]) * du + (point[1] - edge.start[1]) * dv) / edge.length
+    if hypot(point[0] - edge.start[0], point[1] - edge.start[1]) <= arcs.SAME_POINT_MM:
+        return 0.0
+    return abs(arcs.sweep_angle(edge.start, point, edge.center, edge.ccw)) / edge.sweep
+
+
+def _at(edge: offset.Edge, part: float) -> Point:
+    if edge.center is None:
+        (u0, v0), (u1, v1) = edge.start, edge.end
+        return (u0 + part * (u1 - u0), v0 + part * (v1 - v0))
+    return arcs.point_on_arc(edge.start, edge.end, edge.center, edge.ccw, part)
+
+
+def _rest(move: Move, is_left: bool) -> Move:
+    """What a cut leaves of a move; of an arc that is used up not a full circle, but nothing."""
+    return move if is_left else replace(move, center=None)
+
+
+def _between(move: Move, part: float) -> list[float]:
+    return [s + part * (e - s) for s, e in zip(move.start, move.end, strict=True)]
