@@ -1,3 +1,31 @@
-"""polycnc: an open CNC control in software."""
+"""polycnc: an open CNC control in software.
+
+    import polycnc
+
+    result = polycnc.run("part.nc", control="fanuc-m", machine="mill3")
+    result.alarms, result.time, result.final
+    result.moves.to_pandas()
+
+`import polycnc` alone loads nothing; the parts come when they are asked for.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from polycnc.messages.catalogue import set_language
+    from polycnc.session import Result, Session, SessionError, open_session, run
 
 __version__ = "0.1.0"
+__all__ = ["Result", "Session", "SessionError", "__version__", "open_session", "run", "set_language"]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "set_language":
+        from polycnc.messages.catalogue import set_language
+
+        return set_language
+    if name in __all__:
+        from polycnc import session
+
+        return getattr(session, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

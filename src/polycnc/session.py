@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
 from polycnc.messages import text
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from polycnc.machine.model import Machine
     from polycnc.machine.setup import Setup
     from polycnc.messages import Alarm
+    from polycnc.motion.plan import Plan, ToolTimes
+    from polycnc.motion.planner import Planner
     from polycnc.program import Program, ProgramStore
     from polycnc.toolpath.table import Chunk
 
@@ -53,13 +55,6 @@ class SessionError(Exception):
 
     def __str__(self) -> str:
         return self.text()
-
-
-class Consumer(Protocol):
-    """Takes the toolpath chunk by chunk, in order, while the program runs."""
-
-    def take(self, display: Display, chunk: Chunk) -> None:
-        """The next rows."""
 
 
 class Variables(Mapping[str, Any]):
@@ -91,6 +86,7 @@ class Result:
         channel: The channel in its last state.
         display: Turns rows of the toolpath into what the control shows.
         alarms: In order.
+        planner: Plans the speeds of the toolpath.
         stops: Where the run halted in single block mode, as N words.
     """
 
@@ -99,6 +95,7 @@ class Result:
     machine: Machine
     channel: Channel
     display: Display
+    planner: Planner
     stops: list[str] = field(default_factory=list)
 
     @property
@@ -120,6 +117,33 @@ class Result:
     def rows(self) -> list[dict[str, Any]]:
         """Moves and events in order, as the trace shows them."""
         return list(self.display.records())
+
+    @cached_property
+    def moves(self) -> Any:
+        """The rows as a pyarrow table, one column for each value; needs pyarrow."""
+        from polycnc.toolpath.export import arrow_table
+
+        return arrow_table(self.display, self.display.records(), self.metadata)
+
+    @property
+    def metadata(self) -> dict[str, str]:
+        """What a table says of the whole run."""
+        return {"control": self.control.id, "machine": self.machine.id, "program": self.program.name}
+
+    @cached_property
+    def plan(self) -> Plan:
+        """The planned cycle time, in total and by tool."""
+        return self.planner.finish()
+
+    @property
+    def time(self) -> float:
+        """Cycle time in seconds."""
+        return self.plan.total_s
+
+    @property
+    def tools(self) -> tuple[ToolTimes, ...]:
+        """The tools in the order of their first use, with their times."""
+        return self.plan.tools
 
     @cached_property
     def variables(self) -> Variables:
@@ -165,8 +189,11 @@ class Session:
         store: Where the control finds subprograms.
         program: The main program.
         block_limit: The run ends with the control's alarm after so many blocks.
-        keep: Keep the whole toolpath for the result; without it, chunks are dropped once consumed.
-        consumers: Take the toolpath while the program runs.
+        keep: Keep the whole toolpath; without it, each chunk is planned, consumed and dropped.
+
+    Attributes:
+        consumers: Called with each chunk of the toolpath, in order, while the program runs.
+        result: What `run` gives.
     """
 
     def __init__(
@@ -179,15 +206,16 @@ class Session:
         *,
         block_limit: int = DEFAULT_BLOCK_LIMIT,
         keep: bool = True,
-        consumers: Sequence[Consumer] = (),
     ) -> None:
-        self.program = program
-        self._consumers = consumers
+        from polycnc.motion.planner import Planner
+
         self._keep = keep
+        self.consumers: list[Callable[[Chunk], object]] = []
         toolpath = Toolpath(machine.channel_axes(1), on_full=self._take)
         self.channel = Channel(control, machine, setup, store, block_limit=block_limit, toolpath=toolpath)
-        self.display = Display(toolpath, axis_layout(machine, 1))
-        self.result = Result(program, control, machine, self.channel, self.display)
+        display = Display(toolpath, axis_layout(machine, 1), self._event_text)
+        planner = Planner(toolpath, machine, start=self.channel.coordinates.machine, keep_rows=False)
+        self.result = Result(program, control, machine, self.channel, display, planner)
 
     def run(self, progress: Callable[[Channel], None] | None = None) -> Result:
         """Run to the end of the program or to an alarm. Programmed stops are recorded and started again.
@@ -195,18 +223,28 @@ class Session:
         Args:
             progress: Called now and then in a long run.
         """
-        for wait in self.channel.run(self.program):
+        for wait in self.channel.run(self.result.program):
             if wait.reason == SINGLE_BLOCK:
                 self.result.stops.append(self._halt(wait))
             elif progress is not None:
                 progress(self.channel)
-        self._take(self.channel.toolpath.chunk)
+        for consume in self.consumers:
+            consume(self.channel.toolpath.chunk)
         return self.result
 
     def _take(self, chunk: Chunk) -> bool:
-        for consumer in self._consumers:
-            consumer.take(self.display, chunk)
+        for consume in self.consumers:
+            consume(chunk)
+        if not self._keep:
+            self.result.planner.take(chunk)
         return not self._keep
+
+    def _event_text(self, data: Mapping[str, Any]) -> str:
+        """The text of an alarm event."""
+        same = (
+            alarm for alarm in self.channel.alarms if (alarm.code, alarm.line) == (data["code"], data["line"])
+        )
+        return next((self.result.alarm_text(alarm) for alarm in same), "")
 
     def _halt(self, wait: Wait) -> str:
         """The N word of the block at which the run has halted, or its line."""
@@ -249,7 +287,6 @@ def open_session(
     folder: Path | None = None,
     block_limit: int = DEFAULT_BLOCK_LIMIT,
     keep: bool = True,
-    consumers: Sequence[Consumer] = (),
 ) -> Session:
     """Find everything that a run needs: program, control, machine, setup.
 
@@ -265,7 +302,6 @@ def open_session(
         folder: Where a machine file that `setup` names is looked up, if `setup` is no file.
         block_limit: See `Session`.
         keep: See `Session`.
-        consumers: See `Session`.
 
     Raises:
         SessionError: The control is unknown, or cannot be told from the program.
@@ -277,7 +313,7 @@ def open_session(
     content = decode(source, encoding).text if isinstance(source, bytes) else source
     is_text = isinstance(source, bytes) or (isinstance(source, str) and "\n" in source)
     chosen = _control(control) if control else _guess(content, name, is_text=is_text, encoding=encoding)
-    form = getattr(chosen, "form", Form.WORD_ADDRESS)
+    form = chosen.form
     store = ProgramStore(search=search, form=form, encoding=encoding)
     if is_text:
         program = store.add_text(_MAIN_PROGRAM if form is Form.SINUMERIK else "MAIN", str(content))
@@ -285,10 +321,8 @@ def open_session(
         program = store.add_file(content)
     for key, text_of_file in (files or {}).items():
         store.add_text(key, text_of_file)
-    built, start = _machine_and_setup(machine, setup, folder, getattr(chosen, "default_machine", "mill3"))
-    return Session(
-        chosen, built, start, store, program, block_limit=block_limit, keep=keep, consumers=consumers
-    )
+    built, start = _machine_and_setup(machine, setup, folder, chosen.default_machine)
+    return Session(chosen, built, start, store, program, block_limit=block_limit, keep=keep)
 
 
 #: Where a SINUMERIK program lies that comes as a text.

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import csv
 import json
-from typing import IO, TYPE_CHECKING, Any, Protocol
+from typing import IO, TYPE_CHECKING, Any, Protocol, TypeAlias
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Mapping
 
     from polycnc.toolpath.table import Chunk
     from polycnc.toolpath.trace import Display
@@ -19,90 +19,84 @@ if TYPE_CHECKING:
 #: Decimals of the values in text formats: finer than any control resolves, far above rounding noise.
 DECIMALS = 7
 #: Columns that stand before the positions, and behind them. Values of events go into the last ones.
-_FIRST = ("type", "program", "line")
+_FIRST = ("type", "program", "line", "unit")
 _NUMBERS = ("feed", "turns", "seconds", "revolutions", "lead", "start_angle", "speed", "spindle")
 _TEXTS = ("code", "tool", "text")
 Record = dict[str, Any]
+#: What the schema of a table says of the whole run: control, machine.
+Metadata: TypeAlias = "Mapping[str, str]"
 
 
 class TraceWriter(Protocol):
-    """Writes records as they come. `close` finishes the file's content; the stream stays open."""
+    """Writes rows as they come. `close` writes what belongs behind the last row; the stream stays open."""
 
-    def take(self, display: Display, chunk: Chunk) -> None:
+    def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""
 
-    def close(self, display: Display) -> None:
+    def close(self) -> None:
         """Write what belongs behind the last row."""
 
 
 class JsonLines:
     """One JSON object a line."""
 
-    def __init__(self, stream: IO[str]) -> None:
+    def __init__(self, stream: IO[str], display: Display, _metadata: Metadata) -> None:
         self._stream = stream
-        self._encode = json.JSONEncoder(ensure_ascii=False, separators=(", ", ": "), default=str).encode
+        self._display = display
+        self._encode = json.JSONEncoder(ensure_ascii=False, default=str).encode
 
-    def take(self, display: Display, chunk: Chunk) -> None:
+    def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""
-        encode = self._encode
-        self._stream.writelines(encode(rounded(record)) + "\n" for record in display.records_of(chunk))
+        encode, records = self._encode, self._display.records_of(chunk)
+        self._stream.writelines(encode(rounded(record)) + "\n" for record in records)
 
-    def close(self, display: Display) -> None:
+    def close(self) -> None:
         """Nothing stands behind the last line."""
 
 
 class Csv:
     """A header line and one line a row, in the columns of `table_columns`."""
 
-    def __init__(self, stream: IO[str]) -> None:
+    def __init__(self, stream: IO[str], display: Display, _metadata: Metadata) -> None:
+        self._display = display
         self._writer = csv.writer(stream, lineterminator="\n")
-        self._columns: tuple[str, ...] = ()
+        self._columns = table_columns(display)
+        self._writer.writerow(self._columns)
 
-    def take(self, display: Display, chunk: Chunk) -> None:
+    def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""
-        self._head(display)
-        for record in display.records_of(chunk):
+        for record in self._display.records_of(chunk):
             flat = flattened(rounded(record))
             self._writer.writerow([flat.get(column, "") for column in self._columns])
 
-    def close(self, display: Display) -> None:
-        """A run without rows still has its header."""
-        self._head(display)
-
-    def _head(self, display: Display) -> None:
-        if not self._columns:
-            self._columns = table_columns(display)
-            self._writer.writerow(self._columns)
+    def close(self) -> None:
+        """Nothing stands behind the last line."""
 
 
 class Parquet:
-    """An Arrow table in Parquet; one row group a chunk. Needs pyarrow."""
+    """An Arrow table in Parquet, one row group a chunk. Needs pyarrow."""
 
-    def __init__(self, stream: IO[bytes], metadata: dict[str, str]) -> None:
-        self._stream = stream
+    def __init__(self, stream: IO[bytes], display: Display, metadata: Metadata) -> None:
+        from pyarrow import parquet
+
+        self._display = display
         self._metadata = metadata
-        self._writer: Any = None
+        self._writer = parquet.ParquetWriter(stream, arrow_schema(display, metadata))
 
-    def take(self, display: Display, chunk: Chunk) -> None:
+    def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""
-        self._open(display).write_table(arrow_table(display, display.records_of(chunk), self._metadata))
+        records = self._display.records_of(chunk)
+        self._writer.write_table(arrow_table(self._display, records, self._metadata))
 
-    def close(self, display: Display) -> None:
+    def close(self) -> None:
         """Write the end of the file."""
-        self._open(display).close()
-
-    def _open(self, display: Display) -> Any:
-        if self._writer is None:
-            from pyarrow import parquet
-
-            self._writer = parquet.ParquetWriter(self._stream, arrow_schema(display, self._metadata))
-        return self._writer
+        self._writer.close()
 
 
 #: Writers by the suffix of the file, with the mode in which it is opened.
-WRITERS: dict[str, tuple[str, Callable[[IO[Any], dict[str, str]], TraceWriter]]] = {
-    ".jsonl": ("w", lambda stream, _metadata: JsonLines(stream)),
-    ".csv": ("w", lambda stream, _metadata: Csv(stream)),
+WRITERS: dict[str, tuple[str, Callable[[IO[Any], Display, Metadata], TraceWriter]]] = {
+    ".jsonl": ("w", JsonLines),
+    ".csv": ("w", Csv),
     ".parquet": ("wb", Parquet),
 }
 
@@ -136,18 +130,18 @@ def flattened(record: Record) -> Record:
     return flat
 
 
-def arrow_schema(display: Display, metadata: dict[str, str]) -> Any:
+def arrow_schema(display: Display, metadata: Metadata) -> Any:
     """The Arrow schema of a run's table; `metadata` says control, machine and units."""
     import pyarrow as pa
 
-    texts = {"type": pa.dictionary(pa.int8(), pa.string()), "program": pa.dictionary(pa.int32(), pa.string())}
-    texts |= dict.fromkeys(_TEXTS, pa.string())
-    types = {"line": pa.int32(), **texts}
+    names = pa.dictionary(pa.int32(), pa.string())
+    types = {"line": pa.int32(), "type": names, "program": names, "unit": names}
+    types |= dict.fromkeys(_TEXTS, pa.string())
     fields = [pa.field(name, types.get(name, pa.float64())) for name in table_columns(display)]
-    return pa.schema(fields, metadata=metadata)
+    return pa.schema(fields, metadata=dict(metadata))
 
 
-def arrow_table(display: Display, records: Iterable[Record], metadata: dict[str, str]) -> Any:
+def arrow_table(display: Display, records: Iterable[Record], metadata: Metadata) -> Any:
     """Records as an Arrow table; a value that a row does not have is null."""
     import pyarrow as pa
 

@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Any
 from polycnc.toolpath.kinds import TYPE_NAMES, Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from polycnc.toolpath.context import Context
+    from polycnc.toolpath.events import Event
     from polycnc.toolpath.table import Chunk, Row, Toolpath
 
 MM_PER_INCH = 25.4
@@ -55,12 +56,19 @@ class Display:
     Args:
         toolpath: The toolpath that the rows belong to.
         layout: Geometry and rotary axes of the channel.
+        alarm_text: Gives the text of an alarm event from its data.
     """
 
-    def __init__(self, toolpath: Toolpath, layout: AxisLayout) -> None:
+    def __init__(
+        self,
+        toolpath: Toolpath,
+        layout: AxisLayout,
+        alarm_text: Callable[[Mapping[str, Any]], str] | None = None,
+    ) -> None:
         self.axes = toolpath.axes
         self._toolpath = toolpath
         self._layout = layout
+        self._alarm_text = alarm_text
         self.modulo_axes = frozenset(self.axes[i] for i in layout.modulo)
         self._scales: dict[int, _Scale] = {}
 
@@ -77,12 +85,13 @@ class Display:
     def record(self, row: Row) -> dict[str, Any]:
         """One row as a record of the trace (see the documentation of `run --trace`)."""
         if row.event is not None:
-            return {"type": row.event.type, "program": row.program, "line": row.line, **row.event.data}
+            return self._event(row, row.event)
         scale = self._scale(row.context)
         record: dict[str, Any] = {
             "type": TYPE_NAMES[row.kind],
             "program": row.program,
             "line": row.line,
+            "unit": "inch" if row.context.inch else "mm",
             "to": self.work(row.end, row.context),
             "machine": self.machine(row.end, row.context),
         }
@@ -91,6 +100,12 @@ class Display:
             record["feed"] = row.feed * (scale.length if row.kind == Kind.THREAD else scale.feed)
         if row.curve:
             record.update(self._curve(row, scale))
+        return record
+
+    def _event(self, row: Row, event: Event) -> dict[str, Any]:
+        record = {"type": event.type, "program": row.program, "line": row.line, **event.data}
+        if event.type == "alarm" and self._alarm_text is not None:
+            record["text"] = self._alarm_text(event.data)
         return record
 
     def work(self, end: Sequence[float], context: Context) -> dict[str, float]:

@@ -1,0 +1,69 @@
+"""Which features work, told by cases: a feature works on a control if it has cases there and all of them pass."""
+
+from __future__ import annotations
+
+import json
+from importlib import resources
+from typing import TYPE_CHECKING, Any
+
+from polycnc.cases.reading import read_cases
+from polycnc.cases.runner import run_cases
+from polycnc.cases.selection import Selection
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+    from pathlib import Path
+
+    from polycnc.cases.runner import Outcome
+
+#: Control id to feature id to number of cases.
+Features = dict[str, dict[str, int]]
+
+
+def shipped() -> Features:
+    """The features of this version of polycnc, as its own cases showed when it was made."""
+    source = resources.files("polycnc").joinpath("data", "features.json")
+    features: Features = json.loads(source.read_text(encoding="utf-8"))
+    return features
+
+
+def case_files(folder: Path) -> list[Path]:
+    """The case files of a folder, in order of their names."""
+    return sorted(folder.glob("*.yaml"))
+
+
+def proved(folder: Path) -> Features:
+    """Run all cases of a folder and give the features that work.
+
+    Raises:
+        UnreadableError: A case file cannot be read.
+    """
+    return counted(_outcomes(folder))
+
+
+def counted(outcomes: Iterable[Outcome]) -> Features:
+    """The features all of whose cases passed, sorted, with the number of their cases."""
+    found: dict[tuple[str, str], list[bool]] = {}
+    for outcome in outcomes:
+        if outcome.feature:
+            found.setdefault((outcome.control, outcome.feature), []).append(outcome.status == "passed")
+    features: Features = {}
+    for (control, feature), passed in sorted(found.items()):
+        if all(passed):
+            features.setdefault(control, {})[feature] = len(passed)
+    return features
+
+
+def claimed(cases: Iterable[Mapping[str, Any]]) -> Features:
+    """The features that cases speak of, whether they pass or not."""
+    features: Features = {}
+    for case in cases:
+        if case.get("feature"):
+            counts = features.setdefault(str(case.get("control")), {})
+            counts[str(case["feature"])] = counts.get(str(case["feature"]), 0) + 1
+    return {control: dict(sorted(features[control].items())) for control in sorted(features)}
+
+
+def _outcomes(folder: Path) -> Iterator[Outcome]:
+    for path in case_files(folder):
+        yield from run_cases(read_cases(path), Selection(), folder)

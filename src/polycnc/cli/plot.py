@@ -1,0 +1,90 @@
+"""`polycnc plot`: the path as a drawing."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
+from polycnc.cli import options
+from polycnc.cli.console import fail, note
+from polycnc.cli.diagnostics import diagnostics_of
+from polycnc.messages import text
+
+if TYPE_CHECKING:
+    from polycnc.session import Result
+
+app = typer.Typer(add_completion=False, rich_markup_mode=None)
+
+
+class ViewName(StrEnum):
+    """The projections of `--view`."""
+
+    XY = "xy"
+    XZ = "xz"
+    YZ = "yz"
+    ZX = "zx"
+    THREE = "three"
+
+
+@app.command(help=text("help.plot"))
+def plot(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help=text("help.run.file"))],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="X.svg|X.png", help=text("help.plot.output"))
+    ],
+    view: Annotated[ViewName | None, typer.Option(help=text("help.plot.view"), show_default=False)] = None,
+    control: options.Control = None,
+    machine: options.Machine = None,
+    setup: options.Setup = None,
+    search: options.Search = None,
+    encoding: options.Encoding = None,
+    block_limit: options.BlockLimit = DEFAULT_BLOCK_LIMIT,
+    _lang: options.Lang = None,
+) -> int:
+    """Draw the path of a program; an alarm ends the path where it came."""
+    from polycnc.cli.output import write_whole
+    from polycnc.session import open_session
+
+    suffix = output.suffix.lower()
+    if suffix not in (".svg", ".png"):
+        return fail(text("plot.suffix", file=output), 2)
+    result = open_session(
+        file, control=control, machine=machine, setup=setup, search=search or (), encoding=encoding,
+        block_limit=block_limit,
+    ).run()  # fmt: skip
+    drawing = _drawing(result, view, file.name)
+    if suffix == ".svg":
+        write_whole(output, drawing)
+    elif not _write_png(output, drawing):
+        return fail(text("plot.no-png"), 2)
+    for diagnostic in diagnostics_of(result, str(file)):
+        note(str(diagnostic))
+    return 0 if result.ok else 1
+
+
+def _drawing(result: Result, view: ViewName | None, title: str) -> str:
+    from polycnc.toolpath.plot import VIEWS, svg
+    from polycnc.toolpath.strokes import strokes
+
+    geometry = result.machine.geometry_indices(1)
+    is_lathe = geometry[1] < 0
+    names = [result.toolpath.axes[i] if i >= 0 else "" for i in geometry]
+    views = VIEWS[view or ("zx" if is_lathe else "three")]
+    return svg(list(strokes(result.toolpath, geometry)), views, title, names)
+
+
+def _write_png(output: Path, drawing: str) -> bool:
+    """Write a picture; false where the library for that is not installed."""
+    try:
+        import resvg_py
+    except ImportError:
+        return False
+    from polycnc.cli.output import whole_file
+
+    with whole_file(output, "wb") as stream:
+        stream.write(bytes(resvg_py.svg_to_bytes(svg_string=drawing)))
+    return True

@@ -1,0 +1,139 @@
+"""`polycnc run`: runs a program and prints what happened."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import ExitStack
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
+from polycnc.cli import options
+from polycnc.cli.console import fail, show
+from polycnc.messages import text
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.session import Session
+    from polycnc.toolpath.table import Chunk
+    from polycnc.toolpath.trace import Display
+
+app = typer.Typer(add_completion=False, rich_markup_mode=None)
+#: A run that takes longer than this shows how far it is, seconds.
+PATIENCE_S = 0.7
+
+
+@app.command(help=text("help.run"))
+def run(
+    file: Annotated[str, typer.Argument(metavar="FILE", help=text("help.run.file"))],
+    trace: Annotated[
+        Path | None, typer.Option(metavar="OUT.jsonl|csv|parquet", help=text("help.run.trace"))
+    ] = None,
+    state: Annotated[Path | None, typer.Option(metavar="OUT.json", help=text("help.run.state"))] = None,
+    print_to: Annotated[
+        Path | None, typer.Option("--print", metavar="FILE", help=text("help.run.print"))
+    ] = None,
+    control: options.Control = None,
+    machine: options.Machine = None,
+    setup: options.Setup = None,
+    search: options.Search = None,
+    encoding: options.Encoding = None,
+    block_limit: options.BlockLimit = DEFAULT_BLOCK_LIMIT,
+    _lang: options.Lang = None,
+) -> int:
+    """Run a program once, as the control would."""
+    from polycnc.cli.output import write_whole
+    from polycnc.cli.report import Happenings, as_state, as_text
+    from polycnc.session import open_session
+    from polycnc.toolpath.export import WRITERS
+
+    if trace is not None and trace.suffix.lower() not in WRITERS:
+        return fail(text("run.suffix", file=trace, known=", ".join(WRITERS)), 2)
+    is_stdin = file == "-"
+    session = open_session(
+        sys.stdin.buffer.read() if is_stdin else Path(file), control=control, machine=machine, setup=setup,
+        search=search or (), encoding=encoding, block_limit=block_limit, keep=False,
+    )  # fmt: skip
+    happenings = Happenings(session.result.display)
+    session.consumers.append(happenings.take)
+    with ExitStack() as files:
+        if print_to is not None:
+            session.consumers.append(_Prints(_whole(files, print_to, "w"), session.result.display).take)
+        if trace is not None:
+            _trace_to(trace, session, files)
+        progress = files.enter_context(_Progress(session))
+        result = session.run(progress)
+    if state is not None:
+        write_whole(state, as_state(result))
+    show(as_text(result, happenings, "<stdin>" if is_stdin else file))
+    return 0 if result.ok else 1
+
+
+def _whole(files: ExitStack, path: Path, mode: str) -> IO[Any]:
+    from polycnc.cli.output import whole_file
+
+    return files.enter_context(whole_file(path, mode))
+
+
+def _trace_to(path: Path, session: Session, files: ExitStack) -> None:
+    """Write the trace while the program runs."""
+    from polycnc.toolpath.export import WRITERS
+
+    mode, writer_of = WRITERS[path.suffix.lower()]
+    result = session.result
+    writer = writer_of(_whole(files, path, mode), result.display, result.metadata)
+    files.callback(writer.close)
+    session.consumers.append(writer.take)
+
+
+class _Prints:
+    """Writes what the program prints, one line each."""
+
+    def __init__(self, stream: IO[str], display: Display) -> None:
+        self._stream = stream
+        self._display = display
+
+    def take(self, chunk: Chunk) -> None:
+        for event in chunk.events:
+            if event.type == "print":
+                self._stream.write(f"{event.data['text']}\n")
+
+
+class _Progress:
+    """A bar on standard error, for people who wait: only on a terminal, only in a long run."""
+
+    def __init__(self, session: Session) -> None:
+        self._program = session.result.program
+        self._bar: Any = None
+        self._task: Any = None
+        self._started = 0.0
+
+    def __enter__(self) -> Callable[[Channel], None] | None:
+        from time import monotonic
+
+        self._started = monotonic()
+        return self._update if sys.stderr.isatty() else None
+
+    def __exit__(self, *_: object) -> None:
+        if self._bar is not None:
+            self._bar.stop()
+
+    def _update(self, channel: Channel) -> None:
+        from time import monotonic
+
+        if self._bar is None and monotonic() - self._started < PATIENCE_S:
+            return
+        if self._bar is None:
+            from rich.console import Console
+            from rich.progress import Progress
+
+            self._bar = Progress(console=Console(stderr=True), transient=True)
+            self._task = self._bar.add_task(self._program.name, total=len(self._program.lines))
+            self._bar.start()
+        if channel.stack:
+            main = channel.stack[0]
+            self._bar.update(self._task, completed=main.code.line(main.current) - self._program.first_line)

@@ -1,0 +1,184 @@
+"""Draws the path as SVG: projections side by side at one scale, rapids dashed, each tool in its colour.
+
+What is drawn are work coordinates in millimetres (a lathe's X as radius), as the program names them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, floor, log10
+from typing import TYPE_CHECKING
+from xml.sax.saxutils import escape
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from polycnc.toolpath.strokes import Stroke
+
+#: Okabe and Ito's colours, told apart by people who see red and green alike.
+TOOL_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c510a", "#000000")
+FONT = "Arial, DejaVu Sans, sans-serif"
+RAPID_COLOUR, GRID_COLOUR, TEXT_COLOUR = "#999999", "#e4e4e4", "#333333"
+#: The largest side of a view, its margin for texts, and how near two drawn points may lie, all in pixels.
+VIEW, MARGIN, NEAR = 560.0, 54.0, 0.15
+_LEGEND_LINE = 18.0
+_TITLE = 34.0
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """A projection: index of the geometry axis that points right, and of the one that points up."""
+
+    right: int
+    up: int
+    name: str
+
+
+#: Views by the name of `--view`. Mills are drawn as in a three-view drawing, lathes with Z to the right.
+VIEWS = {
+    "xy": (View(0, 1, "XY"),),
+    "xz": (View(0, 2, "XZ"),),
+    "yz": (View(1, 2, "YZ"),),
+    "zx": (View(2, 0, "ZX"),),
+    "three": (View(0, 1, "XY"), View(0, 2, "XZ"), View(1, 2, "YZ")),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class _Frame:
+    """Where a view lies on the sheet: millimetres to pixels."""
+
+    view: View
+    low: tuple[float, float]
+    high: tuple[float, float]
+    scale: float
+    left: float
+    top: float
+
+    def x(self, value: float) -> float:
+        return self.left + (value - self.low[0]) * self.scale
+
+    def y(self, value: float) -> float:
+        return self.top + (self.high[1] - value) * self.scale
+
+    @property
+    def width(self) -> float:
+        return (self.high[0] - self.low[0]) * self.scale
+
+    @property
+    def height(self) -> float:
+        return (self.high[1] - self.low[1]) * self.scale
+
+
+def svg(strokes: Sequence[Stroke], views: Sequence[View], title: str, names: Sequence[str] = "XYZ") -> str:
+    """A drawing of the strokes.
+
+    Args:
+        strokes: What `strokes.strokes` gave.
+        views: The projections, drawn from left to right.
+        title: Written above the drawing.
+        names: What the control calls the geometry axes X, Y and Z.
+    """
+    low, high = _box(strokes)
+    span = max(max(high[v.right] - low[v.right], high[v.up] - low[v.up]) for v in views)
+    scale = VIEW / span
+    frames: list[_Frame] = []
+    left = MARGIN
+    for view in views:
+        corner, far = (low[view.right], low[view.up]), (high[view.right], high[view.up])
+        frames.append(_Frame(view, corner, far, scale, left, _TITLE + 10.0))
+        left += frames[-1].width + MARGIN + 20.0
+    tools = list(dict.fromkeys(stroke.tool for stroke in strokes if not stroke.rapid))
+    colours = {tool: TOOL_COLOURS[i % len(TOOL_COLOURS)] for i, tool in enumerate(tools)}
+    bottom = _TITLE + 10.0 + max(frame.height for frame in frames) + MARGIN
+    height = bottom + _LEGEND_LINE * (len(tools) + 1) + 10.0
+    body = [line for frame in frames for line in _view(frame, strokes, colours, names)]
+    body += _legend(bottom, colours)
+    return "\n".join([*_head(max(left, 320.0), height, title), *body, "</svg>", ""])
+
+
+def _box(strokes: Sequence[Stroke]) -> tuple[list[float], list[float]]:
+    """The box around all points, never without extent, with a little air."""
+    low, high = [0.0] * 3, [0.0] * 3
+    for i in range(3):
+        values = [point[i] for stroke in strokes for point in stroke.points] or [0.0]
+        low[i], high[i] = min(values), max(values)
+    air = 0.04 * max(*(h - n for h, n in zip(high, low, strict=True)), 1.0)
+    return [value - air for value in low], [value + air for value in high]
+
+
+def _head(width: float, height: float, title: str) -> Iterator[str]:
+    yield (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0f}" height="{height:.0f}"'
+        f' viewBox="0 0 {width:.0f} {height:.0f}" font-family="{FONT}" font-size="11" fill="{TEXT_COLOUR}">'
+    )
+    yield '<rect width="100%" height="100%" fill="#ffffff"/>'
+    yield f'<text x="{MARGIN:.0f}" y="22" font-size="14">{escape(title)}</text>'
+
+
+def _view(
+    frame: _Frame, strokes: Sequence[Stroke], colours: dict[str, str], names: Sequence[str]
+) -> Iterator[str]:
+    """One projection: grid, axis texts, path."""
+    view = frame.view
+    yield f'<g id="view-{view.name.lower()}">'
+    yield from _grid(frame)
+    right, down = frame.left + frame.width, frame.top + frame.height
+    across, upward = (f"{escape(names[axis])} (mm)" for axis in (view.right, view.up))
+    yield f'<text x="{right:.1f}" y="{down + 34:.1f}" text-anchor="end">{across}</text>'
+    yield f'<text x="{frame.left - 40:.1f}" y="{frame.top - 6:.1f}">{upward}</text>'
+    for stroke in strokes:
+        points = _drawn(frame, stroke)
+        if len(points) < 2:
+            continue
+        path = "M" + " ".join(f"{x:.2f},{y:.2f}" for x, y in points)
+        if stroke.rapid:
+            look = f'stroke="{RAPID_COLOUR}" stroke-width="0.8" stroke-dasharray="4 3"'
+        else:
+            look = f'stroke="{colours[stroke.tool]}" stroke-width="1.2"'
+        yield f'<path d="{path}" fill="none" {look}/>'
+    yield "</g>"
+
+
+def _drawn(frame: _Frame, stroke: Stroke) -> list[tuple[float, float]]:
+    """The points of a stroke on the sheet, without those that nobody could tell apart."""
+    drawn: list[tuple[float, float]] = []
+    last = (0.0, 0.0)
+    for point in stroke.points:
+        last = (frame.x(point[frame.view.right]), frame.y(point[frame.view.up]))
+        if not drawn or abs(last[0] - drawn[-1][0]) >= NEAR or abs(last[1] - drawn[-1][1]) >= NEAR:
+            drawn.append(last)
+    if drawn and drawn[-1] != last:
+        drawn.append(last)
+    return drawn
+
+
+def _grid(frame: _Frame) -> Iterator[str]:
+    """Lines at round values with their numbers; the axes through zero are darker."""
+    bottom, right = frame.top + frame.height, frame.left + frame.width
+    for value in _ticks(frame.low[0], frame.high[0]):
+        x, colour = frame.x(value), "#888888" if value == 0 else GRID_COLOUR
+        yield f'<path d="M{x:.2f},{frame.top:.2f} V{bottom:.2f}" stroke="{colour}" stroke-width="0.7"/>'
+        yield f'<text x="{x:.2f}" y="{bottom + 15:.2f}" text-anchor="middle">{value:g}</text>'
+    for value in _ticks(frame.low[1], frame.high[1]):
+        y, colour = frame.y(value), "#888888" if value == 0 else GRID_COLOUR
+        yield f'<path d="M{frame.left:.2f},{y:.2f} H{right:.2f}" stroke="{colour}" stroke-width="0.7"/>'
+        yield f'<text x="{frame.left - 5:.2f}" y="{y + 4:.2f}" text-anchor="end">{value:g}</text>'
+
+
+def _ticks(low: float, high: float, most: int = 8) -> list[float]:
+    """Round values between two bounds, in steps of 1, 2 or 5 of a power of ten."""
+    rough = (high - low) / most
+    power = 10.0 ** floor(log10(rough))
+    step = next(factor * power for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= rough)
+    return [round(k * step, 10) + 0.0 for k in range(ceil(low / step), floor(high / step) + 1)]
+
+
+def _legend(top: float, colours: dict[str, str]) -> Iterator[str]:
+    """Which colour is which tool, and what dashes mean."""
+    entries = [(tool, colour, "") for tool, colour in colours.items()]
+    entries.append(("G0", RAPID_COLOUR, ' stroke-dasharray="4 3"'))
+    for i, (name, colour, dashes) in enumerate(entries):
+        y = top + _LEGEND_LINE * i
+        yield f'<path d="M{MARGIN:.0f},{y:.1f} h26" stroke="{colour}" stroke-width="2"{dashes}/>'
+        yield f'<text x="{MARGIN + 34:.0f}" y="{y + 4:.1f}">{escape(name)}</text>'

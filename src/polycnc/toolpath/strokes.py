@@ -1,0 +1,129 @@
+"""The path as points in space: arcs drawn out, cut into strokes of one tool and one kind of motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import atan2, cos, dist, sin, sqrt, tau
+from typing import TYPE_CHECKING
+
+from polycnc.geometry.arcs import SAME_POINT_MM, cross, parts_for_chord_error
+from polycnc.toolpath.kinds import ARC_KINDS, Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from polycnc.geometry.frames import Vector
+    from polycnc.toolpath.context import Context
+    from polycnc.toolpath.table import Row, Toolpath
+
+_STANDING = frozenset((Kind.DWELL, Kind.EVENT))
+_RAPID = frozenset((Kind.RAPID, Kind.REF))
+
+
+@dataclass(slots=True)
+class Stroke:
+    """A run of connected points (work coordinates, mm, radius) under one tool, in rapid or in feed."""
+
+    tool: str
+    rapid: bool
+    points: list[Vector] = field(default_factory=list)
+
+
+def strokes(
+    toolpath: Toolpath, geometry: tuple[int, int, int], chord_error: float = 0.01
+) -> Iterator[Stroke]:
+    """The strokes of a toolpath in order.
+
+    Args:
+        toolpath: The table.
+        geometry: For X, Y, Z the index of the channel axis, or -1 for an axis that does not exist.
+        chord_error: How far a chord may lie from its arc, mm.
+    """
+    stroke: Stroke | None = None
+    before: Row | None = None
+    for row in toolpath.rows():
+        if row.kind not in _STANDING:
+            start = _start(toolpath, before, row, geometry)
+            tool, rapid = tool_label(row.context), row.kind in _RAPID
+            if stroke is None or stroke.tool != tool or stroke.rapid != rapid or stroke.points[-1] != start:
+                if stroke is not None:
+                    yield stroke
+                stroke = Stroke(tool, rapid, [start])
+            stroke.points += _points(row, start, _point(row.end, geometry), chord_error)
+        before = row
+    if stroke is not None:
+        yield stroke
+
+
+def tool_label(context: Context) -> str:
+    """How the tool of a context is called."""
+    return context.tool_name or f"T{context.tool}"
+
+
+def _point(end: tuple[float, ...] | list[float], geometry: tuple[int, int, int]) -> Vector:
+    x, y, z = (end[i] if i >= 0 else 0.0 for i in geometry)
+    return (x, y, z)
+
+
+def _start(toolpath: Toolpath, before: Row | None, row: Row, geometry: tuple[int, int, int]) -> Vector:
+    """Where a row begins, in its own coordinates: new offsets move the display, not the machine."""
+    if before is None:
+        return _point(row.end, geometry)
+    if before.context is row.context:
+        return _point(before.end, geometry)
+    machine = toolpath.to_machine(before.end, before.context, geometry)
+    offsets = row.context.offsets or (0.0,) * len(machine)
+    inner = _point([value - offset for value, offset in zip(machine, offsets, strict=True)], geometry)
+    return inner if row.context.frame.is_identity else row.context.frame.inverse().apply(*inner)
+
+
+def _points(row: Row, start: Vector, end: Vector, chord_error: float) -> list[Vector]:
+    """The points of a row behind its start."""
+    if row.kind not in ARC_KINDS or not row.curve:
+        return [end]
+    sense = 1.0 if row.kind in (Kind.CCW, Kind.HELIX_CCW) else -1.0
+    axis = tuple(sense * component for component in row.curve[3:6])
+    return arc_points(start, end, row.curve[0:3], axis, row.curve[6], chord_error)
+
+
+def arc_points(
+    start: Vector,
+    end: Vector,
+    center: tuple[float, ...],
+    normal: tuple[float, ...],
+    turns: float,
+    error: float,
+) -> list[Vector]:
+    """Points of an arc, helix or spiral behind its start, the end included.
+
+    The arc turns counter-clockwise about `normal`; radius and height change evenly with the angle.
+    """
+    n: Vector = (normal[0], normal[1], normal[2])
+    a, b = _minus(start, center), _minus(end, center)
+    rise_a, rise_b = _dot(a, n), _dot(b, n)
+    u = _minus(a, [rise_a * c for c in n])
+    w = _minus(b, [rise_b * c for c in n])
+    radius_a, radius_b = sqrt(_dot(u, u)), sqrt(_dot(w, w))
+    if radius_a == 0.0:
+        return [end]
+    is_full = dist(u, w) <= SAME_POINT_MM
+    u = (u[0] / radius_a, u[1] / radius_a, u[2] / radius_a)
+    v = cross(n, u)
+    sweep = (tau if is_full else atan2(_dot(w, v), _dot(w, u)) % tau) + tau * turns
+    parts = parts_for_chord_error(max(radius_a, radius_b), sweep, error)
+    points: list[Vector] = []
+    for k in range(1, parts):
+        f = k / parts
+        radius, rise = radius_a + f * (radius_b - radius_a), rise_a + f * (rise_b - rise_a)
+        c, s = radius * cos(f * sweep), radius * sin(f * sweep)
+        x, y, z = (center[i] + c * u[i] + s * v[i] + rise * n[i] for i in range(3))
+        points.append((x, y, z))
+    return [*points, end]
+
+
+def _minus(p: Vector, q: tuple[float, ...] | list[float]) -> Vector:
+    return (p[0] - q[0], p[1] - q[1], p[2] - q[2])
+
+
+def _dot(p: Vector, q: Vector) -> float:
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
