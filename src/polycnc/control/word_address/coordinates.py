@@ -6,7 +6,6 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.memory import EXTERNAL
-from polycnc.geometry.frames import IDENTITY
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -25,7 +24,7 @@ def refresh_zero(channel: Channel, *, travelled: bool = False) -> None:
         memory.length_offset,
         strict=True,
     )
-    channel.coordinates.set_zero(IDENTITY, [sum(values) for values in parts], travelled=travelled)
+    channel.coordinates.set_zero(memory.zero_frame, [sum(values) for values in parts], travelled=travelled)
     channel.context_changed()
 
 

@@ -60,6 +60,7 @@ class Memory:
         wcs: Name of the active one.
         local_shift: G52.
         preset_shift: G92.
+        zero_frame: Turn of the work coordinate system (SYNTEC G92.1); identity on most controls.
         length_offset: Shift of each axis by the active tool length.
         tool: Tool in the spindle; `next_tool` is selected.
         h: Number of the active length offset; `d` of the radius offset.
@@ -84,6 +85,7 @@ class Memory:
         self.wcs = "G54"
         self.local_shift = [0.0] * count
         self.preset_shift = [0.0] * count
+        self.zero_frame = IDENTITY
         self.length_offset = [0.0] * count
         self.tool = 0
         self.next_tool = 0

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.codes import GCode, MCode, Order, Step
 from polycnc.control.word_address.numbers import Convert, NumberRules, angle_converter, length_converter
 from polycnc.control.word_address.words import Words
-from polycnc.language.word_address.words import is_fixed_code
+from polycnc.language.word_address.words import FORMS, is_fixed_code
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -101,8 +101,8 @@ class Builder:
                     row = self._row(key)
                     by_group[row.group or row.code] = row
                 continue
-            cut = 2 if key[0] == "," else 1
-            address, form = key[:cut], key[cut:]
+            address = key.rstrip(FORMS)
+            form = key[len(address) :]
             self.typed.append((address, position, form))
             self.slots[address] = (position, form)
             self.order.append(address)

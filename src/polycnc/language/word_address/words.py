@@ -10,6 +10,9 @@ A key of the signature is a code (`G1`, `G54.1`, `M30`) or an address and how it
     `X`   no decimal point           `X.`  up to three decimals
     `X:`  four decimals              `X;`  more decimals, which a control may cut off
     `X#`  from an expression         (a vacant variable leaves the word out)
+    `X"`  a text
+
+An address is a letter, `,R`, or a letter with an index (`X1`, where the control writes `X1=50.`).
 """
 
 from __future__ import annotations
@@ -23,6 +26,8 @@ if TYPE_CHECKING:
 
     Evaluate = Callable[[Channel], float | None]
 
+#: The characters that end a key and say how its number was written.
+FORMS = '.:;#"'
 _code_keys: dict[str, str] = {}
 
 
