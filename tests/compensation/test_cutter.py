@@ -427,3 +427,15 @@ def test_flush_leaves_the_tool_square_and_goes_on_from_there() -> None:
     recorder = reader.run("X100\nY100")
     assert recorder.points == [(13.5355, 6.4645), (105, 5), (105, 100)]
     assert recorder.flushed == 2
+
+
+def test_g40_with_a_wall_and_a_nose_tip_gives_the_positions_of_the_manual_s_lathe_program() -> None:
+    # FANUC 0i-TF Plus 5.2.4, radius 2 and tip 3: Z and X (radius) as first and second axis.
+    reader = Reader(policies.FANUC_A, start=(0.0, 150.0, 0.0))
+    reader.stage.engage(-1, 2.0, tip=(-1.0, -1.0))
+    recorder = reader.run("X0 Y30\nG1 X-150 Y60\nG40 G0 X0 Y150 I-30 J40")
+    assert recorder.points == [
+        (pytest.approx(-1.608, abs=1e-3), pytest.approx(29.961, abs=1e-3)),
+        (pytest.approx(-150.858, abs=1e-3), pytest.approx(59.8115, abs=1e-3)),
+        (0, 150),
+    ]
