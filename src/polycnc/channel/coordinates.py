@@ -3,7 +3,8 @@
     programmed --(programming frame)--> position --(zero frame + offsets)--> machine
 
 `programmed` is what words name (after units and diameters). The programming frame is what the control puts *before* its
-absolute display: on the word-address controls scaling, mirror and rotation; on SINUMERIK nothing. `position` is the
+absolute display: on the word-address controls scaling, mirror, rotation and, on lathes, tool offsets that move the
+programmed point; on SINUMERIK nothing. Axes beside the geometry have a shift of their own for that. `position` is the
 absolute display. The zero frame and the offsets lead to the machine's axes: work offsets, shifts, tool.
 
 When offsets change, the machine stays where it is and the other positions follow. Whether a later *incremental* word
@@ -28,6 +29,8 @@ class Coordinates:
         self.axes = axes
         self.geometry = geometry
         self.programming = IDENTITY
+        self.shift: list[float] | None = None
+        self.direct = True
         self.zero = IDENTITY
         self.offsets = [0.0] * len(axes)
         self.pending = [0.0] * len(axes)
@@ -47,7 +50,16 @@ class Coordinates:
 
     def to_position(self, programmed: list[float]) -> list[float]:
         """Programmed point to absolute display."""
-        return self.image(self.programming, programmed)
+        position = self.image(self.programming, programmed)
+        if self.shift is not None:
+            position = [value + shift for value, shift in zip(position, self.shift, strict=True)]
+        return position
+
+    def to_programmed(self, position: list[float]) -> list[float]:
+        """Absolute display to programmed point."""
+        if self.shift is not None:
+            position = [value - shift for value, shift in zip(position, self.shift, strict=True)]
+        return position if self.programming is IDENTITY else self.image(self.programming.inverse(), position)
 
     def to_machine(self, position: list[float]) -> list[float]:
         """Absolute display to machine axes."""
@@ -68,19 +80,29 @@ class Coordinates:
         self.position = position
         if programmed is not None:
             self.programmed = programmed
-        elif self.programming is IDENTITY:
+        elif self.direct:
             self.programmed = position
         else:
-            self.programmed = self.image(self.programming.inverse(), position)
+            self.programmed = self.to_programmed(position)
 
     def arrive_machine(self, machine: list[float]) -> None:
         """The channel has moved to a machine position."""
         self.arrive(self.from_machine(machine))
 
-    def set_programming(self, frame: Frame) -> None:
-        """Choose the frame before the display; the position stays."""
+    def set_programming(self, frame: Frame, shift: list[float] | None = None, *, stays: bool = True) -> None:
+        """Choose the frame before the display.
+
+        Args:
+            frame: Frame of the geometry axes.
+            shift: Shift of every axis, for those beside the geometry.
+            stays: The position stays and the programmed point follows; else the programmed point stays, and the
+                next move goes where it now lies.
+        """
         self.programming = frame
-        self.arrive(self.position)
+        self.shift = shift
+        self.direct = frame is IDENTITY and shift is None
+        if stays:
+            self.arrive(self.position)
 
     def set_zero(self, frame: Frame, offsets: list[float], *, travelled: bool = False) -> None:
         """Choose the way from the display to the machine. The machine stays, the display follows.

@@ -36,11 +36,13 @@ def plan_feed(builder: Builder) -> Step:
 def plan_spindle_speed(builder: Builder) -> Step:
     """S: programmed speed of the spindle (surface speed under G96)."""
     slot = builder.slots["S"][0]
+    chosen = builder.control.spindle_slot(builder)
 
     def set_speed(channel: Channel, values: list[float]) -> None:
         channel.memory.spindle_speed = values[slot]
         channel.context_changed()
-        channel.event("s", speed=_number(values[slot]), spindle=1)
+        spindle = 1 if chosen is None else int(values[chosen])
+        channel.event("s", speed=_number(values[slot]), spindle=spindle)
 
     return set_speed
 

@@ -83,6 +83,10 @@ class WordAddressControl:
         """The alarm for a program that does not end."""
         return AlarmError("PC0002", hint="hint.block-limit")
 
+    def arithmetic_alarm(self, error: ArithmeticError) -> AlarmError:
+        """The alarm for a division by zero or an overflow in an expression."""
+        return self.fail("zero_divide" if isinstance(error, ZeroDivisionError) else "overflow")
+
     def untaken(self, address: str, _builder: Builder) -> AlarmError:
         """The alarm for a word that nothing in its block takes."""
         return self.fail("address", address=address, word=address)
@@ -122,6 +126,14 @@ class WordAddressControl:
             raise self.fail("end_of_record")
         channel.pop()
 
+    def g_table(self, _channel: Channel) -> Mapping[str, GCode]:
+        """The G codes as programs of this channel write them; the rows carry the codes of `g_codes`."""
+        return self.g_codes
+
+    def spindle_slot(self, _builder: Builder) -> int | None:
+        """Index of the word by which a block names a spindle for its S and M; the word counts as taken."""
+        return None
+
     # ---- blocks -------------------------------------------------------------------------------------------------
 
     def plan(self, channel: Channel, signature: tuple[str, ...]) -> Plan:
@@ -147,6 +159,10 @@ class WordAddressControl:
     def m_code(self, number: int) -> MCode:
         """The row of an M code; one that the table does not know is an event of the machine's builder."""
         return self.m_codes.get(number) or MCode(number)
+
+    def nose_tip(self, _channel: Channel) -> tuple[float, float]:
+        """Way from the centre of the tool to its programmed point, in the plane, in units of its radius."""
+        return (0.0, 0.0)
 
     # ---- what a family may state differently ----------------------------------------------------------------------
 

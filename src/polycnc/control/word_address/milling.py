@@ -5,75 +5,27 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policies import HARTFORD, Policy
-from polycnc.control.word_address import frames, macro_calls
-from polycnc.control.word_address.control import WordAddressControl
-from polycnc.control.word_address.numbers import NumberRules
-from polycnc.geometry.arcs import radius_mismatch
+from polycnc.control.word_address import frames
+from polycnc.control.word_address.custom_macro import CustomMacroControl
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.memory import Memory, ToolOffset
-    from polycnc.control.word_address.plan import Builder, Plan
+    from polycnc.control.word_address.plan import Plan
     from polycnc.control.word_address.words import Words
-    from polycnc.geometry.arcs import Point
-    from polycnc.program import Program
-
-_MACRO_KINDS = ("macro", "modal")
-#: Levels of macros, of subprograms, and together (FANUC macro B reference §5.1).
-MACRO_LEVELS, SUBPROGRAM_LEVELS, LEVELS = 5, 10, 15
 
 
-class MillingControl(WordAddressControl):
+class MillingControl(CustomMacroControl):
     """A machining centre of the FANUC kind.
 
     Attributes:
         LENGTH_TRAVELS_ALONE: G43 H without a Z word moves Z by the offset at once.
-        FURTHER_REFERENCES: Reference points that G30 may name.
-        EXTENDED_WORK_SYSTEMS: How many G54.1 P systems there are.
-        REFERENCE_PARAMETERS: Parameter that holds each reference point.
-        ARC_TOLERANCE_PARAMETER: Parameter with the allowed difference of radii, and its delivered value (mm).
     """
 
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
-    FURTHER_REFERENCES: ClassVar[tuple[int, ...]] = (2, 3, 4)
-    EXTENDED_WORK_SYSTEMS: ClassVar[int] = 300
-    REFERENCE_PARAMETERS: ClassVar[dict[int, int]] = {1: 1240, 2: 1241, 3: 1242, 4: 1243}
-    ARC_TOLERANCE_PARAMETER: ClassVar[tuple[int, float]] = (3410, 0.03)
 
-    # ---- numbers ------------------------------------------------------------------------------------------------
-
-    def number_rules(self, channel: Channel) -> NumberRules:
-        """IS-B; calculator input by 3401#0."""
-        return NumberRules(calculator=bool(channel.setup.parameters.bit(3401, 0)))
-
-    def feed_factor(self, _builder: Builder, form: str, mode: str) -> float:
-        """F per minute is whole units with and without a point; per revolution 0.01 mm (0.0001 inch) without one."""
-        if form == "" and mode == "G95" and not self.number_rules(_builder.channel).calculator:
-            return 0.0001 if _builder.inch else 0.01
-        return 1.0
-
-    # ---- motion -------------------------------------------------------------------------------------------------
-
-    def arc_tolerance(self, channel: Channel) -> float:
-        """Allowed difference between the radii at start and end, mm."""
-        number, delivered = self.ARC_TOLERANCE_PARAMETER
-        return channel.setup.parameters.number(number, default=delivered)
-
-    def check_arc(self, channel: Channel, start: Point, end: Point, center: Point) -> None:
-        """Alarm for an end point that is not on the circle."""
-        if abs(radius_mismatch(start, end, center)) > self.arc_tolerance(channel) + 1e-9:
-            raise self.fail("arc_end")
-
-    def plan_arc_without_center(self, builder: Builder, plan: Plan) -> Step | None:
-        """G02/G03 without R, I, J, K."""
-        raise self.fail("no_center", address=builder.mode["motion"])
-
-    def plan_corner(self, builder: Builder) -> Callable[[Channel, list[float]], object] | None:
-        """What ,R and ,C ask for."""
-        return None
+    # ---- motion --------------------------------------------------------------------------------------
 
     def polar_target(self, channel: Channel, plan: Plan, values: list[float]) -> list[float]:
         """End point under G16."""
@@ -95,13 +47,7 @@ class MillingControl(WordAddressControl):
             raise self.fail("scale", address=letter)
         return factor
 
-    def reference_point(self, channel: Channel, axis: int, number: int) -> float:
-        """Machine position of a reference point of an axis."""
-        name = channel.axes[axis]
-        delivered = channel.axis_data[axis].reference_points[number - 1]
-        return channel.setup.parameters.number(self.REFERENCE_PARAMETERS[number], name, delivered)
-
-    # ---- offsets ------------------------------------------------------------------------------------------------
+    # ---- offsets -------------------------------------------------------------------------------------
 
     def length_value(self, channel: Channel, number: int) -> float:
         """Length offset of an H number, mm."""
@@ -117,49 +63,6 @@ class MillingControl(WordAddressControl):
         memory: Memory = channel.memory
         return memory.offset_number(number)
 
-    def compensation_policy(self, channel: Channel) -> Policy:
+    def compensation_policy(self, _channel: Channel) -> Policy:
         """Rules of radius compensation."""
         return HARTFORD
-
-    # ---- programs -----------------------------------------------------------------------------------------------
-
-    def find_program(self, channel: Channel, number: int) -> Program:
-        """A program by its number; the alarm where it is missing."""
-        program = channel.store.find_number(number)
-        if program is None:
-            raise self.fail("no_program", address="P", number=number)
-        return program
-
-    def long_program_numbers(self, channel: Channel) -> bool:
-        """Eight-digit program numbers (11304#3)."""
-        return bool(channel.setup.parameters.bit(11304, 3))
-
-    def check_nesting(self, channel: Channel, kind: str) -> None:
-        """Alarm for one level of calls too many."""
-        macros = sum(1 for level in channel.stack if level.kind in _MACRO_KINDS)
-        others = len(channel.stack) - 1 - macros
-        if kind in _MACRO_KINDS and macros >= MACRO_LEVELS:
-            raise self.fail("nesting_macro")
-        if kind not in _MACRO_KINDS and others >= SUBPROGRAM_LEVELS or macros + others >= LEVELS:
-            raise self.fail("nesting_sub")
-
-    def leave(self, channel: Channel) -> None:
-        """End of a subprogram or macro: the caller's local variables return."""
-        channel.pop()
-        channel.memory.locals = channel.level.locals
-
-    def start(self, channel: Channel) -> None:
-        """Power-on state; the main program has local variables of its own."""
-        super().start(channel)
-        channel.level.locals = channel.memory.locals
-
-    # ---- calls --------------------------------------------------------------------------------------------------
-
-    def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
-        """G66.1 takes every block as arguments; G, M and T codes may be registered as macro calls."""
-        return macro_calls.plan_argument_block(builder, plan)
-
-    def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
-        """The modal macro behind a block that moves."""
-        step = macro_calls.plan_modal_call(builder, plan)
-        return [step] if step is not None else []

@@ -73,7 +73,7 @@ def _plan_straight(builder: Builder, plan: Plan, kind: Kind) -> Step | None:
             if not feed > 0.0:
                 raise control.fail("no_feed")
         c = channel.coordinates
-        if plain and c.programming is IDENTITY:
+        if plain and c.direct:
             end = c.position[:]
             for axis, slot in pairs:
                 end[axis] = values[slot]

@@ -110,7 +110,7 @@ class Builder:
         self.codes = list(by_group.values())
 
     def _row(self, code: str) -> GCode:
-        row = self.control.g_codes.get(code)
+        row = self.control.g_table(self.channel).get(code)
         if row is None:
             raise self.control.unknown_code(code)
         if row.not_yet:
@@ -218,9 +218,13 @@ def _m_step(row: MCode, builder: Builder, plan: Plan) -> Step:
     if row.silent:
         return handler or _nothing
     code = row.code
+    spindle = builder.control.spindle_slot(builder)
 
     def act(channel: Channel, values: list[float]) -> None:
-        channel.event("m", code=code)
+        if spindle is None:
+            channel.event("m", code=code)
+        else:
+            channel.event("m", code=code, spindle=int(values[spindle]))
         if handler is not None:
             handler(channel, values)
 

@@ -50,16 +50,18 @@ def _engage(channel: Channel, words: Words, side: int) -> None:
     if number is not None:
         channel.memory.d = number
     _refuse_arc(channel, words)
-    stage = _stage(channel)
+    stage = compensation_stage(channel)
     memory = channel.memory
     memory.side = side
     stage.policy = channel.control.compensation_policy(channel)
     if stage.active and memory.engaged_side != side:
         memory.engaged_side = side
-        stage.change_side(_sense(channel))
+        stage.change_side(side_on_display(channel))
         return
     memory.engaged_side = side
-    stage.engage(_sense(channel), channel.control.radius_value(channel, memory.d), place=_place(channel))
+    control = channel.control
+    tip = control.nose_tip(channel)
+    stage.engage(side_on_display(channel), control.radius_value(channel, memory.d), tip, place_of_block(channel))
     channel.context_changed()
 
 
@@ -72,7 +74,7 @@ def cancel_compensation(channel: Channel, words: Words) -> None:
     channel.memory.side = channel.memory.engaged_side = 0
     u, v, _ = PLANES[channel.mode["plane"]]
     wall = (words.length("IJK"[u]) or 0.0, words.length("IJK"[v]) or 0.0)
-    stage.cancel(wall if wall != (0.0, 0.0) else None, place=_place(channel))
+    stage.cancel(wall if wall != (0.0, 0.0) else None, place=place_of_block(channel))
     channel.context_changed()
 
 
@@ -96,13 +98,13 @@ def plan_radius_number(builder: Builder) -> Step:
     return change
 
 
-def _sense(channel: Channel) -> int:
+def side_on_display(channel: Channel) -> int:
     """Side in display coordinates: a mirror of one plane axis changes left and right."""
     side: int = channel.memory.side
     return -side if channel.coordinates.programming.mirrors else side
 
 
-def _stage(channel: Channel) -> CutterCompensation:
+def compensation_stage(channel: Channel) -> CutterCompensation:
     """The channel's compensation stage, put into its path when it is first needed."""
     memory = channel.memory
     u, v, w = PLANES[channel.mode["plane"]]
@@ -122,7 +124,7 @@ def _stage(channel: Channel) -> CutterCompensation:
     return stage
 
 
-def _place(channel: Channel) -> Move:
+def place_of_block(channel: Channel) -> Move:
     """A move without way that stands for the running block."""
     position = channel.coordinates.position
     level = channel.level
