@@ -7,6 +7,7 @@ language compiled, and what differs between controls lies behind `Control`.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from math import inf, nan
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -17,6 +18,7 @@ from polycnc.channel.stack import Executable, Level
 from polycnc.channel.waits import CHUNK, Wait
 from polycnc.messages import Alarm, AlarmError
 from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
+from polycnc.toolpath.table import CHUNK_ROWS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -28,6 +30,8 @@ if TYPE_CHECKING:
     from polycnc.program.store import ProgramStore
 
 DEFAULT_BLOCK_LIMIT = 100_000_000
+#: Blocks that run between two looks at the block limit.
+BURST = range(4096)
 
 
 class Control(Protocol):
@@ -52,6 +56,9 @@ class Control(Protocol):
 
     def block_limit(self) -> AlarmError:
         """The alarm for a program that has run more blocks than allowed."""
+
+    def arithmetic_alarm(self, error: ArithmeticError) -> AlarmError:
+        """The alarm for a division by zero or an overflow in an expression."""
 
 
 class Zone(Protocol):
@@ -99,20 +106,22 @@ class Channel:
         geometry = (x, y, z)
         start = [setup.start.get(name, 0.0) for name in self.axes]
         self.coordinates = Coordinates(self.axes, geometry, start)
+        self._start = list(start)
         self.toolpath = Toolpath(self.axes) if toolpath is None else toolpath
         self.modes = ModeTable()
         self.mode: Mode = self.modes.mode({})
         self.feed = nan
         self.stack: list[Level] = []
-        self.level: Level
-        self.head: PathStage | None = None
+        self._level: Level
+        self._head: PathStage | None = None
         self.table = TableStage(self)
         self.memory: Any = None
         self.alarms: list[Alarm] = []
-        self.finished = False
+        self._finished = False
+        self.attention = False
         self.blocks = 0
         self.block_limit = block_limit
-        self.wait: Wait | None = None
+        self._wait: Wait | None = None
         self.skip_levels = 0
         self.stroke_zone: Zone | None = None
         self.optional_stop = setup.switches.optional_stop
@@ -122,6 +131,48 @@ class Channel:
         limits = tuple((axis.limit_minus, axis.limit_plus) for axis in self.axis_data)
         self._limits = limits if any(low > -inf or high < inf for low, high in limits) else ()
         self._executables: dict[int, Executable] = {}
+
+    # ---- what the inner loop must notice --------------------------------------------------------------------------
+
+    @property
+    def level(self) -> Level:
+        """The running program level."""
+        return self._level
+
+    @level.setter
+    def level(self, level: Level) -> None:
+        self._level = level
+        self.attention = True
+
+    @property
+    def head(self) -> PathStage | None:
+        """First stage of the path."""
+        return self._head
+
+    @head.setter
+    def head(self, stage: PathStage | None) -> None:
+        self._head = stage
+        self.attention = True
+
+    @property
+    def finished(self) -> bool:
+        """Whether the run is over."""
+        return self._finished
+
+    @finished.setter
+    def finished(self, finished: bool) -> None:
+        self._finished = finished
+        self.attention = True
+
+    @property
+    def wait(self) -> Wait | None:
+        """What the channel will wait for after the running block."""
+        return self._wait
+
+    @wait.setter
+    def wait(self, wait: Wait | None) -> None:
+        self._wait = wait
+        self.attention = True
 
     # ---- program stack -------------------------------------------------------------------------------------------
 
@@ -140,7 +191,8 @@ class Channel:
     def push(self, program: Program, *, kind: str, repeats: int = 0, index: int = 0, local: Any = None) -> Level:
         """Call a program: it runs next, `repeats` more times after the first pass."""
         name = self.toolpath.program_number(program.name)
-        level = Level(self.executable(program), index, index, name, repeats, index, kind, local)
+        code = self.executable(program)
+        level = Level(code, getattr(code, "steps", ()), index, index, name, repeats, index, kind, local)
         self.stack.append(level)
         self.level = level
         return level
@@ -167,57 +219,87 @@ class Channel:
 
     def run(self, program: Program) -> Iterator[Wait]:
         """Run a program to its end or to an alarm, yielding whenever the channel must wait."""
-        self.level = self.push(program, kind="main")
+        self.push(program, kind="main")
         try:
             self.control.start(self)
         except AlarmError as error:
             self._alarm(error)
-        while not self.finished:
+        while not self._finished:
             yield from self._run_blocks()
         self.flush()
 
     def _run_blocks(self) -> Iterator[Wait]:
-        """Run blocks until the channel has finished or has to hand over."""
+        """Run blocks until the channel has finished or has to hand over.
+
+        The inner loop is the hottest of the interpreter: whatever is rare (a call, a return, a wait, a stage in the
+        path, the end) sets `attention`, and only that is asked after every block.
+        """
         toolpath = self.toolpath
         mark = toolpath.mark()
         try:
-            while not self.finished:
-                level = self.level
-                index = level.index
-                step = level.code.step(index)
-                if step is None:
-                    self.control.end_of_program(self)
-                    continue
-                level.current = index
-                level.index = index + 1
-                chunk = toolpath.chunk
-                mark = len(chunk.kind)
-                step(self)
-                if self.head is not None:
-                    self.head.block()
-                self.blocks += 1
+            while not self._finished:
+                level = self._level
+                steps, kinds = level.steps, toolpath.chunk.kind
+                self.attention = self._head is not None
+                for _ in BURST:
+                    index = level.index
+                    step = steps[index] if index < len(steps) else None
+                    if step is None:
+                        level.current = index
+                        step = level.code.step(index)
+                        if step is None:
+                            self.control.end_of_program(self)
+                            break
+                    level.current = index
+                    level.index = index + 1
+                    mark = len(kinds)
+                    step(self)
+                    self.blocks += 1
+                    if self.attention or mark >= CHUNK_ROWS:
+                        break
+                if self._head is not None:
+                    self._head.block()
                 if self.blocks >= self.block_limit:
                     raise self.control.block_limit()
-                if mark >= 65_536:
+                mark = toolpath.mark()
+                if mark >= CHUNK_ROWS:
                     toolpath.block_boundary()
-                    mark = toolpath.mark()
+                    mark = 0
                     yield CHUNK
-                if self.wait is not None:
-                    mark = toolpath.mark()
-                    wait, self.wait = self.wait, None
+                if self._wait is not None:
+                    wait, self._wait = self._wait, None
                     yield wait
         except AlarmError as error:
-            toolpath.truncate(mark)
+            self._take_back(mark)
             self._alarm(error)
+        except ArithmeticError as error:
+            self._take_back(mark)
+            self._alarm(self.control.arithmetic_alarm(error))
         except RecursionError:
-            toolpath.truncate(mark)
-            self._alarm(self.control.block_limit())
+            self._take_back(mark)
+            self._alarm(AlarmError("PC0003"))
+
+    def _take_back(self, mark: int) -> None:
+        """The block that alarms does nothing: its rows vanish, the channel stands where it stood before.
+
+        Moves that a stage holds back belong to blocks in front and are still made.
+        """
+        if self._head is not None:
+            head, self.head = self._head, None
+            with suppress(AlarmError):
+                head.flush()
+            return
+        chunk = self.toolpath.chunk
+        if len(chunk) > mark:
+            self.toolpath.truncate(mark)
+            end = list(chunk.end[-chunk.axes :]) if mark else self._start
+            self.coordinates.arrive(end)
 
     def flush(self) -> None:
         """Pass on every move that a stage still holds back."""
-        if self.head is not None:
+        if self._head is not None:
             try:
-                self.head.flush()
+                self._head.flush()
             except AlarmError as error:
                 self._alarm(error)
 
@@ -254,7 +336,7 @@ class Channel:
     @property
     def line(self) -> int:
         """Line of the running block, from 1."""
-        return self.level.code.line(self.level.current)
+        return self._level.code.line(self._level.current)
 
     def context_changed(self) -> None:
         """Something that a context holds has changed; the next row gets a new context."""
@@ -273,16 +355,16 @@ class Channel:
         if end == coordinates.position:
             coordinates.arrive(end, programmed)
             return
-        level = self.level
+        level = self._level
         context = self._context if not self._context_changed else self.context_number()
         if self._limits or self.stroke_zone is not None:
             self._check_limits(end)
         line = level.code.line(level.current)
-        if self.head is None:
+        if self._head is None:
             self.toolpath.append(kind, level.program_number, line, context, feed, end)
         else:
             start = coordinates.position
-            self.head.move(Move(kind, start, end, feed, level.program_number, line, context))
+            self._head.move(Move(kind, start, end, feed, level.program_number, line, context))
         coordinates.arrive(end, programmed)
 
     def curve(
@@ -298,7 +380,7 @@ class Channel:
         programmed: list[float] | None = None,
     ) -> None:
         """Move along an arc, or make another move with curve parameters (thread, tap, dwell)."""
-        level = self.level
+        level = self._level
         line = level.code.line(level.current)
         start = self.coordinates.position
         move = Move(
@@ -307,10 +389,10 @@ class Channel:
         )
         if self._limits or self.stroke_zone is not None:
             self._check_limits(end)
-        if self.head is None:
+        if self._head is None:
             self.write(move)
         else:
-            self.head.move(move)
+            self._head.move(move)
         if kind != Kind.DWELL:
             self.coordinates.arrive(end, programmed)
 
@@ -327,15 +409,15 @@ class Channel:
 
     def event(self, type_: str, **data: Any) -> None:
         """Record an event in order with the moves."""
-        level = self.level
+        level = self._level
         line = level.code.line(level.current)
         event = Event(type_, data)
         context = self.context_number()
-        if self.head is None:
+        if self._head is None:
             end = self.coordinates.position
             self.toolpath.append_event(event, level.program_number, line, context, end)
         else:
-            self.head.event(event, level.program_number, line, context)
+            self._head.event(event, level.program_number, line, context)
 
     def stop(self, code: str) -> None:
         """A programmed stop: recorded, then the channel waits for a start."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from polycnc.channel.channel import Channel
     from polycnc.program import Program
@@ -21,6 +21,8 @@ class Executable(Protocol):
     """
 
     program: Program
+    #: Steps that are compiled and kept; None, or nothing at all, where `step` must be asked.
+    steps: Sequence[Step | None]
 
     def step(self, index: int) -> Step | None:
         """The step of a block, compiled on demand; None behind the last block."""
@@ -38,6 +40,7 @@ class Level:
 
     Attributes:
         code: The program.
+        steps: Its kept steps, at hand.
         index: The step that runs next.
         current: The step that is running.
         program_number: Number of the program in the toolpath.
@@ -49,6 +52,7 @@ class Level:
     """
 
     code: Executable
+    steps: Sequence[Step | None] = ()
     index: int = 0
     current: int = 0
     program_number: int = 0

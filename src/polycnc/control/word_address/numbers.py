@@ -11,8 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import copysign, floor
 
-from polycnc.language.word_address.functions import round_half_away
-
+#: Half an increment and a guard: halves go away from zero as they do in the control's decimal arithmetic.
+ROUNDING = 0.5 + 1e-7
 Convert = Callable[[float], float]
 INCH_MM = 25.4
 
@@ -38,30 +38,25 @@ def length_converter(form: str, rules: NumberRules, *, inch: bool, diameter: boo
     """What turns a typed length into millimetres (radius); None where the number already is one."""
     decimals = rules.decimals_inch if inch else rules.decimals
     unit = (INCH_MM if inch else 1.0) / (2.0 if diameter else 1.0)
-    steps = _increments(form, rules, decimals)
-    if steps is None:
-        return None if unit == 1.0 else lambda value: value * unit
-    scale = 10.0**decimals
-    return lambda value: steps(value) / scale * unit
+    return _converter(form, rules, decimals, unit)
 
 
 def angle_converter(form: str, rules: NumberRules) -> Convert | None:
     """What turns a typed angle into degrees."""
-    steps = _increments(form, rules, rules.decimals)
-    if steps is None:
-        return None
-    scale = 10.0**rules.decimals
-    return lambda value: steps(value) / scale
+    return _converter(form, rules, rules.decimals, 1.0)
 
 
-def _increments(form: str, rules: NumberRules, decimals: int) -> Convert | None:
-    """What turns a number into least increments; None where it counts whole units exactly."""
+def _converter(form: str, rules: NumberRules, decimals: int, unit: float) -> Convert | None:
     scale = 10.0**decimals
-    if form == "":
-        return None if rules.calculator else lambda value: value
+    if form == "" and not rules.calculator:
+        return lambda value: value / scale * unit
     if form == "#":
-        return lambda value: round_half_away(value * scale)
-    written = {".": 3, ":": 4, ";": 99}[form]
-    if written <= decimals or not rules.cuts_digits:
-        return None
-    return lambda value: copysign(floor(abs(value) * scale + 1e-6), value)
+        return lambda value: (
+            floor(value * scale + ROUNDING) / scale * unit
+            if value >= 0.0
+            else -floor(ROUNDING - value * scale) / scale * unit
+        )
+    written = {"": 0, ".": 3, ":": 4, ";": 99}[form]
+    if written > decimals and rules.cuts_digits:
+        return lambda value: copysign(floor(abs(value) * scale + 1e-6), value) / scale * unit
+    return None if unit == 1.0 else lambda value: value * unit

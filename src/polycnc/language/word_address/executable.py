@@ -7,8 +7,8 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.language.word_address.macro_b import Reader
-from polycnc.language.word_address.statements import KEYWORD, parse_statement
+from polycnc.language.word_address.macro_b import Reader, compile_source
+from polycnc.language.word_address.statements import KEYWORD, Joinable, join, parse_statement
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock, code_key, is_fixed_code, word_key
 from polycnc.messages import AlarmError
 
@@ -16,14 +16,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from polycnc.channel.channel import Channel
-    from polycnc.language.word_address.macro_b import Evaluate
     from polycnc.program import Program
 
     Step = Callable[[Channel], None]
 
 #: Longer blocks are refused: no control stores one, and a damaged file must not fill the memory.
 MAX_BLOCK_LENGTH = 4096
-_PLAIN = re.compile(r"(?:[A-Z][-+]?(?:\d+\.?\d*|\.\d+))+;?")
+#: How many macro statements are joined into one step at the most.
+MAX_JOINED = 200
+_PLAIN = re.compile(r"(?:[A-Z][-+]?(?:\d+\.?\d*|\.\d+)[ \t]*)+;?")
 _WORD = re.compile(r"([A-Z])([-+]?)([\d.]+)")
 _COMMENT = re.compile(r"\([^)]*\)?")
 _SEQUENCE = re.compile(r"^[ \t]*(?:/\d?[ \t]*)*N[ \t]*0*(\d+)")
@@ -69,7 +70,7 @@ class WordAddressProgram:
         self.program = program
         self.grammar = grammar
         self.lines = program.lines
-        self._steps: list[Step | None] = [None] * len(self.lines)
+        self.steps: list[Step | None] = [None] * len(self.lines)
         self._reached = bytearray(len(self.lines))
         self._sequences: dict[int, list[int]] | None = None
         self._loops: dict[tuple[int, int], int] = {}
@@ -84,13 +85,23 @@ class WordAddressProgram:
         """The step of a line; kept from its second run on, so that a long program does not fill the memory."""
         if index >= len(self.lines):
             return None
-        step = self._steps[index]
-        if step is None:
-            step = self.compile(self.lines[index], index)
-            if self._reached[index]:
-                self._steps[index] = step
-            self._reached[index] = 1
+        step = self.compile(self.lines[index], index)
+        if self._reached[index]:
+            if isinstance(step, Joinable):
+                step = self._joined(step, index)
+            self.steps[index] = step
+        self._reached[index] = 1
         return step
+
+    def _joined(self, first: Joinable, index: int) -> Step:
+        """A macro statement together with those that follow it; a jump between them still finds each one."""
+        statements = [(index, first)]
+        for i in range(index + 1, min(index + MAX_JOINED, len(self.lines))):
+            following = self.compile(self.lines[i], i) if self._reached[i] else None
+            if not isinstance(following, Joinable):
+                break
+            statements.append((i, following))
+        return join(statements) if len(statements) > 1 else first
 
     def column(self, index: int, address: str) -> int:
         """Column, from 1, of an address (`X`, `,R`) or a code (`G41`) in a line; 0 when it is not there."""
@@ -225,22 +236,18 @@ class WordAddressProgram:
 
     def _words(self, reader: BlockReader) -> Step:
         """The words of a block; a `/` between them skips the rest."""
-        keys: list[str] = []
-        values: list[float | Evaluate] = []
+        words = _BlockWords()
         while reader.peek():
             if reader.text[reader.pos] == "/":
                 levels = reader.skip_levels()
-                before = _block_of(keys, values)
-                self._rest(reader, keys, values)
-                return SkippedBlock(levels, _block_of(keys, values), before)
-            self._word(reader, keys, values)
-        return _block_of(keys, values)
+                before = words.block(reader)
+                while reader.peek():
+                    self._word(reader, words)
+                return SkippedBlock(levels, words.block(reader), before)
+            self._word(reader, words)
+        return words.block(reader)
 
-    def _rest(self, reader: BlockReader, keys: list[str], values: list[float | Evaluate]) -> None:
-        while reader.peek():
-            self._word(reader, keys, values)
-
-    def _word(self, reader: BlockReader, keys: list[str], values: list[float | Evaluate]) -> None:
+    def _word(self, reader: BlockReader, words: _BlockWords) -> None:
         """Read one word."""
         start = reader.pos
         address = reader.address()
@@ -252,14 +259,13 @@ class WordAddressProgram:
             sign, digits = number[1], number[2]
             reader.pos = number.end()
             if address in ("G", "M") and not sign:
-                keys.append(code_key(address, digits))
+                words.keys.append(code_key(address, digits))
                 return
             if len(digits.replace(".", "").lstrip("0")) > self.grammar.max_digits:
                 raise reader.fail("too_many_digits", start)
             if address in ("G", "M", "N", "O"):
                 raise reader.fail("minus" if sign else "address", start)
-            keys.append(word_key(address, digits))
-            values.append(float(sign + digits))
+            words.number(word_key(address, digits), float(sign + digits), reader)
             if reader.pos < len(reader.text) and reader.text[reader.pos] == ".":
                 raise reader.fail("point", reader.pos)
             return
@@ -268,8 +274,38 @@ class WordAddressProgram:
         reader.in_word = True
         source = reader.factor()
         reader.in_word = False
-        keys.append(address if address in ("G", "M") else address + "#")
-        values.append(reader.evaluator(source))
+        words.expression(address if address in ("G", "M") else address + "#", source)
+
+
+class _BlockWords:
+    """The words of one block as they are read."""
+
+    def __init__(self) -> None:
+        self.keys: list[str] = []
+        self.sources: list[str] = []
+        self.values: list[float] = []
+        self.computed = False
+
+    def number(self, key: str, value: float, reader: Reader) -> None:
+        """A word with a number."""
+        self.keys.append(key)
+        self.values.append(value)
+        self.sources.append(f"k[{len(reader.literals)}]")
+        reader.literals.append(value)
+
+    def expression(self, key: str, source: str) -> None:
+        """A word with a variable or an expression."""
+        self.keys.append(key)
+        self.sources.append(source)
+        self.computed = True
+
+    def block(self, reader: Reader) -> Step:
+        """The block of the words read so far."""
+        keys = tuple(self.keys)
+        if not self.computed:
+            return WordBlock(keys, list(self.values))
+        evaluate = compile_source(f"[{','.join(self.sources)}]")
+        return ExpressionBlock(keys, evaluate, list(reader.literals))
 
 
 class BlockReader(Reader):
@@ -321,12 +357,6 @@ class SkippedBlock:
 
     def __call__(self, channel: Channel) -> None:
         (self._on if channel.skip_levels & self._levels else self._off)(channel)
-
-
-def _block_of(keys: list[str], values: list[float | Evaluate]) -> Step:
-    if any(callable(value) for value in values):
-        return ExpressionBlock(tuple(keys), list(values))
-    return WordBlock(tuple(keys), [value for value in values if not callable(value)])
 
 
 def _several(blocks: list[Step]) -> Step:

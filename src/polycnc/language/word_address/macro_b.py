@@ -240,9 +240,13 @@ class Reader:
     def evaluator(self, source: str) -> Evaluate:
         """A function of the channel that gives the value of generated source."""
         function = compile_source(source)
-        literals = self.literals
-        self.literals = []
+        literals = self.take_literals()
         return lambda channel: function(channel.memory, literals)
+
+    def take_literals(self) -> list[float]:
+        """The literals of the source generated so far; the next source begins anew."""
+        literals, self.literals = self.literals, []
+        return literals
 
 
 def _value(source: str) -> str:
@@ -256,4 +260,14 @@ def compile_source(source: str) -> Callable[[Any, list[float]], Any]:
     if function is None:
         code = compile(f"lambda m, k: {source}", "<macro>", "eval")
         function = _compiled[source] = eval(code, functions.NAMESPACE)  # noqa: S307 - source is ours, not the user's
+    return function
+
+
+def compile_statement(source: str) -> Callable[[Any, list[float]], Any]:
+    """The function of (memory, literals) that carries out a generated statement; one for each shape."""
+    function = _compiled.get(source)
+    if function is None:
+        space = dict(functions.NAMESPACE)
+        exec(compile(f"def run(m, k):\n    {source}", "<macro>", "exec"), space)  # noqa: S102 - as above
+        function = _compiled[source] = space["run"]
     return function

@@ -9,7 +9,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from polycnc.language.word_address.functions import round_half_away
+from polycnc.language.word_address.functions import NAMESPACE, round_half_away
+from polycnc.language.word_address.macro_b import compile_source, compile_statement
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -49,29 +50,95 @@ def parse_assignment(reader: Reader, _program: WordAddressProgram, _index: int) 
         target = int(digits)
     if not reader.accept("="):
         raise reader.fail("missing_equals")
-    value = reader.evaluator(reader.sum())
+    source = reader.sum()
     text = reader.program_text_comment()
     if callable(target):
-        index_of = target
+        index_of, value = target, reader.evaluator(source)
         return lambda channel: channel.memory.write_indirect(index_of(channel), value(channel), text)
-    return _assign(target, value, text)
+    return _assign(target, source, reader, text)
 
 
-def _assign(number: int, value: Evaluate, text: str) -> Step:
+def _assign(number: int, source: str, reader: Reader, text: str) -> Step:
     """Writing to a constant variable number."""
     if 1 <= number <= 33:
-
-        def assign_local(channel: Channel) -> None:
-            channel.memory.locals[number] = value(channel)
-
-        return assign_local
-    if 100 <= number <= 199:
-
-        def assign_common(channel: Channel) -> None:
-            channel.memory.common[number] = value(channel)
-
-        return assign_common
+        return Assignment(f"m.locals[{number}]", source, reader.take_literals())
+    if 100 <= number <= 199 or 500 <= number <= 999:
+        return Assignment(f"m.common[{number}]", source, reader.take_literals())
+    value = reader.evaluator(source)
     return lambda channel: channel.memory.write(number, value(channel), text)
+
+
+class Assignment:
+    """`#n = expression` for a local or common variable: a step, and a line of Python where several are joined."""
+
+    __slots__ = ("_function", "literals", "source", "target")
+
+    def __init__(self, target: str, source: str, literals: list[float]) -> None:
+        self.target = target
+        self.source = source
+        self.literals = literals
+        self._function = compile_statement(f"{target} = {source}")
+
+    def __call__(self, channel: Channel) -> None:
+        self._function(channel.memory, self.literals)
+
+    def python(self, _index: int) -> list[str]:
+        """The statement as Python."""
+        return [f"{self.target} = {self.source}"]
+
+
+class ConditionalJump:
+    """`IF [c] GOTO n` and `IF [c] THEN statement`."""
+
+    __slots__ = ("_condition", "_jump", "literals", "source")
+
+    def __init__(self, source: str, literals: list[float], jump: Step) -> None:
+        self.source = source
+        self.literals = literals
+        self._condition = compile_source(source)
+        self._jump = jump
+
+    def __call__(self, channel: Channel) -> None:
+        if self._condition(channel.memory, self.literals):
+            self._jump(channel)
+
+    @property
+    def jump(self) -> Step:
+        """What goes to the target."""
+        return self._jump
+
+    def python(self, index: int) -> list[str]:
+        """The statement as Python; `j[index]` is its jump."""
+        return [f"if {self.source}:", f"    j[{index}](channel)", f"    if level.index != {index + 1}: return"]
+
+
+Joinable = Assignment | ConditionalJump
+_LITERAL = re.compile(r"(?<![\w.])k\[(\d+)\]")
+
+
+def join(statements: list[tuple[int, Joinable]]) -> Step:
+    """One step for macro statements that follow each other: what they would do one by one, without the way between.
+
+    Args:
+        statements: Steps with their numbers.
+    """
+    lines = ["def run(channel):", "    m = channel.memory", "    level = channel.level"]
+    literals: list[float] = []
+    jumps: dict[int, Step] = {}
+    for index, statement in statements:
+        offset = len(literals)
+        literals += statement.literals
+        if isinstance(statement, ConditionalJump):
+            jumps[index] = statement.jump
+        lines.append(f"    level.current = {index}")
+        for line in statement.python(index):
+            lines.append("    " + _LITERAL.sub(lambda match, by=offset: f"k[{int(match[1]) + by}]", line))
+    last = statements[-1][0]
+    lines += [f"    level.index = {last + 1}", f"    channel.blocks += {len(statements) - 1}"]
+    space: dict[str, Any] = {**NAMESPACE, "k": literals, "j": jumps}
+    exec(compile("\n".join(lines), "<macro>", "exec"), space)  # noqa: S102 - the source is ours, not the user's
+    step: Step = space["run"]
+    return step
 
 
 def parse_names(reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
@@ -133,7 +200,8 @@ def parse_if(reader: Reader, program: WordAddressProgram, index: int) -> Step:
     """`IF [c] GOTO n` and `IF [c] THEN statement`."""
     if reader.peek() != "[":
         raise reader.fail("if_format")
-    condition: Callable[[Channel], Any] = reader.evaluator(reader.condition())
+    source = reader.condition()
+    literals = reader.take_literals()
     if reader.accept("THEN"):
         keyword = reader.match(re.compile("#|GOTO|POPEN|PCLOS|DPRNT|BPRNT"))
         if not keyword:
@@ -142,13 +210,7 @@ def parse_if(reader: Reader, program: WordAddressProgram, index: int) -> Step:
         keyword = "GOTO"
     else:
         raise reader.fail("if_format")
-    then = _PARSERS[keyword](reader, program, index)
-
-    def branch(channel: Channel) -> None:
-        if condition(channel):
-            then(channel)
-
-    return branch
+    return ConditionalJump(source, literals, _PARSERS[keyword](reader, program, index))
 
 
 def parse_while(reader: Reader, program: WordAddressProgram, index: int) -> Step:
@@ -163,7 +225,7 @@ def parse_while(reader: Reader, program: WordAddressProgram, index: int) -> Step
     def test(channel: Channel) -> None:
         end = program.loop_end(index, number)
         if condition(channel):
-            channel.level.data[number] = index
+            channel.level.data[number] = (index, end, condition)
         else:
             channel.level.data.pop(number, None)
             channel.level.index = end + 1
@@ -176,22 +238,26 @@ def parse_do(reader: Reader, program: WordAddressProgram, index: int) -> Step:
     number = _loop_number(reader)
 
     def enter(channel: Channel) -> None:
-        program.loop_end(index, number)
-        channel.level.data[number] = index
+        channel.level.data[number] = (index, program.loop_end(index, number), None)
 
     return enter
 
 
-def parse_end(reader: Reader, program: WordAddressProgram, index: int) -> Step:
-    """`END m`: back to the DO that was passed."""
+def parse_end(reader: Reader, _program: WordAddressProgram, index: int) -> Step:
+    """`END m`: tests the condition of the DO that was passed and goes back behind it."""
     number = _loop_number(reader)
     missing = reader.fail("missing_do", 0)
 
     def back(channel: Channel) -> None:
-        start = channel.level.data.get(number)
-        if start is None or program.loop_end(start, number) != index:
+        level = channel.level
+        loop = level.data.get(number)
+        if loop is None or loop[1] != index:
             raise missing
-        channel.level.index = start
+        start, _, condition = loop
+        if condition is None or condition(channel):
+            level.index = start + 1
+        else:
+            del level.data[number]
 
     return back
 

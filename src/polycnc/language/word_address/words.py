@@ -17,14 +17,12 @@ An address is a letter, `,R`, or a letter with an index (`X1`, where the control
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
-
-    Evaluate = Callable[[Channel], float | None]
 
 #: The characters that end a key and say how its number was written.
 FORMS = '.:;#"'
@@ -75,38 +73,48 @@ class ExpressionBlock:
 
     Args:
         keys: As a signature; for a code from an expression only `G` or `M`.
-        values: A number, or what evaluates to one, for each word that is not a fixed code.
+        evaluate: Gives the values, one for each key that is not a fixed code; None for a vacant variable.
+        literals: Literals of the generated source.
     """
 
-    __slots__ = ("keys", "slots")
+    __slots__ = ("_computes_codes", "_evaluate", "keys", "literals")
 
-    def __init__(self, keys: tuple[str, ...], values: list[float | Evaluate]) -> None:
+    def __init__(
+        self, keys: tuple[str, ...], evaluate: Callable[[Any, list[float]], list[float | None]], literals: list[float]
+    ) -> None:
         self.keys = keys
-        numbers = iter(values)
-        self.slots: tuple[tuple[str, float | Evaluate | None], ...] = tuple(
-            (key, None if is_fixed_code(key) else next(numbers)) for key in keys
-        )
+        self.literals = literals
+        self._evaluate = evaluate
+        self._computes_codes = "G" in keys or "M" in keys
 
     def __call__(self, channel: Channel) -> None:
+        values: list[Any] = self._evaluate(channel.memory, self.literals)
+        keys = self.keys
+        if self._computes_codes or None in values:
+            keys, values = self._shape(values)
+        plan = channel.mode.plans.get(keys)
+        if plan is None:
+            plan = channel.control.plan(channel, keys)
+        plan.run(channel, values)
+
+    def _shape(self, values: list[Any]) -> tuple[tuple[str, ...], list[float]]:
+        """The signature of this run: computed codes in their place, words of vacant variables left out."""
+        numbers = iter(values)
         signature: list[str] = []
-        values: list[float] = []
-        for key, slot in self.slots:
-            if slot is None:
+        present: list[float] = []
+        for key in self.keys:
+            if is_fixed_code(key):
                 signature.append(key)
                 continue
-            value = slot(channel) if callable(slot) else slot
+            value = next(numbers)
             if value is None:
                 continue
             if key in ("G", "M"):
                 signature.append(code_key(key, f"{round(value, 1):g}"))
             else:
                 signature.append(key)
-                values.append(value)
-        shape = tuple(signature)
-        plan = channel.mode.plans.get(shape)
-        if plan is None:
-            plan = channel.control.plan(channel, shape)
-        plan.run(channel, values)
+                present.append(value)
+        return tuple(signature), present
 
 
 def is_fixed_code(key: str) -> bool:
