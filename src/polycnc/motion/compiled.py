@@ -24,14 +24,15 @@ MODULES = ("arcs", "corners", "feeds", "lay", "speeds")
 
 
 class Kernels(NamedTuple):
-    """The three kernels that the planner calls."""
+    """The three kernels that the planner calls, and how they want to see an `array.array`."""
 
     lay: Callable[..., int]
     backward: Callable[..., int]
     forward: Callable[..., None]
+    see: Callable[[array[Any]], Any]
 
 
-PLAIN = Kernels(lay, backward, forward)
+PLAIN = Kernels(lay, backward, forward, lambda column: column)
 
 
 @cache
@@ -47,7 +48,8 @@ def compiled() -> Kernels | None:
         return None
     modules = [importlib.import_module(f"polycnc.motion.kernels.{name}") for name in MODULES]
     folder = Path(cast("str", modules[0].__file__)).parent
-    digest = blake2b(b"".join(path.read_bytes() for path in sorted(folder.glob("*.py"))), digest_size=6).hexdigest()
+    sources = [Path(__file__), *sorted(folder.glob("*.py"))]
+    digest = blake2b(b"".join(path.read_bytes() for path in sources), digest_size=6).hexdigest()
     scopes = [dict(vars(module)) for module in modules]
     kernels: dict[str, Any] = {}
     for scope in scopes:
@@ -55,20 +57,15 @@ def compiled() -> Kernels | None:
             if isinstance(value, FunctionType) and value.__module__ == scope["__name__"]:
                 copy = FunctionType(value.__code__, scope, name, value.__defaults__)
                 copy.__qualname__ = f"{name}_{digest}"
-                kernels[name] = njit(cache=True)(copy)
+                kernels[name] = njit(cache=True, error_model="numpy", no_cpython_wrapper=name not in Kernels._fields)(copy)
     # Numba compiles at the first call: from here on the copies find each other, not the plain functions.
     for scope in scopes:
         scope.update((name, kernel) for name, kernel in kernels.items() if name in scope)
-    return Kernels(kernels["lay"], kernels["backward"], kernels["forward"])
+    return Kernels(kernels["lay"], kernels["backward"], kernels["forward"], _view)
 
 
-def views(columns: Any) -> Any:
-    """The same columns as NumPy views of the same memory. An array must not grow while views of it are held."""
+def _view(column: array[Any]) -> Any:
+    """A NumPy view of the same memory. An array must not grow while a view of it is held."""
     import numpy as np
 
-    make = getattr(type(columns), "_make", tuple)
-    return make(_view(column, np) for column in columns)
-
-
-def _view(column: array[Any], np: Any) -> Any:
     return np.frombuffer(column, column.typecode) if len(column) else np.zeros(0, column.typecode)

@@ -6,7 +6,6 @@ from array import array
 from math import inf
 from typing import TYPE_CHECKING
 
-from polycnc.motion.kernels.columns import Limits
 from polycnc.motion.settings import EXACT_STOP_MODES, WITHOUT_DEVIATION_MODES, Settings
 
 if TYPE_CHECKING:
@@ -23,8 +22,8 @@ def channel_axes(machine: Machine, channel: int, names: tuple[str, ...]) -> tupl
     return tuple(machine.axis.get(called.get(name, name)) for name in names)
 
 
-def axis_limits(machine: Machine, channel: int, names: tuple[str, ...], settings: Settings) -> Limits:
-    """What bounds each column. An axis that a transformation makes is taken to be as slow as the slowest linear one."""
+def axis_limits(machine: Machine, channel: int, names: tuple[str, ...], settings: Settings) -> array[float]:
+    """The kernels' `limits` for the columns of a toolpath. An axis that a transformation makes is taken to be as slow as the slowest linear one."""
     axes = channel_axes(machine, channel, names)
     linear = [axis for axis in machine.axes if not axis.rotary] or list(machine.axes)
 
@@ -42,15 +41,16 @@ def axis_limits(machine: Machine, channel: int, names: tuple[str, ...], settings
             geometry[i] = names.index(name)
     acceleration = numbers("acceleration")
     step = settings.overload * machine.interpolation_cycle_s
-    return Limits(
-        rapid=array("d", numbers("rapid")),
-        max_feed=array("d", numbers("max_feed")),
-        acceleration=array("d", acceleration),
-        jump=array("d", [a * step for a in acceleration]),
-        rotary=array("B", [axis is not None and axis.rotary for axis in axes]),
-        geometry=array("i", geometry),
-        rules=array("B", [settings.rapid_by_axis, settings.rapid_stops]),
+    blocks = (
+        numbers("rapid"),
+        numbers("max_feed"),
+        acceleration,
+        [a * step for a in acceleration],
+        [float(axis is not None and axis.rotary) for axis in axes],
+        geometry,
+        (settings.rapid_by_axis, settings.rapid_stops),
     )
+    return array("d", [number for block in blocks for number in block])
 
 
 def _limit(axis: Axis, field: str) -> float:

@@ -9,10 +9,25 @@ what the last look left: the result does not depend on the chunks, and the cost 
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from polycnc.motion.compiled import PLAIN, compiled, views
-from polycnc.motion.kernels.columns import PIECES, WITHOUT_FEED, Limits, Pieces, Rows, State
+from polycnc.motion.compiled import PLAIN, compiled
+from polycnc.motion.kernels.columns import (
+    BLOCKS,
+    END2,
+    GEOMETRY,
+    LIMIT_BLOCKS,
+    PIECES,
+    POSITION,
+    REACH2,
+    ROW,
+    SPEED2,
+    STATE_BLOCKS,
+    STOP,
+    VECTORS,
+    WITHOUT_FEED,
+    Rows,
+)
 from polycnc.motion.limits import axis_limits, context_fields
 from polycnc.motion.plan import Plan, Times, ToolTimes
 from polycnc.motion.settings import DEFAULT, Settings
@@ -56,24 +71,24 @@ class Planner:
         tool: int = 0,
         settings: Settings = DEFAULT,
         keep_rows: bool = True,
-        on_pieces: Callable[[Pieces, int], None] | None = None,
+        on_pieces: Callable[[array[float], int], None] | None = None,
         compiled_rows: int = COMPILED_ROWS,
     ) -> None:
-        axes = len(toolpath.axes)
-        self.limits: Limits = axis_limits(machine, channel, toolpath.axes, settings)
+        self._axes = len(toolpath.axes)
+        self._width = VECTORS + 4 * self._axes
         self._toolpath = toolpath
         self._settings = settings
         self._keep_rows = keep_rows
         self._on_pieces = on_pieces
         self._compiled_rows = compiled_rows
         self._kernels = PLAIN
-        self._state = _new_state(axes, start)
-        self._pieces = _new_pieces(axes)
+        self._limits = axis_limits(machine, channel, toolpath.axes, settings)
+        self._state = _new_state(self._axes, start)
+        self._pieces = array("d", bytes(8 * self._width * FIRST_ROOM))
         self._room = FULL_ROOM
         self._contexts = array("d")
+        self._slots = array("d")
         self._stations: dict[tuple[object, ...], int] = {}
-        self._seconds = array("d")
-        self._ways = array("d")
         self._waited: dict[tuple[int, str], float] = {}
         self._row_s = array("d")
         self._first_row = 0
@@ -89,15 +104,14 @@ class Planner:
         self._add_contexts()
         self._row_s.frombytes(bytes(8 * len(chunk)))
         self._next_row = chunk.first + len(chunk)
-        self._waits.take(chunk, self.limits.geometry[0])
+        self._waits.take(chunk, int(self._limits[LIMIT_BLOCKS * self._axes + GEOMETRY]))
         stops = array("B", [self._waits.stands_for(event) for event in chunk.events])
-        rows = Rows(chunk.kind, chunk.context, chunk.feed, chunk.end, chunk.curve, chunk.curves, stops)
-        see = _itself if self._kernels is PLAIN else views
-        row, columns, contexts = 0, see(rows), see((self._contexts,))[0]
+        see = self._kernels.see
+        rows = Rows(*map(see, (chunk.kind, chunk.context, chunk.feed, chunk.end, chunk.curve, stops)))
+        fixed = see(chunk.curves), chunk.first, see(self._contexts), see(self._limits)
+        row = 0
         while True:
-            row = self._kernels.lay(
-                columns, row, chunk.first, contexts, see(self.limits), see(self._pieces), see(self._state)
-            )
+            row = self._kernels.lay(rows, row, *fixed, see(self._pieces), see(self._state))
             if row == len(chunk):
                 return True
             self._make_room()
@@ -114,56 +128,51 @@ class Planner:
     # ---- the buffer of pieces --------------------------------------------------------------------------------------
 
     def _make_room(self) -> None:
-        room = len(self._pieces.length)
+        room = len(self._pieces) // self._width
         if room >= self._room:
             self._look_ahead(finish=False)
-            if self._state.count[PIECES] <= room // 2:
+            if 2 * self._state[PIECES] <= room:
                 return
             self._room = 2 * room
-        for column, width in zip(self._pieces, _widths(len(self._toolpath.axes)), strict=True):
-            column.frombytes(bytes(room * width * column.itemsize))
+        self._pieces.frombytes(bytes(8 * self._width * room))
 
     def _look_ahead(self, *, finish: bool) -> None:
         """Find the speeds of all pieces that nothing still to come can change, and drop those pieces.
 
         The last piece waits for the row behind it, for a spline bends there; the joint before it is taken as a stop.
         """
-        count = self._state.count[PIECES]
+        count, width, see = int(self._state[PIECES]), self._width, self._kernels.see
         last = count if finish else count - 1
-        if last < 0:
-            return
-        self._pieces.reach2[last] = 0.0
-        see = _itself if self._kernels is PLAIN else views
-        pieces, limits = see(self._pieces), see(self.limits)
-        independent = self._kernels.backward(pieces, last, limits)
-        final = count if finish else independent
+        final = self._kernels.backward(see(self._pieces), last, self._axes, see(self._limits))
+        if finish:
+            final = count
         if final <= 0:
             return  # so far everything hangs on what is still to come
-        totals = see((self._seconds, self._ways, self._row_s))
-        self._kernels.forward(pieces, final, limits, *totals, self._first_row)
-        del pieces, totals
+        pieces, rest = self._pieces, array("d", self._pieces[final * width : count * width])
+        end2 = rest[REACH2] if rest else 0.0
+        self._kernels.forward(
+            see(pieces), final, self._axes, see(self._limits), end2, see(self._slots), see(self._row_s), self._first_row
+        )
         if self._on_pieces is not None:
-            self._on_pieces(self._pieces, final)
-        kept = count - final
-        first_kept_row = self._pieces.row[final] if kept else self._next_row
-        for column, width in zip(self._pieces, _widths(len(self._toolpath.axes)), strict=True):
-            column[: kept * width] = column[final * width : count * width]
-        self._state.count[PIECES] = kept
-        self._settle_parallel(first_kept_row)
+            self._on_pieces(pieces, final)
+        end2 = pieces[(final - 1) * width + END2]
+        pieces[: len(rest)] = rest
+        pieces[SPEED2] = end2
+        self._state[PIECES] = count - final
+        planned_rows = int(rest[ROW]) if rest else self._next_row
+        self._settle_parallel(planned_rows)
         if not self._keep_rows:
-            del self._row_s[: first_kept_row - self._first_row]
-            self._first_row = first_kept_row
+            del self._row_s[: planned_rows - self._first_row]
+            self._first_row = planned_rows
 
     # ---- rows and totals -------------------------------------------------------------------------------------------
 
     def _add_contexts(self) -> None:
-        axes, known = len(self._toolpath.axes), len(self._seconds) // 2
-        for context in self._toolpath.contexts[known:]:
+        for context in self._toolpath.contexts[len(self._slots) // 4 :]:
             station = self._stations.setdefault(_station(context), len(self._stations))
             spindle = self._waits.spindle(context)
-            self._contexts.extend(context_fields(context, axes, spindle, station, self._settings))
-            self._seconds.extend((0.0, 0.0))
-            self._ways.extend((0.0, 0.0))
+            self._contexts.extend(context_fields(context, self._axes, spindle, station, self._settings))
+            self._slots.extend((0.0, 0.0, 0.0, 0.0))
 
     def _wait(self, row: int, share: str, context: int, seconds: float) -> None:
         """A row waits: called before its motion is planned."""
@@ -184,13 +193,9 @@ class Planner:
 
     def _plan(self) -> Plan:
         total, tools = Times(), dict[tuple[int, str], ToolTimes]()
-        for number, context in enumerate(self._toolpath.contexts[: len(self._seconds) // 2]):
-            times = Times(
-                rapid_s=self._seconds[2 * number],
-                cutting_s=self._seconds[2 * number + 1],
-                rapid_mm=self._ways[2 * number],
-                cutting_mm=self._ways[2 * number + 1],
-            )
+        for number, context in enumerate(self._toolpath.contexts[: len(self._slots) // 4]):
+            rapid_s, rapid_mm, cutting_s, cutting_mm = self._slots[4 * number : 4 * number + 4]
+            times = Times(cutting_s=cutting_s, rapid_s=rapid_s, cutting_mm=cutting_mm, rapid_mm=rapid_mm)
             for (of_context, share), seconds in self._waited.items():
                 if of_context == number:
                     setattr(times, share, getattr(times, share) + seconds)
@@ -198,7 +203,7 @@ class Planner:
             tools.setdefault(key, ToolTimes(*key)).times += times
             total += times
         used = tuple(tool for tool in tools.values() if tool.tool or tool.name or tool.times.total_s > 0.0)
-        return Plan(total, used, self._row_s, self._state.count[WITHOUT_FEED])
+        return Plan(total, used, self._row_s, int(self._state[WITHOUT_FEED]))
 
 
 def _station(context: Context) -> tuple[object, ...]:
@@ -207,49 +212,9 @@ def _station(context: Context) -> tuple[object, ...]:
     return (context.tool, context.tool_name, *spindle)
 
 
-def _new_state(axes: int, start: Sequence[float]) -> State:
-    def room(size: int) -> array[float]:
-        return array("d", bytes(8 * size))
-
-    position = array("d", start) if len(start) else room(axes)
-    now = array("d", (1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-    return State(
-        position=position,
-        tangent=room(axes),
-        target=room(axes),
-        delta=room(axes),
-        unit=room(axes),
-        bend=room(axes),
-        basis=room(9),
-        turn=room(4),
-        now=now,
-        count=array("q", (0, 0)),
-    )
-
-
-def _widths(axes: int) -> tuple[int, ...]:
-    """Numbers a piece in each column of `Pieces`."""
-    return (1,) * (len(Pieces._fields) - 1) + (4 * axes,)
-
-
-def _new_pieces(axes: int) -> Pieces:
-    def room(code: str, width: int = 1, more: int = 0) -> array[float]:
-        return array(code, bytes(array(code).itemsize * (FIRST_ROOM * width + more)))
-
-    return Pieces(
-        length=room("d"),
-        cap2=room("d"),
-        pull=room("d"),
-        entry2=room("d"),
-        reach2=room("d", more=1),
-        speed2=room("d", more=1),
-        time=room("d"),
-        form=room("B"),
-        row=room("q"),
-        slot=room("i"),
-        vectors=room("d", 4 * axes),
-    )
-
-
-def _itself(columns: Any) -> Any:
-    return columns
+def _new_state(axes: int, start: Sequence[float]) -> array[float]:
+    state = array("d", bytes(8 * (STATE_BLOCKS + BLOCKS * axes)))
+    state[STOP] = 1.0
+    for i, position in enumerate(start):
+        state[STATE_BLOCKS + POSITION * axes + i] = position
+    return state

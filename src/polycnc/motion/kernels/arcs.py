@@ -5,198 +5,231 @@ from __future__ import annotations
 from math import atan2, ceil, cos, inf, pi, sin, sqrt
 
 from polycnc.motion.kernels.columns import (
+    ACCELERATION,
+    BASIS,
+    BEND,
+    CAP2,
     CCW,
+    CURVE,
     CURVED,
-    CURVE_WIDTH,
+    DELTA,
+    ENTRY2,
     EXIT2,
+    FACING,
+    FORM,
     FRAME,
-    Floats,
+    GEOMETRY,
+    GROWTH,
     HAS_FRAME,
     HELIX_CCW,
-    Limits,
+    KIND,
+    LENGTH,
+    LIMIT_BLOCKS,
     METRIC,
     MIRROR,
+    NUMBER,
     OFFSETS,
-    PER_REVOLUTION,
     PIECES,
     PIECES_PER_TURN,
-    Pieces,
+    POSITION,
+    PULL,
+    RADIUS,
+    RISE,
+    ROTARY,
     ROTARY_WEIGHT,
+    ROW,
     ROW_LENGTH,
-    Rows,
+    ROW_SLOT,
     SAME_POINT_MM,
+    SLOT,
     SMOOTH,
-    SURFACE_MM_S,
-    State,
+    STATE_BLOCKS,
+    SWEEP,
+    TANGENT,
+    TARGET,
+    TOLERANCE,
+    TOP_FEED,
+    UNIT,
+    VECTORS,
+    Floats,
 )
 from polycnc.motion.kernels.corners import join
-from polycnc.motion.kernels.feeds import add_piece, capped_speed, norm, programmed_speed
+from polycnc.motion.kernels.feeds import asked_speed, bounded, follows_radius, next_piece, norm
+
+SAME2 = SAME_POINT_MM * SAME_POINT_MM
 
 
-def arc_basis(rows: Rows, row: int, contexts: Floats, base: int, limits: Limits, state: State) -> bool:
-    """Set `basis` to the arc's directions in machine coordinates, `turn` to its sweep, radius, growth and rise.
+def find_arc(curves: Floats, contexts: Floats, record: int, n: int, limits: Floats, state: Floats) -> bool:
+    """Set the state's BASIS, SWEEP, RADIUS, GROWTH and RISE for the row at hand, in machine coordinates.
 
-    `basis` is the unit vector from the centre to the start, the direction of travel there, the normal. False where the start
-    lies in the centre or the geometry is not complete enough to turn in.
+    False where the start lies in the centre.
     """
-    c = rows.curve[row] * CURVE_WIDTH
-    basis, turn = state.basis, state.turn
-    sign = 1.0 if rows.kind[row] == CCW or rows.kind[row] == HELIX_CCW else -1.0
+    c, geometry = int(state[CURVE]), LIMIT_BLOCKS * n + GEOMETRY
+    to_start, to_end, normal = BASIS, BASIS + 3, BASIS + 6
     size2 = 0.0
     for j in range(3):
-        normal = rows.curves[c + 3 + j]
-        center = rows.curves[c + j]
-        if contexts[base + HAS_FRAME] != 0.0:
-            normal, center = 0.0, contexts[base + FRAME + 9 + j]
+        across, center = curves[c + 3 + j], curves[c + j]
+        if contexts[record + HAS_FRAME] != 0.0:
+            across, center = 0.0, contexts[record + FRAME + 9 + j]
             for k in range(3):
-                normal += contexts[base + FRAME + 3 * j + k] * rows.curves[c + 3 + k]
-                center += contexts[base + FRAME + 3 * j + k] * rows.curves[c + k]
-        size2 += normal * normal
-        basis[6 + j] = normal
-        axis = limits.geometry[j]
+                across += contexts[record + FRAME + 3 * j + k] * curves[c + 3 + k]
+                center += contexts[record + FRAME + 3 * j + k] * curves[c + k]
+        size2 += across * across
+        state[normal + j] = across
+        state[to_start + j] = state[to_end + j] = 0.0
+        axis = int(limits[geometry + j])
         if axis >= 0:
-            center += contexts[base + OFFSETS + axis]
-            basis[j] = state.position[axis] - center
-            basis[3 + j] = state.target[axis] - center
-        else:
-            basis[j] = basis[3 + j] = 0.0
+            center += contexts[record + OFFSETS + axis]
+            state[to_start + j] = state[STATE_BLOCKS + POSITION * n + axis] - center
+            state[to_end + j] = state[STATE_BLOCKS + TARGET * n + axis] - center
     if size2 == 0.0:
         return False
-    sign *= contexts[base + MIRROR]
-    from_start, from_end = 0.0, 0.0
+    start_along, end_along = 0.0, 0.0
     for j in range(3):
-        basis[6 + j] /= sqrt(size2)
-        from_start += basis[j] * basis[6 + j]
-        from_end += basis[3 + j] * basis[6 + j]
+        state[normal + j] /= sqrt(size2)
+        start_along += state[to_start + j] * state[normal + j]
+        end_along += state[to_end + j] * state[normal + j]
     start2, end2, apart2 = 0.0, 0.0, 0.0
     for j in range(3):
-        basis[j] -= from_start * basis[6 + j]
-        basis[3 + j] -= from_end * basis[6 + j]
-        start2 += basis[j] * basis[j]
-        end2 += basis[3 + j] * basis[3 + j]
-        apart2 += (basis[j] - basis[3 + j]) * (basis[j] - basis[3 + j])
-    if start2 <= SAME_POINT_MM * SAME_POINT_MM:
+        state[to_start + j] -= start_along * state[normal + j]
+        state[to_end + j] -= end_along * state[normal + j]
+        start2 += state[to_start + j] * state[to_start + j]
+        end2 += state[to_end + j] * state[to_end + j]
+        apart2 += (state[to_start + j] - state[to_end + j]) * (state[to_start + j] - state[to_end + j])
+    if start2 <= SAME2:
         return False
-    radius = sqrt(start2)
-    turn[1], turn[2], turn[3] = radius, sqrt(end2) - radius, from_end - from_start
-    turn[0] = arc_sweep(basis, sign, radius, apart2) + 2.0 * pi * rows.curves[c + 6]
+    state[RADIUS], state[RISE] = sqrt(start2), end_along - start_along
+    state[GROWTH] = sqrt(end2) - state[RADIUS]
+    ccw = state[KIND] == CCW or state[KIND] == HELIX_CCW
+    sense = contexts[record + MIRROR] * (1.0 if ccw else -1.0)
+    state[SWEEP] = first_turn(state, sense, apart2) + 2.0 * pi * curves[c + 6]
     return True
 
 
-def arc_sweep(basis: Floats, sign: float, radius: float, apart2: float) -> float:
-    """Finish the basis (start direction, direction of travel, normal) and give the angle of the first turn."""
-    along, across = 0.0, 0.0
-    for j in range(3):
-        basis[j] /= radius
-    end0, end1, end2 = basis[3], basis[4], basis[5]
-    basis[3] = sign * (basis[7] * basis[2] - basis[8] * basis[1])
-    basis[4] = sign * (basis[8] * basis[0] - basis[6] * basis[2])
-    basis[5] = sign * (basis[6] * basis[1] - basis[7] * basis[0])
-    along = end0 * basis[0] + end1 * basis[1] + end2 * basis[2]
-    across = end0 * basis[3] + end1 * basis[4] + end2 * basis[5]
-    if apart2 <= SAME_POINT_MM * SAME_POINT_MM:
+def first_turn(state: Floats, sense: float, apart2: float) -> float:
+    """Turn BASIS into unit vectors (to the start, along the way there, normal); the angle of the first turn."""
+    end_x, end_y, end_z = state[BASIS + 3], state[BASIS + 4], state[BASIS + 5]
+    for j in range(BASIS, BASIS + 3):
+        state[j] /= state[RADIUS]
+    x, y, z = state[BASIS], state[BASIS + 1], state[BASIS + 2]
+    nx, ny, nz = state[BASIS + 6], state[BASIS + 7], state[BASIS + 8]
+    forth_x, forth_y, forth_z = sense * (ny * z - nz * y), sense * (nz * x - nx * z), sense * (nx * y - ny * x)
+    state[BASIS + 3], state[BASIS + 4], state[BASIS + 5] = forth_x, forth_y, forth_z
+    if apart2 <= SAME2:
         return 2.0 * pi
-    angle = atan2(across, along)
+    angle = atan2(end_x * forth_x + end_y * forth_y + end_z * forth_z, end_x * x + end_y * y + end_z * z)
     return angle if angle > 0.0 else angle + 2.0 * pi
 
 
-def arc_node(angle: float, limits: Limits, weight: float, state: State) -> float:
-    """Set `unit` to q' and `bend` to q'' at an angle of the arc; the way per radian.
+def arc_point(angle: float, n: int, limits: Floats, weight: float, state: Floats) -> float:
+    """Set UNIT to q' and BEND to q'' at an angle of the arc; the way per radian.
 
-    The curve is `r(φ)·e(φ) + h·φ·N`, with a radius that grows in proportion; other axes move evenly with the angle.
+    The curve is `r(φ)·e(φ) + h·φ·N` with a radius that grows in proportion; other axes move evenly with the angle.
     """
-    basis, turn, unit, bend = state.basis, state.turn, state.unit, state.bend
-    sweep = turn[0]
-    growth = turn[2] / sweep
-    radius = turn[1] + growth * angle
+    unit, bend, geometry = STATE_BLOCKS + UNIT * n, STATE_BLOCKS + BEND * n, LIMIT_BLOCKS * n + GEOMETRY
+    sweep = state[SWEEP]
+    growth = state[GROWTH] / sweep
+    radius = state[RADIUS] + growth * angle
     c, s = cos(angle), sin(angle)
-    for i in range(len(unit)):
-        unit[i] = state.delta[i] / sweep
-        bend[i] = 0.0
+    for i in range(n):
+        state[unit + i] = state[STATE_BLOCKS + DELTA * n + i] / sweep
+        state[bend + i] = 0.0
     for j in range(3):
-        i = limits.geometry[j]
+        i = int(limits[geometry + j])
         if i >= 0:
-            outward = c * basis[j] + s * basis[3 + j]
-            forth = c * basis[3 + j] - s * basis[j]
-            unit[i] = growth * outward + radius * forth + turn[3] / sweep * basis[6 + j]
-            bend[i] = 2.0 * growth * forth - radius * outward
-    way = norm(unit, limits, weight)
+            outward = c * state[BASIS + j] + s * state[BASIS + 3 + j]
+            forth = c * state[BASIS + 3 + j] - s * state[BASIS + j]
+            state[unit + i] = growth * outward + radius * forth + state[RISE] / sweep * state[BASIS + 6 + j]
+            state[bend + i] = 2.0 * growth * forth - radius * outward
+    way = norm(state, unit, n, limits, weight)
     along = 0.0
-    for i in range(len(unit)):
-        w = weight if limits.rotary[i] != 0 else 1.0
-        unit[i] /= way
-        along += w * w * unit[i] * bend[i]
-    for i in range(len(unit)):
-        bend[i] = (bend[i] - unit[i] * along) / (way * way)
+    for i in range(n):
+        w = weight if limits[ROTARY * n + i] != 0.0 else 1.0
+        state[unit + i] /= way
+        along += w * w * state[unit + i] * state[bend + i]
+    for i in range(n):
+        state[bend + i] = (state[bend + i] - state[unit + i] * along) / (way * way)
     return way
 
 
-def arc_caps(limits: Limits, state: State, margin: float) -> float:
-    """Largest x at a point of a curve at which every axis keeps its velocity, and can hold the speed."""
+def point_cap2(n: int, limits: Floats, state: Floats, margin: float) -> float:
+    """Largest x at a point of a curve at which every axis keeps its velocity and can hold the speed."""
+    unit, bend = STATE_BLOCKS + UNIT * n, STATE_BLOCKS + BEND * n
     cap2 = inf
-    for i in range(len(state.unit)):
-        share, curvature = abs(state.unit[i]), abs(state.bend[i])
+    for i in range(n):
+        share, curvature = abs(state[unit + i]) * margin, abs(state[bend + i]) * margin
         if share > 0.0:
-            speed = limits.max_feed[i] / share
+            speed = limits[TOP_FEED * n + i] / share
             cap2 = min(cap2, speed * speed)
         if curvature > 0.0:
-            cap2 = min(cap2, limits.acceleration[i] / (curvature * margin))
+            cap2 = min(cap2, limits[ACCELERATION * n + i] / curvature)
     return cap2
 
 
 def lay_arc(
-    rows: Rows, row: int, number: int, contexts: Floats, base: int, limits: Limits, pieces: Pieces, state: State
+    curves: Floats, contexts: Floats, record: int, n: int, limits: Floats, pieces: Floats, state: Floats
 ) -> bool:
-    """An arc, helix or spiral in pieces of equal angle.
+    """An arc, helix or spiral in pieces of equal angle; false when the room ends.
 
     Over a piece of angle d the acceleration of an axis, `f(φ)`, has `|f''| <= 5·a`, so that it exceeds the larger of its end
     values by at most `5·d²/8` of the limit; tangents and curvature are stored larger by that much.
     """
-    n, sweep = len(state.unit), state.turn[0]
+    width, sweep = VECTORS + 4 * n, state[SWEEP]
     parts = int(ceil(sweep * PIECES_PER_TURN / (2.0 * pi) - 1e-9))
-    if state.count[PIECES] + parts > len(pieces.length):
+    if (int(state[PIECES]) + parts) * width > len(pieces):
         return False
     step = sweep / parts
-    margin = 1.0 + 0.625 * step * step
-    weight = contexts[base + ROTARY_WEIGHT]
-    end_way = arc_node(sweep, limits, weight, state)
-    way = arc_node(0.0, limits, weight, state)
+    margin, weight = 1.0 + 0.625 * step * step, contexts[record + ROTARY_WEIGHT]
+    end_way = arc_point(sweep, n, limits, weight, state)
+    way = arc_point(0.0, n, limits, weight, state)
     length = 0.5 * (way + end_way) * sweep
-    facing = limits.geometry[0]
-    shift = state.target[facing] - rows.end[row * n + facing] if facing >= 0 else 0.0
-    speed = capped_speed(programmed_speed(rows, row, contexts, base, length, 0.0, state), state)
-    follows_radius = contexts[base + SURFACE_MM_S] != 0.0 and contexts[base + PER_REVOLUTION] != 0.0
-    node2 = arc_caps(limits, state, margin)
-    entry2 = join(rows.kind[row], contexts, base, limits, state, length, weight, min(node2, speed * speed))
-    at = state.count[PIECES] * 4 * n
+    speed = bounded(asked_speed(curves, contexts, record, state, length, facing_radius(0.0, n, limits, state)), state)
+    entry2 = point_cap2(n, limits, state, margin)
+    entry2 = join(contexts[record + TOLERANCE], n, limits, state, length, weight, min(entry2, speed * speed))
     for part in range(parts):
-        if follows_radius and facing >= 0:
-            c, s, r = cos((part + 0.5) * step), sin((part + 0.5) * step), state.turn[1]
-            start_x = state.position[facing] - shift
-            radius = start_x + r * ((c - 1.0) * state.basis[0] + s * state.basis[3])
-            speed = programmed_speed(rows, row, contexts, base, length, radius, state)
+        if follows_radius(contexts, record):
+            radius = facing_radius((part + 0.5) * step, n, limits, state)
+            speed = asked_speed(curves, contexts, record, state, length, radius)
             speed = speed if speed > 0.0 else inf
-        for i in range(n):
-            pieces.vectors[at + i] = state.unit[i] * margin
-            pieces.vectors[at + 2 * n + i] = state.bend[i] * margin
-        next_way = arc_node((part + 1) * step, limits, weight, state)
-        next2 = arc_caps(limits, state, margin)
-        pull, cap2 = inf, speed * speed
-        for i in range(n):
-            pieces.vectors[at + n + i] = state.unit[i] * margin
-            pieces.vectors[at + 3 * n + i] = state.bend[i] * margin
-            share = max(abs(pieces.vectors[at + i]), abs(pieces.vectors[at + n + i]))
-            if share > 0.0:
-                top = limits.max_feed[i] / share
-                cap2 = min(cap2, top * top)
-                pull = min(pull, limits.acceleration[i] / share)
-        p_entry2 = min(entry2, cap2)
-        add_piece(
-            pieces, state, 0.5 * (way + next_way) * step, cap2, p_entry2, pull, CURVED, number, rows.context[row] * 2 + 1
-        )
-        way, entry2, at = next_way, min(cap2, next2), at + 4 * n
+        at = next_piece(state, 0.0, width)
+        store_point(pieces, at + VECTORS, n, state, margin)
+        next_way = arc_point((part + 1) * step, n, limits, weight, state)
+        store_point(pieces, at + VECTORS + n, n, state, margin)
+        bound_curve(pieces, at, n, limits, speed)
+        pieces[at + LENGTH] = 0.5 * (way + next_way) * step
+        pieces[at + ENTRY2] = min(entry2, pieces[at + CAP2])
+        pieces[at + FORM], pieces[at + ROW], pieces[at + SLOT] = CURVED, state[NUMBER], state[ROW_SLOT]
+        entry2 = min(pieces[at + CAP2], point_cap2(n, limits, state, margin))
+        way = next_way
     for i in range(n):
-        state.tangent[i] = state.unit[i]
-    state.now[EXIT2] = entry2
-    state.now[ROW_LENGTH], state.now[METRIC], state.now[SMOOTH] = length, weight, 0.0
+        state[STATE_BLOCKS + TANGENT * n + i] = state[STATE_BLOCKS + UNIT * n + i]
+    state[EXIT2], state[ROW_LENGTH], state[METRIC], state[SMOOTH] = entry2, length, weight, 0.0
     return True
+
+
+def facing_radius(angle: float, n: int, limits: Floats, state: Floats) -> float:
+    """Turning radius (work X) at an angle of the arc."""
+    facing = int(limits[LIMIT_BLOCKS * n + GEOMETRY])
+    if facing < 0:
+        return 0.0
+    start = state[FACING] - state[STATE_BLOCKS + DELTA * n + facing]
+    return start + state[RADIUS] * ((cos(angle) - 1.0) * state[BASIS] + sin(angle) * state[BASIS + 3])
+
+
+def store_point(pieces: Floats, at: int, n: int, state: Floats, margin: float) -> None:
+    """Store q' and q'' of a point, the curvature two blocks behind the tangent."""
+    for i in range(n):
+        pieces[at + i] = state[STATE_BLOCKS + UNIT * n + i] * margin
+        pieces[at + 2 * n + i] = state[STATE_BLOCKS + BEND * n + i] * margin
+
+
+def bound_curve(pieces: Floats, at: int, n: int, limits: Floats, speed: float) -> None:
+    """Set CAP2 and PULL of a curved piece from the tangents at its ends."""
+    cap2, pull = speed * speed, inf
+    for i in range(n):
+        share = max(abs(pieces[at + VECTORS + i]), abs(pieces[at + VECTORS + n + i]))
+        if share > 0.0:
+            top = limits[TOP_FEED * n + i] / share
+            cap2 = min(cap2, top * top)
+            pull = min(pull, limits[ACCELERATION * n + i] / share)
+    pieces[at + CAP2], pieces[at + PULL] = cap2, pull

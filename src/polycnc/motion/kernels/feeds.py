@@ -5,90 +5,100 @@ from __future__ import annotations
 from math import inf, pi, sqrt
 
 from polycnc.motion.kernels.columns import (
-    CURVE_WIDTH,
+    BLOCKS,
+    CURVE,
+    DELTA,
     EXIT2,
-    Floats,
+    FEED,
     INVERSE_TIME,
-    Limits,
+    KIND,
     PER_REVOLUTION,
     PIECES,
-    Pieces,
     RAPID,
     REF,
+    ROTARY,
     RPM,
     RPM_LIMIT,
-    Rows,
+    STATE_BLOCKS,
     SURFACE_MM_S,
-    State,
     TAP,
     THREAD,
     WITHOUT_FEED,
+    Floats,
 )
 
 
-def norm(vector: Floats, limits: Limits, weight: float) -> float:
+def axes_of(state: Floats) -> int:
+    """Number of axes that a state has room for."""
+    return (len(state) - STATE_BLOCKS) // BLOCKS
+
+
+def norm(state: Floats, block: int, n: int, limits: Floats, weight: float) -> float:
     """Length of a vector of all axes; a degree of a rotary axis counts `weight` millimetres."""
     total = 0.0
-    for i in range(len(vector)):
-        value = vector[i] * weight if limits.rotary[i] != 0 else vector[i]
+    for i in range(n):
+        value = state[block + i]
+        if limits[ROTARY * n + i] != 0.0:
+            value *= weight
         total += value * value
     return sqrt(total)
 
 
-def revolutions_s(contexts: Floats, base: int, radius_mm: float) -> float:
+def revolutions_s(contexts: Floats, record: int, radius_mm: float) -> float:
     """Spindle speed at a turning radius, revolutions a second."""
-    surface = contexts[base + SURFACE_MM_S]
+    surface = contexts[record + SURFACE_MM_S]
     if surface == 0.0:
-        return contexts[base + RPM] / 60.0
-    limit = contexts[base + RPM_LIMIT] / 60.0
+        return contexts[record + RPM] / 60.0
+    limit = contexts[record + RPM_LIMIT] / 60.0
     around = 2.0 * pi * abs(radius_mm)
     return limit if around * limit <= surface else surface / around
 
 
-def programmed_speed(
-    rows: Rows, row: int, contexts: Floats, base: int, length: float, radius_mm: float, state: State
+def lead_of(curves: Floats, state: Floats) -> float:
+    """Lead of a thread or tap in mm, 0 for other moves."""
+    if (state[KIND] == THREAD or state[KIND] == TAP) and state[CURVE] >= 0.0:
+        return curves[int(state[CURVE])]
+    return 0.0
+
+
+def asked_speed(
+    curves: Floats, contexts: Floats, record: int, state: Floats, length: float, radius_mm: float
 ) -> float:
-    """Path speed that the program asks for, by the feed mode that holds (mm/s); infinite for a rapid."""
-    kind = rows.kind[row]
-    if kind == RAPID or kind == REF:
+    """Path speed that the program asks for by the feed mode that holds, mm/s; infinite for a rapid, 0 where none is asked."""
+    if state[KIND] == RAPID or state[KIND] == REF:
         return inf
-    if (kind == THREAD or kind == TAP) and rows.curve[row] >= 0:
-        lead = rows.curves[rows.curve[row] * CURVE_WIDTH]
-        if lead > 0.0:
-            # The lead counts along the axis with the longest way; the others follow it.
-            longest = 0.0
-            for value in state.delta:
-                longest = max(longest, abs(value))
-            if longest > 0.0:
-                return lead * revolutions_s(contexts, base, radius_mm) * length / longest
-    speed = rows.feed[row]
-    if contexts[base + PER_REVOLUTION] != 0.0:
-        speed *= revolutions_s(contexts, base, radius_mm)
-    elif contexts[base + INVERSE_TIME] != 0.0:
+    lead = lead_of(curves, state)
+    if lead > 0.0:
+        # The lead counts along the axis with the longest way; the others follow it.
+        n, longest = axes_of(state), 0.0
+        for i in range(STATE_BLOCKS + DELTA * n, STATE_BLOCKS + DELTA * n + n):
+            longest = max(longest, abs(state[i]))
+        if longest > 0.0:
+            return lead * revolutions_s(contexts, record, radius_mm) * length / longest
+    speed = state[FEED]
+    if contexts[record + PER_REVOLUTION] != 0.0:
+        speed *= revolutions_s(contexts, record, radius_mm)
+    elif contexts[record + INVERSE_TIME] != 0.0:
         speed *= length
-    return speed if speed > 0.0 else -1.0
+    return speed if speed > 0.0 else 0.0
 
 
-def capped_speed(programmed: float, state: State) -> float:
-    """A programmed speed, or no bound where there is none; such rows are counted."""
-    if programmed < 0.0:
-        state.count[WITHOUT_FEED] += 1
-        return inf
-    return programmed
+def bounded(asked: float, state: Floats) -> float:
+    """The speed asked for, or no bound where none is; such rows are counted."""
+    if asked > 0.0:
+        return asked
+    state[WITHOUT_FEED] += 1.0
+    return inf
 
 
-def add_piece(
-    pieces: Pieces, state: State, length: float, cap2: float, entry2: float, pull: float, form: int, row: int, slot: int
-) -> int:
-    """Append a piece; its number."""
-    p = state.count[PIECES]
-    pieces.length[p] = length
-    pieces.cap2[p] = cap2
-    pieces.entry2[p] = entry2
-    pieces.pull[p] = pull
-    pieces.form[p] = form
-    pieces.row[p] = row
-    pieces.slot[p] = slot
-    state.count[PIECES] = p + 1
-    state.now[EXIT2] = cap2
-    return p
+def follows_radius(contexts: Floats, record: int) -> bool:
+    """Whether the feed changes with the turning radius: per revolution, under constant surface speed."""
+    return contexts[record + SURFACE_MM_S] != 0.0 and contexts[record + PER_REVOLUTION] != 0.0
+
+
+def next_piece(state: Floats, cap2: float, width: int) -> int:
+    """Take the next record of `pieces`; where it begins."""
+    at = int(state[PIECES]) * width
+    state[PIECES] += 1.0
+    state[EXIT2] = cap2
+    return at

@@ -4,208 +4,258 @@ from __future__ import annotations
 
 from math import inf
 
+from polycnc.motion.kernels.arcs import find_arc, lay_arc
 from polycnc.motion.kernels.columns import (
+    ACCELERATION,
     AT_STATION,
-    CURVED,
+    BEND,
+    CAP2,
+    CURVE,
     CURVE_WIDTH,
+    CURVED,
     CW,
+    DELTA,
     DWELL,
+    ENTRY2,
     EVENT,
     EXACT_STOP,
     EXIT2,
+    FACING,
     FACING_PIECES,
+    FEED,
+    FORM,
     FRAME,
-    Floats,
+    GEOMETRY,
     HAS_FRAME,
     HELIX_CCW,
-    Limits,
+    KIND,
+    LENGTH,
+    LIMIT_BLOCKS,
     METRIC,
+    NUMBER,
     OFFSETS,
-    PER_REVOLUTION,
     PIECES,
-    Pieces,
+    POSITION,
+    PULL,
     RAPID,
+    RAPID_BY_AXIS,
+    RAPID_STOPS,
     REF,
     ROTARY_WEIGHT,
+    ROW,
     ROW_LENGTH,
-    Rows,
+    ROW_SLOT,
+    SLOT,
     SMOOTH,
     SPINDLE_REV_S2,
     SPLINE,
+    STATE_BLOCKS,
     STATION,
     STOP,
     STRAIGHT,
-    SURFACE_MM_S,
-    State,
+    TANGENT,
     TAP,
+    TARGET,
     TIMED,
+    TOLERANCE,
+    TOP_FEED,
+    TOP_RAPID,
+    UNIT,
+    VECTORS,
+    Floats,
+    Rows,
 )
-from polycnc.motion.kernels.arcs import arc_basis, lay_arc
 from polycnc.motion.kernels.corners import join
-from polycnc.motion.kernels.feeds import add_piece, capped_speed, norm, programmed_speed
+from polycnc.motion.kernels.feeds import asked_speed, axes_of, bounded, follows_radius, lead_of, next_piece, norm
 from polycnc.motion.kernels.speeds import straight_time
 
 
-def lay(rows: Rows, first: int, row_number: int, contexts: Floats, limits: Limits, pieces: Pieces, state: State) -> int:
-    """Lay rows out as pieces from row `first` on; the next row to lay: behind the last, or one that found no room.
+def lay(
+    rows: Rows, first: int, curves: Floats, number: int, contexts: Floats, limits: Floats, pieces: Floats, state: Floats
+) -> int:
+    """Lay rows out as pieces from row `first` on.
 
-    `row_number` is the number of the chunk's first row.
+    Args:
+        rows: The chunk's columns.
+        first: Row to begin with.
+        curves: The chunk's curve parameters.
+        number: Number of the chunk's first row in the toolpath.
+        contexts: Table of contexts.
+        limits: The machine.
+        pieces: Room for pieces.
+        state: Carried from call to call.
+
+    Returns:
+        The next row to lay: behind the last, or one for which there was no room.
     """
+    n = axes_of(state)
     for row in range(first, len(rows.kind)):
         kind = rows.kind[row]
         if kind == EVENT:
             if rows.stops[rows.curve[row]] != 0:
-                state.now[STOP] = 1.0
+                state[STOP] = 1.0
         elif kind == DWELL:
-            state.now[STOP] = 1.0
-        elif not lay_move(rows, row, row_number + row, contexts, limits, pieces, state):
-            return row
+            state[STOP] = 1.0
+        else:
+            record = rows.context[row] * (OFFSETS + n)
+            rapid = kind == RAPID or kind == REF
+            state[KIND], state[NUMBER], state[FEED] = kind, number + row, rows.feed[row]
+            state[CURVE] = rows.curve[row] * CURVE_WIDTH
+            state[ROW_SLOT] = 2 * rows.context[row] + (0 if rapid else 1)
+            aim(rows.end, row * n, contexts, record, n, limits, state)
+            if not lay_move(curves, contexts, record, n, limits, pieces, state):
+                return row
     return len(rows.kind)
 
 
+def aim(end: Floats, at: int, contexts: Floats, record: int, n: int, limits: Floats, state: Floats) -> None:
+    """Set TARGET to the machine position of a row's end, DELTA to the way there, FACING to its X."""
+    target, geometry = STATE_BLOCKS + TARGET * n, LIMIT_BLOCKS * n + GEOMETRY
+    for i in range(n):
+        state[target + i] = end[at + i]
+    if contexts[record + HAS_FRAME] != 0.0:
+        for j in range(3):
+            axis = int(limits[geometry + j])
+            if axis >= 0:
+                value = contexts[record + FRAME + 9 + j]
+                for k in range(3):
+                    other = int(limits[geometry + k])
+                    if other >= 0:
+                        value += contexts[record + FRAME + 3 * j + k] * end[at + other]
+                state[target + axis] = value
+    for i in range(n):
+        state[target + i] += contexts[record + OFFSETS + i]
+        state[STATE_BLOCKS + DELTA * n + i] = state[target + i] - state[STATE_BLOCKS + POSITION * n + i]
+    facing = int(limits[geometry])
+    state[FACING] = end[at + facing] if facing >= 0 else 0.0
+
+
 def lay_move(
-    rows: Rows, row: int, number: int, contexts: Floats, limits: Limits, pieces: Pieces, state: State
+    curves: Floats, contexts: Floats, record: int, n: int, limits: Floats, pieces: Floats, state: Floats
 ) -> bool:
-    """Lay one move out; false when the room ends, with nothing changed."""
-    n = len(state.position)
-    kind, context = rows.kind[row], rows.context[row]
-    base = context * (OFFSETS + n)
-    aim(rows, row, contexts, base, limits, state)
-    now = state.now
-    if contexts[base + STATION] != now[AT_STATION] or kind == TAP:
-        now[STOP] = 1.0
+    """Lay the row at hand out; false when the room ends, and then nothing is changed that a second try would not."""
+    kind, rules = int(state[KIND]), LIMIT_BLOCKS * n
     rapid = kind == RAPID or kind == REF
-    if rapid and limits.rules[1] != 0:
-        now[STOP] = 1.0
-    if CW <= kind <= HELIX_CCW and rows.curve[row] >= 0 and arc_basis(rows, row, contexts, base, limits, state):
-        done = lay_arc(rows, row, number, contexts, base, limits, pieces, state)
-    elif rapid and limits.rules[0] != 0:
-        done = lay_rapid_by_axis(context * 2, number, limits, pieces, state)
+    stands = kind == TAP or (rapid and limits[rules + RAPID_STOPS] != 0.0)
+    if stands or contexts[record + STATION] != state[AT_STATION]:
+        state[STOP] = 1.0
+    arc = CW <= kind <= HELIX_CCW and state[CURVE] >= 0.0
+    if arc and find_arc(curves, contexts, record, n, limits, state):
+        done = lay_arc(curves, contexts, record, n, limits, pieces, state)
+    elif rapid and limits[rules + RAPID_BY_AXIS] != 0.0:
+        done = lay_rapid_by_axis(n, limits, pieces, state)
     else:
-        done = lay_straight(rows, row, number, contexts, base, limits, pieces, state)
+        done = lay_straight(curves, contexts, record, n, limits, pieces, state)
     if not done:
         return False
     for i in range(n):
-        state.position[i] = state.target[i]
-    now[AT_STATION] = contexts[base + STATION]
-    if contexts[base + EXACT_STOP] != 0.0 or kind == TAP or (rapid and limits.rules[1] != 0):
-        now[STOP] = 1.0
+        state[STATE_BLOCKS + POSITION * n + i] = state[STATE_BLOCKS + TARGET * n + i]
+    state[AT_STATION] = contexts[record + STATION]
+    if stands or contexts[record + EXACT_STOP] != 0.0:
+        state[STOP] = 1.0
     return True
 
 
-def aim(rows: Rows, row: int, contexts: Floats, base: int, limits: Limits, state: State) -> None:
-    """Set `target` to the machine position of the row's end and `delta` to the way there."""
-    n = len(state.position)
-    target, end = state.target, rows.end
-    for i in range(n):
-        target[i] = end[row * n + i]
-    if contexts[base + HAS_FRAME] != 0.0:
-        for j in range(3):
-            axis = limits.geometry[j]
-            if axis >= 0:
-                value = contexts[base + FRAME + 9 + j]
-                for k in range(3):
-                    other = limits.geometry[k]
-                    if other >= 0:
-                        value += contexts[base + FRAME + 3 * j + k] * end[row * n + other]
-                target[axis] = value
-    for i in range(n):
-        target[i] += contexts[base + OFFSETS + i]
-        state.delta[i] = target[i] - state.position[i]
-
-
-def lay_rapid_by_axis(slot: int, number: int, limits: Limits, pieces: Pieces, state: State) -> bool:
+def lay_rapid_by_axis(n: int, limits: Floats, pieces: Floats, state: Floats) -> bool:
     """A rapid on which every axis runs alone, from rest to rest: as long as the slowest axis takes."""
-    if state.count[PIECES] >= len(pieces.length):
+    width, delta = VECTORS + 4 * n, STATE_BLOCKS + DELTA * n
+    if (int(state[PIECES]) + 1) * width > len(pieces):
         return False
     seconds = 0.0
-    for i in range(len(state.delta)):
-        way = abs(state.delta[i])
+    for i in range(n):
+        way, top = abs(state[delta + i]), limits[TOP_RAPID * n + i]
         if way > 0.0:
-            speed = limits.rapid[i]
-            seconds = max(seconds, straight_time(0.0, 0.0, speed * speed, limits.acceleration[i], way))
+            seconds = max(seconds, straight_time(0.0, 0.0, top * top, limits[ACCELERATION * n + i], way))
     if seconds > 0.0:
-        add_piece(pieces, state, norm(state.delta, limits, 1.0), 0.0, 0.0, seconds, TIMED, number, slot)
-        state.now[STOP] = 1.0
+        at = next_piece(state, 0.0, width)
+        pieces[at + LENGTH] = norm(state, delta, n, limits, 1.0)
+        pieces[at + CAP2] = pieces[at + ENTRY2] = 0.0
+        pieces[at + PULL] = seconds
+        pieces[at + FORM], pieces[at + ROW], pieces[at + SLOT] = TIMED, state[NUMBER], state[ROW_SLOT]
+        state[STOP] = 1.0
     return True
 
 
 def lay_straight(
-    rows: Rows, row: int, number: int, contexts: Floats, base: int, limits: Limits, pieces: Pieces, state: State
+    curves: Floats, contexts: Floats, record: int, n: int, limits: Floats, pieces: Floats, state: Floats
 ) -> bool:
     """A line, or a chord of a spline; in parts where the spindle's speed follows the radius."""
-    weight = contexts[base + ROTARY_WEIGHT]
-    length = norm(state.delta, limits, weight)
+    delta, unit, width = STATE_BLOCKS + DELTA * n, STATE_BLOCKS + UNIT * n, VECTORS + 4 * n
+    weight = contexts[record + ROTARY_WEIGHT]
+    length = norm(state, delta, n, limits, weight)
     if length == 0.0:
         weight = 1.0
-        length = norm(state.delta, limits, weight)
-        if length == 0.0:
-            return True
-    n, kind, facing = len(state.delta), rows.kind[row], limits.geometry[0]
-    rapid = kind == RAPID or kind == REF
-    end_radius, start_radius, parts = 0.0, 0.0, 1
-    if contexts[base + SURFACE_MM_S] != 0.0 and contexts[base + PER_REVOLUTION] != 0.0 and not rapid and facing >= 0:
-        end_radius = rows.end[row * n + facing]
-        start_radius = end_radius - state.delta[facing]
-        if abs(state.delta[facing]) > 0.02 * max(abs(end_radius), abs(start_radius)):
+        length = norm(state, delta, n, limits, weight)
+    if length == 0.0:
+        return True
+    facing = int(limits[LIMIT_BLOCKS * n + GEOMETRY])
+    end_x, start_x, parts = state[FACING], state[FACING], 1
+    if facing >= 0 and follows_radius(contexts, record):
+        start_x -= state[delta + facing]
+        if abs(end_x - start_x) > 0.02 * max(abs(end_x), abs(start_x)):
             parts = FACING_PIECES
-    if state.count[PIECES] + parts > len(pieces.length):
+    if (int(state[PIECES]) + parts) * width > len(pieces):
         return False
-    top, pull = inf, inf
+    rapid = state[KIND] == RAPID or state[KIND] == REF
+    top_block = (TOP_RAPID if rapid else TOP_FEED) * n
+    top, pull, lead = inf, inf, lead_of(curves, state)
     for i in range(n):
-        state.unit[i] = state.delta[i] / length
-        share = abs(state.unit[i])
+        state[unit + i] = state[delta + i] / length
+        share = abs(state[unit + i])
         if share > 0.0:
-            top = min(top, (limits.rapid[i] if rapid else limits.max_feed[i]) / share)
-            pull = min(pull, limits.acceleration[i] / share)
-    if kind == TAP and rows.curve[row] >= 0 and rows.curves[rows.curve[row] * CURVE_WIDTH] > 0.0:
-        pull = min(pull, rows.curves[rows.curve[row] * CURVE_WIDTH] * contexts[base + SPINDLE_REV_S2])
-    slot = rows.context[row] * 2 + (0 if rapid else 1)
+            top = min(top, limits[top_block + i] / share)
+            pull = min(pull, limits[ACCELERATION * n + i] / share)
+    if state[KIND] == TAP and lead > 0.0:
+        pull = min(pull, lead * contexts[record + SPINDLE_REV_S2])
+    entry2 = 0.0
     for part in range(parts):
-        radius = start_radius + (end_radius - start_radius) * (part + 0.5) / parts
-        programmed = programmed_speed(rows, row, contexts, base, length, radius, state)
-        if part > 0:
-            speed = min(top, programmed if programmed > 0.0 else inf)
-            entry2 = min(state.now[EXIT2], speed * speed)
+        radius = start_x + (end_x - start_x) * (part + 0.5) / parts
+        asked = asked_speed(curves, contexts, record, state, length, radius)
+        if part == 0:
+            speed = min(top, bounded(asked, state))
+            entry2 = join(contexts[record + TOLERANCE], n, limits, state, length, weight, speed * speed)
         else:
-            speed = min(top, capped_speed(programmed, state))
-            entry2 = join(kind, contexts, base, limits, state, length, weight, speed * speed)
-        form = CURVED if kind == SPLINE else STRAIGHT
-        p = add_piece(pieces, state, length / parts, speed * speed, entry2, pull, form, number, slot)
-        if kind == SPLINE:
-            lay_chord(pieces, p, limits, state, length, weight)
+            speed = min(top, asked if asked > 0.0 else inf)
+            entry2 = min(state[EXIT2], speed * speed)
+        at = next_piece(state, speed * speed, width)
+        pieces[at + LENGTH], pieces[at + CAP2], pieces[at + PULL] = length / parts, speed * speed, pull
+        pieces[at + ENTRY2], pieces[at + FORM] = entry2, STRAIGHT
+        pieces[at + ROW], pieces[at + SLOT] = state[NUMBER], state[ROW_SLOT]
+        if state[KIND] == SPLINE:
+            lay_chord(pieces, at, n, limits, state, length, weight)
     for i in range(n):
-        state.tangent[i] = state.unit[i]
-    state.now[ROW_LENGTH], state.now[METRIC], state.now[SMOOTH] = length, weight, 1.0 if kind == SPLINE else 0.0
+        state[STATE_BLOCKS + TANGENT * n + i] = state[unit + i]
+    state[ROW_LENGTH], state[METRIC], state[SMOOTH] = length, weight, 1.0 if state[KIND] == SPLINE else 0.0
     return True
 
 
-def lay_chord(pieces: Pieces, p: int, limits: Limits, state: State, length: float, weight: float) -> None:
+def lay_chord(
+    pieces: Floats, at: int, n: int, limits: Floats, state: Floats, length: float, weight: float
+) -> None:
     """Give a spline's chord the tangents and the curvature of the curve through its points.
 
     At a point between two chords the tangent is their mean direction, the curvature the change of direction over the
-    mean length: central differences, the curve's own values to second order. `unit` is the chord, `tangent` the one before.
+    mean length: central differences, the curve's own values to second order. UNIT is the chord, TANGENT the one before.
     """
-    n, v = len(state.unit), pieces.vectors
-    at = p * 4 * n
+    unit, tangent, bend = STATE_BLOCKS + UNIT * n, STATE_BLOCKS + TANGENT * n, STATE_BLOCKS + BEND * n
+    here = at + VECTORS
+    before = here - (VECTORS + 4 * n)
+    pieces[at + FORM] = CURVED
     for i in range(n):
-        v[at + i] = v[at + n + i] = state.unit[i]
-        v[at + 2 * n + i] = v[at + 3 * n + i] = 0.0
-    if state.now[SMOOTH] != 2.0:
+        pieces[here + i] = pieces[here + n + i] = state[unit + i]
+        pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = 0.0
+    if state[SMOOTH] != 2.0:
         return
-    before = at - 4 * n
-    mean = 0.5 * (length + state.now[ROW_LENGTH])
     for i in range(n):
-        state.bend[i] = state.unit[i] + state.tangent[i]
-    size = norm(state.bend, limits, weight)
-    cap2 = pieces.entry2[p]
+        state[bend + i] = state[unit + i] + state[tangent + i]
+    size, mean = norm(state, bend, n, limits, weight), 0.5 * (length + state[ROW_LENGTH])
+    cap2 = pieces[at + ENTRY2]
     for i in range(n):
-        direction = state.bend[i] / size
-        curvature = (state.unit[i] - state.tangent[i]) / mean
-        v[before + n + i] = v[at + i] = direction
-        v[before + 3 * n + i] = v[at + 2 * n + i] = v[at + 3 * n + i] = curvature
+        curvature = (state[unit + i] - state[tangent + i]) / mean
+        pieces[before + n + i] = pieces[here + i] = state[bend + i] / size
+        pieces[before + 3 * n + i] = pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = curvature
         if curvature != 0.0:
-            cap2 = min(cap2, limits.acceleration[i] / abs(curvature))
-    pieces.entry2[p] = cap2
+            cap2 = min(cap2, limits[ACCELERATION * n + i] / abs(curvature))
+    pieces[at + ENTRY2] = cap2
     # The last chord of a spline bends at its end as at its start.
-    state.now[EXIT2] = min(state.now[EXIT2], cap2)
+    state[EXIT2] = min(state[EXIT2], cap2)

@@ -1,71 +1,99 @@
 """Look-ahead over pieces: the fastest speeds that every later limit allows.
 
-The two passes are those of time-optimal path parametrisation by reachability (Q.-C. Pham and H. Pham, "A New Approach
+The two passes are those of time-optimal path parametrisation by reachability (H. Pham and Q.-C. Pham, "A New Approach
 to Time-Optimal Path Parameterization Based on Reachability Analysis", IEEE T-RO 34, 2018), on squared speed, with the
-axis limits imposed at both ends of each piece. On a straight piece they are the plain trapezoid. Each pass visits
-every piece once.
+axis limits imposed at both ends of each piece. On straight pieces they are the plain trapezoid. Each pass visits every
+piece once.
 """
 
 from __future__ import annotations
 
 from math import inf, sqrt
 
-from polycnc.motion.kernels.columns import CURVED, STRAIGHT, TIMED, Floats, Limits, Pieces
+from polycnc.motion.kernels.columns import (
+    ACCELERATION,
+    CAP2,
+    CURVED,
+    END2,
+    ENTRY2,
+    FORM,
+    LENGTH,
+    PULL,
+    REACH2,
+    ROW,
+    SLOT,
+    SPEED2,
+    STRAIGHT,
+    TIME,
+    VECTORS,
+    Floats,
+)
 
 #: Tries for the speed in the middle of a curved piece, and steps to the crest of `highest2`.
 TRIES = 16
 
 
-def backward(pieces: Pieces, count: int, limits: Limits) -> int:
-    """Fill `reach2` of the first `count` pieces, with `reach2[count]` given.
+def backward(pieces: Floats, count: int, n: int, limits: Floats) -> int:
+    """Fill REACH2 of the first `count` pieces, behind which the axes stop.
 
     The last joint whose reach does not depend on what comes behind it, because its own cap bounds it; -1 for none.
     """
-    independent = -1
-    x2 = pieces.reach2[count]
+    independent, width, x2 = -1, VECTORS + 4 * n, 0.0
     for p in range(count - 1, -1, -1):
-        cap2 = pieces.entry2[p]
-        if pieces.form[p] == STRAIGHT:
-            x2 += 2.0 * pieces.pull[p] * pieces.length[p]
-        elif x2 < cap2 and pieces.form[p] == CURVED:
-            x2 = max(x2, highest2(pieces, p, limits, x2))
+        at = p * width
+        cap2 = pieces[at + ENTRY2]
+        if pieces[at + FORM] == STRAIGHT:
+            x2 += 2.0 * pieces[at + PULL] * pieces[at + LENGTH]
+        elif x2 < cap2 and pieces[at + FORM] == CURVED:
+            x2 = max(x2, highest2(pieces, at, n, limits, x2))
         if x2 >= cap2:
             x2 = cap2
             if independent < 0:
                 independent = p
-        pieces.reach2[p] = x2
+        pieces[at + REACH2] = x2
     return independent
 
 
 def forward(
-    pieces: Pieces, count: int, limits: Limits, seconds_of: Floats, way_of: Floats, row_s: Floats, first_row: int
+    pieces: Floats, count: int, n: int, limits: Floats, end2: float, slots: Floats, row_s: Floats, first_row: int
 ) -> None:
-    """Choose `speed2` and `time` of the first `count` pieces, with `speed2[0]` given and `reach2` known.
+    """Choose SPEED2, END2 and TIME of the first `count` pieces; SPEED2 of the first and REACH2 of all are given.
 
-    Adds time and length of each piece to its slot, and the time to its row; `row_s` begins with row `first_row`.
+    Args:
+        pieces: Records of pieces.
+        count: Pieces to plan.
+        n: Number of axes.
+        limits: The machine.
+        end2: Reach behind the last of them.
+        slots: Seconds and length of every slot, in turn; the pieces' are added.
+        row_s: Seconds of every row from `first_row` on; the pieces' are added.
+        first_row: Number of the first row in `row_s`.
     """
-    x2 = pieces.speed2[0]
+    width = VECTORS + 4 * n
+    x2 = pieces[SPEED2]
     for p in range(count):
-        length, end2 = pieces.length[p], pieces.reach2[p + 1]
-        if pieces.form[p] == STRAIGHT:
-            end2 = min(end2, x2 + 2.0 * pieces.pull[p] * length)
-            seconds = straight_time(x2, end2, pieces.cap2[p], pieces.pull[p], length)
-        elif pieces.form[p] == CURVED:
-            end2 = min(end2, max(bound2(pieces, p, limits, x2, False)[0], 0.0))
-            seconds = curved_time(pieces, p, limits, x2, end2)
+        at = p * width
+        length = pieces[at + LENGTH]
+        next2 = pieces[at + width + REACH2] if p + 1 < count else end2
+        if pieces[at + FORM] == STRAIGHT:
+            next2 = min(next2, x2 + 2.0 * pieces[at + PULL] * length)
+            seconds = straight_time(x2, next2, pieces[at + CAP2], pieces[at + PULL], length)
+        elif pieces[at + FORM] == CURVED:
+            next2 = min(next2, max(bound2(pieces, at, n, limits, x2, False)[0], 0.0))
+            seconds = curved_time(pieces, at, n, limits, x2, next2)
         else:
-            end2, seconds = 0.0, pieces.pull[p]
-        x2 = pieces.speed2[p + 1] = end2
-        pieces.time[p] = seconds
-        seconds_of[pieces.slot[p]] += seconds
-        way_of[pieces.slot[p]] += length
-        row_s[pieces.row[p] - first_row] += seconds
+            next2, seconds = 0.0, pieces[at + PULL]
+        pieces[at + SPEED2], pieces[at + END2], pieces[at + TIME] = x2, next2, seconds
+        x2 = next2
+        slot = 2 * int(pieces[at + SLOT])
+        slots[slot] += seconds
+        slots[slot + 1] += length
+        row_s[int(pieces[at + ROW]) - first_row] += seconds
 
 
 def straight_time(start2: float, end2: float, cap2: float, pull: float, length: float) -> float:
-    """Seconds of a straight piece: up to the peak, along it, down to the end (trapezoid, or triangle without the middle)."""
-    peak2 = min(cap2, 0.5 * (start2 + end2) + pull * length)
-    peak2 = max(peak2, start2, end2)
+    """Seconds of a straight piece: up to the peak, along it, down to the end (a trapezoid, or a triangle)."""
+    peak2 = max(min(cap2, 0.5 * (start2 + end2) + pull * length), start2, end2)
     if peak2 <= 0.0:
         return 0.0
     peak = sqrt(peak2)
@@ -73,45 +101,44 @@ def straight_time(start2: float, end2: float, cap2: float, pull: float, length: 
     return (2.0 * peak - sqrt(start2) - sqrt(end2)) / pull + max(level, 0.0) / peak
 
 
-def bound2(pieces: Pieces, p: int, limits: Limits, known2: float, at_start: bool) -> tuple[float, float, float]:
+def bound2(
+    pieces: Floats, at: int, n: int, limits: Floats, known2: float, at_start: bool
+) -> tuple[float, float, float]:
     """Upper bound on x at one end of a curved piece (`at_start` says which) for the x at the other end.
 
     With `u = (x₁ - x₀) / (2·length)` each limit `|q''·x + q'·u| <= a` at either end is linear in both x. The bound, and
     intercept and slope by `known2` of the limit that sets it.
     """
-    n = len(limits.acceleration)
-    v = pieces.vectors
-    at = p * 4 * n
-    here, there, half = at + n, at, -0.5 / pieces.length[p]
+    here, there, half = at + VECTORS + n, at + VECTORS, -0.5 / pieces[at + LENGTH]
     if at_start:
-        here, there, half = at, at + n, -half
+        here, there, half = there, here, -half
     lowest, intercept, slope = inf, inf, 0.0
     for i in range(n):
-        a = limits.acceleration[i]
-        push = v[here + i] * half
-        own = v[here + 2 * n + i] - push
+        a = limits[ACCELERATION * n + i]
+        push = pieces[here + i] * half
+        own = pieces[here + 2 * n + i] - push
         if own != 0.0:
             rise, flat = -push / own, a / abs(own)
             if flat + rise * known2 < lowest:
                 lowest, intercept, slope = flat + rise * known2, flat, rise
-        push = v[there + i] * half
+        push = pieces[there + i] * half
         if push != 0.0:
-            rise, flat = (v[there + 2 * n + i] + push) / push, a / abs(push)
+            rise, flat = (pieces[there + 2 * n + i] + push) / push, a / abs(push)
             if flat + rise * known2 < lowest:
                 lowest, intercept, slope = flat + rise * known2, flat, rise
     return lowest, intercept, slope
 
 
-def highest2(pieces: Pieces, p: int, limits: Limits, end2: float) -> float:
+def highest2(pieces: Floats, at: int, n: int, limits: Floats, end2: float) -> float:
     """Largest x at the start of a curved piece from which some x up to `end2` can be reached at its end.
 
     The bound is the least of straight lines over the end's x: concave. Where it falls at `end2`, its crest lies before; the
     crossing of a rising and a falling line closes in on it.
     """
-    value, falling, fall = bound2(pieces, p, limits, end2, True)
+    best, falling, fall = bound2(pieces, at, n, limits, end2, True)
     if fall >= 0.0 or end2 <= 0.0:
-        return value
-    best, rising, rise = bound2(pieces, p, limits, 0.0, True)
+        return best
+    value, rising, rise = bound2(pieces, at, n, limits, 0.0, True)
     best = max(best, value)
     for _ in range(TRIES):
         if rise <= fall:
@@ -119,7 +146,7 @@ def highest2(pieces: Pieces, p: int, limits: Limits, end2: float) -> float:
         x2 = (falling - rising) / (rise - fall)
         if not 0.0 < x2 < end2:
             break
-        value, intercept, slope = bound2(pieces, p, limits, x2, True)
+        value, intercept, slope = bound2(pieces, at, n, limits, x2, True)
         best = max(best, value)
         if slope == rise or slope == fall:
             break
@@ -130,28 +157,27 @@ def highest2(pieces: Pieces, p: int, limits: Limits, end2: float) -> float:
     return best
 
 
-def curved_time(pieces: Pieces, p: int, limits: Limits, start2: float, end2: float) -> float:
+def curved_time(pieces: Floats, at: int, n: int, limits: Floats, start2: float, end2: float) -> float:
     """Seconds of a curved piece: under constant acceleration, or over a peak where that is quicker and within the limits.
 
     A peak costs acceleration to the side; what is left at its height, at the worse end and for the worst axis, serves to go
     up and down. Half the height is tried where too little is left.
     """
-    length = pieces.length[p]
-    seconds = inf
+    length, seconds = pieces[at + LENGTH], inf
     high2 = max(start2, end2)
     if high2 > 0.0:
         seconds = 2.0 * length / (sqrt(start2) + sqrt(end2))
-    peak2 = min(pieces.cap2[p], high2 + pieces.pull[p] * length)
+    peak2 = min(pieces[at + CAP2], high2 + pieces[at + PULL] * length)
     if peak2 <= 1.02 * high2:
         return seconds
-    n = len(limits.acceleration)
-    at = p * 4 * n
+    first = at + VECTORS
     for _ in range(TRIES):
         left = inf
-        for i in range(at, at + 2 * n):
-            share = abs(pieces.vectors[i])
+        for i in range(2 * n):
+            share = abs(pieces[first + i])
             if share > 0.0:
-                left = min(left, (limits.acceleration[(i - at) % n] - abs(pieces.vectors[i + 2 * n]) * peak2) / share)
+                spent = abs(pieces[first + 2 * n + i]) * peak2
+                left = min(left, (limits[ACCELERATION * n + i % n] - spent) / share)
         if left > 0.0 and abs(end2 - start2) <= 2.0 * left * length:
             return min(seconds, straight_time(start2, end2, peak2, left, length))
         peak2 = high2 + 0.5 * (peak2 - high2)
