@@ -1,7 +1,7 @@
 """G functions of SINUMERIK 840D sl: the groups, their words in the order of `$P_GG`, and what holds at start.
 
-Source: job planning 16.1 (statement list) and the list of G functions of the Fundamentals. Position 0 of a tuple
-is number 1 of the group. A group that is not modal acts in its block only.
+Source: job planning 16.1 (statement list) and the list of G functions of the Fundamentals. Position 0 of a
+tuple is number 1 of the group. A group that is not modal acts in its block only.
 """
 
 from __future__ import annotations

@@ -1,0 +1,1 @@
+"""SINUMERIK 840D sl: G groups, words, frames, tools, system variables and alarms of the control."""

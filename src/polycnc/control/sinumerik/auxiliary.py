@@ -1,0 +1,66 @@
+"""M functions, tool change, stops and program ends.
+
+Source: Fundamentals (M functions), job planning 1.25.2.8 (M17, M30 in subprograms), 7.1 (tool data).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.sinumerik import frames, stages
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.memory import Memory
+
+STOP, OPTIONAL_STOP = 0, 1
+PROGRAM_ENDS = frozenset({2, 30, 17})
+DIRECTIONS = {3: 1, 4: -1, 5: 0}
+ORIENT, AXIS_MODE = 19, 70
+AFTER_MOTION = frozenset({STOP, OPTIONAL_STOP, *PROGRAM_ENDS})
+
+
+def before_motion(channel: Channel, code: int, spindle_number: int | None) -> None:
+    """Run an M function that acts before the motion of its block; `spindle_number` is its extension."""
+    if code in AFTER_MOTION and spindle_number is None:
+        return
+    memory: Memory = channel.memory
+    if code in DIRECTIONS or code in (ORIENT, AXIS_MODE):
+        spindle = memory.spindles.get(spindle_number)
+        spindle.direction = DIRECTIONS.get(code, 0)
+        spindle.controlled = code in (ORIENT, AXIS_MODE)
+        channel.context_changed()
+    if spindle_number is None:
+        channel.event("m", code=code)
+    else:
+        channel.event("m", code=code, spindle=spindle_number)
+    data = memory.data
+    if code == data.integer("$MC_TOOL_CHANGE_M_CODE") and data.integer("$MC_TOOL_CHANGE_MODE"):
+        load_tool(channel)
+
+
+def after_motion(channel: Channel, code: int) -> None:
+    """Stops, which act when the motion of their block is done."""
+    if code == STOP:
+        channel.stop("M0")
+    elif code == OPTIONAL_STOP:
+        if channel.optional_stop:
+            channel.stop("M1")
+        else:
+            channel.event("m", code=code)
+
+
+def load_tool(channel: Channel) -> None:
+    """The selected tool comes into the spindle."""
+    memory: Memory = channel.memory
+    memory.tools.load(memory.tools.selected, memory.data)
+    tool_changed(channel)
+
+
+def tool_changed(channel: Channel) -> None:
+    """Other offsets: lengths act with the next motion of their axis, the radius at once."""
+    memory: Memory = channel.memory
+    memory.tools.assign_lengths(channel.mode["plane"], memory.data)
+    frames.apply(channel, travelled=bool(memory.data.number("$SC_TOOL_OFFSET_INCR_PROG")))
+    stages.changed_radius(channel)
+    channel.context_changed()

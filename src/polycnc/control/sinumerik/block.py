@@ -1,0 +1,95 @@
+"""A block while the control works out how it acts: who takes which word, and in which order steps run.
+
+Every word of a block is taken by exactly one function. The result is a `Plan`, kept in `mode.plans[block]`:
+the same block in the same modal state is worked out once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.sinumerik.positions import AxisTerm, axis_term
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.mode import Mode
+    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.language.sinumerik.words import Block, WordShape
+
+    Values = tuple[Any, ...]
+
+#: One thing that a block does.
+Step = Callable[["Channel", "Values"], None]
+
+
+class Draft:
+    """A block that is being worked out.
+
+    Attributes:
+        channel: The channel, for what does not change while a program runs (axes, machine).
+        memory: Its memory.
+        block: What is programmed.
+        mode: Modal state while the block runs: its own modal functions included.
+        codes: Function of the block by group name, modal or not.
+        steps: What the block does, in order.
+        moves: Whether path motion is among it.
+    """
+
+    def __init__(self, channel: Channel, block: Block, mode: Mode, codes: dict[str, str]) -> None:
+        self.channel = channel
+        self.memory: Memory = channel.memory
+        self.block = block
+        self.mode = mode
+        self.codes = codes
+        self.steps: list[Step] = []
+        self.moves = False
+        self._open = dict(enumerate(block.words))
+
+    def take(self, address: str) -> int | None:
+        """Take the word of an address without index; its place, or None if the block does not have it."""
+        for position, word in self._open.items():
+            if word.address == address and word.index is None:
+                del self._open[position]
+                return position
+        return None
+
+    def take_shape(self, address: str) -> tuple[int, WordShape] | None:
+        """Take the first word of an address, with whatever index."""
+        for position, word in self._open.items():
+            if word.address == address:
+                del self._open[position]
+                return position, word
+        return None
+
+    def has(self, *addresses: str) -> bool:
+        """Whether a word of one of these addresses is still open."""
+        return any(word.address in addresses for word in self._open.values())
+
+    def take_axes(self, *, path: bool = True) -> list[AxisTerm]:
+        """Take all axis words, worked out for the modal state; `path` as for `axis_term`."""
+        terms = []
+        for position, word in list(self._open.items()):
+            column = self.memory.columns.get(word.address)
+            if column is not None and word.index is None:
+                del self._open[position]
+                terms.append(axis_term(self.channel, self.mode, position, column, word.modifier, path=path))
+        return terms
+
+    def take_machine_axes(self) -> list[tuple[int, int]]:
+        """Take all words of machine axes (`X1=`): place and column of each."""
+        found = []
+        for position, word in list(self._open.items()):
+            column = self.memory.machine_columns.get(word.address)
+            if column is not None and word.index is None:
+                del self._open[position]
+                found.append((position, column))
+        return found
+
+    def open_words(self) -> list[tuple[int, WordShape]]:
+        """The words that nobody has taken yet."""
+        return list(self._open.items())
+
+    def close(self, position: int) -> None:
+        """Take the word at a place."""
+        del self._open[position]

@@ -1,0 +1,291 @@
+"""SINUMERIK 840D sl: what its language and its channel ask of it."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from importlib import resources
+from math import inf
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from polycnc.control.sinumerik import frames, functions, gcodes, procedures, stages, tables
+from polycnc.control.sinumerik.frames import Frames, stored_frames
+from polycnc.control.sinumerik.machine_data import MachineData
+from polycnc.control.sinumerik.memory import Memory
+from polycnc.control.sinumerik.plan import make_plan
+from polycnc.control.sinumerik.spindles import Spindle, Spindles
+from polycnc.control.sinumerik.system_variables import SystemVariables
+from polycnc.control.sinumerik.tools import tools_of_setup
+from polycnc.language.sinumerik.interface import LanguageMemory
+from polycnc.language.sinumerik.nc_frame import GEOMETRY_AXES, NEUTRAL
+from polycnc.language.sinumerik.values import Axis
+from polycnc.messages import AlarmError, Catalogue
+from polycnc.program import Form
+from polycnc.toolpath import Context
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Executable
+    from polycnc.control.sinumerik.block import Values
+    from polycnc.control.sinumerik.system_variables import SystemVariable
+    from polycnc.language.sinumerik.words import Block
+    from polycnc.program import Program
+
+#: R parameters of a channel whose machine data say nothing.
+R_PARAMETERS = 1000
+SKIP_LEVELS = 10
+
+
+class Sinumerik:
+    """SINUMERIK 840D sl with its full NC language."""
+
+    id: ClassVar[str] = "sinumerik-840d"
+    default_machine: ClassVar[str] = "mill3"
+    form: ClassVar[Form] = Form.SINUMERIK
+    g_groups: ClassVar[Mapping[str, int]] = {word: group.number for word, group in gcodes.GROUP_OF.items()}
+
+    @cached_property
+    def catalogue(self) -> Catalogue:
+        """Texts of the control's alarms."""
+        return Catalogue(resources.files("polycnc.control.sinumerik").joinpath("alarms.toml"))
+
+    @cached_property
+    def system_variables(self) -> SystemVariables:
+        """All variables `$…`."""
+        return SystemVariables()
+
+    # ---- programs
+
+    def compile(self, program: Program) -> Executable:
+        """Make a program ready to run."""
+        from polycnc.language.sinumerik import SinumerikProgram
+
+        return SinumerikProgram(program, self)
+
+    def start(self, channel: Channel) -> None:
+        """Power-on: modal state, machine data, tools and frames as machine and setup say."""
+        memory = self._memory(channel)
+        channel.memory = memory
+        channel.mode = channel.modes.mode(_start_codes(channel, memory.data))
+        memory.feed_mode = tables.FEED_TYPES[channel.mode["feed"]].mode
+        memory.frames.select(gcodes.number_of(channel.mode["zero_offset"]) - 1)
+        frames.apply(channel)
+        for name, value in channel.setup.variables.items():
+            self.write_variable(channel, name, value)
+
+    def _memory(self, channel: Channel) -> Memory:
+        names = axis_names(channel)
+        data = MachineData(channel.setup.parameters, names)
+        definition = next(c for c in channel.machine.channels if c.number == channel.number)
+        master = data.integer("$MC_SPIND_DEF_MASTER_SPIND")
+        numbers = definition.spindles
+        if numbers and master not in numbers:
+            master = numbers[0]
+        count = data.integer("$MC_MM_NUM_R_PARAM") if data.is_set("$MC_MM_NUM_R_PARAM") else R_PARAMETERS
+        global_bases = data.integer("$MN_MM_NUM_GLOBAL_BASE_FRAMES")
+        return Memory(
+            language=LanguageMemory([0.0] * count, names),
+            data=data,
+            frames=Frames(
+                settable=stored_frames(
+                    channel.setup.work_offsets,
+                    data.integer("$MC_MM_NUM_USER_FRAMES"),
+                    {word: gcodes.number_of(word) for word in gcodes.BY_NAME["zero_offset"].words},
+                ),
+                base=[NEUTRAL] * data.integer("$MC_MM_NUM_BASE_FRAMES"),
+                global_base=[NEUTRAL] * global_bases,
+            ),
+            tools=tools_of_setup(channel.setup.tools),
+            spindles=Spindles({n: Spindle(n) for n in numbers}, master, master),
+            columns=_columns(channel),
+            machine_columns=_machine_columns(channel),
+            transverse=next((i for i, axis in enumerate(channel.axis_data) if axis.diameter), -1),
+        )
+
+    def end_of_program(self, channel: Channel) -> None:
+        """The text has ended: as M30, or as M17 in a subprogram."""
+        if len(channel.stack) > 1:
+            from polycnc.language.sinumerik import end_of_subprogram
+
+            end_of_subprogram(channel)
+        else:
+            channel.end()
+
+    # ---- blocks
+
+    def execute(self, channel: Channel, block: Block, values: Values) -> bool:
+        """Run the functions and words of a block; true if a modal subprogram (MCALL) follows the block."""
+        plans = channel.mode.plans
+        plan = plans.get(block)
+        if plan is None:
+            plan = plans[block] = make_plan(channel, block)
+        for step in plan.steps:
+            step(channel, values)
+        if channel.head is not None:
+            stages.relax(channel)
+        for position in plan.ends:
+            if values[position] in (2, 30, 17):
+                self.end_of_program(channel)
+                return False
+        return bool(plan.calls)
+
+    def procedure(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> None:
+        """Run a predefined procedure."""
+        procedures.run(channel, name, args, column)
+
+    def function(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> Any:
+        """The value of a predefined function that depends on the control's state."""
+        return functions.value(channel, name, args, column)
+
+    def g_function(self, group: int, number: int) -> str:
+        """The function that `G[group]=number` names; 12470 if there is none or the group is not modal."""
+        found = gcodes.BY_NUMBER.get(group)
+        if found is None or not found.is_modal or not 1 <= number <= len(found.words):
+            raise AlarmError("12470", text=f"G[{group}]={number}")
+        return found.words[number - 1]
+
+    def system_variable(self, name: str) -> SystemVariable:
+        """The variable `$NAME`; alarm 12550 for one that does not exist, PC0001 for one that is not kept."""
+        return self.system_variables.find(name)
+
+    def preprocessing_stop(self, channel: Channel) -> bool:
+        """Wait for the main run: everything held back is written; the block need not come again."""
+        channel.flush()
+        return False
+
+    def skipped(self, channel: Channel, level: int) -> bool:
+        """Whether blocks marked `/` with this level are skipped now."""
+        return bool(channel.setup.switches.block_skip_mask(plain=0) >> level & 1)
+
+    def save(self, channel: Channel) -> object:
+        """What PROC … SAVE brings back: all modal functions, and the frames that they chose."""
+        memory: Memory = channel.memory
+        return channel.mode, memory.frames.programmable
+
+    def restore(self, channel: Channel, saved: object) -> None:
+        """Bring back what `save` returned."""
+        assert isinstance(saved, tuple)
+        mode, programmable = saved
+        memory: Memory = channel.memory
+        changed = {name for name, code in mode.codes.items() if channel.mode[name] != code}
+        channel.mode = mode
+        memory.frames.programmable = programmable
+        if "zero_offset" in changed:
+            memory.frames.select(gcodes.number_of(mode["zero_offset"]) - 1)
+        if "feed" in changed:
+            memory.feed_mode = tables.FEED_TYPES[mode["feed"]].mode
+        memory.tools.assign_lengths(mode["plane"], memory.data)
+        frames.changed(channel)
+        channel.context_changed()
+
+    # ---- the toolpath
+
+    def context(self, channel: Channel) -> Context:
+        """The context that holds now."""
+        mode, coordinates = channel.mode, channel.coordinates
+        memory: Memory = channel.memory
+        feed = (
+            tables.FEED_TYPES[mode["feed"]] if mode["feed"] in tables.FEED_TYPES else tables.FEED_TYPES["G94"]
+        )
+        spindle = memory.spindles.all.get(memory.spindles.master)
+        diameter = mode["diameter"] in ("DIAMON", "DIAM90") and memory.transverse >= 0
+        side = stages.SIDES.get(mode["side"], 0)
+        return Context(
+            plane=mode["plane"],
+            inch=False,
+            feed_mode=feed.mode,
+            frame=coordinates.zero,
+            offsets=tuple(coordinates.offsets),
+            tool=memory.tools.active,
+            tool_name=memory.tools.name,
+            radius_mm=stages.radius(memory) if side else 0.0,
+            side=side,
+            spindle=memory.spindles.master,
+            spindle_rpm=_speed(spindle, feed.surface_speed),
+            spindle_direction=spindle.direction if spindle else 0,
+            surface_speed=feed.surface_speed,
+            spindle_limit_rpm=spindle.limit if spindle and spindle.limit < inf else 0.0,
+            path_mode="G9" if memory.exact_stop_block else mode["path_mode"],
+            tolerance_mm=memory.rounding_mm if mode["path_mode"] == "G641" else 0.0,
+            diameter_axes=1 << memory.transverse if diameter else 0,
+            wcs=mode["zero_offset"],
+        )
+
+    def over_travel(self, axis: str, direction: int) -> AlarmError:
+        """10720: the target lies beyond a software limit switch."""
+        return AlarmError("10720", axis=axis, side="+" if direction > 0 else "-")
+
+    def block_limit(self) -> AlarmError:
+        """The program has run more blocks than allowed."""
+        return AlarmError("PC0002", hint="hint.block-limit")
+
+    # ---- variables by name
+
+    def read_variable(self, channel: Channel, name: str) -> object:
+        """The value of a variable as a program would name it (`R1`, `$P_GG[6]`, a user variable)."""
+        from polycnc.language.sinumerik import read_variable
+
+        return read_variable(channel, name)
+
+    def write_variable(self, channel: Channel, name: str, value: object) -> None:
+        """Set a variable as a program would name it."""
+        from polycnc.language.sinumerik import write_variable
+
+        write_variable(channel, name, value)
+
+    def variable_names(self, channel: Channel) -> list[str]:
+        """Names of all variables that hold something."""
+        memory: Memory = channel.memory
+        return [f"R{n}" for n, value in enumerate(memory.language.r) if value]
+
+
+def _speed(spindle: Spindle | None, surface_speed: bool) -> float:
+    if spindle is None:
+        return 0.0
+    return spindle.cutting_speed if surface_speed else spindle.speed
+
+
+def _start_codes(channel: Channel, data: MachineData) -> dict[str, str]:
+    """Modal state at program start: delivered values, MD20150, and G18 where the channel has no Y axis."""
+    codes = dict(gcodes.START_CODES)
+    definition = next(c for c in channel.machine.channels if c.number == channel.number)
+    if "X" in definition.geometry and not {"Y"} & {*definition.geometry, *definition.virtual}:
+        codes["plane"] = "G18"
+    for group in gcodes.GROUPS:
+        if group.is_modal and data.is_set("$MC_GCODE_RESET_VALUES", group.number - 1):
+            number = data.integer("$MC_GCODE_RESET_VALUES", group.number - 1)
+            if 1 <= number <= len(group.words):
+                codes[group.name] = group.words[number - 1]
+    return codes
+
+
+def axis_names(channel: Channel) -> dict[str, Axis]:
+    """Every axis and spindle identifier that programs of the channel may use, with the axis it means."""
+    names = {name: Axis(name) for name in channel.axes}
+    for letter, column in zip(GEOMETRY_AXES, channel.coordinates.geometry, strict=True):
+        if column >= 0:
+            names.setdefault(letter, Axis(letter))
+    for i, axis in enumerate(channel.axis_data):
+        for name in (axis.machine_name, f"AX{i + 1}"):
+            if name:
+                names.setdefault(name.upper(), Axis(name.upper()))
+    for spindle in channel.machine.spindles:
+        names.setdefault(f"S{spindle.number}", Axis(f"S{spindle.number}"))
+    return names
+
+
+def _columns(channel: Channel) -> dict[str, int]:
+    """Columns by channel and geometry names."""
+    columns = {name: i for i, name in enumerate(channel.axes)}
+    for letter, column in zip(GEOMETRY_AXES, channel.coordinates.geometry, strict=True):
+        if column >= 0:
+            columns.setdefault(letter, column)
+    return columns
+
+
+def _machine_columns(channel: Channel) -> dict[str, int]:
+    """Columns by machine axis names: of the machine, of its machine data, and AX1 and so on."""
+    columns = {f"AX{i + 1}": i for i in range(len(channel.axes))}
+    columns.update({axis.machine_name.upper(): i for i, axis in enumerate(channel.axis_data)})
+    return columns

@@ -1,0 +1,98 @@
+"""What a SINUMERIK channel remembers beside modal codes and positions; it is `channel.memory`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import nan
+from typing import TYPE_CHECKING, Any
+
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.control.sinumerik.frames import Frames
+    from polycnc.control.sinumerik.machine_data import MachineData
+    from polycnc.control.sinumerik.spindles import Spindles
+    from polycnc.control.sinumerik.stages import Stages
+    from polycnc.control.sinumerik.tools import Tools
+    from polycnc.geometry.frames import Vector
+    from polycnc.language.sinumerik.interface import LanguageMemory
+
+
+@dataclass(slots=True)
+class Polar:
+    """Pole and modal polar coordinates (Fundamentals, G110 to G112, AP, RP).
+
+    Attributes:
+        pole: In work coordinates of the geometry axes, mm.
+        angle: Last AP, degrees.
+        radius: Last RP, mm; NaN before the first.
+    """
+
+    pole: Vector = (0.0, 0.0, 0.0)
+    angle: float = 0.0
+    radius: float = nan
+
+
+@dataclass(slots=True, eq=False)
+class Memory:
+    """The state of one channel.
+
+    Attributes:
+        language: What the NC language keeps (R parameters, user variables, calls).
+        data: Machine and setting data.
+        frames: Stored and active frames.
+        tools: Tool memory and active tool.
+        spindles: Spindles and the master spindle.
+        columns: Column of every axis by each of its names in the program (channel and geometry names).
+        machine_columns: Column of every axis by the name of its machine axis.
+        transverse: Column of the axis that diameter programming is for, -1 for none.
+        polar: Pole and polar coordinates.
+        stages: Corner and compensation stages of the active plane, once they were needed.
+        previous: Where the last path move came from: its start, centre and normal of an arc or None, and 1.0
+            for counter-clockwise; None before the first.
+        feed_mode: How F is meant, as the toolpath's feed modes.
+        modal_corner_feed: FRCM in internal units, NaN for the path feed.
+        exact_stop_block: G9 holds for the running block.
+        feeds: Feed of positioning axes (FA), mm/s or degrees/s, by column.
+        allowance_mm: OFFN.
+        disc: DISC, 0 to 100.
+        rounding_mm: ADIS.
+        rapid_rounding_mm: ADISPOS.
+        percent: Programmed overrides and dynamic limits (OVR, ACC[X] …), by address and axis.
+        values: Values of system variables that only store (`$AC_PARAM`, `$A_DLB` …), by name and index.
+    """
+
+    language: LanguageMemory
+    data: MachineData
+    frames: Frames
+    tools: Tools
+    spindles: Spindles
+    columns: Mapping[str, int]
+    machine_columns: Mapping[str, int]
+    transverse: int = -1
+    polar: Polar = field(default_factory=Polar)
+    stages: Stages | None = None
+    previous: tuple[list[float], tuple[Vector, Vector] | None, float] | None = None
+    feed_mode: str = "G94"
+    modal_corner_feed: float = nan
+    exact_stop_block: bool = False
+    feeds: dict[int, float] = field(default_factory=dict)
+    allowance_mm: float = 0.0
+    disc: float = 0.0
+    rounding_mm: float = 0.0
+    rapid_rounding_mm: float = 0.0
+    percent: dict[tuple[str, str], float] = field(default_factory=dict)
+    values: dict[tuple[str, tuple[Any, ...]], Any] = field(default_factory=dict)
+
+    def column(self, axis: str) -> int:
+        """Column of an axis by any of its names.
+
+        Raises:
+            AlarmError: 12050 for an axis that the channel does not have.
+        """
+        for names in (self.columns, self.machine_columns):
+            if axis in names:
+                return names[axis]
+        raise AlarmError("12050", axis=axis)

@@ -1,0 +1,285 @@
+"""How a block acts in a modal state: worked out once, kept in `mode.plans[block]`, run many times.
+
+Order within a block: modal functions; words in the order typed (F, S, T, D, M …); side of the tool and
+corners; motion, or what a function of group 2 or 3 does; stops. A program end comes last of all.
+"""
+
+from __future__ import annotations
+
+from math import nan
+from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.control.sinumerik import (
+    auxiliary,
+    circles,
+    frame_codes,
+    frames,
+    gcodes,
+    motion,
+    spindle_speed,
+    stages,
+    tables,
+    words,
+)
+from polycnc.control.sinumerik.block import Draft, Step
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.mode import Mode
+    from polycnc.control.sinumerik.block import Values
+    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.language.sinumerik.words import Block
+
+#: Path motion by the function of group 1.
+MOTIONS: dict[str, Callable[[Draft], Step | None]] = {
+    "G0": motion.rapid,
+    "G1": motion.linear,
+    "G2": circles.circle,
+    "G3": circles.circle,
+    "CIP": circles.through_point,
+    "CT": circles.tangential,
+    "G33": motion.thread,
+    "G34": motion.thread,
+    "G35": motion.thread,
+    "G331": motion.tap,
+    "G332": motion.tap,
+}
+#: Functions of group 2.
+BLOCK_MOTIONS: dict[str, Callable[[Draft], Step | None]] = {
+    "G4": motion.dwell,
+    "G63": motion.tap_with_chuck,
+    "G74": motion.reference_point,
+    "G75": motion.fixed_point,
+    "G751": motion.fixed_point,
+}
+LINEAR = frozenset(("G0", "G1"))
+
+
+class Plan(NamedTuple):
+    """What a block does.
+
+    Attributes:
+        steps: In order.
+        calls: A modal subprogram (MCALL) follows the block.
+        end: Place of an M word that may end the program, or None.
+    """
+
+    steps: tuple[Step, ...]
+    calls: bool
+    ends: tuple[int, ...]
+
+
+def make_plan(channel: Channel, block: Block) -> Plan:
+    """Work out a block in the present modal state.
+
+    Raises:
+        AlarmError: 12060 for two functions of one group, 12470 for an unknown one, PC0001 for one that is not
+            executed, and what the functions find wrong with their words.
+    """
+    codes = _codes(block)
+    modal = [(name, code) for name, code in codes.items() if gcodes.BY_NAME[name].is_modal]
+    mode = channel.mode.with_codes(modal)
+    draft = Draft(channel, block, mode, codes)
+    if modal:
+        draft.steps.append(_enter(mode, modal))
+    draft.steps += [EFFECTS[name] for name, _ in modal if name in EFFECTS]
+    own = _own_function(draft)
+    moving = _motion(draft) if own is None and "frame" not in codes and "block_motion" not in codes else None
+    ends = _words(draft)
+    draft.steps += [LATE_EFFECTS[name] for name, _ in modal if name in LATE_EFFECTS]
+    draft.steps += motion.positioning(draft)
+    for step in (own, moving):
+        if step is not None:
+            draft.steps += _around(draft, step)
+    for position, word in draft.open_words():
+        raise words.misplaced(word, position)
+    draft.steps += [_stop(position) for position in ends]
+    calls = moving is not None or (mode["motion"] in LINEAR and _is_bare_motion(block, codes))
+    return Plan(tuple(draft.steps), calls and own is None, tuple(ends))
+
+
+def _codes(block: Block) -> dict[str, str]:
+    """The functions of a block by group."""
+    codes: dict[str, str] = {}
+    for code in block.codes:
+        group = gcodes.GROUP_OF.get(code)
+        if group is None:
+            raise AlarmError("12470", text=code)
+        if code in gcodes.NOT_EXECUTED:
+            raise not_supported(code)
+        if group.name in codes:
+            raise AlarmError("12060", text=code)
+        codes[group.name] = code
+    return codes
+
+
+def _is_bare_motion(block: Block, codes: dict[str, str]) -> bool:
+    """G0 or G1 without axes, or S or F alone: MCALL acts on them too (job planning 1.25.3.4)."""
+    return codes.get("motion") in LINEAR or bool(block.words and all(w.address in "SF" for w in block.words))
+
+
+def _enter(mode: Mode, modal: list[tuple[str, str]]) -> Step:
+    """A step that brings the modal state about."""
+    matters = any(name in IN_CONTEXT for name, _ in modal)
+
+    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+        channel.mode = mode
+        if matters:
+            channel.context_changed()
+
+    return run
+
+
+def _own_function(draft: Draft) -> Step | None:
+    """The step of a function of group 2 or 3, which takes its words before all others."""
+    if "frame" in draft.codes:
+        if "block_motion" in draft.codes:
+            raise AlarmError("12120", text=draft.codes["frame"])
+        return frame_codes.FRAME_CODES[draft.codes["frame"]](draft)
+    code = draft.codes.get("block_motion")
+    return BLOCK_MOTIONS[code](draft) if code is not None else None
+
+
+def _motion(draft: Draft) -> Step | None:
+    """The path motion of a block, if it has any."""
+    maker = MOTIONS.get(draft.mode["motion"])
+    if maker is None:
+        raise not_supported(draft.mode["motion"])
+    _check_side(draft)
+    if draft.mode["motion"] not in LINEAR and not _may_move(draft):
+        return None
+    return maker(draft)
+
+
+def _may_move(draft: Draft) -> bool:
+    """Whether a block has any word of which motion could be made; without one, no axis need exist."""
+    return any(
+        word.address in draft.memory.columns or word.address in words.COMPANIONS
+        for _, word in draft.open_words()
+    )
+
+
+def _check_side(draft: Draft) -> None:
+    """G41, G42 and G40 stand in blocks with G0 or G1 (10753, 10754), if the block moves at all."""
+    side = draft.codes.get("side")
+    if side is None or draft.mode["motion"] in LINEAR or not _may_move(draft):
+        return
+    active = draft.channel.mode["side"] != "G40"
+    if side != "G40" and not active:
+        raise AlarmError("10753")
+    if side == "G40" and active:
+        raise AlarmError("10754")
+
+
+def _words(draft: Draft) -> list[int]:
+    """Make steps of the words beside motion; gives the places of the M words."""
+    ends = []
+    for position, word in draft.open_words():
+        maker = words.WORDS.get(word.address)
+        if maker is not None and any(p == position for p, _ in draft.open_words()):
+            draft.close(position)
+            draft.steps.append(maker(draft, position, word))
+            if word.address == "M" and word.index is None:
+                ends.append(position)
+    return ends
+
+
+def _stop(position: int) -> Step:
+    def run(channel: Channel, values: Values) -> None:
+        auxiliary.after_motion(channel, words.whole(values, position))
+
+    return run
+
+
+def _around(draft: Draft, step: Step) -> list[Step]:
+    """The motion with what holds for this block alone: suppressed frames, exact stop."""
+    suppression = draft.codes.get("suppression")
+    steps = [step]
+    if suppression is not None:
+        steps = [_suppress(suppression), *steps, _suppress("")]
+    if "block_exact_stop" in draft.codes:
+        steps = [_exact_stop(True), *steps, _exact_stop(False)]
+    return steps
+
+
+def _suppress(code: str) -> Step:
+    """Frames off for a block, and back; what incremental words are still owed does not change."""
+
+    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+        frames.apply(channel, code)
+
+    return run
+
+
+def _exact_stop(on: bool) -> Step:
+    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+        channel.memory.exact_stop_block = on
+        channel.context_changed()
+
+    return run
+
+
+# ---- what modal functions do beside being active
+
+
+def _zero_offset(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    """G500, G54 …: the stored frame becomes active."""
+    memory: Memory = channel.memory
+    number = gcodes.number_of(channel.mode["zero_offset"]) - 1
+    if number >= len(memory.frames.settable):
+        raise AlarmError("12470", text=channel.mode["zero_offset"])
+    memory.frames.select(number)
+    frames.changed(channel)
+
+
+def _plane(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    """G17, G18, G19: tool lengths change their axes."""
+    stages.change_plane(channel)
+    auxiliary.tool_changed(channel)
+
+
+def _feed_type(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    """Group 15: another kind of feed needs a new F; G97 keeps the speed that G96 had."""
+    memory: Memory = channel.memory
+    feed = tables.FEED_TYPES.get(channel.mode["feed"])
+    if feed is None:
+        raise not_supported(channel.mode["feed"])
+    spindle_speed.change_of_feed_type(channel, feed.surface_speed, channel.mode["feed"])
+    if feed.mode != memory.feed_mode:
+        channel.feed = nan
+        memory.feed_mode = feed.mode
+
+
+def _diameter(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    """DIAMON, DIAM90: only with a transverse axis (16510)."""
+    if channel.mode["diameter"] in ("DIAMON", "DIAM90") and channel.memory.transverse < 0:
+        raise AlarmError("16510")
+
+
+def _side(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    if channel.mode["side"] == "G40":
+        stages.leave_contour(channel)
+    else:
+        stages.select_side(channel)
+    channel.context_changed()
+
+
+def _rules(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    stages.changed_rules(channel)
+
+
+#: Right after the modal state has changed.
+EFFECTS: dict[str, Step] = {
+    "zero_offset": _zero_offset,
+    "plane": _plane,
+    "feed": _feed_type,
+    "diameter": _diameter,
+}
+#: After the words of the block: the tool is that of the block's own T and D.
+LATE_EFFECTS: dict[str, Step] = {"approach": _rules, "corner": _rules, "side": _side}
+#: Groups that a context of the toolpath tells of.
+IN_CONTEXT = frozenset(("plane", "zero_offset", "units", "feed", "diameter", "path_mode", "side", "dynamics"))

@@ -1,0 +1,165 @@
+"""Predefined procedures: MSG, STOPRE, SETMS, WAITP, PRESETON and the rest of those that act on the control.
+
+Source: Fundamentals (MSG, SETMS, WAITS, FGROUP, BRISKA …), job planning 5.5 (PRESETON), 14.9 (SETAL).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.language.sinumerik.nc_frame import NEUTRAL
+from polycnc.language.sinumerik.values import Axis
+from polycnc.messages import Alarm, AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.memory import Memory
+
+Arguments = tuple[Any, ...]
+
+#: SETAL: thousands of alarm numbers that are shown without stopping the program (job planning 14.9).
+SHOWN_ONLY = frozenset((62, 67, 68, 69))
+
+
+def run(channel: Channel, name: str, args: Arguments, column: int) -> None:
+    """Run a procedure; PC0001 for one that is not executed, with the column of the call."""
+    procedure = PROCEDURES.get(name)
+    try:
+        if procedure is None:
+            raise not_supported(name)
+        procedure(channel, args)
+    except AlarmError as alarm:
+        alarm.column = alarm.column or column
+        raise
+
+
+def message(channel: Channel, args: Arguments) -> None:
+    """MSG(text): shown until the next one; MSG() takes it away."""
+    channel.event("message", text=str(args[0]) if args and args[0] is not None else "")
+
+
+def preprocessing_stop(channel: Channel, _args: Arguments) -> None:
+    """STOPRE: everything held back is written before the next block is read."""
+    channel.flush()
+
+
+def set_alarm(channel: Channel, args: Arguments) -> None:
+    """SETAL(number, text): an alarm of the program; some numbers are only shown."""
+    number = args[0] if args else None
+    if not isinstance(number, int) or not 60000 <= number <= 69999:
+        raise AlarmError("14020", text="SETAL")
+    text = str(args[1]) if len(args) > 1 and args[1] is not None else ""
+    if number // 1000 not in SHOWN_ONLY:
+        raise AlarmError(str(number), detail=text)
+    program = channel.level.code.program
+    channel.alarms.append(
+        Alarm(
+            channel.control.id,
+            str(number),
+            program.name,
+            channel.line,
+            detail=text,
+            file=str(program.path or ""),
+        )
+    )
+    channel.event("alarm", code=str(number), line=channel.line, column=0, program=program.name)
+
+
+def set_master_spindle(channel: Channel, args: Arguments) -> None:
+    """SETMS(n): the master spindle; SETMS alone returns to that of the machine data."""
+    spindles = channel.memory.spindles
+    number = args[0] if args and args[0] is not None else spindles.default_master
+    spindles.get(number)
+    spindles.master = number
+    channel.context_changed()
+
+
+def position_control(on: bool) -> Callable[[Channel, Arguments], None]:
+    """SPCON, SPCOF: the named spindles, or the master spindle, in position control."""
+
+    def switch(channel: Channel, args: Arguments) -> None:
+        for number in args or (None,):
+            channel.memory.spindles.get(number).controlled = on
+
+    return switch
+
+
+def wait_for_axes(channel: Channel, args: Arguments) -> None:
+    """WAITP(axis, …): positioning axes stand at their targets when their block is written."""
+    for axis in args:
+        if not isinstance(axis, Axis):
+            raise AlarmError("12040", text=str(axis))
+        channel.memory.column(axis.name)
+
+
+def wait_for_spindles(channel: Channel, args: Arguments) -> None:
+    """WAITS(n, …): spindles stand at their positions."""
+    for number in args:
+        channel.memory.spindles.get(number)
+
+
+def preset(channel: Channel, args: Arguments) -> None:
+    """PRESETON(machine axis, value, …): the axis stands where it is and shows another machine position."""
+    if not args or len(args) % 2:
+        raise AlarmError("14020", text="PRESETON")
+    coordinates = channel.coordinates
+    machine = coordinates.machine
+    for axis, value in zip(args[::2], args[1::2], strict=True):
+        machine[channel.memory.column(axis.name)] = float(value)
+    coordinates.arrive_machine(machine)
+
+
+def dynamics(name: str) -> Callable[[Channel, Arguments], None]:
+    """BRISKA, SOFTA, DRIVEA, JERKA: acceleration of single axes, kept for the motion planner."""
+
+    def keep(channel: Channel, args: Arguments) -> None:
+        memory: Memory = channel.memory
+        for axis in args:
+            column = memory.column(axis.name)
+            memory.values["acceleration", (channel.axes[column],)] = name
+
+    return keep
+
+
+def path_group(channel: Channel, args: Arguments) -> None:
+    """FGROUP(axis, …): the axes whose way the path feed is for; none for those of the machine data."""
+    memory: Memory = channel.memory
+    memory.values["FGROUP", ()] = tuple(memory.column(axis.name) for axis in args)
+
+
+def new_configuration(_channel: Channel, _args: Arguments) -> None:
+    """NEWCONF: machine data written by the program act; they do so at once here."""
+
+
+def transformation_off(channel: Channel, _args: Arguments) -> None:
+    """TRAFOOF: no transformation is active; the frame of transformations goes as well."""
+    channel.memory.frames.system["$P_TRAFRAME"] = NEUTRAL
+
+
+def no_overlay(_channel: Channel, _args: Arguments) -> None:
+    """DRFOF, CORROF: there is no overlaid motion to take away."""
+
+
+PROCEDURES: dict[str, Callable[[Channel, Arguments], None]] = {
+    "MSG": message,
+    "STOPRE": preprocessing_stop,
+    "SETAL": set_alarm,
+    "SETMS": set_master_spindle,
+    "SPCON": position_control(True),
+    "SPCOF": position_control(False),
+    "WAITP": wait_for_axes,
+    "WAITS": wait_for_spindles,
+    "PRESETON": preset,
+    "BRISKA": dynamics("BRISK"),
+    "SOFTA": dynamics("SOFT"),
+    "DRIVEA": dynamics("DRIVE"),
+    "JERKA": dynamics("JERK"),
+    "FGROUP": path_group,
+    "NEWCONF": new_configuration,
+    "TRAFOOF": transformation_off,
+    "DRFOF": no_overlay,
+    "CORROF": no_overlay,
+}

@@ -1,0 +1,64 @@
+"""Spindles: speed, direction, position, limits, and which one is the master.
+
+Source: Fundamentals (S, M3, M4, M5, SPOS, SETMS, G96, LIMS, G25/G26 S).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import inf
+
+from polycnc.messages import AlarmError
+
+
+@dataclass(slots=True)
+class Spindle:
+    """One spindle.
+
+    Attributes:
+        speed: Programmed S, rpm.
+        cutting_speed: Programmed S under constant cutting speed, m/min; 0 where none was.
+        direction: 1 for M3, -1 for M4, 0 for M5.
+        position: Degrees, 0 to 360.
+        controlled: In position control (SPCON, SPOS).
+        lowest: G25 S, rpm.
+        highest: G26 S, rpm.
+        limit: LIMS, rpm.
+    """
+
+    number: int
+    speed: float = 0.0
+    cutting_speed: float = 0.0
+    direction: int = 0
+    position: float = 0.0
+    controlled: bool = False
+    lowest: float = 0.0
+    highest: float = inf
+    limit: float = inf
+
+
+@dataclass(slots=True)
+class Spindles:
+    """The spindles of a channel.
+
+    Attributes:
+        all: By number.
+        default_master: Master spindle of the machine data; `SETMS` alone returns to it.
+        master: Number of the master spindle.
+    """
+
+    all: dict[int, Spindle] = field(default_factory=dict)
+    default_master: int = 1
+    master: int = 1
+
+    def get(self, number: int | None = None) -> Spindle:
+        """A spindle by number, the master without one.
+
+        Raises:
+            AlarmError: 10810 if there is no master spindle, 16761 for a number that the channel does not
+                have.
+        """
+        wanted = self.master if number is None else number
+        if wanted not in self.all:
+            raise AlarmError("10810") if number is None else AlarmError("16761", axis=f"S{number}")
+        return self.all[wanted]

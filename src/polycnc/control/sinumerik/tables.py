@@ -1,0 +1,42 @@
+"""Small tables that several modules of the control read."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+MM_PER_INCH = 25.4
+TURN = 360.0
+MINUTE = 60.0
+
+#: Geometry axes (0 X, 1 Y, 2 Z) of a plane: first, second, third.
+PLANES = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
+
+
+class FeedType(NamedTuple):
+    """How F is meant under a function of group 15.
+
+    Attributes:
+        mode: The toolpath's feed mode.
+        factor: From F to internal units (mm/s, mm/rev, 1/s); 0 where F is a time and its inverse counts.
+        surface_speed: S is a cutting speed.
+    """
+
+    mode: str
+    factor: float
+    surface_speed: bool = False
+
+
+_PER_MINUTE = FeedType("G94", 1.0 / MINUTE)
+_PER_REVOLUTION = FeedType("G95", 1.0)
+FEED_TYPES = {
+    "G93": FeedType("G93", 1.0 / MINUTE),
+    "G94": _PER_MINUTE,
+    "G95": _PER_REVOLUTION,
+    "G96": FeedType("G95", 1.0, surface_speed=True),
+    "G97": _PER_REVOLUTION,
+    "G961": FeedType("G94", 1.0 / MINUTE, surface_speed=True),
+    "G971": _PER_MINUTE,
+    "G942": _PER_MINUTE,
+    "G952": _PER_REVOLUTION,
+    "G973": _PER_REVOLUTION,
+}
