@@ -29,8 +29,8 @@ def unknown(column: int, name: str) -> NcSyntaxError:
 
 
 def not_supported(column: int, name: str) -> NcSyntaxError:
-    """12550 with a hint: a name of the control that polycnc does not execute yet."""
-    return NcSyntaxError("12550", column, name, hint="hint.not-supported")
+    """PC0001: a word of the control that polycnc does not execute yet."""
+    return NcSyntaxError("PC0001", column, name, hint="hint.not-supported")
 
 
 def arithmetic(text: str = "") -> AlarmError:

@@ -26,7 +26,19 @@ class Expr(NamedTuple):
 #: Binary operators from the weakest to the strongest (1.7); one level works from left to right.
 LEVELS: tuple[frozenset[str], ...] = tuple(
     frozenset(level.split())
-    for level in ("== <> > < >= <=", "<<", "OR", "XOR", "AND", "B_OR", "B_XOR", "B_AND", "+ -", "* / DIV MOD", ":")
+    for level in (
+        "== <> > < >= <=",
+        "<<",
+        "OR",
+        "XOR",
+        "AND",
+        "B_OR",
+        "B_XOR",
+        "B_AND",
+        "+ -",
+        "* / DIV MOD",
+        ":",
+    )
 )
 _LEVEL_OF = {operator: i for i, level in enumerate(LEVELS) for operator in level}
 _COMPARISONS = LEVELS[0]

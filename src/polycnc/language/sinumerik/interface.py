@@ -58,6 +58,9 @@ class LanguageControl(Protocol):
     def preprocessing_stop(self, channel: Channel) -> bool:
         """Wait for the main run before a block; true if the block has to come again later."""
 
+    def restarts(self, channel: Channel) -> bool:
+        """Whether GOTOS goes back to the program start (DB21,… DBX384.0)."""
+
     def skipped(self, channel: Channel, level: int) -> bool:
         """Whether blocks marked `/` with this level (0…9) are skipped now."""
 
@@ -81,7 +84,8 @@ class LanguageMemory:
         macros: Texts of DEFINE … AS of the definition files, upper case names.
         call_path: Directory of CALLPATH, or empty.
         modal_call: What MCALL has set: called after every block with path motion.
-        in_modal_call: A modal subprogram is running; its blocks do not call it again.
+        definitions_loaded: The definition files have been read.
+        programs: Every compiled program; they forget what they have resolved when files or search paths change.
     """
 
     r: list[float]
@@ -92,4 +96,5 @@ class LanguageMemory:
     macros: dict[str, str] = field(default_factory=dict)
     call_path: str = ""
     modal_call: Callable[[Channel], None] | None = None
-    in_modal_call: bool = False
+    definitions_loaded: bool = False
+    programs: list[Any] = field(default_factory=list)

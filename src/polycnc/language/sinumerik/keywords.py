@@ -74,7 +74,13 @@ INVFRAME  (F)    FRAME  inverse_frame({0})
 SAME_TYPE_FUNCTIONS = {"ABS": (1, "abs({0})"), "MINVAL": (2, "min({0}, {1})"), "MAXVAL": (2, "max({0}, {1})")}
 
 #: Frame functions with pairs of axis and value; CMIRROR has axes only.
-FRAME_FUNCTIONS = {"CTRANS": "ctrans", "CFINE": "cfine", "CROT": "crot", "CSCALE": "cscale", "CMIRROR": "cmirror"}
+FRAME_FUNCTIONS = {
+    "CTRANS": "ctrans",
+    "CFINE": "cfine",
+    "CROT": "crot",
+    "CSCALE": "cscale",
+    "CMIRROR": "cmirror",
+}
 
 #: Functions that the control answers.
 CONTROL_FUNCTIONS = _functions("""
@@ -223,7 +229,7 @@ OPERATORS = frozenset({"AND", "OR", "NOT", "XOR", "B_AND", "B_OR", "B_NOT", "B_X
 #: Words that only have a meaning behind others.
 PARTS = frozenset(
     """
-    ACTBLOCNO APR APRB APRP APW APWB APWP APX AS AXIS BLOCK BLSYNC BOOL CHAN CHAR DEFAULT EX FALSE FRAME GP INICF INIPO
+    ACTBLOCNO DISPLOF DISPLON APR APRB APRP APW APWB APWP APX AS AXIS BLOCK BLSYNC BOOL CHAN CHAR DEFAULT EX FALSE FRAME GP INICF INIPO
     INIRE INT LIFTFAST LLI NCK OF PHU PREPRO PRIO PRLOC REAL REP SAVE SET STRING SYNR SYNRW SYNW TO TRUE ULI VAR
     """.split()
 )
@@ -232,5 +238,5 @@ PARTS = frozenset(
 SYNCHRONOUS = frozenset({"ID", "IDS", "DO", "WHEN", "WHENEVER", "FROM", "EVERY"})
 NOT_EXECUTED = frozenset({"COMPLETE", "INITIAL", "STRINGFELD", "STRINGVAR", "ENDPROC"})
 
-#: Words of the language that stand as statements by themselves, handled by the language.
-LANGUAGE_PROCEDURES = frozenset({"SBLOF", "SBLON", "DISPLOF", "DISPLON"})
+#: Single block off and on for the running level: the language keeps it.
+SINGLE_BLOCK = frozenset({"SBLOF", "SBLON"})

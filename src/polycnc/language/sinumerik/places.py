@@ -87,7 +87,9 @@ class ElementPlace:
         self.code = f"{self.array}.items[{offset}]"
 
     @classmethod
-    def read_indices(cls, reader: ExpressionReader, token: Token, variable: Variable, container: str) -> Place:
+    def read_indices(
+        cls, reader: ExpressionReader, token: Token, variable: Variable, container: str
+    ) -> Place:
         """The element whose indices come next; a further index of a STRING is a character of it."""
         array = f"{container}[{variable.slot}]"
         if not reader.accept("["):
@@ -205,7 +207,9 @@ class ComponentPlace(_PartPlace):
 
     def read(self, reader: ExpressionReader) -> Expr:
         """Code of the component."""
-        return Expr(f"frame_component({self.base.read(reader).code}, {self.axis}, {self.component!r})", Type.REAL)
+        return Expr(
+            f"frame_component({self.base.read(reader).code}, {self.axis}, {self.component!r})", Type.REAL
+        )
 
     def write(self, reader: ExpressionReader, code: str) -> None:
         """Replace the component."""

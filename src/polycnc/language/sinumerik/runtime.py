@@ -4,7 +4,24 @@ from __future__ import annotations
 
 import re
 from functools import partial
-from math import acos, asin, atan2, ceil, cos, degrees, exp, floor, fmod, isclose, log, radians, sin, sqrt, tan, trunc
+from math import (
+    acos,
+    asin,
+    atan2,
+    ceil,
+    cos,
+    degrees,
+    exp,
+    floor,
+    fmod,
+    isclose,
+    log,
+    radians,
+    sin,
+    sqrt,
+    tan,
+    trunc,
+)
 from typing import TYPE_CHECKING, Any
 
 from polycnc.language.sinumerik import nc_frame
@@ -107,7 +124,11 @@ def bound(low: float, high: float, x: float) -> float:
 
 def int_quotient(a: int, b: int) -> int:
     """DIV of two INT: cut towards zero."""
-    return trunc(a / b) if abs(a) < 2**31 and abs(b) < 2**31 else abs(a) // abs(b) * (1 if (a < 0) == (b < 0) else -1)
+    return (
+        trunc(a / b)
+        if abs(a) < 2**31 and abs(b) < 2**31
+        else abs(a) // abs(b) * (1 if (a < 0) == (b < 0) else -1)
+    )
 
 
 def real_quotient(a: float, b: float) -> float:
@@ -212,7 +233,9 @@ def repeat_element(items: list[Any], start: int, value: Any, count: int | None =
     items[start : start + count] = [value] * count
 
 
-def set_system_elements(write: Callable[[tuple[Any, ...], Any], None], indices: tuple[Any, ...], values: Sequence[Any]) -> None:
+def set_system_elements(
+    write: Callable[[tuple[Any, ...], Any], None], indices: tuple[Any, ...], values: Sequence[Any]
+) -> None:
     """SET and REP on a system variable: the last number among the indices advances, an axis does not (1.1.12)."""
     place = max((i for i, index in enumerate(indices) if isinstance(index, int)), default=-1)
     if place < 0:

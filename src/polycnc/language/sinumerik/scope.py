@@ -40,6 +40,8 @@ class Scope:
         self.main = main
         self.variables: dict[str, Variable] = {}
         self.macros: dict[str, str] = {}
+        self.externals: dict[str, tuple[tuple[bool, Type], ...]] = {}
+        self.execute = control.execute
         self.slots = 0
 
     def find(self, name: str) -> Variable | None:
@@ -127,7 +129,9 @@ class Scope:
             return Expr(reader.emitter.object(axis), Type.AXIS)
         function = keywords.CONTROL_FUNCTIONS.get(token.text) or keywords.FILE_FUNCTIONS.get(token.text)
         if function is not None:
-            caller = "channel.control.function" if token.text in keywords.CONTROL_FUNCTIONS else "file_function"
+            caller = (
+                "channel.control.function" if token.text in keywords.CONTROL_FUNCTIONS else "file_function"
+            )
             arguments = self.arguments(reader, token, function.arguments)
             return Expr(self._function_call(caller, token, arguments), function.result)
         if is_known(token.text, self.control):
@@ -194,5 +198,5 @@ _TABLES = (
     keywords.FUNCTIONS, keywords.SAME_TYPE_FUNCTIONS, keywords.FRAME_FUNCTIONS, keywords.CONTROL_FUNCTIONS,
     keywords.FILE_FUNCTIONS, keywords.FILE_PROCEDURES, keywords.PROCEDURES, keywords.ADDRESSES, keywords.MODIFIERS,
     keywords.INDEXED_WORDS, keywords.FRAME_COMPONENTS, keywords.STRUCTURE, keywords.DEFINITIONS, keywords.CALLS,
-    keywords.OPERATORS, keywords.PARTS, keywords.SYNCHRONOUS, keywords.NOT_EXECUTED, keywords.LANGUAGE_PROCEDURES,
+    keywords.OPERATORS, keywords.PARTS, keywords.SYNCHRONOUS, keywords.NOT_EXECUTED, keywords.SINGLE_BLOCK,
 )  # fmt: skip

@@ -1,25 +1,26 @@
 """What a compiled NC block hands to the control: G functions and words.
 
-A block without calculation is a `Block` (what was programmed, without the numbers) and a tuple of values, one for each
-word. Blocks are interned: two blocks with the same functions and addresses are one object, so a control works out once
-how such a block acts in some modal state and keeps that in `channel.mode.plans[block]`.
+A block without calculation is a `Block` (what was programmed, without the numbers) and a tuple of values, one for
+each word. Blocks are interned: two blocks with the same functions and addresses are one object, so a control works out
+once how such a block acts in some modal state and keeps that in `channel.mode.plans[block]`.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from polycnc.messages import AlarmError
 
 
-class WordShape(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class WordShape:
     """A word of a block without its value.
 
     Attributes:
-        address: Upper case: `X`, `X1`, `F`, `S`, `M`, `T`, `CR`, `AR`, `TURN`, `POS`, `SPOS`, `LIMS`, `RND`, …
-        index: Extension of the address: `S2=` and `S[2]` give 2, `POS[X]` and `AX[X]` give `Axis("X")`, else None.
-            An axis word `AX[A]=` has the address of its axis, not `AX`.
-        modifier: What stands round the value: `AC`, `IC`, `DC`, `ACP`, `CAC`, `DIC`, `PM`, `QU`, `FPO`, … or empty.
+        address: Upper case: `X`, `X1`, `F`, `S`, `M`, `T`, `CR`, `AR`, `TURN`, `POS`, `SPOS`, `LIMS`, …
+        index: Extension of the address: `S2=` and `S[2]` give 2, `POS[X]` gives `Axis("X")`, else None. A word
+            `AX[A]=` has the address of its axis, not `AX`; `PO[]=` has the index "".
+        modifier: What stands round the value: `AC`, `IC`, `DC`, `ACP`, `DIC`, `PM`, `QU`, `FPO`, … or empty.
     """
 
     address: str
@@ -27,7 +28,8 @@ class WordShape(NamedTuple):
     modifier: str = ""
 
 
-class NcWord(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class NcWord:
     """A word of a block with its value; `position` counts the words of the block from 0."""
 
     address: str
@@ -41,7 +43,7 @@ class Block:
     """G functions and words of a block without the values. Interned by `block_of`; compare with `is`.
 
     Attributes:
-        codes: G functions and keywords in canonical names, as programmed: `G1`, `G54`, `CIP`, `TRANS`, `KONT`, …
+        codes: G functions and keywords in canonical names, in order: `G1`, `G54`, `CIP`, `TRANS`, `KONT`, …
         words: The words in the order programmed.
         positions: Addresses without index, with the place of their (first) value.
     """
@@ -70,15 +72,6 @@ class Block:
 _blocks: dict[tuple[tuple[str, ...], tuple[WordShape, ...]], Block] = {}
 
 
-def block_of(codes: tuple[str, ...], words: tuple[WordShape, ...]) -> Block:
-    """The one block with these functions and words."""
-    key = (codes, words)
-    block = _blocks.get(key)
-    if block is None:
-        block = _blocks[key] = Block(codes, words)
-    return block
-
-
 class WordAlarm(AlarmError):
     """An alarm about one word of the running block; the language adds the column.
 
@@ -91,3 +84,27 @@ class WordAlarm(AlarmError):
     def __init__(self, code: str, position: int, **args: object) -> None:
         super().__init__(code, **args)
         self.position = position
+
+
+#: How often an address may stand in a block; all others once for each index (Fundamentals 2.2).
+_MOST = {"M": 5, "H": 3}
+
+
+def block_of(codes: tuple[str, ...], words: tuple[WordShape, ...]) -> Block:
+    """The one block with these functions and words; alarm 12010 for an address that stands too often."""
+    key = (codes, words)
+    block = _blocks.get(key)
+    if block is None:
+        _check_repetitions(words)
+        block = _blocks[key] = Block(codes, words)
+    return block
+
+
+def _check_repetitions(words: tuple[WordShape, ...]) -> None:
+    seen: dict[object, int] = {}
+    for position, word in enumerate(words):
+        most = _MOST.get(word.address, 1)
+        key = word.address if most > 1 else (word.address, word.index)
+        seen[key] = seen.get(key, 0) + 1
+        if seen[key] > most:
+            raise WordAlarm("12010", position, text=word.address)

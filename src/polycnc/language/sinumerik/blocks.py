@@ -1,0 +1,273 @@
+"""One block, compiled to a step: its statement, or its assignments, or its words."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from polycnc.language.sinumerik import calls, definitions, flow, keywords, runtime
+from polycnc.language.sinumerik.emitter import Emitter, provide
+from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, syntax, unknown
+from polycnc.language.sinumerik.expressions import Expr, ExpressionReader
+from polycnc.language.sinumerik.lexer import Token, prefix_of, tokenize
+from polycnc.language.sinumerik.nc_words import WordReader
+from polycnc.language.sinumerik.places import SystemPlace
+from polycnc.language.sinumerik.values import INT_MAX, INT_MIN, Type
+from polycnc.language.sinumerik.variables import Array, Reference, define
+from polycnc.language.sinumerik.words import WordShape, block_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Step
+    from polycnc.language.sinumerik.executable import SinumerikProgram
+    from polycnc.language.sinumerik.places import Place
+    from polycnc.language.sinumerik.scope import Scope
+
+
+class CompiledBlock(NamedTuple):
+    """A step, the code it came from, and the columns of its words."""
+
+    step: Step
+    emitter: Emitter
+    columns: tuple[int, ...]
+
+
+class BlockCompiler(ExpressionReader):
+    """Compiles the tokens of one block.
+
+    Attributes:
+        program: The program of the block.
+        index: Its step.
+        channel: The channel that has reached it.
+        marked: The block has a label or a skip mark, which blocks of control structures must not have.
+    """
+
+    def __init__(self, tokens: list[Token], program: SinumerikProgram, index: int, channel: Channel) -> None:
+        super().__init__(tokens, program.scope_of(channel), Emitter())
+        self.program = program
+        self.index = index
+        self.channel = channel
+        self.words = WordReader(self)
+        self.marked = False
+
+    def statement(self) -> None:
+        """Read the whole block."""
+        token = self.token
+        if token.kind == "end":
+            return
+        handler = _STATEMENTS.get(token.text) if token.kind == "name" else None
+        if handler is not None and self.scope.find(token.text) is None:
+            handler(self)
+        elif token.kind == "word" and token.letter == "L" and not _assigns(self.ahead()):
+            calls.program_call(self)
+        elif token.kind == "name" and self._calls_program(token):
+            calls.program_call(self)
+        else:
+            self._mixed()
+        if self.token.kind != "end":
+            raise self.error()
+
+    def _calls_program(self, token: Token) -> bool:
+        """Whether a name that begins the block is neither variable nor word: a program then."""
+        name = token.text
+        if name[0] == "$" or self.scope.find(name) is not None or name in self.scope.memory.axes:
+            return False
+        if name in keywords.CYCLES:
+            return True
+        return len(name) > 1 and not is_word(name, self.scope) and not _assigns(self.ahead())
+
+    def _mixed(self) -> None:
+        """Assignments, or functions, words and procedures; the two do not mix (12080, 1.25.2.6)."""
+        assigned: Token | None = None
+        worded = False
+        while self.token.kind != "end":
+            token = self.token
+            if self.scope.is_place(token):
+                assigned = assigned or token
+                self.assignment()
+            else:
+                worded = True
+                self.words.read()
+            if assigned is not None and worded:
+                raise syntax(assigned.column, f"{assigned.text}=")
+        self.words.finish()
+
+    # ---- assignments ---------------------------------------------------------------------------------------------
+
+    def assignment(self) -> None:
+        """`variable=expression`, `=SET(…)`, `=REP(…)`."""
+        token = self.take()
+        place = self.scope.place(self, token)
+        self.expect("=")
+        fill = self.token
+        if fill.text in ("SET", "REP") and fill.kind == "name" and self.ahead().text == "(":
+            self.take()
+            self.fill(place, fill)
+            return
+        place.write(self, self.assigned(place.type))
+
+    def assigned(self, type_: Type) -> str:
+        """Code of an expression that is stored as a type; INT results are checked for their range."""
+        token = self.token
+        value = self.expression()
+        code = self.converted(value, type_, token)
+        if type_ is Type.INT and value.type is Type.INT:
+            first, again = self.emitter.twice(code)
+            if first != again:
+                return f"({again} if {INT_MIN} <= {first} <= {INT_MAX} else checked_int({again}))"
+        return code
+
+    def fill(self, place: Place, token: Token) -> None:
+        """SET and REP at run time (1.1.12)."""
+        if token.text == "SET":
+            values = self.value_list(place.type)
+            listed = f"({''.join(value + ', ' for value in values)})"
+            if isinstance(place, SystemPlace):
+                self.emitter.line(self._system_fill(place, listed))
+            else:
+                items, start = place.elements(self, token)
+                self.emitter.line(f"set_elements({items}, {start}, {listed})")
+            return
+        value, count = self.repeated(place.type)
+        if isinstance(place, SystemPlace):
+            if count is None:
+                raise NcSyntaxError("12080", token.column, token.text)
+            self.emitter.line(self._system_fill(place, f"({value},) * {count}"))
+        else:
+            items, start = place.elements(self, token)
+            self.emitter.line(f"repeat_element({items}, {start}, {value}, {count})")
+
+    @staticmethod
+    def _system_fill(place: SystemPlace, values: str) -> str:
+        return f"set_system_elements(lambda at, value: {place.code}.write(channel, at, value), {place.indices}, {values})"
+
+    def value_list(self, type_: Type) -> list[str]:
+        """Codes of `(v1,v2,,v4)`; a gap is the type's zero, for AXIS an error."""
+        zero = repr(runtime.default_value(type_, self.scope.memory)) if type_.is_number else "''"
+        codes: list[str] = []
+        self.expect("(")
+        while True:
+            if self.at(",") or self.at(")"):
+                if type_ in (Type.AXIS, Type.FRAME):
+                    raise self.error()
+                codes.append(zero)
+            else:
+                codes.append(self.assigned(type_))
+            if not self.accept(","):
+                break
+        self.expect(")")
+        return codes
+
+    def repeated(self, type_: Type) -> tuple[str, str | None]:
+        """Codes of `(value[,count])`."""
+        self.expect("(")
+        value = self.assigned(type_)
+        count = self.value(Type.INT) if self.accept(",") else None
+        self.expect(")")
+        return value, count
+
+    # ---- procedures ----------------------------------------------------------------------------------------------
+
+    def procedure(self, token: Token, letters: str) -> None:
+        """A predefined procedure; its name has been read."""
+        arguments = self.scope.arguments(self, token, letters)
+        self.emitter.line(f"channel.control.procedure(channel, {token.text!r}, {arguments}, {token.column})")
+
+    def text(self) -> str:
+        """Code of a text: a string, a STRING variable or an expression."""
+        return self.value(Type.STRING)
+
+    def integer(self) -> str:
+        """Code of an INT."""
+        return self.value(Type.INT)
+
+
+def _assigns(token: Token) -> bool:
+    return token.text == "=" and token.kind == "op"
+
+
+def is_word(name: str, scope: Scope) -> bool:
+    """Whether a name has a meaning in a block of words."""
+    return (
+        name in scope.control.g_groups
+        or name in keywords.ADDRESSES
+        or name in keywords.PROCEDURES
+        or name in keywords.INDEXED_WORDS
+        or name in keywords.FILE_PROCEDURES
+        or name in keywords.SINGLE_BLOCK
+        or name in ("G", "R", "SETINT")
+    )
+
+
+def expanded(tokens: list[Token], scope: Scope) -> list[Token]:
+    """The tokens with macros replaced by their texts, which stand at the macro's place; macros do not nest."""
+    if not scope.macros and not scope.memory.macros:
+        return tokens
+    if tokens[0].text == "DEFINE":
+        return tokens
+    result: list[Token] = []
+    for token in tokens:
+        name = token.text
+        if token.kind == "word" and isinstance(token.value, int):
+            name = f"{token.letter}{token.value}"
+        text = scope.macro(name) if token.kind in ("name", "word") else None
+        if text is None:
+            result.append(token)
+        else:
+            inner = tokenize(text)[:-1]
+            result += [each._replace(start=token.start, end=token.end) for each in inner]
+    return result
+
+
+def compile_block(program: SinumerikProgram, index: int, channel: Channel) -> CompiledBlock:
+    """Compile the block of a step."""
+    line = program.text(index)
+    prefix = prefix_of(line)
+    scope = program.scope_of(channel)
+    if program.is_header(line):
+        return CompiledBlock(_nothing, Emitter(), ())
+    tokens = expanded(tokenize(line, prefix.end), scope)
+    compiler = BlockCompiler(tokens, program, index, channel)
+    compiler.marked = prefix.skip >= 0 or bool(prefix.label)
+    if prefix.skip >= 0:
+        compiler.emitter.line(f"if channel.control.skipped(channel, {prefix.skip}): return")
+    compiler.statement()
+    return CompiledBlock(compiler.emitter.step(), compiler.emitter, compiler.words.columns)
+
+
+def compile_text(text: str, program: SinumerikProgram, index: int, channel: Channel) -> Step:
+    """Compile a text as a block of a program (EXECSTRING): everything but definitions (1.2.3)."""
+    prefix = prefix_of(text)
+    tokens = expanded(tokenize(text, prefix.end), program.scope_of(channel))
+    if tokens[0].text in keywords.DEFINITIONS:
+        raise NcSyntaxError("14500", 0, tokens[0].text)
+    compiler = BlockCompiler(tokens, program, index, channel)
+    compiler.statement()
+    return compiler.emitter.step()
+
+
+def _nothing(channel: Channel) -> None:
+    """A line without effect."""
+
+
+def _not_yet(compiler: BlockCompiler) -> None:
+    token = compiler.token
+    raise not_supported(token.column, token.text)
+
+
+def _alone(compiler: BlockCompiler) -> None:
+    """Words that only stand behind others."""
+    raise compiler.error()
+
+
+_STATEMENTS: dict[str, Callable[[BlockCompiler], None]] = {
+    **flow.STATEMENTS,
+    **definitions.STATEMENTS,
+    **calls.STATEMENTS,
+    **dict.fromkeys(keywords.SYNCHRONOUS | keywords.NOT_EXECUTED, _not_yet),
+    **dict.fromkeys(keywords.PARTS | keywords.OPERATORS, _alone),
+}
+
+provide(Array=Array, Reference=Reference, WordShape=WordShape, block_of=block_of, define=define)
+__all__ = ["BlockCompiler", "CompiledBlock", "Expr", "compile_block", "compile_text", "unknown"]

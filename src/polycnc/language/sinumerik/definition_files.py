@@ -1,0 +1,34 @@
+"""Definition files: global user variables and macros, read when a channel first runs a program (1.1.5, 1.26)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.messages import AlarmError
+from polycnc.program.names import DEF_DIR
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.language.sinumerik.executable import SinumerikProgram
+
+_ENDS = frozenset({"M30", "M17", "M2", "M02", "RET"})
+
+
+def load_definitions(channel: Channel) -> None:
+    """Run the blocks of every definition file; an alarm in one stands at the program's start."""
+    from polycnc.language.sinumerik.executable import SinumerikProgram
+
+    for program in channel.store.programs_in(DEF_DIR):
+        code = SinumerikProgram(program, channel.control, definitions=True)  # type: ignore[arg-type]
+        try:
+            _run(code, channel)
+        except AlarmError as error:
+            raise AlarmError(error.code, hint=error.hint, **dict(error.args_by_name)) from error
+
+
+def _run(code: SinumerikProgram, channel: Channel) -> None:
+    for index in range(len(code)):
+        tokens = code.tokens(index, channel)
+        if tokens[0].text in _ENDS:
+            return
+        code.compiled(index, channel).step(channel)

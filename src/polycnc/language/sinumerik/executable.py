@@ -1,0 +1,248 @@
+"""A program of the NC language, ready to run: its blocks, labels and structures.
+
+Blocks are compiled when they are reached. A block that is reached once is not kept: a CAM program of a million lines
+would fill the memory with steps that never run again.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+from polycnc.language.sinumerik.blocks import CompiledBlock, compile_block, compile_text, expanded
+from polycnc.language.sinumerik.definition_files import load_definitions
+from polycnc.language.sinumerik.definitions import NO_HEADER, Header, read_header
+from polycnc.language.sinumerik.emitter import Emitter
+from polycnc.language.sinumerik.errors import NcSyntaxError
+from polycnc.language.sinumerik.expressions import ExpressionReader
+from polycnc.language.sinumerik.labels import Labels
+from polycnc.language.sinumerik.lexer import Token, prefix_of, tokenize
+from polycnc.language.sinumerik.place import fail
+from polycnc.language.sinumerik.scope import Scope
+from polycnc.language.sinumerik.shapes import Shapes
+from polycnc.language.sinumerik.structures import Structure, structures_of
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Step
+    from polycnc.language.sinumerik.interface import LanguageControl, LanguageMemory
+    from polycnc.program import Program
+
+_DEFINITION = re.compile(r"[ \t]*(?:DEF|REDEF|DEFINE|PROC|EXTERN)\b", re.IGNORECASE)
+_EMPTY = re.compile(r"[ \t\r\x00]*(?:;|%|$)")
+
+
+class SinumerikProgram:
+    """One program; satisfies the channel's `Executable`.
+
+    Args:
+        program: The text.
+        control: The control that runs it.
+        definitions: The text is a definition file (GUD, macros), not a part program.
+    """
+
+    def __init__(self, program: Program, control: LanguageControl, *, definitions: bool = False) -> None:
+        self.program = program
+        self.control = control
+        self.is_definition_file = definitions
+        self.declared: dict[str, int] = {}
+        self._lines = [i for i, line in enumerate(program.lines) if not _EMPTY.match(line)]
+        self.steps: list[Step | None] = [None] * len(self._lines)
+        self._reached = bytearray(len(self._lines))
+        self._scope: Scope | None = None
+        self._header: Header | None = None
+        self._labels: Labels | None = None
+        self._structures: dict[int, Structure] | None = None
+        self._first_statement: int | None = None
+        self._texts: dict[str, Step] = {}
+        self._shapes = Shapes()
+
+    # ---- steps ---------------------------------------------------------------------------------------------------
+
+    def __len__(self) -> int:
+        return len(self._lines)
+
+    def step(self, index: int) -> Step | None:
+        """The step of a block; None behind the last one."""
+        return self._first_reach if index < len(self.steps) else None
+
+    def line(self, index: int) -> int:
+        """The line of the file, from 1."""
+        return self.program.first_line + self._lines[index] if index < len(self._lines) else 0
+
+    def text(self, index: int) -> str:
+        """The line of a step."""
+        return self.program.lines[self._lines[index]]
+
+    def column(self, index: int, address: str) -> int:
+        """The column of an address or G function in the block of a step, 0 if it is not there."""
+        line = self.text(index)
+        try:
+            tokens = tokenize(line, prefix_of(line).end)
+        except AlarmError:
+            return 0
+        wanted = address.upper()
+        for token in tokens:
+            if token.text == wanted or (token.kind == "word" and token.letter == wanted):
+                return token.column
+        return 0
+
+    def word_columns(self, channel: Channel, position: int) -> int:
+        """The column of a word of the running block, by compiling it once more."""
+        columns = compile_block(self, channel.level.current, channel).columns
+        return columns[position] if position < len(columns) else 0
+
+    def forget_steps(self) -> None:
+        """Compile every block anew: names may mean other programs now."""
+        self.steps[:] = [None] * len(self._lines)
+        self._texts.clear()
+
+    def forget_shapes(self) -> None:
+        """A macro has been defined: equal texts may mean other blocks now."""
+        self._shapes = Shapes()
+
+    def _first_reach(self, channel: Channel) -> None:
+        index = channel.level.current
+        try:
+            step = self._compiled(index, channel)
+        except AlarmError as error:
+            fail(error, channel)
+        if self._reached[index] and step is not _skipped:
+            self.steps[index] = step
+        self._reached[index] = 1
+        step(channel)
+
+    def _compiled(self, index: int, channel: Channel) -> Step:
+        line = self.text(index)
+        shape = self._shapes.step(line)
+        if shape is not None:
+            return shape
+        skip = prefix_of(line).skip
+        if skip >= 0 and self.control.skipped(channel, skip):
+            return _skipped
+        compiled = self.compiled(index, channel)
+        self._shapes.learn(line, compiled.emitter)
+        return compiled.step
+
+    def compiled(self, index: int, channel: Channel) -> CompiledBlock:
+        """Compile the block of a step."""
+        return compile_block(self, index, channel)
+
+    def execute_text(self, channel: Channel, text: str) -> None:
+        """Run a text as a block of this program (EXECSTRING)."""
+        step = self._texts.get(text)
+        if step is None:
+            try:
+                step = compile_text(text, self, channel.level.current, channel)
+            except NcSyntaxError as error:
+                error.column = 0
+                raise
+            self._texts[text] = step
+        step(channel)
+
+    def tokens(self, index: int, channel: Channel) -> list[Token]:
+        """The tokens of a block behind its number and label."""
+        line = self.text(index)
+        return expanded(tokenize(line, prefix_of(line).end), self.scope_of(channel))
+
+    # ---- names ---------------------------------------------------------------------------------------------------
+
+    def scope_of(self, channel: Channel) -> Scope:
+        """What names mean in this program."""
+        if self._scope is None:
+            memory: LanguageMemory = channel.memory.language
+            main = None
+            whole: Any = getattr(channel.stack[0].code, "whole", channel.stack[0].code)
+            if memory.main_variables_everywhere and whole is not self and isinstance(whole, SinumerikProgram):
+                main = whole.scope_of(channel)
+            self._scope = Scope(memory, self.control, main)
+            memory.programs.append(self)
+            if not memory.definitions_loaded:
+                memory.definitions_loaded = True
+                load_definitions(channel)
+            self.header(channel)
+        return self._scope
+
+    def header(self, channel: Channel) -> Header:
+        """The PROC line, read when it is first asked for."""
+        if self._header is None:
+            scope = self.scope_of(channel)
+            if self._header is None:
+                self._header = self._read_header(scope, channel)
+        return self._header
+
+    def _read_header(self, scope: Scope, channel: Channel) -> Header:
+        for index in range(min(len(self), 1)):
+            line = self.text(index)
+            end = prefix_of(line).end
+            if line[end : end + 5].strip().upper().startswith("PROC"):
+                reader = ExpressionReader(tokenize(line, end), scope, Emitter())
+                return read_header(reader, channel)
+        return NO_HEADER
+
+    def is_header(self, line: str) -> bool:
+        """Whether a line is an archive mark (`%_N_NAME_MPF`)."""
+        return line.lstrip().startswith("%")
+
+    def is_first_statement(self, index: int) -> bool:
+        """Whether a step is the first block of the program."""
+        return index == 0
+
+    @property
+    def first_statement(self) -> int:
+        """The first step behind the definitions."""
+        if self._first_statement is None:
+            self._first_statement = next(
+                (i for i in range(len(self)) if not self._defines(self.text(i))), len(self)
+            )
+        return self._first_statement
+
+    @staticmethod
+    def _defines(line: str) -> bool:
+        end = prefix_of(line).end
+        return _DEFINITION.match(line, end) is not None or _EMPTY.match(line, end) is not None
+
+    def in_definitions(self, index: int) -> bool:
+        """Whether a step stands before the first executable block."""
+        return self.is_definition_file or index < self.first_statement
+
+    # ---- labels and structures -----------------------------------------------------------------------------------
+
+    @property
+    def labels(self) -> Labels:
+        """Labels and block numbers."""
+        if self._labels is None:
+            self._labels = Labels([self.text(i) for i in range(len(self))])
+        return self._labels
+
+    def find_target(self, target: str, here: int, word: str) -> int:
+        """The step of a jump target; -1 if there is none in the direction of the jump."""
+        return self.labels.find(target, here, word)
+
+    def find_label(self, label: str, here: int) -> int:
+        """The step of a label: first towards the start of the program, then towards its end; -1 for none."""
+        return self.labels.find_back_first(label, here)
+
+    def find_return_target(self, target: str, here: int) -> int:
+        """The step at which RET goes on: a label, a block number, or a block that begins with the text."""
+        return self.labels.find_return(target, here)
+
+    def section_ends(self, start: int, last: str, here: int) -> set[int]:
+        """The steps behind which a pass of a section ends (1.11); empty if the end label is missing."""
+        return self.labels.section_ends(start, last, here)
+
+    def structure(self, index: int, token: Token) -> Structure:
+        """The control structure that a word belongs to; 12640 or 12641 for one that does not fit."""
+        if self._structures is None:
+            self._structures = structures_of([self.text(i) for i in range(len(self))])
+        structure = self._structures.get(index)
+        if structure is None:
+            raise NcSyntaxError("12640", token.column, token.text)
+        if structure.error:
+            raise NcSyntaxError(structure.error, token.column, token.text)
+        return structure
+
+
+def _skipped(channel: Channel) -> None:
+    """A block that the operator has switched off."""

@@ -1,0 +1,336 @@
+"""The words of a block: G functions, addresses with values, procedures among them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.language.sinumerik import keywords
+from polycnc.language.sinumerik.emitter import provide
+from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
+from polycnc.language.sinumerik.values import Axis, Type
+from polycnc.language.sinumerik.words import WordAlarm, WordShape, block_of
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from polycnc.language.sinumerik.blocks import BlockCompiler
+    from polycnc.language.sinumerik.lexer import Token
+
+#: Addresses whose numbers stay INT where they are written so; all others become REAL.
+_WHOLE_NUMBERS = frozenset({"M", "H", "T", "D", "DL"})
+
+
+class WordReader:
+    """Collects the words of one block and the code that runs them."""
+
+    def __init__(self, compiler: BlockCompiler) -> None:
+        self.compiler = compiler
+        self.codes: list[str] = []
+        self.shapes: list[WordShape] = []
+        self.shape_codes: list[str] = []
+        self.values: list[str] = []
+        self.word_columns: list[int] = []
+        self.groups: dict[int, str] = {}
+        self.dynamic = False
+
+    @property
+    def columns(self) -> tuple[int, ...]:
+        """Column of every word, from 1."""
+        return tuple(self.word_columns)
+
+    def read(self) -> None:
+        """Read the next word, function or procedure."""
+        compiler = self.compiler
+        token = compiler.take()
+        if token.kind == "word":
+            self._number_word(token)
+        elif token.kind == "name":
+            self._named_word(token)
+        else:
+            raise compiler.error(token)
+
+    def finish(self) -> None:
+        """Add the statement that runs the words."""
+        if not self.codes and not self.shapes:
+            return
+        emitter = self.compiler.emitter
+        execute = emitter.object(self.compiler.scope.execute)
+        if self.dynamic:
+            codes = "".join(code + ", " for code in self.codes)
+            shapes = "".join(code + ", " for code in self.shape_codes)
+            block = f"block_of(({codes}), ({shapes}))"
+        else:
+            block = emitter.object(self._static_block())
+        values = "".join(value + ", " for value in self.values)
+        emitter.line(f"if {execute}(channel, {block}, ({values})): call_modal(channel)")
+
+    def _static_block(self) -> object:
+        try:
+            return block_of(tuple(code[1:-1] for code in self.codes), tuple(self.shapes))
+        except WordAlarm as alarm:
+            alarm.column = self.word_columns[alarm.position]
+            raise
+
+    # ---- G functions ---------------------------------------------------------------------------------------------
+
+    def _g_function(self, token: Token, code: str) -> None:
+        group = self.compiler.scope.control.g_groups[code]
+        if group in self.groups:
+            raise NcSyntaxError("12060", token.column, token.text)
+        self.groups[group] = code
+        self.codes.append(repr(code))
+
+    def _indirect_g(self, token: Token) -> None:
+        """`G[group]=number` (1.2.1): no calculation on the right-hand side."""
+        compiler = self.compiler
+        compiler.expect("[")
+        group = compiler.value(Type.INT)
+        compiler.expect("]")
+        compiler.expect("=")
+        number = compiler.value(Type.INT)
+        self.codes.append(f"channel.control.g_function({group}, {number})")
+        self.dynamic = True
+
+    # ---- words ---------------------------------------------------------------------------------------------------
+
+    def _number_word(self, token: Token) -> None:
+        """A letter with a number: `X10`, `G1`, or an extended address `S2=`."""
+        letter, scope = token.letter, self.compiler.scope
+        if self._assigned():
+            if token.text in scope.memory.axes or token.text in keywords.ADDRESSES:
+                self._word(token, token.text, None, "None")
+            elif letter in "SMTDHF" and isinstance(token.value, int):
+                self._word(token, letter, token.value, str(token.value))
+            else:
+                raise unknown(token.column, token.text)
+        elif letter == "G":
+            code = f"G{token.value}"
+            if code not in scope.control.g_groups:
+                raise NcSyntaxError("12470", token.column, token.text)
+            self._g_function(token, code)
+        elif letter in scope.memory.axes or letter in keywords.ADDRESSES:
+            self._add(token, letter, None, "None", "", self._literal(letter, token))
+        else:
+            raise self.compiler.error(token)
+
+    def _named_word(self, token: Token) -> None:
+        compiler, name = self.compiler, token.text
+        scope = compiler.scope
+        if name in scope.memory.axes:
+            self._addressed(token)
+        elif name == "G" and compiler.at("["):
+            self._indirect_g(token)
+        elif name in scope.control.g_groups and not self._assigned():
+            self._g_function(token, name)
+        elif name in keywords.PROCEDURES and not self._assigned():
+            compiler.procedure(token, keywords.PROCEDURES[name])
+        elif name in keywords.ADDRESSES:
+            self._addressed(token)
+        elif name in keywords.INDEXED_WORDS:
+            index, code = self._index()
+            self._add(token, name, index, code, "", "True")
+        else:
+            self._other(token)
+
+    def _other(self, token: Token) -> None:
+        """Words that are handled by the language itself, or that do not exist."""
+        compiler, name = self.compiler, token.text
+        if name in keywords.FILE_PROCEDURES:
+            arguments = compiler.scope.arguments(compiler, token, keywords.FILE_PROCEDURES[name])
+            compiler.emitter.line(f"file_procedure(channel, {name!r}, {arguments})")
+        elif name in keywords.SINGLE_BLOCK:
+            compiler.emitter.line(f"channel.level.data['single_block'] = {name == 'SBLON'}")
+        elif name == "SETINT":
+            self._set_interrupt(token)
+        elif name in keywords.OPERATORS or name in keywords.PARTS or name in keywords.STRUCTURE:
+            raise compiler.error(token)
+        else:
+            raise unknown(token.column, name)
+
+    def _set_interrupt(self, token: Token) -> None:
+        """`SETINT(n) PRIO=v NAME LIFTFAST BLSYNC` (1.14.3): arguments n, priority, name, LIFTFAST, BLSYNC."""
+        compiler = self.compiler
+        compiler.expect("(")
+        number = compiler.integer()
+        compiler.expect(")")
+        priority, name, flags = "1", "''", {"LIFTFAST": False, "BLSYNC": False}
+        while compiler.token.kind != "end":
+            part = compiler.take()
+            if part.text == "PRIO":
+                compiler.expect("=")
+                priority = compiler.integer()
+            elif part.text in flags:
+                flags[part.text] = True
+            elif part.kind in ("name", "word") and name == "''":
+                name = repr(part.text)
+            else:
+                raise compiler.error(part)
+        arguments = f"({number}, {priority}, {name}, {flags['LIFTFAST']}, {flags['BLSYNC']})"
+        compiler.emitter.line(f"channel.control.procedure(channel, 'SETINT', {arguments}, {token.column})")
+
+    def _assigned(self) -> bool:
+        return self.compiler.at("=")
+
+    def _addressed(self, token: Token) -> None:
+        """An address written as a name: with index, with `=` and any value, or with a number behind it."""
+        compiler, name = self.compiler, token.text
+        index: object = None
+        code = "None"
+        if compiler.at("["):
+            index, code = self._index()
+        if self._assigned():
+            self._word(token, name, index, code)
+            return
+        if len(name) > 1 or index is not None:
+            raise compiler.error()
+        self._add(token, name, None, "None", "", self._number(name))
+
+    def _index(self) -> tuple[object, str]:
+        """The index in brackets: its value where it is known now, and its code."""
+        compiler = self.compiler
+        compiler.expect("[")
+        if compiler.accept("]"):
+            return "", "''"
+        token = compiler.token
+        axis = compiler.scope.memory.axes.get(token.text)
+        if axis is not None and compiler.ahead().text == "]" and compiler.scope.find(token.text) is None:
+            compiler.take()
+            compiler.expect("]")
+            return axis, f"Axis({axis.name!r})"
+        if token.kind == "number" and isinstance(token.value, int) and compiler.ahead().text == "]":
+            compiler.take()
+            compiler.expect("]")
+            return token.value, str(token.value)
+        codes = [self._index_part()]
+        while compiler.accept(","):
+            codes.append(self._index_part())
+        compiler.expect("]")
+        self.dynamic = True
+        return _RUNNING, codes[0] if len(codes) == 1 else f"({', '.join(codes)})"
+
+    def _index_part(self) -> str:
+        value = self.compiler.expression()
+        return f"round_half_up({value.code})" if value.type is Type.REAL else value.code
+
+    def _word(self, token: Token, address: str, index: object, index_code: str) -> None:
+        """A word whose value stands behind `=`."""
+        compiler = self.compiler
+        compiler.expect("=")
+        value = compiler.token
+        modifier = ""
+        if value.text in keywords.MODIFIERS and compiler.ahead().text == "(" and value.kind == "name":
+            compiler.take()
+            modifier = value.text
+            if modifier == "GP":
+                return self._general_position(token, address, index, index_code)
+            compiler.expect("(")
+            code = self._list() if modifier == "FPO" else self._value(address)
+            compiler.expect(")")
+        elif value.text == "(" and address in keywords.LIST_ADDRESSES:
+            compiler.take()
+            code = self._list()
+            compiler.expect(")")
+        else:
+            code = self._value(address)
+        return self._add(token, address, index, index_code, modifier, code)
+
+    def _general_position(self, token: Token, address: str, index: object, index_code: str) -> None:
+        """`=GP(position,attribute)`: the attribute is a keyword or a number (1.2.2)."""
+        compiler = self.compiler
+        compiler.expect("(")
+        code = self._value(address)
+        compiler.expect(",")
+        if compiler.token.text in keywords.POSITION_ATTRIBUTES:
+            modifier = compiler.take().text
+            compiler.expect(")")
+            self._add(token, address, index, index_code, modifier, code)
+            return
+        attribute = f"position_attribute({compiler.integer()})"
+        compiler.expect(")")
+        self.dynamic = True
+        self._add(token, address, index, index_code, "", code, attribute)
+
+    def _value(self, address: str) -> str:
+        """Code of a word's value: numbers as REAL but for whole-number addresses, else as they are."""
+        value = self.compiler.expression()
+        if value.type is Type.CHAR:
+            return f"chr({value.code})"
+        if value.type is Type.INT and address not in _WHOLE_NUMBERS:
+            return self.compiler.emitter.as_real(value.code)
+        return value.code
+
+    def _list(self) -> str:
+        compiler = self.compiler
+        codes = []
+        while not compiler.at(")"):
+            value = compiler.expression()
+            codes.append(value.code)
+            if not compiler.accept(","):
+                break
+        return f"({''.join(code + ', ' for code in codes)})"
+
+    def _literal(self, address: str, token: Token) -> str:
+        """The number of a word such as `X10`."""
+        value = token.value if address in _WHOLE_NUMBERS else float(token.value)
+        return self.compiler.emitter.number(value, token._replace(start=token.start + 1))
+
+    def _number(self, address: str) -> str:
+        """The number behind an address that stands apart from it or has a sign."""
+        compiler = self.compiler
+        first = compiler.take()
+        sign = 1
+        token = first
+        if first.text in ("-", "+") and first.kind == "op":
+            sign = -1 if first.text == "-" else 1
+            token = compiler.take()
+        if token.kind != "number":
+            raise compiler.error(token if token.kind != "end" else compiler.tokens[compiler.place - 1])
+        value = sign * (token.value if address in _WHOLE_NUMBERS else float(token.value))
+        return compiler.emitter.number(value, token._replace(start=first.start))
+
+    def _add(
+        self,
+        token: Token,
+        address: str,
+        index: object,
+        index_code: str,
+        modifier: str,
+        value: str,
+        attribute: str = "",
+    ) -> None:
+        if address == "AX":
+            if isinstance(index, Axis):
+                address, index, index_code = index.name, None, "None"
+            elif index is None:
+                raise self.compiler.error()
+        shape = WordShape(address, index, modifier)
+        self.shapes.append(shape)
+        if address == "AX":
+            self.shape_codes.append(
+                f"WordShape(axis_name({index_code}), None, {attribute or repr(modifier)})"
+            )
+        else:
+            self.shape_codes.append(f"WordShape({address!r}, {index_code}, {attribute or repr(modifier)})")
+        self.values.append(value)
+        self.word_columns.append(token.column)
+
+
+_RUNNING = object()
+"""Index that is known only when the block runs."""
+
+
+def position_attribute(number: int) -> str:
+    """The positioning attribute with a number (1.2.2); alarm 12560 for one that does not exist."""
+    attributes = keywords.POSITION_ATTRIBUTES
+    if not 0 <= number < len(attributes):
+        raise AlarmError("12560", text=str(number))
+    return attributes[number]
+
+
+def axis_name(index: object) -> str:
+    """The axis of `AX[…]`; alarm 12040 for another value."""
+    if not isinstance(index, Axis):
+        raise AlarmError("12040", text=str(index))
+    return index.name
+
+
+provide(position_attribute=position_attribute, axis_name=axis_name, Axis=Axis)

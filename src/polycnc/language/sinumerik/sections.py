@@ -1,0 +1,91 @@
+"""Program levels: how deep they may lie, how they end, and sections of a program that run as a level of their own."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from collections.abc import Set as AbstractSet
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Step
+    from polycnc.language.sinumerik.executable import SinumerikProgram
+
+#: Subprogram levels below the main program; interrupts have two more (1.25.1.3).
+MAX_LEVELS = 15
+INTERRUPT_LEVELS = 2
+
+
+class Section:
+    """A part of a program as a program of its own: it ends behind the first of its end blocks that is run through.
+
+    A jump out of the section does not end it: it goes on until it comes through one of the end blocks (1.11).
+
+    Attributes:
+        whole: The program.
+        is_through: The pass has come to its end.
+    """
+
+    def __init__(self, whole: SinumerikProgram, ends: AbstractSet[int]) -> None:
+        self.whole = whole
+        self.program = whole.program
+        self.steps: Sequence[Step | None] = ()
+        self.is_through = False
+        self._ends = ends
+        self._last = -1
+
+    def step(self, index: int) -> Step | None:
+        """The step of a block; None when an end block has been run through."""
+        if self._last in self._ends and index == self._last + 1:
+            self._last = -1
+            self.is_through = True
+            return None
+        self._last = index
+        self.is_through = False
+        steps = self.whole.steps
+        return (steps[index] if index < len(steps) else None) or self.whole.step(index)
+
+    def line(self, index: int) -> int:
+        """The line of a step, from 1."""
+        return self.whole.line(index)
+
+    def column(self, index: int, address: str) -> int:
+        """The column of an address in a step."""
+        return self.whole.column(index, address)
+
+    def word_columns(self, channel: Channel, position: int) -> int:
+        """The column of a word of the running block."""
+        return self.whole.word_columns(channel, position)
+
+
+def count_levels(channel: Channel) -> None:
+    """Alarm 14012 if no further program level is possible."""
+    interrupts = any(level.kind == "interrupt" for level in channel.stack)
+    if len(channel.stack) > MAX_LEVELS + (INTERRUPT_LEVELS if interrupts else 0):
+        raise AlarmError("14012")
+
+
+def leave(channel: Channel) -> None:
+    """End the running level; a subprogram with SAVE brings back the modal functions of its call."""
+    level = channel.pop()
+    if level.kind != "repeat" and "saved" in level.data:
+        channel.control.restore(channel, level.data["saved"])  # type: ignore[attr-defined]
+
+
+def end_of_subprogram(channel: Channel) -> None:
+    """A level below the main program ends: by M17, RET, M2, M30, or because it has no further blocks.
+
+    A subprogram runs its next pass (P), or its caller goes on. A repeated section runs its next pass at its end; any
+    other end aborts the repetition, and the block behind REPEAT is next (1.11).
+    """
+    level = channel.level
+    section = level.code
+    aborted = isinstance(section, Section) and level.kind == "repeat" and not section.is_through
+    if level.repeats > 0 and not aborted:
+        level.repeats -= 1
+        level.index = level.entry
+    else:
+        leave(channel)

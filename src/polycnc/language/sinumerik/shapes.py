@@ -1,0 +1,85 @@
+"""Steps for blocks that differ from an earlier one in numbers only, without reading them anew.
+
+`N10 G1 X=R1*2.5 Y-3` and `N20 G1 X=R1*7.25 Y12` have one shape: their text without block number and without the numbers
+that compiled code has as parameters. The numbers of a known shape go straight into its compiled code. A shape is learnt
+only if the compiler itself lifted exactly the numbers that the pattern here finds.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from polycnc.channel.stack import Step
+    from polycnc.language.sinumerik.emitter import Emitter, Factory
+
+#: An axis or path address with its number, or a number by itself; never one that belongs to a name, R, G, M or `X1=`.
+_NUMBER = re.compile(
+    r"(?<![\w$.])(?:([A-CFI-KSU-Z])[ \t]*([+-]?(?:\d+\.?\d*|\.\d+))|(\d+\.?\d*|\.\d+))(?![\w.]|[ \t]*=[^=])",
+    re.IGNORECASE | re.ASCII,
+)
+_PREFIX = re.compile(r"[ \t]*(?:N\d+[ \t]*)?", re.IGNORECASE)
+_KEEP = 4096
+
+
+class _Shape(NamedTuple):
+    factory: Factory
+    objects: tuple[Any, ...]
+    kinds: tuple[type[int] | type[float], ...]
+
+
+class Shapes:
+    """The shapes of one program."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[str | None, ...], _Shape | None] = {}
+
+    def step(self, line: str) -> Step | None:
+        """The step of a block of a known shape; None if the block has to be compiled."""
+        parts = _parts(line)
+        if parts is None:
+            return None
+        shape = self._known.get(_key(parts))
+        if shape is None:
+            return None
+        numbers = [a or b for a, b in zip(parts[2::4], parts[3::4], strict=True)]
+        return shape.factory(
+            tuple([kind(number) for kind, number in zip(shape.kinds, numbers, strict=True)]), shape.objects
+        )
+
+    def learn(self, line: str, emitter: Emitter) -> None:
+        """Remember the shape of a block that was compiled, if its numbers are those of the pattern."""
+        parts = _parts(line)
+        if parts is None or len(self._known) >= _KEEP:
+            return
+        start = _start(line)
+        end = line.find(";")
+        spans = [
+            match.span(2) if match[1] else match.span(3)
+            for match in _NUMBER.finditer(line, start, len(line) if end < 0 else end)
+        ]
+        if spans != [(number.start, number.end) for number in emitter.numbers]:
+            self._known[_key(parts)] = None
+            return
+        kinds = tuple(type(number.value) for number in emitter.numbers)
+        self._known[_key(parts)] = _Shape(emitter.factory(), tuple(emitter.objects), kinds)
+
+
+def _start(line: str) -> int:
+    match = _PREFIX.match(line)
+    return match.end() if match else 0
+
+
+def _parts(line: str) -> list[str] | None:
+    """The text between the numbers with addresses and numbers in turn; None for lines that have no shape."""
+    if '"' in line or "'" in line or "/" in line:
+        return None
+    end = line.find(";")
+    return _NUMBER.split(line[_start(line) :] if end < 0 else line[_start(line) : end])
+
+
+def _key(parts: list[str]) -> tuple[str | None, ...]:
+    """Text and addresses, and whether a number by itself is whole: that decides types."""
+    kinds = ["." if number and "." in number else None for number in parts[3::4]]
+    return (*parts[0::4], *parts[1::4], *kinds)
