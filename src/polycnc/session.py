@@ -86,7 +86,8 @@ class Result:
         channel: The channel in its last state.
         display: Turns rows of the toolpath into what the control shows.
         alarms: In order.
-        planner: Plans the speeds of the toolpath.
+        start: Machine position at the start (mm, radius, degrees), an axis each.
+        planner: Has planned the chunks that are no longer held; None where all are.
         stops: Where the run halted in single block mode, as N words.
     """
 
@@ -95,7 +96,8 @@ class Result:
     machine: Machine
     channel: Channel
     display: Display
-    planner: Planner
+    start: Sequence[float]
+    planner: Planner | None = None
     stops: list[str] = field(default_factory=list)
 
     @property
@@ -133,7 +135,11 @@ class Result:
     @cached_property
     def plan(self) -> Plan:
         """The planned cycle time, in total and by tool."""
-        return self.planner.finish()
+        if self.planner is not None:
+            return self.planner.finish()
+        from polycnc.motion.plan import plan
+
+        return plan(self.toolpath, self.machine, start=self.start)
 
     @property
     def time(self) -> float:
@@ -207,15 +213,16 @@ class Session:
         block_limit: int = DEFAULT_BLOCK_LIMIT,
         keep: bool = True,
     ) -> None:
-        from polycnc.motion.planner import Planner
-
-        self._keep = keep
         self.consumers: list[Callable[[Chunk], object]] = []
         toolpath = Toolpath(machine.channel_axes(1), on_full=self._take)
         self.channel = Channel(control, machine, setup, store, block_limit=block_limit, toolpath=toolpath)
         display = Display(toolpath, axis_layout(machine, 1), self._event_text)
-        planner = Planner(toolpath, machine, start=self.channel.coordinates.machine, keep_rows=False)
-        self.result = Result(program, control, machine, self.channel, display, planner)
+        start = self.channel.coordinates.machine
+        self.result = Result(program, control, machine, self.channel, display, start)
+        if not keep:
+            from polycnc.motion.planner import Planner
+
+            self.result.planner = Planner(toolpath, machine, start=start, keep_rows=False)
 
     def run(self, progress: Callable[[Channel], None] | None = None) -> Result:
         """Run to the end of the program or to an alarm. Programmed stops are recorded and started again.
@@ -235,9 +242,8 @@ class Session:
     def _take(self, chunk: Chunk) -> bool:
         for consume in self.consumers:
             consume(chunk)
-        if not self._keep:
-            self.result.planner.take(chunk)
-        return not self._keep
+        planner = self.result.planner
+        return planner is not None and planner.take(chunk)
 
     def _event_text(self, data: Mapping[str, Any]) -> str:
         """The text of an alarm event."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 import typer
 from typer.core import TyperGroup
 
-from polycnc.cli.console import fail
+from polycnc.cli.console import fail, note
 from polycnc.messages import text
 from polycnc.messages.catalogue import LANGUAGES, language_of_environment, set_language
 
@@ -71,8 +71,12 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         # Whoever read our output has gone; Python would complain once more when it exits.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         status = BAD_USE
-    except (KeyboardInterrupt, typer.Abort):
-        status = fail(text("cli.interrupted"), INTERRUPTED)
+    except SystemExit:  # Typer's own answer to a broken pipe
+        status = BAD_USE
+    except KeyboardInterrupt:
+        status = INTERRUPTED
+    if status == INTERRUPTED:
+        note(f"polycnc: {text('cli.interrupted')}")
     sys.exit(status)
 
 
@@ -103,7 +107,7 @@ def _told(error: Exception) -> str:
 
 def _language_of(words: Sequence[str]) -> str:
     """The language must be known before the first help text is looked up, so `--lang` is read here."""
-    for word, following in zip(words, [*words[1:], ""], strict=True):
+    for word, following in zip(words, [*words[1:], ""], strict=False):
         chosen = following if word == "--lang" else word.removeprefix("--lang=") if "=" in word else ""
         if word.startswith("--lang") and chosen in LANGUAGES:
             return chosen

@@ -1,0 +1,130 @@
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from typing import TYPE_CHECKING
+
+import pytest
+
+from polycnc import __version__
+from polycnc.cli.app import COMMANDS
+from tests.cli.console import BAD, GOOD
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from tests.cli.console import Console
+
+FOREVER = "O1\nN1 #100=#100+1\nGOTO 1\n"
+MANY = "O1\nWHILE [#100 LT 200000] DO1\n#100=#100+1\nG0 X[#100/10]\nEND1\nM30\n"
+
+
+def test_without_a_command_the_help_is_shown_and_the_status_tells_wrong_use(console: Console) -> None:
+    said = console()
+    assert said.status == 2
+    assert "run" in said.out
+
+
+def test_the_version_is_told(console: Console) -> None:
+    assert console("--version").out == f"polycnc {__version__}\n"
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_has_help(console: Console, command: str) -> None:
+    said = console(command, "--help")
+    assert said.status == 0
+    assert "--lang" in said.out
+
+
+def test_help_comes_in_chinese_too(tmp_path: Path) -> None:
+    process = _polycnc("run", "--help", "--lang", "zh-TW", cwd=tmp_path, stdout=subprocess.PIPE)
+    out, _ = process.communicate(timeout=30)
+    assert "加工程式" in out.decode()
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("run", "--nonsense", "x.nc"),
+        ("runn", "x.nc"),
+        ("run",),
+        ("run", "x.nc", "--block-limit", "0"),
+        ("run", "x.nc", "--lang", "de"),
+        ("check", "x.nc", "--format", "xml"),
+        ("run", "missing.nc", "--control", "fanuc-m"),
+        ("run", ".", "--control", "fanuc-m"),
+        ("run", "good.nc", "--control", "heidenhain"),
+        ("run", "good.nc"),
+        ("run", "good.nc", "--control", "fanuc-m", "--machine", "nothing"),
+        ("run", "good.nc", "--control", "fanuc-m", "--setup", "missing.yaml"),
+        ("run", "good.nc", "--control", "fanuc-m", "--search", "missing"),
+        ("run", "good.nc", "--control", "fanuc-m", "--encoding", "klingon"),
+        ("run", "good.nc", "--control", "fanuc-m", "--trace", "out.xml"),
+        ("run", "good.nc", "--control", "fanuc-m", "--trace", "missing/out.csv"),
+        ("run", "good.nc", "--control", "fanuc-m", "--state", "missing/out.json"),
+        ("plot", "good.nc", "--control", "fanuc-m", "-o", "x.gif"),
+        ("test", "missing.yaml"),
+        ("machines", "show", "nothing"),
+        ("alarms",),
+        ("alarms", "99999", "--control", "fanuc-m"),
+        ("features", "--from", "missing"),
+    ],
+)
+def test_wrong_use_gets_one_clear_line_and_status_2(console: Console, words: tuple[str, ...]) -> None:
+    console.file("good.nc", GOOD)
+    said = console(*words)
+    assert said.status == 2
+    assert len(said.err.splitlines()) == 1
+    assert said.err.startswith("polycnc: ")
+
+
+def test_the_environment_chooses_the_language(console: Console, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("POLYCNC_LANG", "zh_TW.UTF-8")
+    assert "找不到" in console("run", "missing.nc", "--control", "fanuc-m").err
+
+
+def test_a_file_that_may_not_be_read_is_told(console: Console) -> None:
+    path = console.file("secret.nc", GOOD)
+    path.chmod(0)
+    if os.access(path, os.R_OK):
+        pytest.skip("this user may read everything")
+    assert console("run", path, "--control", "fanuc-m").status == 2
+
+
+def _polycnc(*words: str, cwd: Path, **options: int) -> subprocess.Popen[bytes]:
+    command = [sys.executable, "-m", "polycnc", *words]
+    return subprocess.Popen(command, cwd=cwd, stderr=subprocess.PIPE, **options)  # type: ignore[call-overload, no-any-return]
+
+
+def test_ctrl_c_ends_a_long_run_with_one_line_and_leaves_no_half_written_file(tmp_path: Path) -> None:
+    (tmp_path / "long.nc").write_text(FOREVER, encoding="utf-8")
+    words = ("run", "long.nc", "--control", "fanuc-m", "--trace", "out.jsonl")
+    process = _polycnc(*words, cwd=tmp_path, stdout=subprocess.DEVNULL)
+    deadline = time.monotonic() + 30
+    while not list(tmp_path.glob(".out.jsonl.*")) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=30)
+    assert process.returncode == 130
+    assert len(err.splitlines()) == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["long.nc"]
+
+
+def test_a_reader_that_goes_away_ends_the_output_quietly(tmp_path: Path) -> None:
+    process = _polycnc("machines", cwd=tmp_path, stdout=subprocess.PIPE)
+    assert process.stdout is not None
+    process.stdout.close()
+    _, err = process.communicate(timeout=30)
+    assert err == b""
+    assert process.returncode == 2
+
+
+def test_an_alarm_is_status_1_and_its_line_can_be_clicked(console: Console) -> None:
+    console.file("bad.nc", BAD)
+    said = console("run", "bad.nc", "--control", "fanuc-m")
+    assert said.status == 1
+    assert "bad.nc:3:" in said.out
+    assert "PS0010" in said.out

@@ -1,0 +1,152 @@
+from __future__ import annotations
+
+import csv
+import io
+import json
+import sys
+from types import SimpleNamespace
+from typing import TYPE_CHECKING
+
+import pytest
+
+from polycnc.cli.report import clock
+from tests.cli.console import BAD, GOOD
+
+if TYPE_CHECKING:
+    from tests.cli.console import Console
+
+
+def test_a_run_tells_time_travel_and_tools(console: Console) -> None:
+    console.file("good.nc", GOOD)
+    said = console("run", "good.nc", "--control", "fanuc-m")
+    assert said.status == 0
+    assert said.err == ""
+    assert "O0001 on fanuc-m, machine mill3" in said.out
+    assert "no alarm" in said.out
+    assert "cycle time" in said.out
+    # 55 + 90 + a quarter of a circle of radius 20
+    assert "cutting 176.4 mm" in said.out
+    assert "  T1  " in said.out
+
+
+def test_a_run_speaks_chinese(console: Console) -> None:
+    console.file("good.nc", GOOD)
+    assert "加工時間" in console("run", "good.nc", "--control", "fanuc-m", "--lang", "zh-TW").out
+
+
+def test_the_control_is_guessed_where_the_text_is_certain(console: Console) -> None:
+    console.file("part.mpf", "DEF REAL A=1\nIF A>0 GOTOF ENDE\nENDE: M30\n")
+    said = console("check", "part.mpf")
+    assert "--control" not in said.err
+
+
+def test_an_ambiguous_program_asks_for_the_control(console: Console) -> None:
+    console.file("good.nc", GOOD)
+    said = console("run", "good.nc")
+    assert "--control" in said.err
+    assert "fanuc-m" in said.err
+
+
+def test_the_trace_is_json_lines_with_what_the_report_counts(console: Console) -> None:
+    console.file("good.nc", GOOD)
+    console("run", "good.nc", "--control", "fanuc-m", "--trace", "out.jsonl")
+    records = [json.loads(line) for line in (console.folder / "out.jsonl").read_text(encoding="utf-8").splitlines()]
+    moves = [record for record in records if "to" in record]
+    assert [move["type"] for move in moves] == ["rapid", "feed", "feed", "cw", "rapid"]
+    assert moves[3]["center"] == {"X": 120, "Y": 20}
+    assert moves[3]["line"] == 7
+
+
+def test_the_trace_is_csv_by_its_suffix(console: Console) -> None:
+    console.file("good.nc", GOOD)
+    console("run", "good.nc", "--control", "fanuc-m", "--trace", "out.CSV")
+    rows = list(csv.DictReader(io.StringIO((console.folder / "out.CSV").read_text(encoding="utf-8"))))
+    assert rows[-1]["type"] == "m"
+
+
+def test_the_trace_is_parquet_by_its_suffix(console: Console) -> None:
+    from pyarrow import parquet
+
+    console.file("good.nc", GOOD)
+    console("run", "good.nc", "--control", "fanuc-m", "--trace", "out.parquet")
+    table = parquet.read_table(console.folder / "out.parquet")
+    assert table.schema.metadata[b"control"] == b"fanuc-m"
+    assert "cw" in table.column("type").to_pylist()
+
+
+def test_the_trace_of_an_alarm_ends_with_it_in_words(console: Console) -> None:
+    console.file("bad.nc", BAD)
+    console("run", "bad.nc", "--control", "fanuc-m", "--trace", "out.jsonl")
+    last = json.loads((console.folder / "out.jsonl").read_text(encoding="utf-8").splitlines()[-1])
+    assert (last["type"], last["code"], last["line"]) == ("alarm", "PS0010", 3)
+    assert last["text"]
+
+
+def test_the_state_holds_positions_modes_variables_and_times(console: Console) -> None:
+    console.file("good.nc", GOOD.replace("M30", "#100=7\nM30"))
+    console("run", "good.nc", "--control", "fanuc-m", "--state", "state.json")
+    state = json.loads((console.folder / "state.json").read_text(encoding="utf-8"))
+    assert state["final"]["work"] == {"X": 120, "Y": 40, "Z": 50}
+    assert state["variables"]["#100"] == 7
+    assert state["alarms"] == []
+    assert state["time_s"] > 0
+    assert state["tools"][-1]["tool"] == 1
+    assert "G90" in state["modes"].values()
+
+
+def test_what_the_program_prints_goes_to_its_own_file(console: Console) -> None:
+    console.file("print.nc", "O1\n#101=1.5\nPOPEN\nDPRNT[A#101[23]]\nPCLOS\nM30\n")
+    said = console("run", "print.nc", "--control", "fanuc-m", "--print", "out.txt")
+    assert said.status == 0
+    assert (console.folder / "out.txt").read_text(encoding="utf-8").startswith("A")
+
+
+def test_an_output_file_is_written_whole_or_not_at_all(console: Console) -> None:
+    console.file("good.nc", GOOD)
+    console.file("out.csv", "precious")
+    said = console("run", "good.nc", "--control", "fanuc-m", "--trace", "out.csv", "--print", "missing/out.txt")
+    assert said.status == 2
+    assert (console.folder / "out.csv").read_text(encoding="utf-8") == "precious"
+    assert sorted(path.name for path in console.folder.iterdir()) == ["good.nc", "out.csv"]
+
+
+def test_a_setup_file_and_a_machine_file_are_used(console: Console) -> None:
+    console.file("good.nc", GOOD)
+    console.file("small.toml", 'base = "mill3"\n[axis.X]\nlimit_plus = 50\n')
+    console.file("setup.yaml", "machine: small.toml\n")
+    assert console("run", "good.nc", "--control", "fanuc-m").status == 0
+    assert console("run", "good.nc", "--control", "fanuc-m", "--machine", "small.toml").status == 1
+    assert console("run", "good.nc", "--control", "fanuc-m", "--setup", "setup.yaml").status == 1
+
+
+def test_subprograms_are_found_beside_the_program_and_in_search_folders(console: Console) -> None:
+    console.file("main.nc", "O1\nM98 P9001\nM98 P9002\nM30\n")
+    console.file("O9001.nc", "O9001\nG0 X1.\nM99\n")
+    (console.folder / "lib").mkdir()
+    console.file("lib/O9002.nc", "O9002\nG0 X2.\nM99\n")
+    assert console("run", "main.nc", "--control", "fanuc-m").status == 1
+    assert console("run", "main.nc", "--control", "fanuc-m", "--search", "lib").status == 0
+
+
+def test_a_program_can_come_from_standard_input(console: Console, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdin", SimpleNamespace(buffer=io.BytesIO(GOOD.encode())))
+    assert console("run", "-", "--control", "fanuc-m").status == 0
+
+
+def test_the_block_limit_ends_a_loop(console: Console) -> None:
+    console.file("loop.nc", "O1\nN1 #100=#100+1\nGOTO 1\n")
+    assert console("run", "loop.nc", "--control", "fanuc-m", "--block-limit", "500").status == 1
+
+
+@pytest.mark.parametrize(
+    ("seconds", "shown"), [(0, "0:00.0"), (59.96, "1:00.0"), (61.5, "1:01.5"), (3725, "1:02:05.0"), (0.04, "0:00.0")]
+)
+def test_times_are_shown_as_on_a_clock(seconds: float, shown: str) -> None:
+    assert clock(seconds) == shown
+
+
+def test_a_long_list_of_messages_is_cut(console: Console) -> None:
+    console.file("loud.nc", "O1\nWHILE [#100 LT 60] DO1\n#100=#100+1\n#3006=1(LOOK)\nEND1\nM30\n")
+    said = console("run", "loud.nc", "--control", "fanuc-m")
+    assert said.out.count("LOOK") < 60
+    assert "more messages" in said.out

@@ -1,0 +1,84 @@
+from __future__ import annotations
+
+import csv
+import io
+import json
+
+import pytest
+
+from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.export import WRITERS, Csv, JsonLines, Parquet, arrow_table, rounded
+from tests.toolpath.paths import Z_UP, Draft
+
+
+@pytest.fixture
+def draft() -> Draft:
+    draft = Draft(chunk_rows=2)
+    draft.event("t", tool=2)
+    draft.move(Kind.RAPID, 10, -0.0, 5.000000000001)
+    draft.move(Kind.CW, 20, 10, 5, feed=2, curve=(20, 0, 5, *Z_UP, 0))
+    draft.event("message", text="工件, 完成")
+    return draft.under(Context(inch=True)).move(Kind.FEED, 25.4, 0, 0, feed=1)
+
+
+def written_text(writer: type[JsonLines | Csv], draft: Draft) -> str:
+    stream = io.StringIO()
+    made = writer(stream, draft.display(), {})
+    for chunk in draft.toolpath.chunks:
+        made.take(chunk)
+    made.close()
+    return stream.getvalue()
+
+
+def test_json_lines_hold_one_object_a_row_in_order(draft: Draft) -> None:
+    records = [json.loads(line) for line in written_text(JsonLines, draft).splitlines()]
+    assert records == [rounded(record) for record in draft.display().records()]
+    assert len(records) == 5
+
+
+def test_rounding_noise_and_negative_zero_are_not_written(draft: Draft) -> None:
+    line = written_text(JsonLines, draft).splitlines()[1]
+    assert '"to": {"X": 10.0, "Y": 0.0, "Z": 5.0}' in line
+
+
+def test_csv_has_a_column_for_every_value_and_leaves_empty_what_a_row_does_not_have(draft: Draft) -> None:
+    rows = list(csv.DictReader(io.StringIO(written_text(Csv, draft))))
+    assert rows[0]["tool"] == "2"
+    assert rows[0]["x"] == ""
+    assert (rows[2]["center_x"], rows[2]["center_z"], rows[2]["feed"]) == ("20.0", "", "120.0")
+    assert rows[3]["text"] == "工件, 完成"
+    assert (rows[4]["unit"], rows[4]["x"]) == ("inch", "1.0")
+
+
+def test_csv_of_a_run_without_rows_still_has_its_header() -> None:
+    assert written_text(Csv, Draft()).startswith("type,program,line,unit,x,y,z,")
+
+
+def test_an_arrow_table_holds_the_same_values_with_null_for_what_is_absent(draft: Draft) -> None:
+    display = draft.display()
+    table = arrow_table(display, display.records(), {"control": "fanuc-m"})
+    rows = table.to_pylist()
+    assert [row["type"] for row in rows] == ["t", "rapid", "cw", "message", "feed"]
+    assert rows[1]["feed"] is None
+    assert rows[2]["center_y"] == 0
+    assert rows[0]["tool"] == "2"
+    assert table.schema.metadata == {b"control": b"fanuc-m"}
+
+
+def test_parquet_reads_back_as_the_arrow_table(draft: Draft) -> None:
+    from pyarrow import parquet
+
+    stream = io.BytesIO()
+    writer = Parquet(stream, draft.display(), {"control": "fanuc-m"})
+    for chunk in draft.toolpath.chunks:
+        writer.take(chunk)
+    writer.close()
+    display = draft.display()
+    expected = arrow_table(display, display.records(), {"control": "fanuc-m"})
+    read = parquet.read_table(io.BytesIO(stream.getvalue()))
+    assert read.to_pylist() == expected.to_pylist()
+    assert read.schema.equals(expected.schema, check_metadata=True)
+
+
+def test_every_suffix_has_a_writer() -> None:
+    assert set(WRITERS) == {".jsonl", ".csv", ".parquet"}
