@@ -7,7 +7,7 @@ from importlib import resources
 from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from polycnc.control.sinumerik import frames, functions, gcodes, procedures, stages, tables
+from polycnc.control.sinumerik import frames, functions, gcodes, procedures, stages, tables, variables_by_name
 from polycnc.control.sinumerik.frames import Frames, stored_frames
 from polycnc.control.sinumerik.machine_data import MachineData
 from polycnc.control.sinumerik.memory import Memory
@@ -15,8 +15,10 @@ from polycnc.control.sinumerik.plan import make_plan
 from polycnc.control.sinumerik.spindles import Spindle, Spindles
 from polycnc.control.sinumerik.system_variables import SystemVariables
 from polycnc.control.sinumerik.tools import tools_of_setup
+from polycnc.language.sinumerik.executable import SinumerikProgram
 from polycnc.language.sinumerik.interface import LanguageMemory
 from polycnc.language.sinumerik.nc_frame import GEOMETRY_AXES, NEUTRAL
+from polycnc.language.sinumerik.sections import end_of_subprogram
 from polycnc.language.sinumerik.values import Axis
 from polycnc.messages import AlarmError, Catalogue
 from polycnc.program import Form
@@ -43,7 +45,9 @@ class Sinumerik:
     id: ClassVar[str] = "sinumerik-840d"
     default_machine: ClassVar[str] = "mill3"
     form: ClassVar[Form] = Form.SINUMERIK
-    g_groups: ClassVar[Mapping[str, int]] = {word: group.number for word, group in gcodes.GROUP_OF.items()}
+
+    def __init__(self) -> None:
+        self.g_groups: Mapping[str, int] = {word: group.number for word, group in gcodes.GROUP_OF.items()}
 
     @cached_property
     def catalogue(self) -> Catalogue:
@@ -59,8 +63,6 @@ class Sinumerik:
 
     def compile(self, program: Program) -> Executable:
         """Make a program ready to run."""
-        from polycnc.language.sinumerik import SinumerikProgram
-
         return SinumerikProgram(program, self)
 
     def start(self, channel: Channel) -> None:
@@ -85,7 +87,12 @@ class Sinumerik:
         count = data.integer("$MC_MM_NUM_R_PARAM") if data.is_set("$MC_MM_NUM_R_PARAM") else R_PARAMETERS
         global_bases = data.integer("$MN_MM_NUM_GLOBAL_BASE_FRAMES")
         return Memory(
-            language=LanguageMemory([0.0] * count, names),
+            language=LanguageMemory(
+                [0.0] * count,
+                names,
+                exact_order=bool(data.integer("$MN_PROG_FUNCTION_MASK") & 1),
+                main_variables_everywhere=bool(data.integer("$MN_LUD_EXTENDED_SCOPE")),
+            ),
             data=data,
             frames=Frames(
                 settable=stored_frames(
@@ -106,8 +113,6 @@ class Sinumerik:
     def end_of_program(self, channel: Channel) -> None:
         """The text has ended: as M30, or as M17 in a subprogram."""
         if len(channel.stack) > 1:
-            from polycnc.language.sinumerik import end_of_subprogram
-
             end_of_subprogram(channel)
         else:
             channel.end()
@@ -153,6 +158,11 @@ class Sinumerik:
         """Wait for the main run: everything held back is written; the block need not come again."""
         channel.flush()
         return False
+
+    def restarts(self, channel: Channel) -> bool:
+        """Whether GOTOS goes back to the program start (DB21 ff., DBX384.0)."""
+        number = 20 + channel.number
+        return bool(channel.setup.switches.plc.get(f"DB{number}.DBX384.0"))
 
     def skipped(self, channel: Channel, level: int) -> bool:
         """Whether blocks marked `/` with this level are skipped now."""
@@ -224,15 +234,11 @@ class Sinumerik:
 
     def read_variable(self, channel: Channel, name: str) -> object:
         """The value of a variable as a program would name it (`R1`, `$P_GG[6]`, a user variable)."""
-        from polycnc.language.sinumerik import read_variable
-
-        return read_variable(channel, name)
+        return variables_by_name.read(channel, name)
 
     def write_variable(self, channel: Channel, name: str, value: object) -> None:
         """Set a variable as a program would name it."""
-        from polycnc.language.sinumerik import write_variable
-
-        write_variable(channel, name, value)
+        variables_by_name.write(channel, name, value)
 
     def variable_names(self, channel: Channel) -> list[str]:
         """Names of all variables that hold something."""

@@ -114,7 +114,7 @@ def number(values: tuple[Any, ...], position: int) -> float:
     """The value of a word as a number; alarm 12150 for a text, an axis or a frame."""
     value = values[position]
     if value.__class__ is float:
-        return value  # type: ignore[no-any-return]
+        return value
     if isinstance(value, (int, float)):
         return float(value)
     raise WordAlarm("12150", position, text=str(value.name if isinstance(value, Axis) else value))
