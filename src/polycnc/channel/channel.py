@@ -77,6 +77,7 @@ class Channel:
         feed: Feed in force in internal units (mm/s, mm/rev, 1/s as the feed mode says), NaN when none was programmed.
         level: The running program level, `stack[-1]`.
         head: First stage of the path, or None while moves go straight to the table.
+        mark: Rows of the chunk when the running block began.
         memory: The control's own state (variables, offsets, tools), set by `Control.start`.
     """
 
@@ -119,6 +120,7 @@ class Channel:
         self.alarms: list[Alarm] = []
         self._finished = False
         self.attention = False
+        self.mark = 0
         self.blocks = 0
         self.block_limit = block_limit
         self._wait: Wait | None = None
@@ -192,7 +194,7 @@ class Channel:
         """Call a program: it runs next, `repeats` more times after the first pass."""
         name = self.toolpath.program_number(program.name)
         code = self.executable(program)
-        level = Level(code, getattr(code, "steps", ()), index, index, name, repeats, index, kind, local)
+        level = Level(code, index, index, name, repeats, index, kind, local)
         self.stack.append(level)
         self.level = level
         return level
@@ -235,7 +237,7 @@ class Channel:
         path, the end) sets `attention`, and only that is asked after every block.
         """
         toolpath = self.toolpath
-        mark = toolpath.mark()
+        self.mark = toolpath.mark()
         try:
             while not self._finished:
                 level = self._level
@@ -252,34 +254,34 @@ class Channel:
                             break
                     level.current = index
                     level.index = index + 1
-                    mark = len(kinds)
+                    self.mark = len(kinds)
                     step(self)
                     self.blocks += 1
-                    if self.attention or mark >= CHUNK_ROWS:
+                    if self.attention:
                         break
                 if self._head is not None:
                     self._head.block()
                 if self.blocks >= self.block_limit:
                     raise self.control.block_limit()
-                mark = toolpath.mark()
-                if mark >= CHUNK_ROWS:
+                self.mark = toolpath.mark()
+                if self.mark >= CHUNK_ROWS:
                     toolpath.block_boundary()
-                    mark = 0
+                    self.mark = 0
                     yield CHUNK
                 if self._wait is not None:
                     wait, self._wait = self._wait, None
                     yield wait
         except AlarmError as error:
-            self._take_back(mark)
+            self._take_back()
             self._alarm(error)
         except ArithmeticError as error:
-            self._take_back(mark)
+            self._take_back()
             self._alarm(self.control.arithmetic_alarm(error))
         except RecursionError:
-            self._take_back(mark)
+            self._take_back()
             self._alarm(AlarmError("PC0003"))
 
-    def _take_back(self, mark: int) -> None:
+    def _take_back(self) -> None:
         """The block that alarms does nothing: its rows vanish, the channel stands where it stood before.
 
         Moves that a stage holds back belong to blocks in front and are still made.
@@ -289,7 +291,7 @@ class Channel:
             with suppress(AlarmError):
                 head.flush()
             return
-        chunk = self.toolpath.chunk
+        chunk, mark = self.toolpath.chunk, self.mark
         if len(chunk) > mark:
             self.toolpath.truncate(mark)
             end = list(chunk.end[-chunk.axes :]) if mark else self._start
@@ -352,20 +354,21 @@ class Channel:
     def straight(self, kind: Kind, end: list[float], feed: float, programmed: list[float] | None = None) -> None:
         """Move to `end` (absolute display, all axes) in a straight line. No way, no row."""
         coordinates = self.coordinates
-        if end == coordinates.position:
-            coordinates.arrive(end, programmed)
-            return
-        level = self._level
-        context = self._context if not self._context_changed else self.context_number()
-        if self._limits or self.stroke_zone is not None:
-            self._check_limits(end)
-        line = level.code.line(level.current)
-        if self._head is None:
-            self.toolpath.append(kind, level.program_number, line, context, feed, end)
+        start = coordinates.position
+        if end != start:
+            level = self._level
+            context = self._context if not self._context_changed else self.context_number()
+            if self._limits or self.stroke_zone is not None:
+                self._check_limits(end)
+            line = level.line_of(level.current)
+            if self._head is None:
+                self.toolpath.chunk.add(kind, level.program_number, line, context, feed, end, NO_CURVE)
+            else:
+                self._head.move(Move(kind, start, end, feed, level.program_number, line, context))
+        if programmed is None and coordinates.direct:
+            coordinates.position = coordinates.programmed = end
         else:
-            start = coordinates.position
-            self._head.move(Move(kind, start, end, feed, level.program_number, line, context))
-        coordinates.arrive(end, programmed)
+            coordinates.arrive(end, programmed)
 
     def curve(
         self,

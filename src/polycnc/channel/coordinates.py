@@ -9,7 +9,7 @@ absolute display. The zero frame and the offsets lead to the machine's axes: wor
 
 When offsets change, the machine stays where it is and the other positions follow. Whether a later *incremental* word
 travels the change as well differs: a tool length does, a work offset does not. `pending` holds what is still owed to
-incremental words.
+incremental words; `owes` says whether there is any.
 """
 
 from __future__ import annotations
@@ -34,12 +34,13 @@ class Coordinates:
         self.zero = IDENTITY
         self.offsets = [0.0] * len(axes)
         self.pending = [0.0] * len(axes)
+        self.owes = False
         self.position = list(machine)
         self.programmed = self.position
 
     def image(self, frame: Frame, point: list[float]) -> list[float]:
         """A point of all axes mapped by a frame of the geometry axes; axes that do not exist count as zero."""
-        if frame.is_identity:
+        if frame is IDENTITY or frame.is_identity:
             return point
         mapped = frame.apply(*(point[i] if i >= 0 else 0.0 for i in self.geometry))
         result = list(point)
@@ -121,3 +122,4 @@ class Coordinates:
             self.pending = [
                 owed + old - new for owed, old, new in zip(self.pending, before, self.position, strict=True)
             ]
+            self.owes = any(self.pending)

@@ -40,7 +40,7 @@ class Level:
 
     Attributes:
         code: The program.
-        steps: Its kept steps, at hand.
+        steps: Kept steps of the program, and `line_of` its `line`: at hand, because every block asks.
         index: The step that runs next.
         current: The step that is running.
         program_number: Number of the program in the toolpath.
@@ -52,7 +52,6 @@ class Level:
     """
 
     code: Executable
-    steps: Sequence[Step | None] = ()
     index: int = 0
     current: int = 0
     program_number: int = 0
@@ -61,3 +60,9 @@ class Level:
     kind: str = "main"
     locals: Any = None
     data: dict[Any, Any] = field(default_factory=dict)
+    steps: Sequence[Step | None] = field(init=False)
+    line_of: Callable[[int], int] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.steps = getattr(self.code, "steps", ())
+        self.line_of = self.code.line

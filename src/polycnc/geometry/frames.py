@@ -108,6 +108,10 @@ def about(center: Vector, frame: Frame) -> Frame:
 
 def cos_sin_deg(angle_deg: float) -> tuple[float, float]:
     """Cosine and sine of an angle in degrees, exact at multiples of 90."""
-    turn = angle_deg % 360.0
-    exact = {0.0: (1.0, 0.0), 90.0: (0.0, 1.0), 180.0: (-1.0, 0.0), 270.0: (0.0, -1.0)}.get(turn)
-    return exact if exact is not None else (cos(radians(turn)), sin(radians(turn)))
+    if angle_deg % 90.0 == 0.0:
+        return _QUARTERS[int(angle_deg % 360.0 / 90.0)]
+    angle = radians(angle_deg % 360.0)
+    return cos(angle), sin(angle)
+
+
+_QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))

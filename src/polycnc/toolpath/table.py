@@ -8,7 +8,7 @@ degrees, feeds mm/s, mm/rev or 1/s as the context's feed mode says.
 from __future__ import annotations
 
 from array import array
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from math import isnan, nan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -49,7 +49,9 @@ class Row(NamedTuple):
 class Chunk:
     """Up to `CHUNK_ROWS` rows. `axes` is the number of channel axes; `end` is flat, `axes` numbers a row."""
 
-    __slots__ = ("axes", "context", "curve", "curves", "end", "events", "feed", "first", "kind", "line", "program")
+    __slots__ = (
+        "add", "axes", "context", "curve", "curves", "end", "events", "feed", "first", "kind", "line", "program",
+    )  # fmt: skip
 
     def __init__(self, axes: int, first: int) -> None:
         self.axes = axes
@@ -63,6 +65,23 @@ class Chunk:
         self.curve = array("i")
         self.curves = array("d")
         self.events: list[Event] = []
+        self.add = self._row_writer()
+
+    def _row_writer(self) -> Callable[[int, int, int, int, float, Sequence[float], int], None]:
+        """What adds a row. The columns' own methods are at hand: this runs once for every row of a program."""
+        kind, program, line, context = self.kind.append, self.program.append, self.line.append, self.context.append
+        feed, end, curve = self.feed.append, self.end.extend, self.curve.append
+
+        def add(k: int, p: int, n: int, c: int, f: float, e: Sequence[float], v: int = NO_CURVE) -> None:
+            kind(k)
+            program(p)
+            line(n)
+            context(c)
+            feed(f)
+            end(e)
+            curve(v)
+
+        return add
 
     def __len__(self) -> int:
         return len(self.kind)
@@ -145,14 +164,7 @@ class Toolpath:
         self, kind: int, program: int, line: int, context: int, feed: float, end: list[float], curve: int = NO_CURVE
     ) -> None:
         """Add a row. `curve` is what `add_curve` gave for it, or `NO_CURVE`."""
-        chunk = self.chunk
-        chunk.kind.append(kind)
-        chunk.program.append(program)
-        chunk.line.append(line)
-        chunk.context.append(context)
-        chunk.feed.append(feed)
-        chunk.end.extend(end)
-        chunk.curve.append(curve)
+        self.chunk.add(kind, program, line, context, feed, end, curve)
 
     def add_curve(self, *parameters: float) -> int:
         """Store curve parameters in the current chunk (padded with zeros) and give their row."""

@@ -48,6 +48,7 @@ class GCode:
         takes: Addresses beside the axis words that a block with this code may hold; `,R` as `,R`, blank-separated.
         axis_words: The code takes the axis words of its block, so that the active motion code does not.
         order: When in the block it acts.
+        ends: Another modal group that goes back to its power-on code (a motion code ends a drilling cycle).
         not_yet: Known to the control, not executed by polycnc.
     """
 
@@ -58,6 +59,7 @@ class GCode:
     takes: str = ""
     axis_words: bool = False
     order: Order = Order.SETTING
+    ends: str = ""
     not_yet: bool = False
 
     @property

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.control.word_address import coordinates, path
 from polycnc.control.word_address.codes import GCode, MCode
+from polycnc.control.word_address.drilling import Drilling, give_way, plan_drilling
 from polycnc.control.word_address.memory import Memory
 from polycnc.control.word_address.numbers import NumberRules
 from polycnc.control.word_address.plan import Builder, Plan
@@ -17,7 +18,7 @@ from polycnc.program import Form
 from polycnc.toolpath import Context
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
@@ -40,6 +41,7 @@ class WordAddressControl:
         power_on: Code of every modal group at power-on.
         alarms: Names of mistakes to alarm codes.
         foreign_codes: Codes of other makers to message ids of hints.
+        drilling: The drilling cycles.
         FEED_AT_START: Feed that holds before any F (mm/s), or None for the alarm of a missing feed.
         DIAMETER_PROGRAMMING: Axes marked as transverse are programmed in diameters.
         INCREMENTAL_ADDRESSES: Addresses that are increments of an axis whatever the mode (U is X …).
@@ -53,6 +55,7 @@ class WordAddressControl:
     power_on: ClassVar[Mapping[str, str]] = {}
     alarms: ClassVar[Mapping[str, str]] = {}
     foreign_codes: ClassVar[Mapping[str, str]] = {}
+    drilling: ClassVar[Drilling] = Drilling({})
     FEED_AT_START: ClassVar[float | None] = None
     DIAMETER_PROGRAMMING: ClassVar[bool] = False
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {}
@@ -149,8 +152,19 @@ class WordAddressControl:
 
     def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
         """The step of the active motion code for the axis words of a block."""
+        if builder.mode.codes.get("cycle", "") in self.drilling.cycles:
+            return plan_drilling(builder, plan)
+        give_way(builder)
         planner = self.g_codes[builder.mode["motion"]].planner
         return planner(builder, plan) if planner is not None else None
+
+    def modal_changes(self, rows: list[GCode]) -> Iterator[tuple[str, str]]:
+        """The modal groups that the G codes of a block change, in the order typed."""
+        for row in rows:
+            if row.ends:
+                yield row.ends, self.power_on[row.ends]
+            if row.group:
+                yield row.group, row.code
 
     def after_motion(self, _builder: Builder, _plan: Plan) -> list[Step]:
         """Further steps behind the motion (modal macro calls)."""

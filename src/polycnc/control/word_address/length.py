@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address import drilling
 from polycnc.control.word_address.coordinates import refresh_zero
 from polycnc.toolpath import Kind
 
@@ -73,7 +74,8 @@ def _shift(channel: Channel) -> None:
 
 def _travel(channel: Channel) -> None:
     """Without a Z word the axis moves by the change at once, as `G91 Z0` would, where the control has it so."""
-    if not channel.control.LENGTH_TRAVELS_ALONE:
+    if not channel.control.LENGTH_TRAVELS_ALONE or drilling.is_active(channel):
+        # In a drilling cycle the way to R brings the new length in (Hartford 3.3.4, note 6).
         return
     c = channel.coordinates
     z = c.geometry[2]

@@ -10,6 +10,7 @@ from polycnc.geometry.frames import IDENTITY, Frame
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.compensation import CutterCompensation
+    from polycnc.control.word_address.drilling import CycleData
     from polycnc.control.word_address.macro_calls import ModalCall
 
 #: Name of the offset that is added to every work coordinate system.
@@ -66,6 +67,7 @@ class Memory:
         h: Number of the active length offset; `d` of the radius offset.
         side: Side that G41/G42 ask for: 1, -1, 0 off.
         compensation: The stage that compensates, once it was needed.
+        cycle_data: What the active drilling cycle remembers.
         intermediate: Intermediate point of the last G28/G30 (programmed coordinates), for G29.
     """
 
@@ -100,6 +102,7 @@ class Memory:
         self.spindle_speed = 0.0
         self.spindle_direction = 0
         self.spindle_limit_rpm = 0.0
+        self.cycle_data: CycleData | None = None
         self.intermediate: list[float] | None = None
         self.skip_position: list[float] | None = None
         self.frames = ProgrammingFrames()

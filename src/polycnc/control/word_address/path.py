@@ -39,7 +39,8 @@ def target(channel: Channel, words: tuple[AxisWord, ...], values: list[float]) -
             end[axis] += value + c.pending[axis]
         else:
             end[axis] = value
-        c.pending[axis] = 0.0
+        if c.owes:
+            c.pending[axis] = 0.0
     return end
 
 
@@ -62,8 +63,8 @@ def _plan_straight(builder: Builder, plan: Plan, kind: Kind) -> Step | None:
     rapid = kind == Kind.RAPID
     feed_named = builder.has("F")
     polar = builder.mode.codes.get("polar") == "G16"
-    plain = all(not word.incremental and word.convert is None for word in words) and not polar
-    pairs = tuple((word.axis, word.slot) for word in words)
+    absolute = not polar and not any(word.incremental for word in words)
+    targets = tuple((word.axis, word.slot, word.convert) for word in words)
 
     def move(channel: Channel, values: list[float]) -> None:
         if rapid:
@@ -73,11 +74,10 @@ def _plan_straight(builder: Builder, plan: Plan, kind: Kind) -> Step | None:
             if not feed > 0.0:
                 raise control.fail("no_feed")
         c = channel.coordinates
-        if plain and c.direct:
+        if absolute and c.direct and not c.owes:
             end = c.position[:]
-            for axis, slot in pairs:
-                end[axis] = values[slot]
-                c.pending[axis] = 0.0
+            for axis, slot, convert in targets:
+                end[axis] = values[slot] if convert is None else convert(values[slot])
             if corner is not None:
                 corner(channel, values)
             channel.straight(kind, end, feed)

@@ -70,7 +70,7 @@ class Builder:
         mode: Modal state that the block brings.
         slots: Address to (index of its value, how it was written); of a repeated address the last one counts.
         typed: All words in the order typed, repeated ones included: (address, index, how written).
-        codes: Rows of the block's G codes; of one group only the last.
+        codes: Rows of the block's G codes in the order typed; of one group only the last.
     """
 
     def __init__(self, channel: Channel, control: WordAddressControl, signature: tuple[str, ...]) -> None:
@@ -85,7 +85,7 @@ class Builder:
         self.m_codes: list[int] = []
         self._taken: set[str] = set()
         self._read_signature()
-        self.mode = self.before.with_codes((row.group, row.code) for row in self.codes if row.group)
+        self.mode = self.before.with_codes(control.modal_changes(self.codes))
         self.inch = control.is_inch(self.mode)
         self.rules = control.number_rules(channel)
 
@@ -99,6 +99,7 @@ class Builder:
                     self.m_codes.append(int(float(key[1:])))
                 else:
                     row = self._row(key)
+                    by_group.pop(row.group or row.code, None)
                     by_group[row.group or row.code] = row
                 continue
             address = key.rstrip(FORMS)
@@ -126,6 +127,10 @@ class Builder:
     def take(self, *addresses: str) -> None:
         """Somebody deals with these addresses."""
         self._taken.update(addresses)
+
+    def is_free(self, address: str) -> bool:
+        """Whether nobody deals with an address yet."""
+        return address not in self._taken and "*" not in self._taken
 
     def slot(self, address: str) -> int | None:
         """Index of a word's value, or None."""

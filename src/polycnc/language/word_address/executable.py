@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.language.word_address.macro_b import Reader, compile_source
-from polycnc.language.word_address.statements import KEYWORD, Joinable, join, parse_statement
+from polycnc.language.word_address.joining import JOINABLE, MAX_JOINED, join, join_loop
+from polycnc.language.word_address.statements import KEYWORD, LoopEnd, parse_statement
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock, code_key, is_fixed_code, word_key
 from polycnc.messages import AlarmError
 
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
 
 #: Longer blocks are refused: no control stores one, and a damaged file must not fill the memory.
 MAX_BLOCK_LENGTH = 4096
-#: How many macro statements are joined into one step at the most.
-MAX_JOINED = 200
 _PLAIN = re.compile(r"(?:[A-Z][-+]?(?:\d+\.?\d*|\.\d+)[ \t]*)+;?")
 _WORD = re.compile(r"([A-Z])([-+]?)([\d.]+)")
 _COMMENT = re.compile(r"\([^)]*\)?")
@@ -74,12 +73,10 @@ class WordAddressProgram:
         self._reached = bytearray(len(self.lines))
         self._sequences: dict[int, list[int]] | None = None
         self._loops: dict[tuple[int, int], int] = {}
+        #: The line in the file of a step. Asked for every row, so it is the range's own method.
+        self.line = range(program.first_line, program.first_line + len(self.lines) + 1).__getitem__
 
     # ---- what the channel asks ----------------------------------------------------------------------------------
-
-    def line(self, index: int) -> int:
-        """The line in the file."""
-        return self.program.first_line + index
 
     def step(self, index: int) -> Step | None:
         """The step of a line; kept from its second run on, so that a long program does not fill the memory."""
@@ -87,21 +84,23 @@ class WordAddressProgram:
             return None
         step = self.compile(self.lines[index], index)
         if self._reached[index]:
-            if isinstance(step, Joinable):
+            if isinstance(step, JOINABLE):
                 step = self._joined(step, index)
             self.steps[index] = step
         self._reached[index] = 1
         return step
 
-    def _joined(self, first: Joinable, index: int) -> Step:
-        """A macro statement together with those that follow it; a jump between them still finds each one."""
-        statements = [(index, first)]
+    def _joined(self, first: Step, index: int) -> Step:
+        """A step together with those behind it that have been reached too; a jump still finds each one."""
+        stretch = [(index, first)]
         for i in range(index + 1, min(index + MAX_JOINED, len(self.lines))):
             following = self.compile(self.lines[i], i) if self._reached[i] else None
-            if not isinstance(following, Joinable):
+            if isinstance(following, LoopEnd):
+                return join_loop(stretch, i, following)
+            if not isinstance(following, JOINABLE):
                 break
-            statements.append((i, following))
-        return join(statements) if len(statements) > 1 else first
+            stretch.append((i, following))
+        return join(stretch) if len(stretch) > 1 else first
 
     def column(self, index: int, address: str) -> int:
         """Column, from 1, of an address (`X`, `,R`) or a code (`G41`) in a line; 0 when it is not there."""

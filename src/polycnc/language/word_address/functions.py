@@ -22,12 +22,12 @@ def round_half_away(x: float) -> float:
 
 def sin_(_m: Any, x: float) -> float:
     """Sine."""
-    return cos_sin_deg(x)[1]
+    return cos_sin_deg(x)[1] if x % 90.0 == 0.0 else math.sin(math.radians(x))
 
 
 def cos_(_m: Any, x: float) -> float:
     """Cosine."""
-    return cos_sin_deg(x)[0]
+    return cos_sin_deg(x)[0] if x % 90.0 == 0.0 else math.cos(math.radians(x))
 
 
 def tan_(m: Any, x: float) -> float:

@@ -7,9 +7,10 @@ steps in `channel.level.data`, so that a jump into a loop is found out at its EN
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from polycnc.language.word_address.functions import NAMESPACE, round_half_away
+from polycnc.language.word_address.functions import round_half_away
 from polycnc.language.word_address.macro_b import compile_source, compile_statement
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.language.word_address.executable import WordAddressProgram
     from polycnc.language.word_address.macro_b import Evaluate, Reader
+    from polycnc.messages import AlarmError
 
     Step = Callable[[Channel], None]
 
@@ -82,63 +84,21 @@ class Assignment:
     def __call__(self, channel: Channel) -> None:
         self._function(channel.memory, self.literals)
 
-    def python(self, _index: int) -> list[str]:
-        """The statement as Python."""
-        return [f"{self.target} = {self.source}"]
-
 
 class ConditionalJump:
     """`IF [c] GOTO n` and `IF [c] THEN statement`."""
 
-    __slots__ = ("_condition", "_jump", "literals", "source")
+    __slots__ = ("_condition", "jump", "literals", "source")
 
     def __init__(self, source: str, literals: list[float], jump: Step) -> None:
         self.source = source
         self.literals = literals
         self._condition = compile_source(source)
-        self._jump = jump
+        self.jump = jump
 
     def __call__(self, channel: Channel) -> None:
         if self._condition(channel.memory, self.literals):
-            self._jump(channel)
-
-    @property
-    def jump(self) -> Step:
-        """What goes to the target."""
-        return self._jump
-
-    def python(self, index: int) -> list[str]:
-        """The statement as Python; `j[index]` is its jump."""
-        return [f"if {self.source}:", f"    j[{index}](channel)", f"    if level.index != {index + 1}: return"]
-
-
-Joinable = Assignment | ConditionalJump
-_LITERAL = re.compile(r"(?<![\w.])k\[(\d+)\]")
-
-
-def join(statements: list[tuple[int, Joinable]]) -> Step:
-    """One step for macro statements that follow each other: what they would do one by one, without the way between.
-
-    Args:
-        statements: Steps with their numbers.
-    """
-    lines = ["def run(channel):", "    m = channel.memory", "    level = channel.level"]
-    literals: list[float] = []
-    jumps: dict[int, Step] = {}
-    for index, statement in statements:
-        offset = len(literals)
-        literals += statement.literals
-        if isinstance(statement, ConditionalJump):
-            jumps[index] = statement.jump
-        lines.append(f"    level.current = {index}")
-        for line in statement.python(index):
-            lines.append("    " + _LITERAL.sub(lambda match, by=offset: f"k[{int(match[1]) + by}]", line))
-    last = statements[-1][0]
-    lines += [f"    level.index = {last + 1}", f"    channel.blocks += {len(statements) - 1}"]
-    space: dict[str, Any] = {**NAMESPACE, "k": literals, "j": jumps}
-    exec(compile("\n".join(lines), "<macro>", "exec"), space)  # noqa: S102 - the source is ours, not the user's
-    step: Step = space["run"]
-    return step
+            self.jump(channel)
 
 
 def parse_names(reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
@@ -217,7 +177,7 @@ def parse_while(reader: Reader, program: WordAddressProgram, index: int) -> Step
     """`WHILE [c] DO m`."""
     if reader.peek() != "[":
         raise reader.fail("while_format")
-    condition: Callable[[Channel], Any] = reader.evaluator(reader.condition())
+    condition = Condition(reader.condition(), reader.take_literals())
     if not reader.accept("DO"):
         raise reader.fail("while_format")
     number = _loop_number(reader)
@@ -225,7 +185,7 @@ def parse_while(reader: Reader, program: WordAddressProgram, index: int) -> Step
     def test(channel: Channel) -> None:
         end = program.loop_end(index, number)
         if condition(channel):
-            channel.level.data[number] = (index, end, condition)
+            channel.level.data[number] = Loop(index, end, condition)
         else:
             channel.level.data.pop(number, None)
             channel.level.index = end + 1
@@ -238,28 +198,58 @@ def parse_do(reader: Reader, program: WordAddressProgram, index: int) -> Step:
     number = _loop_number(reader)
 
     def enter(channel: Channel) -> None:
-        channel.level.data[number] = (index, program.loop_end(index, number), None)
+        channel.level.data[number] = Loop(index, program.loop_end(index, number), None)
 
     return enter
 
 
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """A DO that has been passed: its step, that of its END, and the condition of its WHILE."""
+
+    start: int
+    end: int
+    condition: Condition | None
+
+
+class Condition:
+    """A condition of WHILE, and its generated source for joined steps."""
+
+    __slots__ = ("_function", "literals", "source")
+
+    def __init__(self, source: str, literals: list[float]) -> None:
+        self.source = source
+        self.literals = literals
+        self._function = compile_source(source)
+
+    def __call__(self, channel: Channel) -> bool:
+        return bool(self._function(channel.memory, self.literals))
+
+
 def parse_end(reader: Reader, _program: WordAddressProgram, index: int) -> Step:
+    """`END m`."""
+    return LoopEnd(_loop_number(reader), index, reader.fail("missing_do", 0))
+
+
+class LoopEnd:
     """`END m`: tests the condition of the DO that was passed and goes back behind it."""
-    number = _loop_number(reader)
-    missing = reader.fail("missing_do", 0)
 
-    def back(channel: Channel) -> None:
+    __slots__ = ("_index", "_missing", "number")
+
+    def __init__(self, number: int, index: int, missing: AlarmError) -> None:
+        self.number = number
+        self._index = index
+        self._missing = missing
+
+    def __call__(self, channel: Channel) -> None:
         level = channel.level
-        loop = level.data.get(number)
-        if loop is None or loop[1] != index:
-            raise missing
-        start, _, condition = loop
-        if condition is None or condition(channel):
-            level.index = start + 1
+        loop = level.data.get(self.number)
+        if loop is None or loop.end != self._index:
+            raise self._missing
+        if loop.condition is None or loop.condition(channel):
+            level.index = loop.start + 1
         else:
-            del level.data[number]
-
-    return back
+            del level.data[self.number]
 
 
 def _loop_number(reader: Reader) -> int:

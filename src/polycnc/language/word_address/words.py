@@ -65,7 +65,10 @@ class WordBlock:
         plan = mode.plans.get(self.signature)
         if plan is None:
             plan = channel.control.plan(channel, self.signature)
-        plan.run(channel, self.values)
+        channel.mode = plan.mode
+        values = self.values
+        for step in plan.steps:
+            step(channel, values)
 
 
 class ExpressionBlock:
@@ -95,7 +98,9 @@ class ExpressionBlock:
         plan = channel.mode.plans.get(keys)
         if plan is None:
             plan = channel.control.plan(channel, keys)
-        plan.run(channel, values)
+        channel.mode = plan.mode
+        for step in plan.steps:
+            step(channel, values)
 
     def _shape(self, values: list[Any]) -> tuple[tuple[str, ...], list[float]]:
         """The signature of this run: computed codes in their place, words of vacant variables left out."""
