@@ -47,6 +47,7 @@ ALARMS: dict[str, str] = {
     "g10_number": "PS0031",
     "g10_value": "PS0032",
     "g10_format": "PS1144",
+    "cycle_word": "PS0045",
     # subprograms and macros
     "no_program": "PS0076",
     "nesting_sub": "PS0077",

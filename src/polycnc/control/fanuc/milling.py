@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.fanuc.milling_codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
+from polycnc.control.fanuc.milling_cycles import MILLING_DRILLING
 from polycnc.control.fanuc.system_variables import MILLING_VARIABLES
 from polycnc.control.word_address.milling import MillingControl
 from polycnc.control.word_address.variables import MacroMemory
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import GCode, MCode, Planner
+    from polycnc.control.word_address.drilling import Drilling
 
 
 class FanucMilling(MillingControl):
@@ -28,6 +30,7 @@ class FanucMilling(MillingControl):
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
+    drilling: ClassVar[Drilling] = MILLING_DRILLING
 
     def make_memory(self, channel: Channel) -> MacroMemory:
         """Offsets, tools and variables."""

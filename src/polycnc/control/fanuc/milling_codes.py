@@ -1,7 +1,8 @@
-"""G and M tables of the FANUC machining centre (Hartford manual §13.2, §14.2; FANUC macro B reference §10, §11)."""
+"""G and M tables of the FANUC machining centre (Hartford manual §13.2, §14.2; FANUC macro B)."""
 
 from __future__ import annotations
 
+from polycnc.control.fanuc.milling_cycles import MILLING_DRILLING
 from polycnc.control.word_address import (
     auxiliary,
     coordinates,
@@ -18,10 +19,10 @@ from polycnc.control.word_address import (
 from polycnc.control.word_address.codes import GCode, MCode, Order, m_table, not_yet, table
 
 G_CODES = table(
-    GCode("G0", "motion", planner=path.plan_rapid),
-    GCode("G1", "motion", planner=path.plan_line),
-    GCode("G2", "motion", planner=path.plan_arc_cw),
-    GCode("G3", "motion", planner=path.plan_arc_ccw),
+    GCode("G0", "motion", ends="cycle", planner=path.plan_rapid),
+    GCode("G1", "motion", ends="cycle", planner=path.plan_line),
+    GCode("G2", "motion", ends="cycle", planner=path.plan_arc_cw),
+    GCode("G3", "motion", ends="cycle", planner=path.plan_arc_ccw),
     GCode("G4", handler=auxiliary.dwell, takes="X P U", axis_words=True, order=Order.MOTION),
     GCode("G5", handler=extended.high_speed_machining, takes="P", order=Order.SETTING),
     GCode("G5.1", handler=extended.contour_control, takes="Q R", order=Order.SETTING),
@@ -69,6 +70,7 @@ G_CODES = table(
     GCode("G68", "rotation", frames.rotate, takes="R", axis_words=True),
     GCode("G69", "rotation", frames.end_rotation),
     GCode("G80", "cycle"),
+    *(GCode(code, "cycle") for code in MILLING_DRILLING.cycles),
     GCode("G90", "distance"),
     GCode("G91", "distance"),
     GCode("G92", handler=extended.set_position_or_limit, takes="S", axis_words=True, order=Order.MOTION),
@@ -83,8 +85,7 @@ G_CODES = table(
     not_yet(
         "G5.4", "G6.2", "G7.1", "G107", "G12.1", "G13.1", "G112", "G113", "G25", "G26", "G33", "G37", "G38", "G39",
         "G40.1", "G41.1", "G42.1", "G43.4", "G43.5", "G45", "G46", "G47", "G48", "G53.1", "G53.6", "G54.2", "G54.4",
-        "G60", "G68.2", "G68.3", "G68.4", "G73", "G74", "G76", "G81", "G82", "G83", "G84", "G84.2", "G84.3", "G85",
-        "G86", "G87", "G88", "G89", "G10.9",
+        "G60", "G68.2", "G68.3", "G68.4", "G10.9",
     ),
 )  # fmt: skip
 

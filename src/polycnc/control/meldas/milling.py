@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 from polycnc.control.fanuc.alarm_codes import ALARMS
 from polycnc.control.fanuc.milling_codes import ADDRESSES, M_CODES, POWER_ON
 from polycnc.control.fanuc.system_variables import MILLING_VARIABLES
+from polycnc.control.meldas.cycles import DRILLING
 from polycnc.control.meldas.milling_codes import G_CODES
 from polycnc.control.word_address.milling import MillingControl
 from polycnc.control.word_address.variables import MacroMemory
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import GCode, MCode, Planner
+    from polycnc.control.word_address.drilling import Drilling
 
 
 class MeldasMilling(MillingControl):
@@ -28,6 +30,7 @@ class MeldasMilling(MillingControl):
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
+    drilling: ClassVar[Drilling] = DRILLING
 
     def make_memory(self, channel: Channel) -> MacroMemory:
         """Offsets, tools and variables."""

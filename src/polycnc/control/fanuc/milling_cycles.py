@@ -1,0 +1,75 @@
+"""Drilling cycles of FANUC machining centres (Hartford manual §3.3.3; FANUC macro B reference §11)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.drilling import DrillCycle, Drilling, third_axis
+from polycnc.cycles import drilling
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.drilling import CycleData
+    from polycnc.control.word_address.plan import Builder
+
+CYCLES = {
+    "G73": DrillCycle(drilling.peck_breaking_chips, pecks=True, needs="Q"),
+    "G74": DrillCycle(drilling.tap, dwells=True, pecks=True),
+    "G76": DrillCycle(drilling.bore_and_shift, dwells=True),
+    "G81": DrillCycle(drilling.drill),
+    "G82": DrillCycle(drilling.drill, dwells=True),
+    "G83": DrillCycle(drilling.peck_clearing_chips, pecks=True, needs="Q"),
+    "G84": DrillCycle(drilling.tap, dwells=True, pecks=True),
+    "G84.2": DrillCycle(drilling.tap, dwells=True, pecks=True),
+    "G84.3": DrillCycle(drilling.tap, dwells=True, pecks=True),
+    "G85": DrillCycle(drilling.bore),
+    "G86": DrillCycle(drilling.bore_and_stop),
+    "G87": DrillCycle(drilling.bore_back, dwells=True),
+    "G88": DrillCycle(drilling.bore_and_halt, dwells=True),
+    "G89": DrillCycle(drilling.bore, dwells=True),
+}
+#: Parameter with the retract or clearance of each pecking cycle, mm.
+RELIEF_PARAMETERS = {"G73": 5114, "G83": 5115, "G74": 5213, "G84": 5213, "G84.2": 5213, "G84.3": 5213}
+
+
+def drilling_axis(builder: Builder) -> int:
+    """Z; the axis on the plane where 5101#0 says so."""
+    if builder.channel.setup.parameters.bit(5101, 0):
+        return third_axis(builder)
+    return builder.channel.coordinates.geometry[2]
+
+
+def relief(channel: Channel, code: str) -> float:
+    """Retract or clearance between pecks, mm. A pecking tap goes back to R where 5200#5 says so."""
+    parameters = channel.setup.parameters
+    number = RELIEF_PARAMETERS.get(code)
+    if number is None or (number == 5213 and parameters.bit(5200, 5)):
+        return 0.0
+    return parameters.number(number)
+
+
+def shift_off_wall(channel: Channel, data: CycleData, plane: tuple[int, int]) -> tuple[float, float]:
+    """I and J (Hartford manual); else Q in the direction of 5148 (signed axis number) or 5101#4, #5."""
+    if "I" in data or "J" in data:
+        return data.amount("I"), data.amount("J")
+    amount = abs(data.amount("Q"))
+    parameters = channel.setup.parameters
+    towards = int(parameters.number(5148, channel.axes[data.axis]))
+    if towards:
+        second = channel.coordinates.geometry[plane[1]] == abs(towards) - 1
+        amount = amount if towards > 0 else -amount
+    else:
+        second = bool(parameters.bit(5101, 5))
+        amount = -amount if parameters.bit(5101, 4) else amount
+    return (0.0, amount) if second else (amount, 0.0)
+
+
+MILLING_DRILLING = Drilling(
+    CYCLES,
+    kept="RQPIJ",
+    repeats="KL",
+    triggers="R",
+    axis=drilling_axis,
+    relief=relief,
+    shift=shift_off_wall,
+)

@@ -1,0 +1,153 @@
+"""Coordinate systems of the lathe: G50 setting and clamp, preset, G53, feed unit, planes with parallel axes."""
+
+from __future__ import annotations
+
+from math import nan
+from typing import TYPE_CHECKING
+
+from polycnc.control.fanuc.turning_tools import refresh
+from polycnc.control.word_address import coordinates
+from polycnc.control.word_address.path import PLANES
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.words import Words
+
+
+def set_position(channel: Channel, words: Words) -> None:
+    """G50 (B, C: G92): the present point reads these coordinates, or changes by U, W; S clamps the speed of G96.
+
+    The point is the one before the tool offset that moves it (II.5.1.2), so a T in the block moves nothing.
+    """
+    limit = words.typed("S")
+    if limit is not None:
+        channel.memory.spindle_limit_rpm = limit
+        channel.context_changed()
+    named = words.axes()
+    if not named:
+        return
+    c, memory = channel.coordinates, channel.memory
+    drop_vector(channel)
+    point = c.programmed[:]
+    for axis, value, incremental in named:
+        point[axis] = point[axis] + value if incremental else value
+        memory.local_shift[axis] = 0.0
+    refresh(channel)
+    wanted = c.to_position(point)
+    for axis, _, _ in named:
+        memory.preset_shift[axis] += c.position[axis] - wanted[axis]
+    refresh(channel)
+
+
+def set_local_system(channel: Channel, words: Words) -> None:
+    """G52: zero of a local system within each of G54 to G59; an increment moves it."""
+    local = channel.memory.local_shift
+    drop_vector(channel)
+    for axis, value, incremental in words.axes():
+        local[axis] = local[axis] + value if incremental else value
+    refresh(channel)
+
+
+def preset_system(channel: Channel, words: Words) -> None:
+    """G50.3 (B, C: G92.1): G50 and G52 of the named axes vanish, and offsets that move the point (1205#7)."""
+    memory = channel.memory
+    for axis, value, _ in words.axes():
+        if value != 0.0:
+            raise words.fail("preset_value", words.plan.axis_words[0].address)
+        memory.preset_shift[axis] = memory.local_shift[axis] = 0.0
+        if not memory.parameters.bit(1205, 7):
+            memory.frames.offset[axis] = 0.0
+    refresh(channel)
+    channel.coordinates.set_programming(memory.frames.product(), memory.frames.shift)
+
+
+def move_in_machine_system(channel: Channel, words: Words) -> None:
+    """G53: rapid to machine coordinates whatever the modal code; an increment is ignored by the control."""
+    _move_in_machine_system(channel, words, rapid=True)
+
+
+def feed_in_machine_system(channel: Channel, words: Words) -> None:
+    """G53.2: as G53, at the feed of G01; rapid under G00."""
+    _move_in_machine_system(channel, words, rapid=channel.mode["motion"] == "G0")
+
+
+def _move_in_machine_system(channel: Channel, words: Words, *, rapid: bool) -> None:
+    if not rapid and not channel.feed > 0.0:
+        raise words.fail("no_feed", "G53.2")
+    drop_vector(channel)
+    c = channel.coordinates
+    machine = c.machine
+    for axis, value, incremental in words.axes():
+        if not incremental:
+            machine[axis] = value
+    channel.straight(Kind.RAPID if rapid else Kind.FEED, c.from_machine(machine), nan if rapid else channel.feed)
+
+
+def return_to_reference(channel: Channel, words: Words) -> None:
+    """G28: over the intermediate point to the first reference point."""
+    _refuse_rotation(channel, words, "G28")
+    drop_vector(channel)
+    coordinates.return_to_reference(channel, words)
+
+
+def return_to_further_reference(channel: Channel, words: Words) -> None:
+    """G30 [P2 … P4]: over the intermediate point to another reference point."""
+    _refuse_rotation(channel, words, "G30")
+    drop_vector(channel)
+    coordinates.return_to_further_reference(channel, words)
+
+
+def check_reference(channel: Channel, words: Words) -> None:
+    """G27: rapid to the point, which must be the reference point of the named axes."""
+    _refuse_rotation(channel, words, "G27")
+    coordinates.check_reference(channel, words)
+
+
+def _refuse_rotation(channel: Channel, words: Words, code: str) -> None:
+    if channel.memory.frames.rotates:
+        raise words.fail("in_rotation", code)
+
+
+def drop_vector(channel: Channel) -> None:
+    """A command for which the tool goes to the uncompensated point and back (II.5.4.3)."""
+    stage = channel.memory.compensation
+    if stage is not None and stage.active:
+        stage.drop_vector()
+
+
+def keep_feed_number(channel: Channel, words: Words) -> None:
+    """G98, G99: the number of F stays as it is when its unit changes."""
+    memory = channel.memory
+    code = channel.mode["feed"]
+    before, memory.feed_code = memory.feed_code or code, code
+    if "F" not in words and before != code:
+        channel.feed = channel.feed * 60.0 if code == "G99" else channel.feed / 60.0
+    channel.context_changed()
+
+
+def feed_number(channel: Channel) -> float:
+    """F as the number that was typed, mm: the lead of a thread, whatever the feed unit."""
+    return channel.feed * (60.0 if channel.mode["feed"] == "G98" else 1.0)
+
+
+def select_plane(channel: Channel, words: Words) -> None:
+    """G17 to G19: the plane; an axis word names a parallel axis (1022) in place of the basic one."""
+    if channel.memory.side:
+        raise words.fail("comp_plane", channel.mode["plane"])
+    c, control = channel.coordinates, channel.control
+    basic = list(channel.memory.basic_geometry)
+    for axis, _, _ in words.axes():
+        role = control.axis_role(channel, axis)
+        if role in (5, 6, 7):
+            basic[role - 5] = axis
+    c.geometry = (basic[0], basic[1], basic[2])
+    channel.memory.single_cycle.clear()
+    channel.context_changed()
+
+
+def plane_axes(channel: Channel) -> tuple[int, int]:
+    """Channel axes that are the first and the second one of the active plane; -1 for one that is missing."""
+    u, v, _ = PLANES[channel.mode["plane"]]
+    geometry = channel.coordinates.geometry
+    return geometry[u], geometry[v]

@@ -1,0 +1,119 @@
+"""The memory of the lathe control: tool offsets of turning tools, shifts, and what cycles keep."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.word_address.memory import ProgrammingFrames
+from polycnc.control.word_address.variables import MacroMemory
+from polycnc.geometry.frames import IDENTITY, Frame, translation
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.variables import Registry
+    from polycnc.machine.setup import Offsets, Tool
+
+
+@dataclass(slots=True)
+class TurningOffset:
+    """One number of the offset memory; by axis name, mm, X as radius (0i-TF Plus II.5.1).
+
+    Attributes:
+        geometry: Geometry offset.
+        wear: Wear offset; the common offset where geometry and wear are not separate (8136#6).
+        second: Second geometry offset (II.5.1.4).
+        radius: Nose radius by geometry; `radius_wear` by wear.
+        tip: Imaginary tip number, one for geometry and wear.
+    """
+
+    geometry: dict[str, float] = field(default_factory=dict)
+    wear: dict[str, float] = field(default_factory=dict)
+    second: dict[str, float] = field(default_factory=dict)
+    radius: float = 0.0
+    radius_wear: float = 0.0
+    tip: int = 0
+
+
+class TurningFrames(ProgrammingFrames):
+    """The programming frame of a lathe: rotation or mirror first, then tool offsets that move the point."""
+
+    def __init__(self, axes: int, geometry: tuple[int, int, int]) -> None:
+        super().__init__()
+        self.offset = [0.0] * axes
+        self._geometry = geometry
+
+    def product(self) -> Frame:
+        """The whole frame of the geometry axes."""
+        x, y, z = (self.offset[i] if i >= 0 else 0.0 for i in self._geometry)
+        frame = translation(x, y, z) @ super().product()
+        return IDENTITY if frame.is_identity else frame
+
+    @property
+    def rotates(self) -> bool:
+        """Whether a rotation or a mirror is active."""
+        return bool(self.mirrored) or not self.rotation.is_identity
+
+    @property
+    def shift(self) -> list[float] | None:
+        """The offset of axes beside the geometry; None where there is none."""
+        shift = [0.0 if i in self._geometry else value for i, value in enumerate(self.offset)]
+        return shift if any(shift) else None
+
+
+class TurningMemory(MacroMemory):
+    """State of a lathe control.
+
+    Attributes:
+        offsets: Tool offsets by number.
+        offset_number_active: Number of the active offset, 0 for none; `geometry_number` the same for geometry.
+        tool_shift: Part of the active offset that shifts the coordinate system, by axis; `geometry_shift` the
+            part of it that is geometry.
+        work_shift: Shift of all work coordinate systems (G10 P0, work shift screen).
+        feed_code: G98 or G99 under which F was given.
+        single_cycle: Modal words of G90, G92, G94.
+        cycle_data: Modal words of drilling and grinding cycles.
+        reading_shape: Blocks are read for their shape only: T, S, M do nothing.
+    """
+
+    def __init__(self, channel: Channel, registry: Registry) -> None:
+        super().__init__(channel, registry)
+        count = len(channel.axes)
+        self.frames: TurningFrames = TurningFrames(count, channel.coordinates.geometry)
+        self.tool_shift = [0.0] * count
+        self.geometry_shift = [0.0] * count
+        self.work_shift = [0.0] * count
+        self.common_offsets = bool(self.parameters.bit(8136, 6))
+        self.offsets: dict[int, TurningOffset] = {}
+        for number, tool in channel.setup.tools.items():
+            if isinstance(number, int) or str(number).isdigit():
+                self.offsets[int(number)] = self._from_setup(tool)
+        self.offset_active = 0
+        self.geometry_active = 0
+        self.feed_code = ""
+        self.single_cycle: dict[str, Any] = {}
+        self.cycle_data: dict[str, Any] = {}
+        self.reading_shape = False
+        for name in self.work_offsets:
+            self.work_offsets[name] = [self.radius_of(i, value) for i, value in enumerate(self.work_offsets[name])]
+
+    def radius_of(self, axis: int, shown: float) -> float:
+        """A value of the displays (diameter where the axis has one), mm, in internal units."""
+        diameter = self.channel.control.is_diameter(self.channel, axis)  # type: ignore[attr-defined]
+        return shown / 2.0 if diameter else shown
+
+    def _from_setup(self, tool: Tool) -> TurningOffset:
+        def vector(values: Offsets | Tool) -> dict[str, float]:
+            named = {"X": values.x, "Y": values.y, "Z": values.z}
+            index = self.channel.axis_index
+            return {k: self.radius_of(index[k], v) if k in index else v for k, v in named.items() if v}
+
+        if self.common_offsets:
+            return TurningOffset(wear=vector(tool), radius_wear=tool.radius, tip=tool.tip)
+        return TurningOffset(
+            vector(tool), vector(tool.wear), vector(tool.geom2), tool.radius, tool.wear.radius, tool.tip
+        )
+
+    def turning_offset(self, number: int) -> TurningOffset:
+        """An offset number; zero until it is set."""
+        return self.offsets.setdefault(number, TurningOffset())

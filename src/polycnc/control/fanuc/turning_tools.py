@@ -1,0 +1,221 @@
+"""T on a lathe: turret and offset in one word, and how an offset acts (0i-TF Plus II.5.1).
+
+An offset has two parts, geometry and wear. Each acts in one of two ways, as parameter 5002 says: it *moves* the
+programmed point (the display then holds it), or it *shifts* the coordinate system (the display changes, the axes stay).
+"""
+
+from __future__ import annotations
+
+from math import nan
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.word_address.coordinates import refresh_zero
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.plan import Builder
+    from polycnc.control.word_address.words import Words
+
+#: Direction from the nose centre to the imaginary tip, along the plane's first and second axis (II.5.2.2).
+TIPS = {1: (1, 1), 2: (-1, 1), 3: (-1, -1), 4: (1, -1), 5: (1, 0), 6: (0, 1), 7: (-1, 0), 8: (0, -1)}
+THREADS = frozenset({"G32", "G34", "G35", "G36"})
+#: One-shot codes beside which a T is allowed.
+_BESIDE_T = frozenset({"G50"})
+MAX_OFFSETS = 999
+
+
+def plan_tool(builder: Builder) -> Step:
+    """T: turret position and offset number in one word; the offset acts with the block's motion."""
+    control, mode = builder.control, builder.mode
+    slot = builder.slots["T"][0]
+    if any(row.group == "" and row.code not in _BESIDE_T for row in builder.codes):
+        raise control.fail("tool_with_one_shot", address="T")
+    one_shot = any(row.axis_words for row in builder.codes)
+    moves = bool(builder.axis_words()) and not one_shot
+    thread = mode["motion"] in THREADS
+
+    def select(channel: Channel, values: list[float]) -> None:
+        memory = channel.memory
+        if memory.reading_shape:
+            return
+        tool, number = split_tool_word(channel, values[slot])
+        memory.tool = memory.next_tool = tool
+        channel.context_changed()
+        channel.event("t", tool=tool)
+        if number is None:
+            return
+        if thread:
+            raise control.fail("offset_in_thread", address="T")
+        select_offset(channel, number, tool)
+        if not moves and not one_shot:
+            move_by_offset(channel)
+
+    return select
+
+
+def split_tool_word(channel: Channel, value: float) -> tuple[int, int | None]:
+    """The code sent to the turret and the offset number; None where the tool has no offset in it (5040#3)."""
+    parameters = channel.memory.parameters
+    number = int(value)
+    if number != value or number < 0:
+        raise channel.control.fail("point" if number != value else "minus", address="T")
+    longest = int(parameters.number(3032, default=0))
+    if longest and len(str(number)) > longest:
+        raise channel.control.fail("too_many_digits", address="T")
+    if parameters.bit(5040, 3):
+        return number, None
+    tool, offset = divmod(number, 10 ** offset_digits(channel))
+    return tool, offset
+
+
+def offset_digits(channel: Channel) -> int:
+    """How many last digits of T are the offset number (5028; 0: as many as the offset sets need)."""
+    parameters = channel.memory.parameters
+    digits = int(parameters.number(5028, default=0))
+    if 1 <= digits <= 3:
+        return digits
+    sets = int(parameters.number(5024, default=0)) or 99
+    return 1 if sets < 10 else 2 if sets < 100 else 3
+
+
+def select_offset(channel: Channel, number: int, tool: int) -> None:
+    """Make an offset number the active one; number 0 cancels."""
+    if not 0 <= number <= MAX_OFFSETS:
+        raise channel.control.fail("offset_number", address="T")
+    memory = channel.memory
+    memory.offset_active = number
+    by_tool = memory.parameters.bit(5002, 1) and not memory.common_offsets
+    memory.geometry_active = 0 if not number else tool if by_tool else number
+    apply_offset(channel, cancels=number == 0)
+    renew_nose(channel)
+
+
+def apply_offset(channel: Channel, *, cancels: bool = False) -> None:
+    """Let the active offset act: a shift at once, a movement with the next motion."""
+    memory = channel.memory
+    moves, shifts = offset_parts(channel, cancels=cancels)
+    if memory.frames.rotates and shifts != memory.tool_shift:
+        raise channel.control.fail("offset_in_thread", address="T")
+    memory.tool_shift = shifts
+    refresh(channel)
+    memory.frames.offset = moves
+    c = channel.coordinates
+    if not memory.parameters.bit(5002, 6):
+        c.set_programming(memory.frames.product(), memory.frames.shift, stays=False)
+        return
+    before = c.programmed
+    c.set_programming(memory.frames.product(), memory.frames.shift)
+    c.pending = [p + old - new for p, old, new in zip(c.pending, before, c.programmed, strict=True)]
+
+
+def offset_parts(channel: Channel, *, cancels: bool = False) -> tuple[list[float], list[float]]:
+    """The active offset as movement and as shift of each axis, by 5002#2 (wear) and #4 (geometry)."""
+    memory = channel.memory
+    bit = memory.parameters.bit
+    wear = memory.turning_offset(memory.offset_active).wear if memory.offset_active else {}
+    geometry = geometry_values(channel) if memory.geometry_active else {}
+    wear_part = [wear.get(axis, 0.0) for axis in channel.axes]
+    geometry_part = [geometry.get(axis, 0.0) for axis in channel.axes]
+    nothing = [0.0] * len(channel.axes)
+    geometry_moves = bit(5002, 4)
+    if not geometry_moves:
+        if cancels and not bit(5002, 5):
+            # LGC = 0: offset number 0 leaves a shift by geometry as it is.
+            geometry_part = memory.geometry_shift
+        memory.geometry_shift = geometry_part
+    wear_moves = memory.common_offsets or not bit(5002, 2)
+    moves = _sum(wear_part if wear_moves else nothing, geometry_part if geometry_moves else nothing)
+    shifts = _sum(nothing if wear_moves else wear_part, nothing if geometry_moves else geometry_part)
+    return moves, shifts
+
+
+def _sum(a: list[float], b: list[float]) -> list[float]:
+    return [x + y for x, y in zip(a, b, strict=True)]
+
+
+def geometry_values(channel: Channel) -> dict[str, float]:
+    """Geometry of the active number, with the second geometry where the machine's signals ask for it (II.5.1.4)."""
+    memory = channel.memory
+    offset = memory.turning_offset(memory.geometry_active)
+    values = dict(offset.geometry)
+    if memory.signals.get("G2SLC"):
+        for axis, value in offset.second.items():
+            if memory.signals.get(f"G2{axis}"):
+                values[axis] = values.get(axis, 0.0) + value
+    return values
+
+
+def move_by_offset(channel: Channel) -> None:
+    """A T block without motion moves the axes by the change of the offset (5002#6 = 0)."""
+    c = channel.coordinates
+    if channel.memory.parameters.bit(5002, 6):
+        return
+    end = c.to_position(c.programmed)
+    if end == c.position:
+        return
+    rapid = channel.mode["motion"] == "G0"
+    if not rapid and not channel.feed > 0.0:
+        raise channel.control.fail("no_feed")
+    channel.straight(Kind.RAPID if rapid else Kind.FEED, end, nan if rapid else channel.feed, c.programmed)
+
+
+def refresh(channel: Channel) -> None:
+    """Work out the zero of the display anew: work offsets, shifts, tool."""
+    memory = channel.memory
+    memory.length_offset = _sum(memory.tool_shift, memory.work_shift)
+    refresh_zero(channel)
+
+
+def renew_nose(channel: Channel) -> None:
+    """Another offset number within compensation: radius and tip of the next block are those of the new one."""
+    memory = channel.memory
+    memory.d = memory.offset_active
+    stage = memory.compensation
+    if stage is not None and stage.active and memory.side:
+        stage.change_radius(nose_radius(channel), nose_tip(channel))
+
+
+def nose_radius(channel: Channel) -> float:
+    """Nose radius of the active offset: geometry and wear, mm."""
+    memory = channel.memory
+    if not memory.offset_active:
+        return 0.0
+    wear: float = memory.turning_offset(memory.offset_active).radius_wear
+    geometry: float = memory.turning_offset(memory.geometry_active).radius if memory.geometry_active else 0.0
+    return wear + geometry
+
+
+def nose_tip(channel: Channel) -> tuple[float, float]:
+    """Way from the nose centre to the imaginary tip in units of the radius (5002#7: whose tip number)."""
+    memory = channel.memory
+    by_wear = memory.common_offsets or memory.parameters.bit(5002, 7)
+    number = memory.offset_active if by_wear else memory.geometry_active
+    first, second = TIPS.get(memory.turning_offset(number).tip, (0, 0)) if number else (0, 0)
+    return (float(first), float(second))
+
+
+def offset_changed(channel: Channel) -> None:
+    """The offset memory was written: the active offset keeps its values until the next T, unless 5001#6 EVO."""
+    if channel.memory.parameters.bit(5001, 6):
+        apply_offset(channel)
+
+
+def select_by_code(channel: Channel, words: Words) -> None:
+    """G43.7 D: the offset of an ATC-type lathe (5040#3 TCT = 1; II.5.7)."""
+    if not channel.memory.parameters.bit(5040, 3):
+        raise words.fail("atc_not_chosen", "G43.7")
+    number: Any = words.integer("D")
+    if number is None:
+        return
+    select_offset(channel, number, number)
+    if not words.axes():
+        move_by_offset(channel)
+
+
+def cancel_by_code(channel: Channel, words: Words) -> None:
+    """G49: the offset of an ATC-type lathe ends."""
+    select_offset(channel, 0, 0)
+    if not words.axes():
+        move_by_offset(channel)

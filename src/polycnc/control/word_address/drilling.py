@@ -1,0 +1,323 @@
+"""Drilling cycles of word-address controls: words, their lifetimes, levels, repeats (strokes: `cycles`).
+
+A control states a `Drilling`: its cycles by code, how long each word lives, and the few amounts that come
+from its parameters. A cycle is modal in the group `cycle`; while one is active, blocks with axis words
+position and drill, and a motion code (a row with `ends="cycle"`) ends it. Cycle data are kept in the memory
+from the block that enters the mode until the mode ends.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import nan
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.path import FEED_MODES, PLANES, target
+from polycnc.cycles.drilling import Action, Cycle, Hole, Stroke
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.plan import AxisWord, Builder, Plan
+
+#: A value of the cycle data: in internal units (P as typed), and whether it is an increment.
+Datum = tuple[float, bool]
+BOTTOM = "bottom"
+
+
+@dataclass(frozen=True, slots=True)
+class DrillCycle:
+    """A row of a control's table of drilling cycles.
+
+    Attributes:
+        strokes: What the tool does.
+        dwells: P is the time at the bottom.
+        pecks: Q is the depth of a peck.
+        shifts: Q, or I J K, is the shift off the wall.
+        needs: Words without which the cycle is the alarm `cycle_word`.
+        bottom_from_initial: An incremental bottom counts from the initial level instead of from R.
+        axis: Drilling axis by name; empty for what `Drilling.axis` says.
+    """
+
+    strokes: Cycle
+    dwells: bool = False
+    pecks: bool = False
+    shifts: bool = False
+    needs: str = ""
+    bottom_from_initial: bool = False
+    axis: str = ""
+
+
+def third_axis(builder: Builder) -> int:
+    """The axis that stands on the active plane."""
+    return builder.channel.coordinates.geometry[PLANES[builder.mode["plane"]][2]]
+
+
+def in_milliseconds(value: float, _form: str) -> float:
+    """P counts milliseconds."""
+    return value / 1000.0
+
+
+def lead_from_feed(channel: Channel) -> float:
+    """Lead of a tap, mm: the feed per revolution, or the feed per minute over the spindle's speed."""
+    if FEED_MODES[channel.mode["feed"]] == "G95":
+        return channel.feed
+    speed: float = channel.memory.spindle_speed
+    return channel.feed * 60.0 / speed if speed > 0.0 else 0.0
+
+
+def no_relief(_channel: Channel, _code: str) -> float:
+    """Pecks follow each other without a retract."""
+    return 0.0
+
+
+def shift_by_center_words(_channel: Channel, data: CycleData, plane: tuple[int, int]) -> tuple[float, float]:
+    """I, J, K are the shift along X, Y, Z."""
+    return data.amount("IJK"[plane[0]]), data.amount("IJK"[plane[1]])
+
+
+@dataclass(frozen=True, slots=True)
+class Drilling:
+    """How a control drills.
+
+    Attributes:
+        cycles: Cycles by code.
+        kept: Words that live until the cycle ends; the bottom level always does.
+        once: Words that hold in their block only.
+        repeats: Words for the number of repeats; 0 only stores the data.
+        triggers: Words beside axis words that make a block drill.
+        r_is_increment: R counts from the initial level even under G90 (FANUC lathes).
+        by_r: Rapid retracts stop at R on the way to the initial level.
+        dwells_at_r: A tap dwells at R as well.
+        axis: The drilling axis.
+        seconds: A P word, as typed and how it was written, in seconds.
+        relief: Retract or clearance between pecks of a cycle, mm.
+        shift: Shift off the wall along two geometry axes, the first and second of the hole's plane.
+        lead: Lead of a tap, mm.
+    """
+
+    cycles: Mapping[str, DrillCycle]
+    kept: str = "RQPIJK"
+    once: str = ""
+    repeats: str = "L"
+    triggers: str = ""
+    r_is_increment: bool = False
+    by_r: bool = False
+    dwells_at_r: bool = False
+    axis: Callable[[Builder], int] = third_axis
+    seconds: Callable[[float, str], float] = in_milliseconds
+    relief: Callable[[Channel, str], float] = no_relief
+    shift: Callable[[Channel, CycleData, tuple[int, int]], tuple[float, float]] = shift_by_center_words
+    lead: Callable[[Channel], float] = lead_from_feed
+
+    @property
+    def words(self) -> str:
+        """All addresses that a drilling block may hold beside axis words."""
+        return self.kept + self.once + self.repeats
+
+
+@dataclass(slots=True)
+class CycleData:
+    """What an active cycle remembers.
+
+    Attributes:
+        axis: Drilling axis.
+        initial: Level at which the cycle mode was entered, programmed coordinates.
+        kept: Words that live on.
+        now: Words of the running block.
+    """
+
+    axis: int
+    initial: float
+    kept: dict[str, Datum] = field(default_factory=dict)
+    now: dict[str, Datum] = field(default_factory=dict)
+
+    def amount(self, address: str) -> float:
+        """Value of a word, of this block or kept; 0 where there is none."""
+        return (self.now.get(address) or self.kept.get(address) or (0.0, False))[0]
+
+    def __contains__(self, address: str) -> bool:
+        return address in self.now or address in self.kept
+
+    def level(self, address: str, base: float) -> float:
+        """A level: absolute, or an increment on `base`; `base` itself where the word is missing."""
+        value, incremental = self.kept.get(address, (0.0, True))
+        return base + value if incremental else value
+
+
+def is_active(channel: Channel) -> bool:
+    """Whether a drilling cycle is modal now."""
+    return channel.mode.codes.get("cycle", "") in channel.control.drilling.cycles
+
+
+def give_way(builder: Builder) -> None:
+    """A cycle code that a later motion code of its block cancels: its words have no effect."""
+    drilling: Drilling = builder.control.drilling
+    if any(row.code in drilling.cycles for row in builder.codes):
+        builder.take(*(a for a in drilling.words if builder.is_free(a)))
+
+
+def plan_drilling(builder: Builder, plan: Plan) -> Step:
+    """A block while a drilling cycle is active: store its words, and drill where it has axis words."""
+    words = _Words(builder, plan)
+    code, rules = words.code, words.rules
+    cycle = rules.cycles[code]
+    entering = builder.before["cycle"] not in rules.cycles
+    control = builder.control
+
+    def run(channel: Channel, values: list[float]) -> None:
+        memory, c = channel.memory, channel.coordinates
+        if entering or memory.cycle_data is None or memory.cycle_data.axis != words.axis:
+            memory.cycle_data = CycleData(words.axis, c.programmed[words.axis])
+        if not words.drills:
+            return
+        data: CycleData = memory.cycle_data
+        words.store(data, values)
+        count = words.count(values)
+        if count and any(not data.amount(address) for address in cycle.needs):
+            raise control.fail("cycle_word", address=cycle.needs, word=cycle.needs, code=code)
+        for _ in range(count):
+            words.position(channel, values)
+            _perform(channel, cycle.strokes(_hole(channel, code, data)), data)
+
+    return run
+
+
+class _Words:
+    """The words of a drilling block of one shape."""
+
+    def __init__(self, builder: Builder, plan: Plan) -> None:
+        self.control = builder.control
+        self.rules: Drilling = self.control.drilling
+        self.code = builder.mode["cycle"]
+        self.plan = plan
+        axis_name = self.rules.cycles[self.code].axis
+        channel = builder.channel
+        self.axis = channel.axis_index[axis_name] if axis_name else self.rules.axis(builder)
+        if self.axis < 0:
+            raise self.control.fail("plane")
+        self.bottom = next((word for word in plan.axis_words if word.axis == self.axis), None)
+        self.positions: tuple[AxisWord, ...] = tuple(w for w in plan.axis_words if w.axis != self.axis)
+        named = [a for a in self.rules.words if builder.has(a) and builder.is_free(a)]
+        builder.take(*named)
+        self.repeat_slot = next((builder.slot(a) for a in self.rules.repeats if a in named), None)
+        self.drills = bool(plan.axis_words) or any(a in named for a in self.rules.triggers)
+        self.incremental = builder.mode["distance"] == "G91" or self.rules.r_is_increment
+        self.polar = builder.mode.codes.get("polar") == "G16"
+        self.stored = [
+            (address, *builder.slots[address], self._converter(builder, address))
+            for address in named
+            if address not in self.rules.repeats
+        ]
+
+    def _converter(self, builder: Builder, address: str) -> Callable[[float], float]:
+        if address == "P":
+            form = builder.slots[address][1]
+            return lambda value: self.rules.seconds(value, form)
+        return builder.length(address) or (lambda value: value)
+
+    def store(self, data: CycleData, values: list[float]) -> None:
+        """Take the words over into the cycle data."""
+        data.now.clear()
+        if self.bottom is not None:
+            value = values[self.bottom.slot]
+            value = self.bottom.convert(value) if self.bottom.convert else value
+            data.kept[BOTTOM] = (value, self.bottom.incremental)
+        for address, slot, _form, convert in self.stored:
+            datum = (convert(values[slot]), self.incremental)
+            (data.now if address in self.rules.once else data.kept)[address] = datum
+
+    def count(self, values: list[float]) -> int:
+        """How often the block drills."""
+        return 1 if self.repeat_slot is None else max(int(values[self.repeat_slot]), 0)
+
+    def position(self, channel: Channel, values: list[float]) -> None:
+        """Rapid over the hole, at the level where the tool stands."""
+        c = channel.coordinates
+        if self.polar:
+            end = self.control.polar_target(channel, self.plan, values)
+            end[self.axis] = c.programmed[self.axis]
+        else:
+            end = target(channel, self.positions, values)
+        channel.straight(Kind.RAPID, c.to_position(end), nan, end)
+
+
+def drill_here(channel: Channel) -> None:
+    """Drill with the data of the active cycle where the tool stands (hole patterns)."""
+    code, data = channel.mode["cycle"], channel.memory.cycle_data
+    drilling: Drilling = channel.control.drilling
+    _perform(channel, drilling.cycles[code].strokes(_hole(channel, code, data)), data)
+
+
+def _hole(channel: Channel, code: str, data: CycleData) -> Hole:
+    """Levels and amounts of the next hole."""
+    rules: Drilling = channel.control.drilling
+    cycle = rules.cycles[code]
+    r = data.level("R", data.initial)
+    bottom = data.level(BOTTOM, data.initial if cycle.bottom_from_initial and BOTTOM in data else r)
+    dwell = data.amount("P") if cycle.dwells else 0.0
+    return Hole(
+        data.initial,
+        r,
+        bottom,
+        back=r if channel.mode.codes.get("return") == "G99" else data.initial,
+        dwell_s=dwell,
+        dwell_out_s=dwell if rules.dwells_at_r else 0.0,
+        peck=data.amount("Q") if cycle.pecks else 0.0,
+        relief=rules.relief(channel, code),
+        by_r=rules.by_r,
+    )
+
+
+def _perform(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> None:
+    """Let the tool make the strokes of one hole."""
+    center = channel.coordinates.programmed[:]
+    direction = channel.memory.spindle_direction
+    for stroke in strokes:
+        if stroke.action is Action.SHIFT:
+            _shift(channel, center, data, stroke.value)
+        elif stroke.action is Action.DWELL:
+            channel.dwell(seconds=stroke.value)
+        elif stroke.action is Action.SPINDLE:
+            channel.memory.spindle_direction = int(direction * stroke.value)
+            channel.context_changed()
+        elif stroke.action is Action.HALT:
+            channel.stop("M00")
+        else:
+            _stroke(channel, data.axis, stroke)
+
+
+def _stroke(channel: Channel, axis: int, stroke: Stroke) -> None:
+    """Along the drilling axis to a level."""
+    c = channel.coordinates
+    end = c.programmed[:]
+    end[axis] = stroke.value
+    c.pending[axis] = 0.0
+    position = c.to_position(end)
+    if stroke.action is Action.RAPID:
+        channel.straight(Kind.RAPID, position, nan, end)
+        return
+    feed = channel.feed * stroke.factor
+    if not feed > 0.0:
+        raise channel.control.fail("no_feed")
+    if stroke.action is Action.FEED:
+        channel.straight(Kind.FEED, position, feed, end)
+    elif position != c.position:
+        lead = channel.control.drilling.lead(channel)
+        channel.curve(Kind.TAP, position, feed, parameters=(lead, 0.0), programmed=end)
+
+
+def _shift(channel: Channel, center: list[float], data: CycleData, part: float) -> None:
+    """Off the hole's axis by the shift, or back over it; only the axes of the plane."""
+    c = channel.coordinates
+    w = c.geometry.index(data.axis)
+    plane = ((w + 1) % 3, (w + 2) % 3)
+    end = c.programmed[:]
+    for i, amount in zip(plane, channel.control.drilling.shift(channel, data, plane), strict=True):
+        axis = c.geometry[i]
+        if axis >= 0:
+            end[axis] = center[axis] + part * amount
+    channel.straight(Kind.RAPID, c.to_position(end), nan, end)
