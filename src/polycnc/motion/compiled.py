@@ -1,7 +1,7 @@
 """The planner's kernels, compiled or as they are.
 
-The kernels are plain functions. For a long program a copy of each is handed to Numba; the copies see each other, not the
-plain ones.
+The kernels are plain functions. For a long program a copy of each is handed to Numba; the copies see each
+other, not the plain ones.
 """
 
 from __future__ import annotations
@@ -24,23 +24,32 @@ MODULES = ("arcs", "corners", "feeds", "lay", "speeds")
 
 
 class Kernels(NamedTuple):
-    """The three kernels that the planner calls, and how they want to see an `array.array`."""
+    """The three kernels that the planner calls.
+
+    Attributes:
+        lay: See `kernels/lay.py`.
+        backward: See `kernels/speeds.py`.
+        forward: See `kernels/speeds.py`.
+        see: Turns an `array.array` into what these kernels read and write.
+        ready: They start at once: plain, or in Numba's cache.
+    """
 
     lay: Callable[..., int]
     backward: Callable[..., int]
     forward: Callable[..., None]
     see: Callable[[array[Any]], Any]
+    ready: bool
 
 
-PLAIN = Kernels(lay, backward, forward, lambda column: column)
+PLAIN = Kernels(lay, backward, forward, lambda column: column, ready=True)
 
 
 @cache
-def compiled() -> Kernels | None:
+def compiled_kernels() -> Kernels | None:
     """The kernels compiled by Numba, or None where it is not installed.
 
-    Numba keeps what it compiled and looks at one file to see whether it is out of date. A kernel also rests on kernels of
-    other files, so the digest of all of them is part of its name.
+    Numba keeps what it compiled and looks at one file to see whether it is out of date. A kernel also rests
+    on kernels of other files, so the digest of all of them is part of its name.
     """
     try:
         from numba import njit
@@ -57,11 +66,13 @@ def compiled() -> Kernels | None:
             if isinstance(value, FunctionType) and value.__module__ == scope["__name__"]:
                 copy = FunctionType(value.__code__, scope, name, value.__defaults__)
                 copy.__qualname__ = f"{name}_{digest}"
-                kernels[name] = njit(cache=True, error_model="numpy", no_cpython_wrapper=name not in Kernels._fields)(copy)
+                kernels[name] = njit(cache=True, error_model="numpy")(copy)
     # Numba compiles at the first call: from here on the copies find each other, not the plain functions.
     for scope in scopes:
         scope.update((name, kernel) for name, kernel in kernels.items() if name in scope)
-    return Kernels(kernels["lay"], kernels["backward"], kernels["forward"], _view)
+    lay = kernels["lay"]
+    ready = any(Path(lay.stats.cache_path).glob(f"*{lay.py_func.__qualname__}*.nbi"))
+    return Kernels(lay, kernels["backward"], kernels["forward"], _view, ready)
 
 
 def _view(column: array[Any]) -> Any:

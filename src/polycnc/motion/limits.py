@@ -16,14 +16,17 @@ MM_PER_INCH = 25.4
 
 
 def channel_axes(machine: Machine, channel: int, names: tuple[str, ...]) -> tuple[Axis | None, ...]:
-    """The machine's axes behind the columns of a toolpath; None for one that exists only in a transformation."""
+    """The machine's axes behind the columns of a toolpath; None for one that a transformation makes."""
     built = next((c for c in machine.channels if c.number == channel), machine.channels[0])
     called = dict(zip(built.names, built.axes, strict=True))
     return tuple(machine.axis.get(called.get(name, name)) for name in names)
 
 
 def axis_limits(machine: Machine, channel: int, names: tuple[str, ...], settings: Settings) -> array[float]:
-    """The kernels' `limits` for the columns of a toolpath. An axis that a transformation makes is taken to be as slow as the slowest linear one."""
+    """The kernels' `limits` for the columns of a toolpath.
+
+    An axis that a transformation makes is taken to be as slow as the slowest linear one.
+    """
     axes = channel_axes(machine, channel, names)
     linear = [axis for axis in machine.axes if not axis.rotary] or list(machine.axes)
 
@@ -33,7 +36,10 @@ def axis_limits(machine: Machine, channel: int, names: tuple[str, ...], settings
 
     built = next((c for c in machine.channels if c.number == channel), machine.channels[0])
     geometry = [
-        next((i for i, axis in enumerate(axes) if axis is not None and axis.name == built.geometry.get(name)), -1)
+        next(
+            (i for i, axis in enumerate(axes) if axis is not None and axis.name == built.geometry.get(name)),
+            -1,
+        )
         for name in "XYZ"
     ]
     for i, name in enumerate("XYZ"):

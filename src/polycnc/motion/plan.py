@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 from polycnc.motion.settings import DEFAULT, Settings
 
@@ -31,14 +31,18 @@ class Times:
     @property
     def total_s(self) -> float:
         """All of it."""
-        return sum(getattr(self, name) for name in SHARES)
+        return sum(self.seconds().values())
+
+    def seconds(self) -> dict[str, float]:
+        """The parts of the total by the name of their field."""
+        return {name: getattr(self, name) for name in SHARES}
 
     def shares(self) -> dict[str, float]:
         """Each part of the total, 0 to 1, by the name of its field; empty where nothing took time."""
         total = self.total_s
-        return {name: getattr(self, name) / total for name in SHARES} if total > 0.0 else {}
+        return {name: seconds / total for name, seconds in self.seconds().items()} if total > 0.0 else {}
 
-    def __iadd__(self, other: Times) -> Times:
+    def __iadd__(self, other: Times) -> Self:
         for item in fields(self):
             setattr(self, item.name, getattr(self, item.name) + getattr(other, item.name))
         return self
@@ -65,8 +69,8 @@ class Plan:
         times: All of the toolpath.
         tools: By tool, in the order of first use.
         row_s: Seconds of each row of the toolpath, waits before it included; empty where rows were not kept.
-        rows_without_feed: Cutting rows that had no feed, or a feed per revolution of a spindle at rest. They are planned as
-            fast as the axes can go.
+        rows_without_feed: Cutting rows that had no feed, or a feed per revolution of a spindle at rest. They
+            are planned as fast as the axes can go.
     """
 
     times: Times

@@ -1,9 +1,10 @@
 """Planning as the toolpath grows: chunks come in, speeds and times come out, in bounded memory.
 
-Rows are laid out as pieces in a buffer. When it is full, a look-ahead that ends in a stop at its last joint shows up to where
-nothing behind the buffer can matter any more; so far the pieces are final, timed and dropped, and the rest moves to
-the front. The buffer is looked at only when it is full, however the rows are cut into chunks, and has at least twice the room of
-what the last look left: the result does not depend on the chunks, and the cost stays in proportion to the rows.
+Rows are laid out as pieces in a buffer. When it is full, a look-ahead that ends in a stop at its last joint
+shows up to where nothing behind the buffer can matter any more; so far the pieces are final, timed and
+dropped, and the rest moves to the front. The buffer is looked at only when it is full, however the rows are
+cut into chunks, and has at least twice the room of what the last look left: the result does not depend on the
+chunks, and the cost stays in proportion to the rows.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from __future__ import annotations
 from array import array
 from typing import TYPE_CHECKING
 
-from polycnc.motion.compiled import PLAIN, compiled
+from polycnc.motion.compiled import PLAIN, compiled_kernels
 from polycnc.motion.kernels.columns import (
     BLOCKS,
     END2,
@@ -40,8 +41,9 @@ if TYPE_CHECKING:
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
 
-#: From so many rows on the compiler's start pays off.
-COMPILED_ROWS = 20_000
+#: From so many rows on compiled kernels pay off: when they are in Numba's cache, and when they must be
+#: compiled first.
+READY_ROWS, COMPILE_ROWS = 20_000, 150_000
 #: Pieces that the buffer takes at first, and pieces that it takes before it is looked at.
 FIRST_ROOM, FULL_ROOM = 256, 16_384
 
@@ -57,8 +59,9 @@ class Planner:
         tool: Tool in the spindle before the first row.
         settings: How the control leads the axes.
         keep_rows: Keep the seconds of every row (8 bytes each).
-        on_pieces: Called with the buffer and the number of its pieces that have become final, before they are dropped.
-        compiled_rows: Rows from which on the kernels are compiled.
+        on_pieces: Called with the buffer and the number of its pieces that have become final, before they are
+            dropped.
+        compiled: Use compiled kernels, or do not; None decides by the number of rows.
     """
 
     def __init__(
@@ -72,7 +75,7 @@ class Planner:
         settings: Settings = DEFAULT,
         keep_rows: bool = True,
         on_pieces: Callable[[array[float], int], None] | None = None,
-        compiled_rows: int = COMPILED_ROWS,
+        compiled: bool | None = None,
     ) -> None:
         self._axes = len(toolpath.axes)
         self._width = VECTORS + 4 * self._axes
@@ -80,7 +83,7 @@ class Planner:
         self._settings = settings
         self._keep_rows = keep_rows
         self._on_pieces = on_pieces
-        self._compiled_rows = compiled_rows
+        self._compiled = compiled
         self._kernels = PLAIN
         self._limits = axis_limits(machine, channel, toolpath.axes, settings)
         self._state = _new_state(self._axes, start)
@@ -99,15 +102,16 @@ class Planner:
         """Plan a chunk; true, for it is no longer needed."""
         if len(chunk) == 0:
             return True
-        if self._kernels is PLAIN and self._next_row + len(chunk) >= self._compiled_rows:
-            self._kernels = compiled() or PLAIN
+        self._choose_kernels(max(len(self._toolpath), chunk.first + len(chunk)))
         self._add_contexts()
         self._row_s.frombytes(bytes(8 * len(chunk)))
         self._next_row = chunk.first + len(chunk)
         self._waits.take(chunk, int(self._limits[LIMIT_BLOCKS * self._axes + GEOMETRY]))
         stops = array("B", [self._waits.stands_for(event) for event in chunk.events])
         see = self._kernels.see
-        rows = Rows(*map(see, (chunk.kind, chunk.context, chunk.feed, chunk.end, chunk.curve, stops)))
+        rows = Rows(
+            see(chunk.kind), see(chunk.context), see(chunk.feed), see(chunk.end), see(chunk.curve), see(stops)
+        )
         fixed = see(chunk.curves), chunk.first, see(self._contexts), see(self._limits)
         row = 0
         while True:
@@ -117,7 +121,7 @@ class Planner:
             self._make_room()
 
     def finish(self) -> Plan:
-        """Plan the chunks that the toolpath still holds, to a stop behind the last row, and give the result."""
+        """Plan what the toolpath still holds, to a stop behind the last row, and give the result."""
         for chunk in self._toolpath.chunks:
             if chunk.first >= self._next_row:
                 self.take(chunk)
@@ -125,7 +129,19 @@ class Planner:
         self._settle_parallel(self._next_row)
         return self._plan()
 
-    # ---- the buffer of pieces --------------------------------------------------------------------------------------
+    def _choose_kernels(self, rows: int) -> None:
+        if (
+            self._kernels is not PLAIN
+            or self._compiled is False
+            or (self._compiled is None and rows < READY_ROWS)
+        ):
+            return
+        fast = compiled_kernels()
+        if fast is not None and (self._compiled or fast.ready or rows >= COMPILE_ROWS):
+            self._kernels = fast
+
+    # ---- the buffer of pieces
+    # --------------------------------------------------------------------------------------
 
     def _make_room(self) -> None:
         room = len(self._pieces) // self._width
@@ -139,7 +155,8 @@ class Planner:
     def _look_ahead(self, *, finish: bool) -> None:
         """Find the speeds of all pieces that nothing still to come can change, and drop those pieces.
 
-        The last piece waits for the row behind it, for a spline bends there; the joint before it is taken as a stop.
+        The last piece waits for the row behind it, for a spline bends there; the joint before it is taken as
+        a stop.
         """
         count, width, see = int(self._state[PIECES]), self._width, self._kernels.see
         last = count if finish else count - 1
@@ -151,7 +168,14 @@ class Planner:
         pieces, rest = self._pieces, array("d", self._pieces[final * width : count * width])
         end2 = rest[REACH2] if rest else 0.0
         self._kernels.forward(
-            see(pieces), final, self._axes, see(self._limits), end2, see(self._slots), see(self._row_s), self._first_row
+            see(pieces),
+            final,
+            self._axes,
+            see(self._limits),
+            end2,
+            see(self._slots),
+            see(self._row_s),
+            self._first_row,
         )
         if self._on_pieces is not None:
             self._on_pieces(pieces, final)
@@ -165,7 +189,8 @@ class Planner:
             del self._row_s[: planned_rows - self._first_row]
             self._first_row = planned_rows
 
-    # ---- rows and totals -------------------------------------------------------------------------------------------
+    # ---- rows and totals
+    # -------------------------------------------------------------------------------------------
 
     def _add_contexts(self) -> None:
         for context in self._toolpath.contexts[len(self._slots) // 4 :]:
@@ -180,7 +205,7 @@ class Planner:
         self._waited[context, share] = self._waited.get((context, share), 0.0) + seconds
 
     def _settle_parallel(self, planned_rows: int) -> None:
-        """Let blocks whose motion is planned wait for the auxiliary functions that ran beside it and take longer."""
+        """Let planned blocks wait for the auxiliary functions that run beside them and take longer."""
         open_yet = []
         for entry in self._waits.parallel:
             if entry.last >= planned_rows:

@@ -15,14 +15,15 @@ class Settings:
     """What the planner asks of a control's parameters.
 
     Attributes:
-        rapid_by_axis: On a rapid every axis runs alone at its own speed (FANUC 1401#1 LRP = 0, SINUMERIK `RTLIOF`);
-            else all arrive together on a line.
+        rapid_by_axis: On a rapid every axis runs alone at its own speed (FANUC 1401#1 LRP = 0, SINUMERIK
+            `RTLIOF`); else all arrive together on a line.
         rapid_stops: The axes come to rest before and after every rapid (in-position check).
-        rotary_in_feed: The feed of a move of linear and rotary axes counts a degree as a millimetre (an inch in inch mode), as
-            the word-address controls do; else it counts the linear axes alone (SINUMERIK without FGROUP).
+        rotary_in_feed: The feed of a move of linear and rotary axes counts a degree as a millimetre (an inch
+            in inch mode), as the word-address controls do; else it counts the linear axes alone (SINUMERIK
+            without FGROUP).
         tolerance_mm: Contour tolerance of the modes that round corners, where the program names none.
-        overload: At a corner without deviation an axis may change its velocity within one interpolation cycle by this many
-            times its acceleration (SINUMERIK MD32310 MAX_ACCEL_OVL_FACTOR).
+        overload: At a corner without deviation an axis may change its velocity within one interpolation cycle
+            by this many times its acceleration (SINUMERIK MD32310 MAX_ACCEL_OVL_FACTOR).
     """
 
     rapid_by_axis: bool = False

@@ -41,7 +41,11 @@ class Waits:
     """
 
     def __init__(
-        self, machine: Machine, contexts: list[Context], tool: int, wait: Callable[[int, str, int, float], None]
+        self,
+        machine: Machine,
+        contexts: list[Context],
+        tool: int,
+        wait: Callable[[int, str, int, float], None],
     ) -> None:
         self.machine = machine
         self.contexts = contexts
@@ -75,7 +79,7 @@ class Waits:
             if number != self._context:
                 self._context = number
                 self._new_context(chunk.first + row, number, radius(row))
-            row += sum(1 for _ in run)
+            row += len(list(run))
         kinds = chunk.kind.tobytes()
         for row in _places(kinds, Kind.EVENT):
             self._event(chunk, row)
@@ -117,7 +121,9 @@ class Waits:
         if function is not None and function.seconds > 0.0:
             if function.timing == "with":
                 last = _end_of_block(chunk, row)
-                self.parallel.append(Parallel(chunk.first + row, chunk.first + last, context, function.seconds))
+                self.parallel.append(
+                    Parallel(chunk.first + row, chunk.first + last, context, function.seconds)
+                )
             else:
                 self.wait(chunk.first + row, "auxiliary_s", context, function.seconds)
         if code == ORIENT:

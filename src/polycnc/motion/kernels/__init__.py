@@ -1,18 +1,20 @@
 """The planner's kernels: rows of a toolpath become pieces, pieces get speeds and times.
 
-What everything propagates is the *square* of the path speed, `x = v²`: under a constant acceleration it changes
-linearly with the way, so that one step of look-ahead is `x + 2·a·length`. Names ending in `2` are such squares.
+What everything propagates is the *square* of the path speed, `x = v²`: under a constant acceleration it
+changes linearly with the way, so that one step of look-ahead is `x + 2·a·length`. Names ending in `2` are
+such squares.
 
     lay       rows to pieces: length, tangents, curvature, caps on x inside      (`lay.py`, `arcs.py`)
     join      the cap on x where two rows meet                                   (`corners.py`)
     backward  how fast a joint may be passed so that all behind it can be braked for   (`speeds.py`)
     forward   how fast each joint is passed, and how long each piece takes
 
-A *piece* is a straight line, or so short a part of a curve that tangent and curvature may be interpolated over it.
-The path parameter `s` is the length that the feed counts; `q'` and `q''` are the derivatives of the machine's axes by
-it: an axis has the velocity `q'·v` and the acceleration `q''·x + q'·u`, where `u` is the acceleration along the path.
+A *piece* is a straight line, or so short a part of a curve that tangent and curvature may be interpolated
+over it. The path parameter `s` is the length that the feed counts; `q'` and `q''` are the derivatives of the
+machine's axes by it: an axis has the velocity `q'·v` and the acceleration `q''·x + q'·u`, where `u` is the
+acceleration along the path.
 
-The functions know no class of the project beside the columns (`columns.py`). They run as they are on `array.array`,
-the faster way for a short program, and compiled by Numba on views of the same memory (`motion/compiled.py`); both give
-the same numbers.
+The functions know no class of the project beside the columns (`columns.py`). They run as they are on
+`array.array`, the faster way for a short program, and compiled by Numba on views of the same memory
+(`motion/compiled.py`); both give the same numbers.
 """

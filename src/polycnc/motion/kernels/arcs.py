@@ -107,13 +107,17 @@ def find_arc(curves: Floats, contexts: Floats, record: int, n: int, limits: Floa
 
 
 def first_turn(state: Floats, sense: float, apart2: float) -> float:
-    """Turn BASIS into unit vectors (to the start, along the way there, normal); the angle of the first turn."""
+    """Make BASIS unit vectors (to the start, along the way there, normal); the angle of the first turn."""
     end_x, end_y, end_z = state[BASIS + 3], state[BASIS + 4], state[BASIS + 5]
     for j in range(BASIS, BASIS + 3):
         state[j] /= state[RADIUS]
     x, y, z = state[BASIS], state[BASIS + 1], state[BASIS + 2]
     nx, ny, nz = state[BASIS + 6], state[BASIS + 7], state[BASIS + 8]
-    forth_x, forth_y, forth_z = sense * (ny * z - nz * y), sense * (nz * x - nx * z), sense * (nx * y - ny * x)
+    forth_x, forth_y, forth_z = (
+        sense * (ny * z - nz * y),
+        sense * (nz * x - nx * z),
+        sense * (nx * y - ny * x),
+    )
     state[BASIS + 3], state[BASIS + 4], state[BASIS + 5] = forth_x, forth_y, forth_z
     if apart2 <= SAME2:
         return 2.0 * pi
@@ -124,7 +128,8 @@ def first_turn(state: Floats, sense: float, apart2: float) -> float:
 def arc_point(angle: float, n: int, limits: Floats, weight: float, state: Floats) -> float:
     """Set UNIT to q' and BEND to q'' at an angle of the arc; the way per radian.
 
-    The curve is `r(φ)·e(φ) + h·φ·N` with a radius that grows in proportion; other axes move evenly with the angle.
+    The curve is `r(φ)·e(φ) + h·φ·N` with a radius that grows in proportion; other axes move evenly with the
+    angle.
     """
     unit, bend, geometry = STATE_BLOCKS + UNIT * n, STATE_BLOCKS + BEND * n, LIMIT_BLOCKS * n + GEOMETRY
     sweep = state[SWEEP]
@@ -171,11 +176,12 @@ def lay_arc(
 ) -> bool:
     """An arc, helix or spiral in pieces of equal angle; false when the room ends.
 
-    Over a piece of angle d the acceleration of an axis, `f(φ)`, has `|f''| <= 5·a`, so that it exceeds the larger of its end
-    values by at most `5·d²/8` of the limit; tangents and curvature are stored larger by that much.
+    Over a piece of angle d the acceleration of an axis, `f(φ)`, has `|f''| <= 5·a`, so that it exceeds the
+    larger of its end values by at most `5·d²/8` of the limit; tangents and curvature are stored larger by
+    that much.
     """
     width, sweep = VECTORS + 4 * n, state[SWEEP]
-    parts = int(ceil(sweep * PIECES_PER_TURN / (2.0 * pi) - 1e-9))
+    parts = ceil(sweep * PIECES_PER_TURN / (2.0 * pi) - 1e-9)
     if (int(state[PIECES]) + parts) * width > len(pieces):
         return False
     step = sweep / parts
@@ -183,7 +189,9 @@ def lay_arc(
     end_way = arc_point(sweep, n, limits, weight, state)
     way = arc_point(0.0, n, limits, weight, state)
     length = 0.5 * (way + end_way) * sweep
-    speed = bounded(asked_speed(curves, contexts, record, state, length, facing_radius(0.0, n, limits, state)), state)
+    speed = bounded(
+        asked_speed(curves, contexts, record, state, length, facing_radius(0.0, n, limits, state)), state
+    )
     entry2 = point_cap2(n, limits, state, margin)
     entry2 = join(contexts[record + TOLERANCE], n, limits, state, length, weight, min(entry2, speed * speed))
     for part in range(parts):

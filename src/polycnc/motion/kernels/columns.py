@@ -1,7 +1,7 @@
 """What the kernels share: the numbers of kinds and fields in the flat arrays that they read and write.
 
-Everything is a flat array of floats, so that a kernel takes few arguments and the same source runs on `array.array` and
-on NumPy views. `n` is the number of axes.
+Everything is a flat array of floats, so that a kernel takes few arguments and the same source runs on
+`array.array` and on NumPy views. `n` is the number of axes.
 """
 
 from __future__ import annotations
@@ -13,12 +13,24 @@ Floats = MutableSequence[float]
 Ints = MutableSequence[int]
 
 # Numbers of the row kinds (`toolpath.Kind`), as plain integers that a compiler can fold.
-RAPID, CW, CCW, HELIX_CW, HELIX_CCW, SPLINE, THREAD, TAP, REF, DWELL, EVENT = 0, 2, 3, 4, 5, 6, 7, 8, 9, 11, 12
+RAPID, CW, CCW, HELIX_CW, HELIX_CCW, SPLINE, THREAD, TAP, REF, DWELL, EVENT = (
+    0,
+    2,
+    3,
+    4,
+    5,
+    6,
+    7,
+    8,
+    9,
+    11,
+    12,
+)
 CURVE_WIDTH = 8
 
 
 class Rows(NamedTuple):
-    """Columns of a chunk, as the table has them; `stops` says per event whether the axes stand still for it."""
+    """Columns of a chunk as the table has them; `stops` says of each event whether the axes stand for it."""
 
     kind: Ints
     context: Ints
@@ -30,17 +42,18 @@ class Rows(NamedTuple):
 
 # `limits`: blocks of n numbers (mm or degrees, s), then what is there once.
 TOP_RAPID, TOP_FEED, ACCELERATION, JUMP, ROTARY, LIMIT_BLOCKS = 0, 1, 2, 3, 4, 5
-#: Behind the blocks: the columns of X, Y, Z (-1 for a missing one); whether each axis runs a rapid alone; whether the axes
-#: stop between rapid and cutting.
+#: Behind the blocks: the columns of X, Y, Z (-1 for a missing one); whether each axis runs a rapid alone;
+#: whether the axes stop between rapid and cutting.
 GEOMETRY, RAPID_BY_AXIS, RAPID_STOPS, LIMIT_TAIL = 0, 3, 4, 5
 
 # `contexts`: one record a context. Behind OFFSETS stand n numbers.
 PER_REVOLUTION, INVERSE_TIME, RPM, SURFACE_MM_S, RPM_LIMIT, SPINDLE_REV_S2 = 0, 1, 2, 3, 4, 5
 EXACT_STOP, TOLERANCE, ROTARY_WEIGHT, STATION, HAS_FRAME, MIRROR, FRAME, OFFSETS = 6, 7, 8, 9, 10, 11, 12, 24
 
-# `pieces`: one record a piece. CAP2 bounds x inside the piece, ENTRY2 at its start; REACH2 is what `backward` finds there, SPEED2
-# what `forward` chooses, END2 the x that it leaves the piece with, TIME the seconds. PULL is the acceleration along a straight
-# piece, the seconds of a timed one. Behind VECTORS stand q' at start and end and q'' at start and end, 4·n numbers.
+# `pieces`: one record a piece. CAP2 bounds x inside the piece, ENTRY2 at its start; REACH2 is what `backward`
+# finds there, SPEED2 what `forward` chooses, END2 the x that it leaves the piece with, TIME the seconds. PULL
+# is the acceleration along a straight piece, the seconds of a timed one. Behind VECTORS stand q' at start and
+# end and q'' at start and end, 4·n numbers.
 LENGTH, CAP2, PULL, ENTRY2, REACH2, SPEED2, END2, TIME, FORM, ROW, SLOT, VECTORS = range(12)
 STRAIGHT, CURVED, TIMED = 0, 1, 2
 
@@ -48,13 +61,15 @@ STRAIGHT, CURVED, TIMED = 0, 1, 2
 STOP, EXIT2, ROW_LENGTH, METRIC, AT_STATION, SMOOTH, PIECES, WITHOUT_FEED = range(8)
 # the row at hand (CURVE: where its record in `curves` begins, or -1; FACING: its end in X, work coordinates),
 KIND, NUMBER, ROW_SLOT, FEED, CURVE, FACING = range(8, 14)
-# its arc (unit vectors to the start, along the way there, and of the axis; angle, radius, growth of the radius, rise),
+# its arc (unit vectors to the start, along the way there, and of the axis; angle, radius, growth of the
+# radius, rise),
 BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 14, 23, 24, 25, 26, 27
-# and blocks of n numbers: machine position before the row, q' at the end of the last piece; end of the row, way there, and room
-# for one q' and q''.
+# and blocks of n numbers: machine position before the row, q' at the end of the last piece; end of the row,
+# way there, and room for one q' and q''.
 POSITION, TANGENT, TARGET, DELTA, UNIT, BEND, BLOCKS = range(7)
 
-#: Pieces of a full turn. Over 7.5° an axis exceeds what holds at both ends by little; `lay_arc` says by how much.
+#: Pieces of a full turn. Over 7.5° an axis exceeds what holds at both ends by little; `lay_arc` says by how
+#: much.
 PIECES_PER_TURN = 48
 #: Pieces of a straight cut under constant surface speed, where the speed follows the radius.
 FACING_PIECES = 16

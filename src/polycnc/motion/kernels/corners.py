@@ -26,11 +26,14 @@ from polycnc.motion.kernels.columns import (
 SAME_DIRECTION, TURNS_BACK = 1e-9, -0.999999
 
 
-def join(tolerance: float, n: int, limits: Floats, state: Floats, length: float, weight: float, cap2: float) -> float:
+def join(
+    tolerance: float, n: int, limits: Floats, state: Floats, length: float, weight: float, cap2: float
+) -> float:
     """Largest x at the joint between the row before and this one, which starts along `unit` with `cap2`.
 
-    Zero after a stop, where the path turns back, and where the feed counts another length than before. Where two chords of a
-    spline meet without a corner, SMOOTH becomes 2, and the curvature decides instead of the corner.
+    Zero after a stop, where the path turns back, and where the feed counts another length than before. Where
+    two chords of a spline meet without a corner, SMOOTH becomes 2, and the curvature decides instead of the
+    corner.
     """
     stopped = state[STOP] != 0.0 or state[METRIC] != weight
     smooth = state[KIND] == SPLINE and state[SMOOTH] != 0.0
@@ -57,8 +60,9 @@ def join(tolerance: float, n: int, limits: Floats, state: Floats, length: float,
 def jump2(n: int, limits: Floats, state: Floats, shorter: float) -> float:
     """Largest x at a corner that is passed without deviation.
 
-    The velocity of each axis may step by its allowed jump. That alone would let a curve of ever shorter lines go ever
-    faster: the step, spread over the shorter of the two lines, must also stay within the axis's acceleration.
+    The velocity of each axis may step by its allowed jump. That alone would let a curve of ever shorter lines
+    go ever faster: the step, spread over the shorter of the two lines, must also stay within the axis's
+    acceleration.
     """
     unit, tangent = STATE_BLOCKS + UNIT * n, STATE_BLOCKS + TANGENT * n
     x2 = inf
@@ -73,33 +77,22 @@ def jump2(n: int, limits: Floats, state: Floats, shorter: float) -> float:
 def rounded2(tolerance: float, n: int, limits: Floats, state: Floats, shorter: float) -> float:
     """Largest x at a corner that is rounded within a contour tolerance.
 
-    The corner is taken as if by the arc that touches both lines and comes within the tolerance of their corner
-    ("junction deviation", S. K. Jeon, "Improving Grbl: Cornering Algorithm", 2011), with no more than half of the shorter
-    line used up. For half the angle of turn b the radius is `tolerance·cos b / (1 - cos b)`, and its tangents have the
-    length `radius·tan b`. The acceleration on the arc points along normals that turn by 2b; each axis must hold the
-    largest part that it gets of them. A rotary axis changes its pace evenly over both tangents.
+    The corner is taken as if by the arc that touches both lines and comes within the tolerance of their
+    corner ("junction deviation", S. K. Jeon, "Improving Grbl: Cornering Algorithm", 2011), with no more than
+    half of the shorter line used up. For half the angle of turn b the radius is `tolerance·cos b / (1 - cos
+    b)`, and its tangents have the length `radius·tan b`. The acceleration on the arc points along normals
+    that turn by 2b; each axis must hold the largest part that it gets of them. A rotary axis changes its pace
+    evenly over both tangents.
     """
     unit, tangent = STATE_BLOCKS + UNIT * n, STATE_BLOCKS + TANGENT * n
-    before, after, apart, together = 0.0, 0.0, 0.0, 0.0
-    for i in range(n):
-        if limits[ROTARY * n + i] == 0.0:
-            before += state[tangent + i] * state[tangent + i]
-            after += state[unit + i] * state[unit + i]
-    before, after = sqrt(before), sqrt(after)
-    touch, radius, sin_b, cos_b = 0.5 * shorter, inf, 0.0, 1.0
-    if before > SAME_DIRECTION and after > SAME_DIRECTION:
-        for i in range(n):
-            if limits[ROTARY * n + i] == 0.0:
-                a, b = state[tangent + i] / before, state[unit + i] / after
-                apart += (b - a) * (b - a)
-                together += (b + a) * (b + a)
-        sin_b, cos_b = 0.5 * sqrt(apart), 0.5 * sqrt(together)
-        if cos_b <= SAME_DIRECTION:
-            return 0.0
-        if sin_b > SAME_DIRECTION:
-            slower = min(before, after)
-            radius = min(tolerance * cos_b * (1.0 + cos_b) / (sin_b * sin_b), touch * slower * cos_b / sin_b)
-            touch = min(touch, radius * sin_b / (cos_b * slower))
+    before, after, sin_b, cos_b = half_turn(n, limits, state)
+    if cos_b <= SAME_DIRECTION:
+        return 0.0
+    touch, radius = 0.5 * shorter, inf
+    if sin_b > SAME_DIRECTION:
+        slower = min(before, after)
+        radius = min(tolerance * cos_b * (1.0 + cos_b) / (sin_b * sin_b), touch * slower * cos_b / sin_b)
+        touch = min(touch, radius * sin_b / (cos_b * slower))
     x2, faster = inf, max(before, after)
     for i in range(n):
         if limits[ROTARY * n + i] != 0.0:
@@ -112,6 +105,25 @@ def rounded2(tolerance: float, n: int, limits: Floats, state: Floats, shorter: f
             if share > 0.0:
                 x2 = min(x2, limits[ACCELERATION * n + i] * radius / (share * faster * faster))
     return x2
+
+
+def half_turn(n: int, limits: Floats, state: Floats) -> tuple[float, float, float, float]:
+    """Speeds of the linear axes before and after a corner per path speed, sine and cosine of half the angle of turn."""
+    unit, tangent = STATE_BLOCKS + UNIT * n, STATE_BLOCKS + TANGENT * n
+    before, after, apart, together = 0.0, 0.0, 0.0, 0.0
+    for i in range(n):
+        if limits[ROTARY * n + i] == 0.0:
+            before += state[tangent + i] * state[tangent + i]
+            after += state[unit + i] * state[unit + i]
+    before, after = sqrt(before), sqrt(after)
+    if before <= SAME_DIRECTION or after <= SAME_DIRECTION:
+        return before, after, 0.0, 1.0
+    for i in range(n):
+        if limits[ROTARY * n + i] == 0.0:
+            a, b = state[tangent + i] / before, state[unit + i] / after
+            apart += (b - a) * (b - a)
+            together += (b + a) * (b + a)
+    return before, after, 0.5 * sqrt(apart), 0.5 * sqrt(together)
 
 
 def largest_share(middle: float, along: float, sin_b: float, cos_b: float) -> float:

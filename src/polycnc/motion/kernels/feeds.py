@@ -33,6 +33,11 @@ def axes_of(state: Floats) -> int:
     return (len(state) - STATE_BLOCKS) // BLOCKS
 
 
+def is_rapid(state: Floats) -> bool:
+    """Whether the row at hand runs at rapid traverse."""
+    return state[KIND] == RAPID or state[KIND] == REF  # noqa: SIM109 (floats)
+
+
 def norm(state: Floats, block: int, n: int, limits: Floats, weight: float) -> float:
     """Length of a vector of all axes; a degree of a rotary axis counts `weight` millimetres."""
     total = 0.0
@@ -64,8 +69,8 @@ def lead_of(curves: Floats, state: Floats) -> float:
 def asked_speed(
     curves: Floats, contexts: Floats, record: int, state: Floats, length: float, radius_mm: float
 ) -> float:
-    """Path speed that the program asks for by the feed mode that holds, mm/s; infinite for a rapid, 0 where none is asked."""
-    if state[KIND] == RAPID or state[KIND] == REF:
+    """Path speed that the program asks for by its feed mode, mm/s; infinite for a rapid, 0 for none."""
+    if is_rapid(state):
         return inf
     lead = lead_of(curves, state)
     if lead > 0.0:
@@ -80,7 +85,9 @@ def asked_speed(
         speed *= revolutions_s(contexts, record, radius_mm)
     elif contexts[record + INVERSE_TIME] != 0.0:
         speed *= length
-    return speed if speed > 0.0 else 0.0
+    if speed > 0.0:
+        return speed
+    return 0.0  # none, zero, or NaN
 
 
 def bounded(asked: float, state: Floats) -> float:

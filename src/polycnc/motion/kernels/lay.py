@@ -37,10 +37,8 @@ from polycnc.motion.kernels.columns import (
     PIECES,
     POSITION,
     PULL,
-    RAPID,
     RAPID_BY_AXIS,
     RAPID_STOPS,
-    REF,
     ROTARY_WEIGHT,
     ROW,
     ROW_LENGTH,
@@ -66,12 +64,28 @@ from polycnc.motion.kernels.columns import (
     Rows,
 )
 from polycnc.motion.kernels.corners import join
-from polycnc.motion.kernels.feeds import asked_speed, axes_of, bounded, follows_radius, lead_of, next_piece, norm
+from polycnc.motion.kernels.feeds import (
+    asked_speed,
+    axes_of,
+    bounded,
+    follows_radius,
+    is_rapid,
+    lead_of,
+    next_piece,
+    norm,
+)
 from polycnc.motion.kernels.speeds import straight_time
 
 
 def lay(
-    rows: Rows, first: int, curves: Floats, number: int, contexts: Floats, limits: Floats, pieces: Floats, state: Floats
+    rows: Rows,
+    first: int,
+    curves: Floats,
+    number: int,
+    contexts: Floats,
+    limits: Floats,
+    pieces: Floats,
+    state: Floats,
 ) -> int:
     """Lay rows out as pieces from row `first` on.
 
@@ -98,10 +112,9 @@ def lay(
             state[STOP] = 1.0
         else:
             record = rows.context[row] * (OFFSETS + n)
-            rapid = kind == RAPID or kind == REF
             state[KIND], state[NUMBER], state[FEED] = kind, number + row, rows.feed[row]
             state[CURVE] = rows.curve[row] * CURVE_WIDTH
-            state[ROW_SLOT] = 2 * rows.context[row] + (0 if rapid else 1)
+            state[ROW_SLOT] = 2 * rows.context[row] + (0 if is_rapid(state) else 1)
             aim(rows.end, row * n, contexts, record, n, limits, state)
             if not lay_move(curves, contexts, record, n, limits, pieces, state):
                 return row
@@ -133,9 +146,9 @@ def aim(end: Floats, at: int, contexts: Floats, record: int, n: int, limits: Flo
 def lay_move(
     curves: Floats, contexts: Floats, record: int, n: int, limits: Floats, pieces: Floats, state: Floats
 ) -> bool:
-    """Lay the row at hand out; false when the room ends, and then nothing is changed that a second try would not."""
+    """Lay the row at hand out; false when the room ends: it can then be tried again."""
     kind, rules = int(state[KIND]), LIMIT_BLOCKS * n
-    rapid = kind == RAPID or kind == REF
+    rapid = is_rapid(state)
     stands = kind == TAP or (rapid and limits[rules + RAPID_STOPS] != 0.0)
     if stands or contexts[record + STATION] != state[AT_STATION]:
         state[STOP] = 1.0
@@ -196,15 +209,8 @@ def lay_straight(
             parts = FACING_PIECES
     if (int(state[PIECES]) + parts) * width > len(pieces):
         return False
-    rapid = state[KIND] == RAPID or state[KIND] == REF
-    top_block = (TOP_RAPID if rapid else TOP_FEED) * n
-    top, pull, lead = inf, inf, lead_of(curves, state)
-    for i in range(n):
-        state[unit + i] = state[delta + i] / length
-        share = abs(state[unit + i])
-        if share > 0.0:
-            top = min(top, limits[top_block + i] / share)
-            pull = min(pull, limits[ACCELERATION * n + i] / share)
+    top, pull = line_limits(n, limits, state, length)
+    lead = lead_of(curves, state)
     if state[KIND] == TAP and lead > 0.0:
         pull = min(pull, lead * contexts[record + SPINDLE_REV_S2])
     entry2 = 0.0
@@ -229,13 +235,28 @@ def lay_straight(
     return True
 
 
+def line_limits(n: int, limits: Floats, state: Floats, length: float) -> tuple[float, float]:
+    """Speed and acceleration along the row at hand that its axes allow; sets UNIT to its direction."""
+    delta, unit = STATE_BLOCKS + DELTA * n, STATE_BLOCKS + UNIT * n
+    top_block = (TOP_RAPID if is_rapid(state) else TOP_FEED) * n
+    top, pull = inf, inf
+    for i in range(n):
+        state[unit + i] = state[delta + i] / length
+        share = abs(state[unit + i])
+        if share > 0.0:
+            top = min(top, limits[top_block + i] / share)
+            pull = min(pull, limits[ACCELERATION * n + i] / share)
+    return top, pull
+
+
 def lay_chord(
     pieces: Floats, at: int, n: int, limits: Floats, state: Floats, length: float, weight: float
 ) -> None:
     """Give a spline's chord the tangents and the curvature of the curve through its points.
 
-    At a point between two chords the tangent is their mean direction, the curvature the change of direction over the
-    mean length: central differences, the curve's own values to second order. UNIT is the chord, TANGENT the one before.
+    At a point between two chords the tangent is their mean direction, the curvature the change of direction
+    over the mean length: central differences, the curve's own values to second order. UNIT is the chord,
+    TANGENT the one before.
     """
     unit, tangent, bend = STATE_BLOCKS + UNIT * n, STATE_BLOCKS + TANGENT * n, STATE_BLOCKS + BEND * n
     here = at + VECTORS

@@ -1,9 +1,9 @@
 """Look-ahead over pieces: the fastest speeds that every later limit allows.
 
-The two passes are those of time-optimal path parametrisation by reachability (H. Pham and Q.-C. Pham, "A New Approach
-to Time-Optimal Path Parameterization Based on Reachability Analysis", IEEE T-RO 34, 2018), on squared speed, with the
-axis limits imposed at both ends of each piece. On straight pieces they are the plain trapezoid. Each pass visits every
-piece once.
+The two passes are those of time-optimal path parametrisation by reachability (H. Pham and Q.-C. Pham, "A New
+Approach to Time-Optimal Path Parameterization Based on Reachability Analysis", IEEE T-RO 34, 2018), on
+squared speed, with the axis limits imposed at both ends of each piece. On straight pieces they are the plain
+trapezoid. Each pass visits every piece once.
 """
 
 from __future__ import annotations
@@ -36,7 +36,8 @@ TRIES = 16
 def backward(pieces: Floats, count: int, n: int, limits: Floats) -> int:
     """Fill REACH2 of the first `count` pieces, behind which the axes stop.
 
-    The last joint whose reach does not depend on what comes behind it, because its own cap bounds it; -1 for none.
+    The last joint whose reach does not depend on what comes behind it, because its own cap bounds it; -1 for
+    none.
     """
     independent, width, x2 = -1, VECTORS + 4 * n, 0.0
     for p in range(count - 1, -1, -1):
@@ -55,9 +56,16 @@ def backward(pieces: Floats, count: int, n: int, limits: Floats) -> int:
 
 
 def forward(
-    pieces: Floats, count: int, n: int, limits: Floats, end2: float, slots: Floats, row_s: Floats, first_row: int
+    pieces: Floats,
+    count: int,
+    n: int,
+    limits: Floats,
+    end2: float,
+    slots: Floats,
+    row_s: Floats,
+    first_row: int,
 ) -> None:
-    """Choose SPEED2, END2 and TIME of the first `count` pieces; SPEED2 of the first and REACH2 of all are given.
+    """Choose SPEED2, END2 and TIME of the first `count` pieces, given SPEED2 of the first and REACH2 of all.
 
     Args:
         pieces: Records of pieces.
@@ -106,8 +114,8 @@ def bound2(
 ) -> tuple[float, float, float]:
     """Upper bound on x at one end of a curved piece (`at_start` says which) for the x at the other end.
 
-    With `u = (x₁ - x₀) / (2·length)` each limit `|q''·x + q'·u| <= a` at either end is linear in both x. The bound, and
-    intercept and slope by `known2` of the limit that sets it.
+    With `u = (x₁ - x₀) / (2·length)` each limit `|q''·x + q'·u| <= a` at either end is linear in both x. The
+    bound, and intercept and slope by `known2` of the limit that sets it.
     """
     here, there, half = at + VECTORS + n, at + VECTORS, -0.5 / pieces[at + LENGTH]
     if at_start:
@@ -132,8 +140,8 @@ def bound2(
 def highest2(pieces: Floats, at: int, n: int, limits: Floats, end2: float) -> float:
     """Largest x at the start of a curved piece from which some x up to `end2` can be reached at its end.
 
-    The bound is the least of straight lines over the end's x: concave. Where it falls at `end2`, its crest lies before; the
-    crossing of a rising and a falling line closes in on it.
+    The bound is the least of straight lines over the end's x: concave. Where it falls at `end2`, its crest
+    lies before; the crossing of a rising and a falling line closes in on it.
     """
     best, falling, fall = bound2(pieces, at, n, limits, end2, True)
     if fall >= 0.0 or end2 <= 0.0:
@@ -148,7 +156,7 @@ def highest2(pieces: Floats, at: int, n: int, limits: Floats, end2: float) -> fl
             break
         value, intercept, slope = bound2(pieces, at, n, limits, x2, True)
         best = max(best, value)
-        if slope == rise or slope == fall:
+        if slope in (rise, fall):
             break
         if slope > 0.0:
             rising, rise = intercept, slope
@@ -158,10 +166,10 @@ def highest2(pieces: Floats, at: int, n: int, limits: Floats, end2: float) -> fl
 
 
 def curved_time(pieces: Floats, at: int, n: int, limits: Floats, start2: float, end2: float) -> float:
-    """Seconds of a curved piece: under constant acceleration, or over a peak where that is quicker and within the limits.
+    """Seconds of a curved piece: under constant acceleration, or over a peak where that is quicker.
 
-    A peak costs acceleration to the side; what is left at its height, at the worse end and for the worst axis, serves to go
-    up and down. Half the height is tried where too little is left.
+    A peak costs acceleration to the side; what is left at its height, at the worse end and for the worst
+    axis, serves to go up and down. Half the height is tried where too little is left.
     """
     length, seconds = pieces[at + LENGTH], inf
     high2 = max(start2, end2)
