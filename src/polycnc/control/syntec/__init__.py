@@ -1,0 +1,1 @@
+"""The SYNTEC milling control: code tables, macro calls, variables, alarms."""

@@ -1,0 +1,65 @@
+"""Mistakes by name and the SYNTEC alarms for them.
+
+Codes are those of the milling manual and of the macro language. COR-012 and COR-013 stand in neither; they are what
+such controls show for a missing program and for calls nested too deep. The manual names no alarm for software travel
+limits: PC0004 is polycnc's own.
+"""
+
+from __future__ import annotations
+
+SEMANTIC = "COR-023"
+ALARMS: dict[str, str] = {
+    # words of a block
+    "address": SEMANTIC,
+    "argument": SEMANTIC,
+    "argument_address": SEMANTIC,
+    "point": SEMANTIC,
+    "number": "COR-064",
+    "improper_g": "COR-100",
+    "option": "COR-100",
+    "no_data": "COM-003",
+    # motion
+    "no_feed": SEMANTIC,
+    "plane": SEMANTIC,
+    "arc_end": "COR-006",
+    "center_off_plane": "COR-006",
+    "radius_zero": "COR-006",
+    "radius_too_small": "COR-006",
+    "three_point_word": "COR-133",
+    "three_point_format": "COR-134",
+    "inverse_time_feed": "COR-085",
+    "no_intermediate": SEMANTIC,
+    "stroke_pair": "COR-109",
+    "condition_set": "COR-103",
+    "over_travel_plus": "PC0004",
+    "over_travel_minus": "PC0004",
+    "surface_axis": "COR-383",
+    "cycle_word": SEMANTIC,
+    "retract_feed": "COR-045",
+    # coordinates
+    "rotation_angle": SEMANTIC,
+    "scale": SEMANTIC,
+    "preset_rotary": "COR-115",
+    # compensation
+    "offset_number": SEMANTIC,
+    "comp_arc_start": SEMANTIC,
+    "comp_skip": SEMANTIC,
+    "comp_no_intersection": "COR-074",
+    "comp_interference": "COR-074",
+    "offset_in_compensation": "COR-082",
+    "offset_arc": "COR-081",
+    # calls
+    "no_program": "COR-012",
+    "program_number": "COR-052",
+    "subprogram_number": "COR-052",
+    "repeat_count": "COR-045",
+    "nesting": "COR-013",
+    "registered_m": "OP-020",
+}
+
+#: Codes of other makers that arrive in SYNTEC programs: message ids of hints.
+FOREIGN_CODES = {
+    "G20": "hint.syntec.inch",
+    "G21": "hint.syntec.inch",
+    "G54.1": "hint.syntec.work-systems",
+}

@@ -1,0 +1,85 @@
+"""Plans of SYNTEC blocks: what differs from the word-address base in reading a block's shape."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.codes import GCode
+from polycnc.control.word_address.plan import Builder
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.control import WordAddressControl
+    from polycnc.control.word_address.plan import Plan
+    from polycnc.program import Program
+
+FIRST_MACRO, LAST_MACRO = 200, 999
+#: One-shot codes that take the axis words of their block and move with them.
+MOVING_CODES = frozenset({"G28", "G29", "G30", "G31", "G53"})
+_ARC_CODES = frozenset({"G2", "G3"})
+
+
+class SyntecBuilder(Builder):
+    """Works out one plan.
+
+    Attributes:
+        g_macros: Programs that G codes of the block call, in order.
+        called_m: The registered M code of the block.
+        plain: Registered codes act as standard codes.
+    """
+
+    def __init__(
+        self,
+        channel: Channel,
+        control: WordAddressControl,
+        signature: tuple[str, ...],
+        *,
+        plain: bool = False,
+    ) -> None:
+        self.g_macros: list[Program] = []
+        self.called_m: int | None = None
+        self.plain = plain
+        self._plain_plan: Plan | None = None
+        super().__init__(channel, control, signature)
+
+    def _row(self, code: str) -> GCode:
+        """A code of the table, or one of a macro: G200 to G999, and G123.4 where its file exists."""
+        program = self._macro_program(code)
+        if program is not None:
+            self.g_macros.append(program)
+            return GCode(code, axis_words=True)
+        return super()._row(code)
+
+    def _macro_program(self, code: str) -> Program | None:
+        whole, point, fraction = code[1:].partition(".")
+        if point:
+            return self.channel.store.find_name(f"G{int(whole):03d}{int(fraction or 0):03d}")
+        if not FIRST_MACRO <= int(whole) <= LAST_MACRO:
+            return None
+        return self.channel.store.find_name(f"G{int(whole):04d}")
+
+    def code_program(self, name: str) -> Program:
+        """The program of a registered code."""
+        program = self.channel.store.find_name(name)
+        if program is None:
+            raise self.control.fail("no_program", number=name)
+        return program
+
+    def moves_by_words(self) -> bool:
+        """Whether axis or centre words stand in the block that no one-shot code takes."""
+        if any(row.axis_words for row in self.codes):
+            return False
+        centers = self.mode["motion"] in _ARC_CODES and any(self.has(letter) for letter in "IJK")
+        return centers or bool(self.axis_words())
+
+    def moves(self, plan: Plan) -> bool:
+        """Whether the block moves axes (what G66 asks)."""
+        if any(row.axis_words and row.code not in MOVING_CODES for row in self.codes):
+            return False
+        return bool(plan.axis_words) or self.moves_by_words()
+
+    def plain_plan(self, channel: Channel) -> Plan:
+        """The plan of the block without its registered codes."""
+        if self._plain_plan is None:
+            self._plain_plan = type(self)(channel, self.control, self.signature, plain=True).build()
+        return self._plain_plan

@@ -1,0 +1,133 @@
+"""G and M tables of the SYNTEC milling control (manual 1.1 and chapters 2, 3)."""
+
+from __future__ import annotations
+
+from polycnc.control.syntec import arcs, calls, motion, spindles
+from polycnc.control.syntec import coordinates as frames
+from polycnc.control.word_address import auxiliary, coordinates, length, path, radius
+from polycnc.control.word_address import extended as base_extended
+from polycnc.control.word_address import frames as base_frames
+from polycnc.control.word_address.codes import GCode, MCode, Order, m_table, not_yet, table
+
+MOTION = Order.MOTION
+
+G_CODES = table(
+    GCode("G0", "motion", planner=motion.plan_rapid, ends="cycle"),
+    GCode("G1", "motion", planner=path.plan_line, ends="cycle"),
+    GCode("G2", "motion", planner=arcs.plan_arc_cw, ends="cycle"),
+    GCode("G3", "motion", planner=arcs.plan_arc_ccw, ends="cycle"),
+    GCode("G2.4", "motion", planner=arcs.plan_three_point_arc, ends="cycle"),
+    GCode("G3.4", "motion", planner=arcs.plan_three_point_arc, ends="cycle"),
+    GCode("G33", "motion", planner=motion.plan_thread, ends="cycle"),
+    GCode("G4", handler=frames.dwell, takes="X P", axis_words=True, order=MOTION),
+    GCode("G9", handler=base_extended.exact_stop_block),
+    GCode("G10", handler=frames.input_data, takes="L P R", axis_words=True, order=MOTION),
+    GCode("G15", "polar"),
+    GCode("G16", "polar", base_frames.start_polar),
+    GCode("G17", "plane", coordinates.note_context),
+    GCode("G18", "plane", coordinates.note_context),
+    GCode("G19", "plane", coordinates.note_context),
+    GCode("G22", "stroke", frames.stroke_limit_on, takes="I J K", axis_words=True, order=MOTION),
+    GCode("G23", "stroke", base_extended.stroke_check_off),
+    GCode("G28", handler=coordinates.return_to_reference, axis_words=True, order=MOTION),
+    GCode("G29", handler=coordinates.return_from_reference, axis_words=True, order=MOTION),
+    GCode("G30", handler=frames.return_to_further_reference, takes="P", axis_words=True, order=MOTION),
+    GCode("G31", handler=motion.skip_move, takes="P Q", axis_words=True, order=MOTION),
+    GCode("G40", "compensation", radius.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
+    GCode("G41", "compensation", radius.compensate_left, takes="D", order=Order.COMPENSATION),
+    GCode("G42", "compensation", radius.compensate_right, takes="D", order=Order.COMPENSATION),
+    GCode("G43", "length", length.compensate_length, takes="H", order=Order.LENGTH),
+    GCode("G44", "length", length.compensate_length, takes="H", order=Order.LENGTH),
+    GCode("G49", "length", length.cancel_length, order=Order.LENGTH),
+    GCode("G45", handler=motion.lengthened, takes="D I J K", axis_words=True, order=MOTION),
+    GCode("G46", handler=motion.shortened, takes="D I J K", axis_words=True, order=MOTION),
+    GCode("G47", handler=motion.lengthened_twice, takes="D I J K", axis_words=True, order=MOTION),
+    GCode("G48", handler=motion.shortened_twice, takes="D I J K", axis_words=True, order=MOTION),
+    GCode("G50", "scaling", base_frames.end_scale),
+    GCode("G51", "scaling", base_frames.scale, takes="I J K P", axis_words=True),
+    GCode("G50.1", "mirror", base_frames.end_mirror, axis_words=True),
+    GCode("G51.1", "mirror", frames.mirror, axis_words=True),
+    GCode("G52", handler=coordinates.set_local_system, axis_words=True),
+    GCode("G53", handler=motion.move_in_machine_system, takes="P F1 Q", axis_words=True, order=MOTION),
+    GCode("G54", "wcs", frames.select_work_system, takes="P"),
+    *(GCode(f"G{number}", "wcs", frames.select_work_system) for number in range(55, 60)),
+    *(GCode(f"G59.{number}", "wcs", frames.select_work_system) for number in range(1, 10)),
+    GCode("G61", "path", frames.cutting_mode),
+    GCode("G62", "path", frames.cutting_mode, takes="P"),
+    GCode("G63", "path", frames.cutting_mode),
+    GCode("G64", "path", frames.cutting_mode, takes="P"),
+    GCode("G65", axis_words=True, order=Order.CALL),
+    GCode("G66", "macro", axis_words=True, order=Order.CALL),
+    GCode("G66.1", "macro", axis_words=True, order=Order.CALL),
+    GCode("G67", "macro", calls.end_modal_call),
+    GCode("G68", "rotation", frames.rotate, takes="R", axis_words=True),
+    GCode("G69", "rotation", base_frames.end_rotation),
+    GCode("G70", "unit", coordinates.note_context),
+    GCode("G71", "unit", coordinates.note_context),
+    GCode("G80", "cycle"),
+    GCode("G90", "distance"),
+    GCode("G91", "distance"),
+    GCode("G92", handler=frames.set_position, takes="S", axis_words=True, order=MOTION),
+    GCode("G92.1", handler=frames.preset_system, takes="I J K R", axis_words=True, order=MOTION),
+    GCode("G93", "feed", motion.change_feed_mode, order=Order.FEED_MODE),
+    GCode("G94", "feed", motion.change_feed_mode, order=Order.FEED_MODE),
+    GCode("G95", "feed", motion.change_feed_mode, order=Order.FEED_MODE),
+    GCode("G96", "surface_speed", spindles.constant_surface_speed, takes="P"),
+    GCode("G97", "surface_speed", spindles.end_surface_speed),
+    GCode("G98", "return"),
+    GCode("G99", "return"),
+    not_yet(
+        "G4.1", "G5", "G5.1", "G6.2", "G10.6", "G10.9", "G12.1", "G13.1", "G28.1", "G31.10", "G31.11", "G37",
+        "G37.2", "G37.3", "G40.1", "G41.1", "G42.1", "G41.2", "G42.2", "G41.6", "G42.6", "G43.4", "G43.5",
+        "G50.2", "G51.2", "G52.1", "G52.2", "G53.1", "G53.3", "G53.6", "G54.4", "G68.2", "G68.3", "G73", "G74",
+        "G76", "G80.2", "G81", "G81.1", "G81.2", "G82", "G83", "G84", "G84.48", "G85", "G86", "G87", "G88",
+        "G89", "G113", "G114.1", "G114.3", "G120.1", "G121", "G134", "G135", "G136", "G137.1",
+    ),
+)  # fmt: skip
+
+M_CODES = m_table(
+    MCode(0, after=True, handler=auxiliary.stop, silent=True),
+    MCode(1, after=True, handler=auxiliary.optional_stop, silent=True),
+    MCode(2, after=True, handler=calls.end_program),
+    MCode(3, handler=auxiliary.spindle_clockwise),
+    MCode(4, handler=auxiliary.spindle_counter_clockwise),
+    MCode(5, handler=auxiliary.spindle_stop),
+    MCode(6, handler=auxiliary.change_tool),
+    MCode(30, after=True, handler=calls.end_program),
+    MCode(96, handler=calls.interrupts_not_yet, takes="P I Q R L", silent=True),
+    MCode(97, handler=calls.interrupts_not_yet, silent=True),
+    MCode(98, after=True, handler=calls.call_subprogram, takes="P H L", silent=True),
+    MCode(99, after=True, handler=calls.return_from_program, takes="P Q", silent=True),
+    MCode(198, after=True, handler=calls.call_external_subprogram, takes="P H L", silent=True),
+)
+
+ADDRESSES = {
+    "F": motion.plan_feed,
+    "S": auxiliary.plan_spindle_speed,
+    **{f"S{number}": motion.plan_named_spindle(number) for number in range(1, 11)},
+    "T": auxiliary.plan_tool,
+    "B": auxiliary.plan_second_auxiliary,
+    "H": length.plan_length_number,
+    "D": radius.plan_radius_number,
+}
+
+POWER_ON = {
+    "motion": "G0",
+    "plane": "G17",
+    "distance": "G90",
+    "stroke": "G23",
+    "feed": "G94",
+    "unit": "G71",
+    "compensation": "G40",
+    "length": "G49",
+    "cycle": "G80",
+    "return": "G98",
+    "scaling": "G50",
+    "macro": "G67",
+    "surface_speed": "G97",
+    "wcs": "G54",
+    "path": "G64",
+    "rotation": "G69",
+    "polar": "G15",
+    "mirror": "G50.1",
+}

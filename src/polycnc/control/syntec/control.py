@@ -1,0 +1,276 @@
+"""The SYNTEC milling control (control id `syntec-mill`)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import hypot
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from polycnc.compensation.policies import SYNTEC, Policy
+from polycnc.control.syntec import arcs, calls, coordinates, motion
+from polycnc.control.syntec.alarm_codes import ALARMS, FOREIGN_CODES
+from polycnc.control.syntec.builder import SyntecBuilder
+from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
+from polycnc.control.syntec.memory import SyntecMemory
+from polycnc.control.syntec.parameters import decimals, is_diameter, parameter
+from polycnc.control.word_address import frames
+from polycnc.control.word_address.control import WordAddressControl
+from polycnc.control.word_address.numbers import NumberRules
+from polycnc.language.syntec import executable
+from polycnc.messages import AlarmError
+from polycnc.program import Form
+from polycnc.program.split import split_channels
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Executable
+    from polycnc.control.word_address.codes import GCode, MCode, Planner, Step
+    from polycnc.control.word_address.memory import ToolOffset
+    from polycnc.control.word_address.plan import Builder, Plan
+    from polycnc.control.word_address.words import Words
+    from polycnc.geometry.arcs import Point
+    from polycnc.program import Program
+    from polycnc.toolpath import Context
+
+LAST_OFFSET = 999
+
+
+class SyntecMill(WordAddressControl):
+    """SYNTEC milling controls of the 900M … 220MA-5 family."""
+
+    id: ClassVar[str] = "syntec-mill"
+    alarm_package: ClassVar[str] = "polycnc.control.syntec"
+    g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
+    m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
+    addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
+    power_on: ClassVar[Mapping[str, str]] = POWER_ON
+    alarms: ClassVar[Mapping[str, str]] = ALARMS
+    foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
+    FEED_AT_START: ClassVar[float | None] = motion.DEFAULT_FEED["G94"]
+    INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z"}
+    INCH_CODE: ClassVar[str] = "G70"
+    LENGTH_TRAVELS_ALONE: ClassVar[bool] = False
+
+    # ---- programs ----------------------------------------------------------------------------------------
+
+    def compile(self, program: Program) -> Executable:
+        """Make a program ready to run: macro language where its file says so."""
+        return executable(program, macro=program.form is Form.MACRO)
+
+    def find_program(self, _channel: Channel, number: int) -> Program:
+        """A program by its number."""
+        program = _channel.store.find_number(number)
+        if program is None:
+            raise self.fail("no_program", address="P", number=number)
+        return program
+
+    # ---- states ------------------------------------------------------------------------------------------
+
+    def make_memory(self, channel: Channel) -> SyntecMemory:
+        """Offsets, tools and variables."""
+        return SyntecMemory(channel)
+
+    def start(self, channel: Channel) -> None:
+        """Power-on state; a channel of a file with `$n` sections runs its own section."""
+        super().start(channel)
+        memory = channel.memory
+        memory.feed_mode = channel.mode["feed"]
+        if memory.feed_mode == "G95":
+            channel.feed = motion.DEFAULT_FEED["G95"]
+        channel.level.locals = memory.locals
+        for number in range(3601, 3611):
+            if memory.parameter(number) in calls.NEVER_REGISTERED - {0}:
+                raise self.fail("registered_m", number=number)
+        sections = split_channels(channel.level.code.program)
+        if channel.number in sections:
+            channel.level.code = channel.executable(sections[channel.number])
+        if memory.parameter(3838) == 1:
+            channel.mode = channel.mode.with_code("stroke", "G22")
+
+    def start_codes(self, channel: Channel) -> dict[str, str]:
+        """Power-on codes; Pr3836 chooses between G94 and G95."""
+        codes = super().start_codes(channel)
+        if parameter(channel.setup.parameters, 3836) == 1:
+            codes["feed"] = "G95"
+        return codes
+
+    def end_of_program(self, channel: Channel) -> None:
+        """The text ends: as M30, in a subprogram as M99."""
+        if len(channel.stack) > 1:
+            calls.leave_program(channel)
+        else:
+            self.finish(channel)
+
+    def finish(self, channel: Channel) -> None:
+        """The main program is over."""
+        arcs.check_pair_complete(channel)
+        channel.end()
+
+    def leave(self, channel: Channel) -> None:
+        """End of a subprogram or macro: the caller's local variables return, words that were left act."""
+        ended = channel.pop()
+        channel.memory.locals = channel.level.locals
+        calls.finish_macro(channel, ended)
+
+    def check_nesting(self, channel: Channel, _kind: str) -> None:
+        """Alarm for one level of calls too many."""
+        if len(channel.stack) >= calls.MAX_LEVELS:
+            raise self.fail("nesting", hint="hint.syntec.levels")
+
+    # ---- alarms ------------------------------------------------------------------------------------------
+
+    def not_yet(self, code: str, address: str = "") -> AlarmError:
+        """The alarm for something that the control knows and polycnc does not execute."""
+        return AlarmError("PC0001", hint="hint.not-supported", address=address, code=code)
+
+    def untaken(self, address: str, builder: Builder) -> AlarmError:
+        """The alarm for a word that nothing in its block takes."""
+        if address.startswith(","):
+            return self.not_yet(address, address)
+        return self.fail("address", address=address, hint="hint.syntec.word-not-used", word=address)
+
+    # ---- blocks ------------------------------------------------------------------------------------------
+
+    def plan(self, channel: Channel, signature: tuple[str, ...]) -> Plan:
+        """The plan of a shape in the present modal state, made and kept."""
+        mode = channel.mode
+        plan = mode.plans[signature] = SyntecBuilder(channel, self, signature).build()
+        return plan
+
+    def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
+        """G65, G66, and macros called by G, M and T codes."""
+        assert isinstance(builder, SyntecBuilder)  # noqa: S101 - `plan` makes no other
+        return None if builder.plain else calls.plan_call(builder, plan)
+
+    def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
+        """The step of the active motion code; G93 works out the feed of each block."""
+        step = super().plan_motion(builder, plan)
+        before, after = builder.before["motion"], builder.mode["motion"]
+        if step is not None and builder.mode["feed"] == "G93" and after in ("G1", "G2", "G3"):
+            step = motion.with_inverse_time(builder, plan, step)
+        if before in arcs.THREE_POINT_CODES and after not in arcs.THREE_POINT_CODES:
+            return _after_check(step)
+        return step
+
+    def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
+        """The modal macro behind a block."""
+        assert isinstance(builder, SyntecBuilder)  # noqa: S101 - `plan` makes no other
+        step = calls.plan_modal_call(builder, plan)
+        return [step] if step is not None else []
+
+    # ---- numbers -----------------------------------------------------------------------------------------
+
+    def number_rules(self, channel: Channel) -> NumberRules:
+        """Least input units by Pr17; Pr3241 = 1 makes numbers without a point whole units."""
+        parameters = channel.setup.parameters
+        return NumberRules(
+            decimals=decimals(parameters, inch=False),
+            decimals_inch=decimals(parameters, inch=True),
+            calculator=parameter(parameters, 3241) == 1,
+            cuts_digits=False,
+        )
+
+    def feed_factor(self, builder: Builder, form: str, mode: str) -> float:
+        """F per minute counts whole units; per revolution, without a point, least input units (chapter 5)."""
+        rules = builder.rules
+        if form != "" or mode != "G95" or rules.calculator:
+            return 1.0
+        return float(10.0 ** -(rules.decimals_inch if builder.inch else rules.decimals))
+
+    def is_diameter(self, channel: Channel, axis: int) -> bool:
+        """Whether words of an axis are diameters (Pr281~)."""
+        return is_diameter(channel.setup.parameters, axis)
+
+    def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
+        """U, V, W are increments of X, Y, Z only with Pr3809 = 1."""
+        if address in self.INCREMENTAL_ADDRESSES and parameter(channel.setup.parameters, 3809) == 1:
+            index = channel.axis_index.get(self.INCREMENTAL_ADDRESSES[address])
+            return None if index is None else (index, True)
+        index = channel.axis_index.get(address)
+        return None if index is None else (index, builder.mode["distance"] == "G91")
+
+    # ---- motion ------------------------------------------------------------------------------------------
+
+    def arc_tolerance(self, channel: Channel) -> float:
+        """Allowed distance of an arc's end from its circle (Pr3807), mm."""
+        parameters = channel.setup.parameters
+        return parameter(parameters, 3807) * 10.0 ** -decimals(parameters, inch=False)
+
+    def check_arc(self, channel: Channel, start: Point, end: Point, center: Point) -> None:
+        """COR-006 for an end point that is not on the circle, or an arc without radius."""
+        first = hypot(start[0] - center[0], start[1] - center[1])
+        last = hypot(end[0] - center[0], end[1] - center[1])
+        if first == 0.0 or abs(first - last) > self.arc_tolerance(channel) + 1e-9:
+            raise self.fail("arc_end")
+
+    def plan_corner(self, _builder: Builder) -> Callable[[Channel, list[float]], object] | None:
+        """Corner words are not executed; `untaken` says so."""
+        return None
+
+    def polar_target(self, channel: Channel, plan: Plan, values: list[float]) -> list[float]:
+        """End point under G16."""
+        return frames.polar_target(channel, plan, values)
+
+    def scale_factors(self, channel: Channel, words: Words) -> tuple[float, float, float]:
+        """Factors of G51."""
+        return coordinates.scale_factors(channel, words)
+
+    def reference_point(self, channel: Channel, axis: int, number: int) -> float:
+        """Machine position of a reference point: 1 the machine zero, 2 to 4 by Pr2801 on, in least units."""
+        delivered = channel.axis_data[axis].reference_points[number - 1]
+        if number == 1:
+            return delivered
+        value: Any = channel.setup.parameters.get(2801 + 20 * (number - 2) + axis)
+        if value is None:
+            return delivered
+        return float(value) * 10.0 ** -decimals(channel.setup.parameters, inch=False)
+
+    # ---- offsets -----------------------------------------------------------------------------------------
+
+    def length_value(self, channel: Channel, number: int) -> float:
+        """Length offset of an H number, mm."""
+        return self._offset(channel, number, "H").total_length
+
+    def radius_value(self, channel: Channel, number: int) -> float:
+        """Radius offset of a D number, mm."""
+        return self._offset(channel, number, "D").total_radius if number else 0.0
+
+    def _offset(self, channel: Channel, number: int, address: str) -> ToolOffset:
+        if not 0 <= number <= LAST_OFFSET:
+            raise self.fail("offset_number", address=address)
+        offset: ToolOffset = channel.memory.offset_number(number)
+        return offset
+
+    def compensation_policy(self, channel: Channel) -> Policy:
+        """Radius compensation; Pr3819 = 1 checks for overcut."""
+        checked = parameter(channel.setup.parameters, 3819) == 1
+        return replace(SYNTEC, checks_direction=checked)
+
+    # ---- reports -----------------------------------------------------------------------------------------
+
+    def context(self, channel: Channel) -> Context:
+        """The context that holds now; under G93 feeds are recorded per minute."""
+        context = super().context(channel)
+        return replace(context, feed_mode="G94") if context.feed_mode == "G93" else context
+
+    def variable_names(self, channel: Channel) -> list[str]:
+        """Names of all variables that hold something."""
+        memory = channel.memory
+        names = [f"#{index}" for index in sorted(memory.locals)]
+        names += [f"#{401 + offset}" for offset in sorted(memory.user)]
+        names += [f"#{2001 + offset}" for offset in sorted(memory.modal_doubles)]
+        names += [f"@{index}" for index in sorted(memory.globals.values)]
+        return names + [f"R{index}" for index in sorted(memory.globals.registers)]
+
+
+def _after_check(step: Step | None) -> Step:
+    """A step behind the check that the last three-point arc is whole."""
+
+    def run(channel: Channel, values: list[float]) -> None:
+        arcs.check_pair_complete(channel)
+        if step is not None:
+            step(channel, values)
+
+    return run

@@ -1,0 +1,164 @@
+"""The memory of a SYNTEC control during a run: what the word-address base keeps, and the variables of macros."""
+
+from __future__ import annotations
+
+from random import Random
+from typing import TYPE_CHECKING
+
+from polycnc.control.syntec import functions
+from polycnc.control.syntec.parameters import decimals, parameter
+from polycnc.control.syntec.system_variables import SYSTEM_VARIABLES
+from polycnc.control.syntec.variables import Globals, Locals, is_local, put
+from polycnc.control.word_address.memory import Memory
+from polycnc.language.syntec.expressions import NO_SUCH_VARIABLE
+from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, whole
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.channel import Channel
+
+#: Names of single bits of the PLC interface that setups may give, and the functions that read them.
+BIT_FAMILIES = "IOAC"
+
+
+class SyntecMemory(Memory):
+    """State of a SYNTEC channel beside modal codes and positions.
+
+    Attributes:
+        locals: #1 to #400 of the running level.
+        user: #401 to #999; `modal_longs` #1080 on; `modal_doubles` #2001 on; `words` #1500 on and other words.
+        globals: `@` variables and R registers.
+        stack: PUSH and POP.
+        bits: Bits I, O, A, C of the PLC interface by name.
+        skip_flags: #1608; `skip_machine` the machine position of the last skip.
+        last_center: Centre vector of the last arc.
+        mid_point: Mid point of a G02.4 whose end point is still to come.
+        scale_factors: Factors of the active G51.
+        lead: F of G33, mm.
+        feeds: The last feed of each feed mode that was left.
+        surface_axis: Reference axis of G96.
+    """
+
+    def __init__(self, channel: Channel) -> None:
+        super().__init__(channel)
+        self.channel = channel
+        self.locals: dict[int, Value] = {}
+        self.user: dict[int, Value] = {}
+        self.modal_longs: dict[int, Value] = {}
+        self.modal_doubles: dict[int, Value] = {}
+        self.words: dict[int, Value] = {}
+        self.globals = Globals()
+        self.stack: list[Value] = []
+        self.random = Random(0)  # noqa: S311 - one sequence for every run, by intention
+        self.bits: dict[str, int] = {
+            name: int(bool(value))
+            for name, value in channel.setup.switches.signals.items()
+            if name[:1] in BIT_FAMILIES and name[1:].isdigit()
+        }
+        self.skip_flags = 0
+        self.skip_machine: list[float] | None = None
+        self.last_center = (0.0, 0.0, 0.0)
+        self.mid_point: list[float] | None = None
+        self.preset_angle = 0.0
+        self.preset_axis = [0.0, 0.0, 1.0]
+        self.scale_factors = (1.0, 1.0, 1.0)
+        self.lead = 0.0
+        self.feeds: dict[str, float] = {}
+        self.feed_mode = "G94"
+        self.surface_axis = 0
+        self.colour = 0
+        self.print_file = ""
+        self.functions: dict[str, Callable[..., Value]] = functions.bound(self)
+        for name, value in channel.setup.variables.items():
+            self.write_text(name, value)
+
+    # ---- what generated expressions call -----------------------------------------------------------------
+
+    def variable(self, index: Value) -> Value:
+        """The value of `#index`."""
+        at = whole(index, NO_SUCH_VARIABLE)
+        if at == 0:
+            return VACANT
+        if is_local(at):
+            return self.locals.get(at, VACANT)
+        space = SYSTEM_VARIABLES.find(at)
+        return space.read(self, at - space.first)
+
+    def set_variable(self, index: Value, value: Value) -> None:
+        """`#index := value`."""
+        at = whole(index, NO_SUCH_VARIABLE)
+        if is_local(at):
+            put(self.locals, at, value)
+            return
+        space = SYSTEM_VARIABLES.find(at)
+        if space.write is None:
+            raise AlarmError(NO_SUCH_VARIABLE, variable=f"#{at}", hint="hint.syntec.read-only")
+        space.write(self, at - space.first, value)
+
+    def register(self, index: Value) -> Value:
+        """The value of `@index`."""
+        return self.globals.read(index)
+
+    def set_register(self, index: Value, value: Value) -> None:
+        """`@index := value`."""
+        self.globals.write(index, value)
+
+    # ---- units -------------------------------------------------------------------------------------------
+
+    @property
+    def is_inch(self) -> bool:
+        """Whether the program's unit is the inch."""
+        return self.channel.mode["unit"] == "G70"
+
+    @property
+    def least_unit(self) -> float:
+        """Least input unit of lengths, in the program's unit (#1600)."""
+        return float(10.0 ** -decimals(self.parameters, inch=self.is_inch))
+
+    @property
+    def least_angle(self) -> float:
+        """Least input unit of angles and times (#1602)."""
+        return float(10.0 ** -decimals(self.parameters, inch=False))
+
+    def parameter(self, number: int) -> int:
+        """A machine parameter as a Long."""
+        return parameter(self.parameters, number)
+
+    # ---- levels ------------------------------------------------------------------------------------------
+
+    @property
+    def arguments(self) -> Locals | None:
+        """The words of the running macro's call; None outside of macros."""
+        return self.locals if isinstance(self.locals, Locals) else None
+
+    # ---- by name, for reports and test cases -------------------------------------------------------------
+
+    def read_text(self, name: str) -> object:
+        """A variable as a user names it: `#100`, `@5`, `R6000`; None where it is vacant."""
+        family, index = name[:1].upper(), name[1:]
+        if not index.isdigit() or family not in "#@R":
+            raise KeyError(name)
+        try:
+            if family == "R":
+                return self.globals.registers.get(int(index), 0)
+            value = self.variable(int(index)) if family == "#" else self.register(int(index))
+        except AlarmError as error:
+            raise KeyError(name) from error
+        return None if isinstance(value, Vacant) else value
+
+    def write_text(self, name: str, value: object) -> None:
+        """Set a variable as a user names it."""
+        family, index = name[:1].upper(), name[1:]
+        if not index.isdigit() or family not in "#@R":
+            raise KeyError(name)
+        typed: Value = Text(value) if isinstance(value, str) else VACANT
+        if isinstance(value, int | float):
+            typed = value
+        if family == "R":
+            self.globals.registers[int(index)] = int(float(str(value)))
+        elif family == "#":
+            self.set_variable(int(index), typed)
+        else:
+            self.set_register(int(index), typed)

@@ -1,0 +1,266 @@
+"""Motion codes of SYNTEC beside arcs: G00 with speed, G31, G33, G45 to G48, G53, feed under G93 (2.1 to 2.37)."""
+
+from __future__ import annotations
+
+from functools import partial
+from math import copysign, hypot, nan, sqrt
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address import auxiliary, path, skip
+from polycnc.control.word_address.numbers import INCH_MM
+from polycnc.control.word_address.path import CENTER_WORDS, PLANES
+from polycnc.geometry import arcs
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.codes import Handler, Planner, Step
+    from polycnc.control.word_address.plan import Builder, Plan
+    from polycnc.control.word_address.words import Words
+
+#: Default feeds while none was programmed: mm/s and mm/rev (2.2).
+DEFAULT_FEED = {"G93": nan, "G94": 1000.0 / 60.0, "G95": 1.0}
+ANGLE_TOLERANCE = 1e-6
+
+
+# ---- G00, G53 --------------------------------------------------------------------------------------------
+
+
+def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
+    """G00 [P1] [F1=] [Q=]: F1 is a speed per minute, effective with P1; Q overlaps blocks."""
+    builder.take("P", "F1", "Q")
+    step = path.plan_rapid(builder, plan)
+    speed, switch = builder.slot("F1"), builder.slot("P")
+    if step is None or speed is None or switch is None:
+        return step
+    unit = (INCH_MM if builder.inch else 1.0) / 60.0
+    polar = builder.mode.codes.get("polar") == "G16"
+
+    def move(channel: Channel, values: list[float]) -> None:
+        if values[switch] != 1:
+            step(channel, values)
+            return
+        c = channel.coordinates
+        if polar:
+            programmed = channel.control.polar_target(channel, plan, values)
+        else:
+            programmed = path.target(channel, plan.axis_words, values)
+        channel.straight(Kind.RAPID, c.to_position(programmed), values[speed] * unit, programmed)
+
+    return move
+
+
+def move_in_machine_system(channel: Channel, words: Words) -> None:
+    """G53 [P1] X Y Z [F1=] [Q=]: rapid to machine coordinates, under G91 by machine increments."""
+    c = channel.coordinates
+    machine = c.machine
+    for axis, value, _ in words.axes():
+        machine[axis] = machine[axis] + value if channel.mode["distance"] == "G91" else value
+    speed = words.typed("F1")
+    feed = nan
+    if speed is not None and words.typed("P") == 1:
+        feed = speed * (INCH_MM if words.plan.inch else 1.0) / 60.0
+    channel.straight(Kind.RAPID, c.from_machine(machine), feed)
+
+
+# ---- feed ------------------------------------------------------------------------------------------------
+
+
+def plan_feed(builder: Builder) -> Step:
+    """F: feed as the mode says; under G33 the lead."""
+    if builder.mode["motion"] != "G33":
+        return auxiliary.plan_feed(builder)
+    slot, form = builder.slots["F"]
+    factor = builder.control.feed_factor(builder, form, "G95") * (INCH_MM if builder.inch else 1.0)
+
+    def set_lead(channel: Channel, values: list[float]) -> None:
+        channel.memory.lead = values[slot] * factor
+
+    return set_lead
+
+
+def change_feed_mode(channel: Channel, words: Words) -> None:
+    """G93, G94, G95: each mode has its own F; one that was never programmed is 1000 per minute, 1 per revolution."""
+    memory, mode = channel.memory, channel.mode["feed"]
+    if mode != memory.feed_mode:
+        if "F" not in words:
+            memory.feeds[memory.feed_mode] = channel.feed
+            channel.feed = memory.feeds.get(mode, DEFAULT_FEED[mode])
+        memory.feed_mode = mode
+    channel.context_changed()
+
+
+def with_inverse_time(builder: Builder, plan: Plan, step: Step) -> Step:
+    """G93: F times the block length, on arcs F times the radius, in mm/min; F stands in every block (2.64)."""
+    arc = builder.mode["motion"] in ("G2", "G3")
+    u, v, _ = PLANES[builder.mode["plane"]]
+    radius, centers = builder.slot("R"), [builder.slot(CENTER_WORDS[axis]) for axis in (u, v)]
+    if not builder.has("F"):
+        raise builder.control.fail("inverse_time_feed", address="F")
+
+    def move(channel: Channel, values: list[float]) -> None:
+        rate = channel.feed
+        if not arc or (radius is None and not any(slot is not None for slot in centers)):
+            channel.feed = rate * _length(channel, plan, values)
+        elif radius is not None:
+            convert = builder.length("R")
+            channel.feed = rate * abs(convert(values[radius]) if convert else values[radius])
+        else:
+            shift = [0.0, 0.0]
+            for i, slot in enumerate(centers):
+                if slot is not None:
+                    convert = builder.length(CENTER_WORDS[(u, v)[i]])
+                    shift[i] = convert(values[slot]) if convert else values[slot]
+            channel.feed = rate * hypot(*shift)
+        try:
+            step(channel, values)
+        finally:
+            channel.feed = rate
+
+    return move
+
+
+def _length(channel: Channel, plan: Plan, values: list[float]) -> float:
+    """Length of the straight way that a block will make, over all axes."""
+    c = channel.coordinates
+    owed = c.pending[:]
+    end = c.to_position(path.target(channel, plan.axis_words, values))
+    c.pending[:] = owed
+    return sqrt(sum((e - s) ** 2 for s, e in zip(c.position, end, strict=True)))
+
+
+# ---- G31, G33 --------------------------------------------------------------------------------------------
+
+
+def skip_move(channel: Channel, words: Words) -> None:
+    """G31 X Y Z F [Q] [P]: a cut that ends where the skip signal comes (2.22)."""
+    if channel.mode["compensation"] != "G40":
+        raise words.fail("comp_skip", "G31")
+    deceleration = words.typed("P")
+    if deceleration is not None and (deceleration < 0 or deceleration != int(deceleration)):
+        raise words.fail("number", "P")
+    c = channel.coordinates
+    end = c.to_position(path.target(channel, words.plan.axis_words, words.values))
+    stopped = skip.signal_position(channel, c.position, end, _skip_source(channel, words))
+    memory = channel.memory
+    memory.skip_flags = int(stopped is not None)
+    channel.straight(Kind.SKIP, end if stopped is None else stopped, channel.feed)
+    memory.note_skip(list(c.position))
+    memory.skip_machine = c.machine
+
+
+def _skip_source(channel: Channel, words: Words) -> object:
+    """Where the signal comes: Q none is the skip input, 101 to 132 C bits, 201 to 218 inputs of drives."""
+    switches = channel.setup.switches
+    source = words.typed("Q")
+    if source is None:
+        return switches.skip_signal_at
+    if source == int(source) and 101 <= source <= 132:
+        return switches.signals_at.get(f"C{int(source)}")
+    if source == int(source) and 201 <= source <= 218:
+        return switches.signals_at.get(f"EXT{int(source) - 200}")
+    raise words.fail("argument", "Q")
+
+
+def plan_thread(builder: Builder, plan: Plan) -> Step | None:
+    """G33 Z F: a straight cut whose feed follows the spindle, lead F (2.23)."""
+    words = plan.axis_words
+    if not words:
+        return None
+
+    def move(channel: Channel, values: list[float]) -> None:
+        lead = channel.memory.lead
+        if not lead > 0.0:
+            raise builder.control.fail("no_feed", address="F")
+        c = channel.coordinates
+        programmed = path.target(channel, words, values)
+        end = c.to_position(programmed)
+        if end != c.position:
+            channel.curve(Kind.THREAD, end, lead, parameters=(lead, 0.0), programmed=programmed)
+
+    return move
+
+
+# ---- G45 to G48 ------------------------------------------------------------------------------------------
+
+
+def _lengthened_move(factor: float, channel: Channel, words: Words) -> None:
+    """G45 to G48: the move of this block grows by `factor` tool radii, arcs in their radius (2.31)."""
+    control, memory = channel.control, channel.memory
+    code = f"G{({1.0: 45, -1.0: 46, 2.0: 47, -2.0: 48})[factor]}"
+    if channel.mode["compensation"] != "G40":
+        raise control.fail("offset_in_compensation", address=code)
+    number = words.typed("D")
+    if number is not None:
+        memory.d = int(number)
+    growth = factor * control.radius_value(channel, memory.d)
+    motion = channel.mode["motion"]
+    if motion in ("G2", "G3"):
+        _lengthened_arc(channel, words, growth, ccw=motion == "G3")
+        return
+    if motion not in ("G0", "G1"):
+        raise control.fail("argument", address=code)
+    c = channel.coordinates
+    end = c.programmed[:]
+    for axis, value, incremental in words.axes():
+        way = value if incremental else value - c.programmed[axis]
+        if way != 0.0 or incremental:
+            way += copysign(growth, growth * copysign(1.0, way))
+        end[axis] += way
+    rapid = motion == "G0"
+    channel.straight(
+        Kind.RAPID if rapid else Kind.FEED, c.to_position(end), nan if rapid else channel.feed, end
+    )
+
+
+def _lengthened_arc(channel: Channel, words: Words, growth: float, *, ccw: bool) -> None:
+    """An arc of 90 or 270 degrees with another radius and the same tangent at its start."""
+    control, c = channel.control, channel.coordinates
+    u, v, w = PLANES[channel.mode["plane"]]
+    first, second = c.geometry[u], c.geometry[v]
+    programmed = path.target(channel, words.plan.axis_words, words.values)
+    begin = (c.programmed[first], c.programmed[second])
+    end = (programmed[first], programmed[second])
+    shift = (words.length(CENTER_WORDS[u]) or 0.0, words.length(CENTER_WORDS[v]) or 0.0)
+    radius = hypot(*shift)
+    if radius == 0.0:
+        raise control.fail("offset_arc")
+    center = (begin[0] + shift[0], begin[1] + shift[1])
+    control.check_arc(channel, begin, end, center)
+    quarters = abs(arcs.sweep_angle(begin, end, center, ccw)) / (arcs.TAU / 4.0)
+    if min(abs(quarters - 1.0), abs(quarters - 3.0)) > ANGLE_TOLERANCE:
+        raise control.fail("offset_arc")
+    ratio = (radius + growth) / radius
+    if ratio <= 0.0:
+        raise control.fail("comp_interference")
+    programmed[first] = begin[0] + (end[0] - begin[0]) * ratio
+    programmed[second] = begin[1] + (end[1] - begin[1]) * ratio
+    middle = (begin[0] + shift[0] * ratio, begin[1] + shift[1] * ratio)
+    path.emit_arc(channel, programmed, middle, (u, v, w), ccw=ccw, feed=channel.feed)
+
+
+lengthened: Handler = partial(_lengthened_move, 1.0)
+shortened: Handler = partial(_lengthened_move, -1.0)
+lengthened_twice: Handler = partial(_lengthened_move, 2.0)
+shortened_twice: Handler = partial(_lengthened_move, -2.0)
+
+
+# ---- spindle ---------------------------------------------------------------------------------------------
+
+
+def plan_named_spindle(spindle: int) -> Planner:
+    """`S1=150`, `S2=2000`: the speed of a spindle by its number."""
+
+    def plan_speed(builder: Builder) -> Step:
+        slot = builder.slots[f"S{spindle}"][0]
+
+        def set_speed(channel: Channel, values: list[float]) -> None:
+            value = values[slot]
+            if spindle == 1:
+                channel.memory.spindle_speed = value
+                channel.context_changed()
+            channel.event("s", speed=int(value) if value == int(value) else value, spindle=spindle)
+
+        return set_speed
+
+    return plan_speed
