@@ -38,6 +38,7 @@ DELIVERED: dict[str, Datum] = {
     "$MN_FRAME_ANGLE_INPUT_MODE": Datum(10600, 1),
     "$MN_UPLOAD_MD_CHANGES_ONLY": Datum(11210, 0),
     "$MN_LUD_EXTENDED_SCOPE": Datum(11120, False),
+    "$MN_LEN_PROTOCOL_FILE": Datum(11420, 0),
     "$MN_MM_MAX_CUTTING_EDGE_NO": Datum(18105, 9),
     "$MN_MM_MAX_CUTTING_EDGE_PERTOOL": Datum(18106, 9),
     "$MN_MM_FRAME_FINE_TRANS": Datum(18600, 1),

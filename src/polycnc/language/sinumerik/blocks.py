@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from polycnc.language.sinumerik import calls, definitions, flow, keywords, runtime
+from polycnc.language.sinumerik import calls, definitions, files, flow, keywords, runtime
 from polycnc.language.sinumerik.emitter import Emitter, provide
-from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, syntax, unknown
-from polycnc.language.sinumerik.expressions import Expr, ExpressionReader
+from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, syntax
+from polycnc.language.sinumerik.expressions import ExpressionReader
 from polycnc.language.sinumerik.lexer import Token, prefix_of, tokenize
 from polycnc.language.sinumerik.nc_words import WordReader
 from polycnc.language.sinumerik.places import SystemPlace
@@ -269,5 +269,12 @@ _STATEMENTS: dict[str, Callable[[BlockCompiler], None]] = {
     **dict.fromkeys(keywords.PARTS | keywords.OPERATORS, _alone),
 }
 
-provide(Array=Array, Reference=Reference, WordShape=WordShape, block_of=block_of, define=define)
-__all__ = ["BlockCompiler", "CompiledBlock", "Expr", "compile_block", "compile_text", "unknown"]
+provide(
+    Array=Array,
+    Reference=Reference,
+    WordShape=WordShape,
+    block_of=block_of,
+    define=define,
+    file_procedure=files.file_procedure,
+    file_function=files.file_function,
+)

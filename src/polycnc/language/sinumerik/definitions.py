@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import Emitter
-from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
+from polycnc.language.sinumerik.errors import NcSyntaxError
 from polycnc.language.sinumerik.expressions import ExpressionReader
 from polycnc.language.sinumerik.runtime import default_value
 from polycnc.language.sinumerik.values import MAX_STRING, Type
@@ -442,4 +442,3 @@ STATEMENTS: dict[str, Callable[[BlockCompiler], None]] = {
     "EXTERN": external,
     "DEFINE": define_macro,
 }
-__all__ = ["NO_HEADER", "STATEMENTS", "Header", "constant", "read_header", "unknown"]

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
 from polycnc.language.sinumerik.expressions import Expr
+from polycnc.language.sinumerik.level_variables import LEVEL_VARIABLES
 from polycnc.language.sinumerik.places import (
     CharPlace,
     ComponentPlace,
@@ -17,10 +18,12 @@ from polycnc.language.sinumerik.places import (
     SystemPlace,
 )
 from polycnc.language.sinumerik.values import Type
+from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
     from polycnc.language.sinumerik.expressions import ExpressionReader
-    from polycnc.language.sinumerik.interface import LanguageControl, LanguageMemory
+    from polycnc.language.sinumerik.interface import LanguageControl, LanguageMemory, SystemVariable
     from polycnc.language.sinumerik.lexer import Token
     from polycnc.language.sinumerik.variables import Variable
 
@@ -84,7 +87,7 @@ class Scope:
         if name[0] == "$":
             if name.startswith("$R") and name[2:].isdecimal():
                 return RPlace.numbered(reader, token._replace(text=name[1:], value=int(name[2:])))
-            return SystemPlace.read_indices(reader, token, self.control.system_variable(_named(name, token)))
+            return SystemPlace.read_indices(reader, token, self._system_variable(token))
         variable = self.find(name)
         if variable is None:
             raise unknown(token.column, name)
@@ -112,6 +115,23 @@ class Scope:
         if self.variables.get(variable.name) is variable:
             return reader.emitter.local()
         return reader.emitter.main()
+
+    def _system_variable(self, token: Token) -> SystemVariable:
+        name = token.text
+        if len(name) < 3:
+            raise unknown(token.column, name)
+        try:
+            return LEVEL_VARIABLES.get(name) or self.control.system_variable(name)
+        except AlarmError as alarm:
+            alarm.column = alarm.column or token.column
+            raise
+
+    def value_of(self, variable: Variable, channel: Channel) -> Any:
+        """What lies in a variable's slot now."""
+        if variable.store is not None:
+            return variable.store[0]
+        level = channel.level if self.variables.get(variable.name) is variable else channel.stack[0]
+        return level.locals[variable.slot]
 
     def word_operand(self, reader: ExpressionReader, token: Token) -> Expr:
         """A letter with a number as an operand: an R parameter, or an axis or spindle name."""
@@ -181,12 +201,6 @@ class Scope:
     def _any(reader: ExpressionReader) -> str:
         value = reader.expression()
         return f"chr({value.code})" if value.type is Type.CHAR else value.code
-
-
-def _named(name: str, token: Token) -> str:
-    if len(name) < 3:
-        raise unknown(token.column, token.text)
-    return name
 
 
 def is_known(name: str, control: LanguageControl) -> bool:
