@@ -272,7 +272,7 @@ class Channel:
                     wait, self._wait = self._wait, None
                     yield wait
         except AlarmError as error:
-            self._take_back()
+            self._take_back(found_ahead=bool(error.line))
             self._alarm(error)
         except ArithmeticError as error:
             self._take_back()
@@ -281,21 +281,27 @@ class Channel:
             self._take_back()
             self._alarm(AlarmError("PC0003"))
 
-    def _take_back(self) -> None:
+    def _take_back(self, *, found_ahead: bool = False) -> None:
         """The block that alarms does nothing: its rows vanish, the channel stands where it stood before.
 
-        Moves that a stage holds back belong to blocks in front and are still made.
+        Moves that a stage holds back belong to blocks in front and are still made, unless the stage itself has found
+        the mistake in one of them (`found_ahead`): then the motion ends in front of that one.
         """
         if self._head is not None:
             head, self.head = self._head, None
-            with suppress(AlarmError):
-                head.flush()
+            if not found_ahead:
+                with suppress(AlarmError):
+                    head.flush()
+            self._stand_at_last_row()
             return
         chunk, mark = self.toolpath.chunk, self.mark
         if len(chunk) > mark:
             self.toolpath.truncate(mark)
-            end = list(chunk.end[-chunk.axes :]) if mark else self._start
-            self.coordinates.arrive(end)
+            self._stand_at_last_row()
+
+    def _stand_at_last_row(self) -> None:
+        chunk = self.toolpath.chunk
+        self.coordinates.arrive(list(chunk.end[-chunk.axes :]) if len(chunk) else self._start)
 
     def flush(self) -> None:
         """Pass on every move that a stage still holds back."""
@@ -309,13 +315,14 @@ class Channel:
         level = self.stack[-1] if self.stack else None
         line = error.line or (level.code.line(level.current) if level else 0)
         program = level.code.program if level else None
+        name = error.program or (program.name if program else "")
         column = error.column
         if level and error.address and not column and not error.line:
             column = level.code.column(level.current, error.address)
         alarm = Alarm(
             control=self.control.id,
             code=error.code,
-            program=program.name if program else "",
+            program=name,
             line=line,
             column=column,
             args=dict(error.args_by_name),
