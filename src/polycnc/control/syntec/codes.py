@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from polycnc.control.syntec import arcs, calls, motion, spindles
+from polycnc.control.syntec import arcs, calls, cycles, motion, spindles
 from polycnc.control.syntec import coordinates as frames
 from polycnc.control.word_address import auxiliary, coordinates, length, path, radius
 from polycnc.control.word_address import extended as base_extended
@@ -65,6 +65,11 @@ G_CODES = table(
     GCode("G70", "unit", coordinates.note_context),
     GCode("G71", "unit", coordinates.note_context),
     GCode("G80", "cycle"),
+    *(GCode(code, "cycle") for code in cycles.CYCLES),
+    GCode("G134", handler=cycles.circle_of_holes, takes="I J K", axis_words=True, order=MOTION),
+    GCode("G135", handler=cycles.line_of_holes, takes="I J K", axis_words=True, order=MOTION),
+    GCode("G136", handler=cycles.arc_of_holes, takes="I J P K", axis_words=True, order=MOTION),
+    GCode("G137.1", handler=cycles.grid_of_holes, takes="I J P K", axis_words=True, order=MOTION),
     GCode("G90", "distance"),
     GCode("G91", "distance"),
     GCode("G92", handler=frames.set_position, takes="S", axis_words=True, order=MOTION),
@@ -79,9 +84,8 @@ G_CODES = table(
     not_yet(
         "G4.1", "G5", "G5.1", "G6.2", "G10.6", "G10.9", "G12.1", "G13.1", "G28.1", "G31.10", "G31.11", "G37",
         "G37.2", "G37.3", "G40.1", "G41.1", "G42.1", "G41.2", "G42.2", "G41.6", "G42.6", "G43.4", "G43.5",
-        "G50.2", "G51.2", "G52.1", "G52.2", "G53.1", "G53.3", "G53.6", "G54.4", "G68.2", "G68.3", "G73", "G74",
-        "G76", "G80.2", "G81", "G81.1", "G81.2", "G82", "G83", "G84", "G84.48", "G85", "G86", "G87", "G88",
-        "G89", "G113", "G114.1", "G114.3", "G120.1", "G121", "G134", "G135", "G136", "G137.1",
+        "G50.2", "G51.2", "G52.1", "G52.2", "G53.1", "G53.3", "G53.6", "G54.4", "G68.2", "G68.3",
+        "G80.2", "G81.1", "G81.2", "G84.48", "G113", "G114.1", "G114.3", "G120.1", "G121",
     ),
 )  # fmt: skip
 

@@ -7,7 +7,7 @@ from math import hypot
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.compensation.policies import SYNTEC, Policy
-from polycnc.control.syntec import arcs, calls, coordinates, motion
+from polycnc.control.syntec import arcs, calls, coordinates, cycles, motion
 from polycnc.control.syntec.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Executable
     from polycnc.control.word_address.codes import GCode, MCode, Planner, Step
+    from polycnc.control.word_address.drilling import Drilling
     from polycnc.control.word_address.memory import ToolOffset
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
@@ -48,6 +49,7 @@ class SyntecMill(WordAddressControl):
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
+    drilling: ClassVar[Drilling] = cycles.DRILLING
     FEED_AT_START: ClassVar[float | None] = motion.DEFAULT_FEED["G94"]
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z"}
     INCH_CODE: ClassVar[str] = "G70"
@@ -147,6 +149,8 @@ class SyntecMill(WordAddressControl):
     def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
         """The step of the active motion code; G93 works out the feed of each block."""
         step = super().plan_motion(builder, plan)
+        if builder.mode["cycle"] != "G80":
+            return None if step is None else cycles.with_cycle_words(builder, step)
         before, after = builder.before["motion"], builder.mode["motion"]
         if step is not None and builder.mode["feed"] == "G93" and after in ("G1", "G2", "G3"):
             step = motion.with_inverse_time(builder, plan, step)

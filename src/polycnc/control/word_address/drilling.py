@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.numbers import NumberRules
     from polycnc.control.word_address.plan import AxisWord, Builder, Plan
 
 #: A value of the cycle data: in internal units (P as typed), and whether it is an increment.
@@ -56,7 +57,7 @@ def third_axis(builder: Builder) -> int:
     return builder.channel.coordinates.geometry[PLANES[builder.mode["plane"]][2]]
 
 
-def in_milliseconds(value: float, _form: str) -> float:
+def in_milliseconds(value: float, _form: str, _rules: NumberRules) -> float:
     """P counts milliseconds."""
     return value / 1000.0
 
@@ -93,7 +94,7 @@ class Drilling:
         by_r: Rapid retracts stop at R on the way to the initial level.
         dwells_at_r: A tap dwells at R as well.
         axis: The drilling axis.
-        seconds: A P word, as typed and how it was written, in seconds.
+        seconds: A P word, as typed, how it was written and how numbers are read, in seconds.
         relief: Retract or clearance between pecks of a cycle, mm.
         shift: Shift off the wall along two geometry axes, the first and second of the hole's plane.
         lead: Lead of a tap, mm.
@@ -108,7 +109,7 @@ class Drilling:
     by_r: bool = False
     dwells_at_r: bool = False
     axis: Callable[[Builder], int] = third_axis
-    seconds: Callable[[float, str], float] = in_milliseconds
+    seconds: Callable[[float, str, NumberRules], float] = in_milliseconds
     relief: Callable[[Channel, str], float] = no_relief
     shift: Callable[[Channel, CycleData, tuple[int, int]], tuple[float, float]] = shift_by_center_words
     lead: Callable[[Channel], float] = lead_from_feed
@@ -215,8 +216,8 @@ class _Words:
 
     def _converter(self, builder: Builder, address: str) -> Callable[[float], float]:
         if address == "P":
-            form = builder.slots[address][1]
-            return lambda value: self.rules.seconds(value, form)
+            form, rules = builder.slots[address][1], builder.rules
+            return lambda value: self.rules.seconds(value, form, rules)
         return builder.length(address) or (lambda value: value)
 
     def store(self, data: CycleData, values: list[float]) -> None:
@@ -266,7 +267,7 @@ def _hole(channel: Channel, code: str, data: CycleData) -> Hole:
         back=r if channel.mode.codes.get("return") == "G99" else data.initial,
         dwell_s=dwell,
         dwell_out_s=dwell if rules.dwells_at_r else 0.0,
-        peck=data.amount("Q") if cycle.pecks else 0.0,
+        peck=abs(data.amount("Q")) if cycle.pecks else 0.0,
         relief=rules.relief(channel, code),
         by_r=rules.by_r,
     )

@@ -1,0 +1,205 @@
+"""Drilling cycles and hole patterns of SYNTEC (manual 2.47 to 2.60, 2.68 to 2.72, 2.74)."""
+
+from __future__ import annotations
+
+from functools import partial
+from math import nan
+from typing import TYPE_CHECKING
+
+from polycnc.control.syntec.parameters import decimals, parameter
+from polycnc.control.word_address.drilling import DrillCycle, Drilling, drill_here, is_active, lead_from_feed
+from polycnc.control.word_address.path import PLANES
+from polycnc.cycles import drilling
+from polycnc.geometry.frames import cos_sin_deg
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.drilling import CycleData
+    from polycnc.control.word_address.numbers import NumberRules
+    from polycnc.control.word_address.plan import Builder
+    from polycnc.control.word_address.words import Words
+
+#: An incremental bottom counts from the initial level where the page of the cycle says so, else from R.
+CYCLES = {
+    "G73": DrillCycle(drilling.peck_breaking_chips, pecks=True, bottom_from_initial=True),
+    "G74": DrillCycle(drilling.tap, dwells=True, pecks=True, bottom_from_initial=True),
+    "G76": DrillCycle(drilling.bore_and_shift, dwells=True, bottom_from_initial=True),
+    "G81": DrillCycle(drilling.drill),
+    "G82": DrillCycle(drilling.drill, dwells=True, bottom_from_initial=True),
+    "G83": DrillCycle(drilling.peck_clearing_chips, pecks=True, bottom_from_initial=True),
+    "G84": DrillCycle(drilling.tap, dwells=True, pecks=True),
+    "G85": DrillCycle(drilling.bore, bottom_from_initial=True),
+    "G86": DrillCycle(drilling.bore_and_stop, bottom_from_initial=True),
+    "G87": DrillCycle(drilling.bore_back, dwells=True),
+    "G88": DrillCycle(
+        partial(drilling.bore_and_halt, feeds_out=True), dwells=True, bottom_from_initial=True
+    ),
+    "G89": DrillCycle(drilling.bore, dwells=True, bottom_from_initial=True),
+}
+TAPPING = ("G74", "G84")
+INCH_MM = 25.4
+#: Pr4020: direction off the wall after the oriented stop, as geometry axis and sense.
+SHIFT_DIRECTIONS = {0: (0, 1.0), 1: (0, -1.0), 2: (1, 1.0), 3: (1, -1.0), 4: (2, 1.0), 5: (2, -1.0)}
+MAX_HOLES = 9999
+
+
+def relief(channel: Channel, code: str) -> float:
+    """Pr4002 between drilling pecks; between tapping pecks Pr4004, or out to R where Pr4001 is 0."""
+    parameters = channel.setup.parameters
+    if code in TAPPING and parameter(parameters, 4001) != 1:
+        return 0.0
+    number = 4004 if code in TAPPING else 4002
+    return parameter(parameters, number) * 10.0 ** -decimals(parameters, inch=False)
+
+
+def shift_off_wall(channel: Channel, data: CycleData, plane: tuple[int, int]) -> tuple[float, float]:
+    """Q in the direction of Pr4020; G87 shifts against it."""
+    axis, sense = SHIFT_DIRECTIONS.get(parameter(channel.setup.parameters, 4020), (0, 1.0))
+    if axis not in plane:
+        raise AlarmError("COR-023", address="Q", word="Q", hint="hint.syntec.shift-direction")
+    amount = abs(data.amount("Q")) * sense
+    if channel.mode["cycle"] == "G87":
+        amount = -amount
+    return (amount, 0.0) if axis == plane[0] else (0.0, amount)
+
+
+def dwell_seconds(value: float, form: str, rules: NumberRules) -> float:
+    """P: seconds with a point, least input units of time without (Pr17, Pr3241)."""
+    return value if form != "" or rules.calculator else value / 10.0**rules.decimals
+
+
+DRILLING = Drilling(
+    CYCLES,
+    kept="RQPIJD",
+    repeats="K",
+    dwells_at_r=True,
+    seconds=dwell_seconds,
+    relief=relief,
+    shift=shift_off_wall,
+    lead=lead_from_feed,
+)
+
+
+def with_cycle_words(builder: Builder, step: Step) -> Step:
+    """F2 of G81 and E of the tapping cycles in front of a drilling block."""
+    code = builder.mode["cycle"]
+    retract, threads = builder.slot("F2"), builder.slot("E")
+    if code == "G81":
+        builder.take("F2")
+    if code in TAPPING:
+        builder.take("E")
+    control = builder.control
+
+    def drill(channel: Channel, values: list[float]) -> None:
+        if retract is not None and code == "G81":
+            if values[retract] != int(values[retract]):
+                raise control.fail("retract_feed", address="F2")
+            if values[retract] > 0 and parameter(channel.setup.parameters, 4008) == 1:
+                raise AlarmError("PC0001", hint="hint.not-supported", address="F2", code="G81 F2")
+        if threads is not None and code in TAPPING and not builder.has("F"):
+            _feed_by_threads(channel, values[threads])
+        step(channel, values)
+
+    return drill
+
+
+def _feed_by_threads(channel: Channel, per_inch: float) -> None:
+    """E: threads per inch, the lead is 25.4 mm / E (2.48, 2.55)."""
+    if not per_inch > 0.0:
+        raise AlarmError("COR-023", address="E", word="E")
+    lead = INCH_MM / per_inch
+    per_revolution = channel.mode["feed"] == "G95"
+    channel.feed = lead if per_revolution else lead * channel.memory.spindle_speed / 60.0
+
+
+# ---- hole patterns ------------------------------------------------------------------------------------------
+
+
+def circle_of_holes(channel: Channel, words: Words) -> None:
+    """G134 X Y I J K: K holes on a circle about X Y, radius I, from angle J; K negative clockwise (2.68)."""
+    count = _count(words, "K", signed=True)
+    radius = _length(words, "I", positive=True)
+    start = words.angle("J") or 0.0
+    pitch = 360.0 / abs(count) * (1 if count > 0 else -1)
+    center = _base(channel, words)
+    _drill_points(channel, words, (_round(center, radius, start + k * pitch) for k in range(abs(count))))
+
+
+def line_of_holes(channel: Channel, words: Words) -> None:
+    """G135 X Y I J K: K holes with pitch I along angle J (2.69)."""
+    count = _count(words, "K")
+    pitch = _length(words, "I")
+    start = _base(channel, words)
+    angle = words.angle("J") or 0.0
+    _drill_points(channel, words, (_round(start, k * pitch, angle) for k in range(count)))
+
+
+def arc_of_holes(channel: Channel, words: Words) -> None:
+    """G136 X Y I J P K: K holes on a circle about X Y, radius I, from angle J, pitch P degrees (2.70)."""
+    count = _count(words, "K")
+    radius = _length(words, "I", positive=True)
+    start, pitch = words.angle("J") or 0.0, words.angle("P") or 0.0
+    center = _base(channel, words)
+    _drill_points(channel, words, (_round(center, radius, start + k * pitch) for k in range(count)))
+
+
+def grid_of_holes(channel: Channel, words: Words) -> None:
+    """G137.1 X Y I P J K: P holes along X with pitch I, K along Y with pitch J, row by row to and fro (2.71)."""
+    columns, rows = _count(words, "P"), _count(words, "K")
+    across, along = _length(words, "I"), _length(words, "J")
+    x, y = _base(channel, words)
+    points = (
+        (x + (i if j % 2 == 0 else columns - 1 - i) * across, y + j * along)
+        for j in range(rows)
+        for i in range(columns)
+    )
+    _drill_points(channel, words, points)
+
+
+def _count(words: Words, address: str, *, signed: bool = False) -> int:
+    value = words.typed(address)
+    if value is None or value != int(value) or not 1 <= (abs(value) if signed else value) <= MAX_HOLES:
+        raise words.fail("argument", address if value is not None else "")
+    return int(value)
+
+
+def _length(words: Words, address: str, *, positive: bool = False) -> float:
+    value = words.length(address)
+    if value is None or (positive and value <= 0.0):
+        raise words.fail("argument", address if value is not None else "")
+    return value
+
+
+def _base(channel: Channel, words: Words) -> tuple[float, float]:
+    """The point that the axis words name, in the active plane."""
+    c = channel.coordinates
+    u, v, _ = PLANES[channel.mode["plane"]]
+    point = [c.programmed[c.geometry[u]], c.programmed[c.geometry[v]]]
+    for axis, value, incremental in words.axes():
+        for i, place in enumerate((u, v)):
+            if c.geometry[place] == axis:
+                point[i] = point[i] + value if incremental else value
+    return (point[0], point[1])
+
+
+def _round(center: tuple[float, float], radius: float, angle: float) -> tuple[float, float]:
+    cosine, sine = cos_sin_deg(angle)
+    return (center[0] + radius * cosine, center[1] + radius * sine)
+
+
+def _drill_points(channel: Channel, words: Words, points: Iterator[tuple[float, float]]) -> None:
+    """Position over each point and drill with the data of the active cycle."""
+    if not is_active(channel) or channel.memory.cycle_data is None:
+        raise AlarmError("COR-023", word="", hint="hint.syntec.pattern-without-cycle")
+    c = channel.coordinates
+    u, v, _ = PLANES[channel.mode["plane"]]
+    for x, y in points:
+        end = c.programmed[:]
+        end[c.geometry[u]], end[c.geometry[v]] = x, y
+        channel.straight(Kind.RAPID, c.to_position(end), nan, end)
+        drill_here(channel)
