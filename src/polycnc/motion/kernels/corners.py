@@ -108,7 +108,7 @@ def rounded2(tolerance: float, n: int, limits: Floats, state: Floats, shorter: f
 
 
 def half_turn(n: int, limits: Floats, state: Floats) -> tuple[float, float, float, float]:
-    """Speeds of the linear axes before and after a corner per path speed, sine and cosine of half the angle of turn."""
+    """Speed of the linear axes before and after a corner, per path speed; sine, cosine of half the turn."""
     unit, tangent = STATE_BLOCKS + UNIT * n, STATE_BLOCKS + TANGENT * n
     before, after, apart, together = 0.0, 0.0, 0.0, 0.0
     for i in range(n):

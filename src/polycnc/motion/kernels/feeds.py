@@ -35,7 +35,7 @@ def axes_of(state: Floats) -> int:
 
 def is_rapid(state: Floats) -> bool:
     """Whether the row at hand runs at rapid traverse."""
-    return state[KIND] == RAPID or state[KIND] == REF  # noqa: SIM109 (floats)
+    return state[KIND] == RAPID or state[KIND] == REF
 
 
 def norm(state: Floats, block: int, n: int, limits: Floats, weight: float) -> float:

@@ -274,9 +274,7 @@ def lay_chord(
     for i in range(n):
         curvature = (state[unit + i] - state[tangent + i]) / mean
         pieces[before + n + i] = pieces[here + i] = state[bend + i] / size
-        pieces[before + 3 * n + i] = pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = curvature
+        pieces[before + 3 * n + i] = pieces[here + 2 * n + i] = curvature
         if curvature != 0.0:
             cap2 = min(cap2, limits[ACCELERATION * n + i] / abs(curvature))
     pieces[at + ENTRY2] = cap2
-    # The last chord of a spline bends at its end as at its start.
-    state[EXIT2] = min(state[EXIT2], cap2)

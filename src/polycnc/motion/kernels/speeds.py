@@ -176,8 +176,8 @@ def curved_time(pieces: Floats, at: int, n: int, limits: Floats, start2: float, 
     if high2 > 0.0:
         seconds = 2.0 * length / (sqrt(start2) + sqrt(end2))
     peak2 = min(pieces[at + CAP2], high2 + pieces[at + PULL] * length)
-    if peak2 <= 1.02 * high2:
-        return seconds
+    if start2 + end2 >= 1.96 * peak2:
+        return seconds  # nearly level at the peak: nothing to win
     first = at + VECTORS
     for _ in range(TRIES):
         left = inf

@@ -1,0 +1,1 @@
+"""Speed and quality against the project's limits: `python -m benchmarks`."""
