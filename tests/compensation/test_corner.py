@@ -10,7 +10,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from compensation.support import G17, Recorder
+from tests.compensation.support import G17, Recorder
 from polycnc.channel.path import Move
 from polycnc.compensation.corner import (
     FANUC_CORNERS,

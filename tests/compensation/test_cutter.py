@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from compensation.support import CODES, Reader, run
+from tests.compensation.support import CODES, Reader, run
 from polycnc.compensation import policies
 from polycnc.compensation.policies import Policy, Violation
 from polycnc.geometry.offset import Joint, Outer

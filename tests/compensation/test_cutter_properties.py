@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from shapely.geometry import LineString, Point, Polygon
 
-from compensation.support import CODES, G17, Recorder
+from tests.compensation.support import CODES, G17, Recorder
 from polycnc.channel.path import Move
 from polycnc.compensation import policies
 from polycnc.compensation.cutter import CutterCompensation

@@ -315,7 +315,9 @@ class Channel:
         level = self.stack[-1] if self.stack else None
         line = error.line or (level.code.line(level.current) if level else 0)
         program = level.code.program if level else None
-        name = error.program or (program.name if program else "")
+        name = program.name if program else ""
+        if error.program is not None:
+            name = self.toolpath.programs[error.program]
         column = error.column
         if level and error.address and not column and not error.line:
             column = level.code.column(level.current, error.address)

@@ -386,7 +386,7 @@ class CutterCompensation:
         """Raise the control's alarm at the line of a move, unless the control does not check this."""
         code = self._violations.get(violation)
         if code is not None:
-            raise AlarmError(code, line=move.line)
+            raise AlarmError(code, line=move.line, program=move.program)
 
     def _check(self, step: _Step, following: _Step) -> None:
         """Look for vectors that have changed places with those just found (FANUC 0i-TF Plus 5.4.6)."""

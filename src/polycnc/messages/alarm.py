@@ -20,7 +20,7 @@ class AlarmError(Exception):
         code: The control's own code, such as `PS0010`, `COR-006` or `12080`.
         column: Column in the block, from 1; 0 when the whole block is meant.
         line: Line of the program, where it is not the running block (found by a stage that looks ahead).
-        program: Name of the program, where it is not the running one.
+        program: Number of the program in the toolpath, where it is not the running one.
         address: Word or code of the block (`X`, `G41`) whose column is to be looked up.
         hint: Message id of what the user can do about this very case, beside the catalogue's general remedy.
         detail: Free text that replaces the catalogue's text (user alarms such as `#3000`).
@@ -34,7 +34,7 @@ class AlarmError(Exception):
         *,
         column: int = 0,
         line: int = 0,
-        program: str = "",
+        program: int | None = None,
         address: str = "",
         hint: str = "",
         detail: str = "",
