@@ -59,6 +59,7 @@ class Action(Enum):
     SHIFT = "off the hole's axis by this part of the shift: 1 out, 0 back"
     SPINDLE = "direction against that before the cycle: 1 the same, -1 reversed, 0 stopped"
     HALT = "wait for the operator"
+    OUTPUT = "send this M code to the machine"
 
 
 class Stroke(NamedTuple):

@@ -152,7 +152,7 @@ class WordAddressControl:
 
     def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
         """The step of the active motion code for the axis words of a block."""
-        if builder.mode.codes.get("cycle", "") in self.drilling.cycles:
+        if builder.mode.codes.get("cycle", "") in self.drilling_rules(builder.channel).cycles:
             return plan_drilling(builder, plan)
         give_way(builder)
         planner = self.g_codes[builder.mode["motion"]].planner
@@ -173,6 +173,14 @@ class WordAddressControl:
     def m_code(self, number: int) -> MCode:
         """The row of an M code; one that the table does not know is an event of the machine's builder."""
         return self.m_codes.get(number) or MCode(number)
+
+    def m_row(self, _builder: Builder, number: int) -> MCode:
+        """The row of an M code in a block; where the block gives it another meaning, that."""
+        return self.m_code(number)
+
+    def drilling_rules(self, _channel: Channel) -> Drilling:
+        """How the control drills."""
+        return self.drilling
 
     def nose_tip(self, _channel: Channel) -> tuple[float, float]:
         """Way from the centre of the tool to its programmed point, in the plane, in units of its radius."""

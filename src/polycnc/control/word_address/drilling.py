@@ -17,7 +17,7 @@ from polycnc.cycles.drilling import Action, Cycle, Hole, Stroke
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import Step
@@ -62,6 +62,17 @@ def in_milliseconds(value: float, _form: str, _rules: NumberRules) -> float:
     return value / 1000.0
 
 
+def turn_spindle(channel: Channel, direction: int) -> None:
+    """The spindle turns the other way, or stops."""
+    channel.memory.spindle_direction = direction
+    channel.context_changed()
+
+
+def as_it_is(_channel: Channel, _code: str, _hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
+    """The strokes of the cycle and nothing else."""
+    return strokes
+
+
 def lead_from_feed(channel: Channel) -> float:
     """Lead of a tap, mm: the feed per revolution, or the feed per minute over the spindle's speed."""
     if FEED_MODES[channel.mode["feed"]] == "G95":
@@ -98,13 +109,15 @@ class Drilling:
         relief: Retract or clearance between pecks of a cycle, mm.
         shift: Shift off the wall along two geometry axes, the first and second of the hole's plane.
         lead: Lead of a tap, mm.
+        turn: What a reversal or stop of the spindle within a cycle does.
+        dress: What the machine adds to the strokes of a hole (clamping an axis), by cycle code.
     """
 
     cycles: Mapping[str, DrillCycle]
-    kept: str = "RQPIJK"
-    once: str = ""
-    repeats: str = "L"
-    triggers: str = ""
+    kept: Sequence[str] = "RQPIJK"
+    once: Sequence[str] = ""
+    repeats: Sequence[str] = "L"
+    triggers: Sequence[str] = ""
     r_is_increment: bool = False
     by_r: bool = False
     dwells_at_r: bool = False
@@ -113,11 +126,13 @@ class Drilling:
     relief: Callable[[Channel, str], float] = no_relief
     shift: Callable[[Channel, CycleData, tuple[int, int]], tuple[float, float]] = shift_by_center_words
     lead: Callable[[Channel], float] = lead_from_feed
+    turn: Callable[[Channel, int], None] = turn_spindle
+    dress: Callable[[Channel, str, Hole, Iterator[Stroke]], Iterator[Stroke]] = as_it_is
 
     @property
-    def words(self) -> str:
+    def words(self) -> tuple[str, ...]:
         """All addresses that a drilling block may hold beside axis words."""
-        return self.kept + self.once + self.repeats
+        return (*self.kept, *self.once, *self.repeats)
 
 
 @dataclass(slots=True)
@@ -151,12 +166,12 @@ class CycleData:
 
 def is_active(channel: Channel) -> bool:
     """Whether a drilling cycle is modal now."""
-    return channel.mode.codes.get("cycle", "") in channel.control.drilling.cycles
+    return channel.mode.codes.get("cycle", "") in channel.control.drilling_rules(channel).cycles
 
 
 def give_way(builder: Builder) -> None:
     """A cycle code that a later motion code of its block cancels: its words have no effect."""
-    drilling: Drilling = builder.control.drilling
+    drilling: Drilling = builder.control.drilling_rules(builder.channel)
     if any(row.code in drilling.cycles for row in builder.codes):
         builder.take(*(a for a in drilling.words if builder.is_free(a)))
 
@@ -182,7 +197,7 @@ def plan_drilling(builder: Builder, plan: Plan) -> Step:
             raise control.fail("cycle_word", address=cycle.needs, word=cycle.needs, code=code)
         for _ in range(count):
             words.position(channel, values)
-            _perform(channel, cycle.strokes(_hole(channel, code, data)), data)
+            _perform(channel, _strokes(channel, code, data), data)
 
     return run
 
@@ -192,7 +207,7 @@ class _Words:
 
     def __init__(self, builder: Builder, plan: Plan) -> None:
         self.control = builder.control
-        self.rules: Drilling = self.control.drilling
+        self.rules: Drilling = self.control.drilling_rules(builder.channel)
         self.code = builder.mode["cycle"]
         self.plan = plan
         axis_name = self.rules.cycles[self.code].axis
@@ -249,13 +264,19 @@ class _Words:
 def drill_here(channel: Channel) -> None:
     """Drill with the data of the active cycle where the tool stands (hole patterns)."""
     code, data = channel.mode["cycle"], channel.memory.cycle_data
-    drilling: Drilling = channel.control.drilling
-    _perform(channel, drilling.cycles[code].strokes(_hole(channel, code, data)), data)
+    _perform(channel, _strokes(channel, code, data), data)
+
+
+def _strokes(channel: Channel, code: str, data: CycleData) -> Iterator[Stroke]:
+    """What the tool does at the next hole."""
+    rules: Drilling = channel.control.drilling_rules(channel)
+    hole = _hole(channel, code, data)
+    return rules.dress(channel, code, hole, rules.cycles[code].strokes(hole))
 
 
 def _hole(channel: Channel, code: str, data: CycleData) -> Hole:
     """Levels and amounts of the next hole."""
-    rules: Drilling = channel.control.drilling
+    rules: Drilling = channel.control.drilling_rules(channel)
     cycle = rules.cycles[code]
     r = data.level("R", data.initial)
     bottom = data.level(BOTTOM, data.initial if cycle.bottom_from_initial and BOTTOM in data else r)
@@ -277,14 +298,16 @@ def _perform(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> No
     """Let the tool make the strokes of one hole."""
     center = channel.coordinates.programmed[:]
     direction = channel.memory.spindle_direction
+    rules: Drilling = channel.control.drilling_rules(channel)
     for stroke in strokes:
         if stroke.action is Action.SHIFT:
             _shift(channel, center, data, stroke.value)
         elif stroke.action is Action.DWELL:
             channel.dwell(seconds=stroke.value)
         elif stroke.action is Action.SPINDLE:
-            channel.memory.spindle_direction = int(direction * stroke.value)
-            channel.context_changed()
+            rules.turn(channel, int(direction * stroke.value))
+        elif stroke.action is Action.OUTPUT:
+            channel.event("m", code=int(stroke.value))
         elif stroke.action is Action.HALT:
             channel.stop("M00")
         else:
@@ -307,7 +330,7 @@ def _stroke(channel: Channel, axis: int, stroke: Stroke) -> None:
     if stroke.action is Action.FEED:
         channel.straight(Kind.FEED, position, feed, end)
     elif position != c.position:
-        lead = channel.control.drilling.lead(channel)
+        lead = channel.control.drilling_rules(channel).lead(channel)
         channel.curve(Kind.TAP, position, feed, parameters=(lead, 0.0), programmed=end)
 
 
@@ -317,7 +340,7 @@ def _shift(channel: Channel, center: list[float], data: CycleData, part: float) 
     w = c.geometry.index(data.axis)
     plane = ((w + 1) % 3, (w + 2) % 3)
     end = c.programmed[:]
-    for i, amount in zip(plane, channel.control.drilling.shift(channel, data, plane), strict=True):
+    for i, amount in zip(plane, channel.control.drilling_rules(channel).shift(channel, data, plane), strict=True):
         axis = c.geometry[i]
         if axis >= 0:
             end[axis] = center[axis] + part * amount

@@ -39,9 +39,12 @@ class AxisWord:
 
 
 class Plan:
-    """What the blocks of one shape do in one modal state."""
+    """What the blocks of one shape do in one modal state; `program_name` is what `<NAME>` in them calls."""
 
-    __slots__ = ("axis_words", "control", "inch", "m_codes", "mode", "order", "rules", "slots", "steps", "typed")
+    __slots__ = (
+        "axis_words", "control", "inch", "m_codes", "mode", "order", "program_name", "rules", "slots", "steps",
+        "typed",
+    )  # fmt: skip
 
     def __init__(self, builder: Builder) -> None:
         self.control = builder.control
@@ -50,6 +53,7 @@ class Plan:
         self.typed = builder.typed
         self.order = builder.order
         self.m_codes = builder.m_codes
+        self.program_name = builder.program_name
         self.rules: NumberRules = builder.rules
         self.inch = builder.inch
         self.axis_words: tuple[AxisWord, ...] = ()
@@ -83,6 +87,7 @@ class Builder:
         self.order: list[str] = []
         self.codes: list[GCode] = []
         self.m_codes: list[int] = []
+        self.program_name = ""
         self._taken: set[str] = set()
         self._read_signature()
         self.mode = self.before.with_codes(control.modal_changes(self.codes))
@@ -93,6 +98,9 @@ class Builder:
         position = 0
         by_group: dict[str, GCode] = {}
         for key in self.signature:
+            if key[0] == "<":
+                self.program_name = key[1:-1]
+                continue
             if is_fixed_code(key):
                 self.order.append(key)
                 if key[0] == "M":
@@ -198,7 +206,7 @@ class Builder:
             if key in self._taken and key in self.slots:
                 continue
             if key[0] == "M" and is_fixed_code(key):
-                row = self.control.m_code(int(float(key[1:])))
+                row = self.control.m_row(self, int(float(key[1:])))
                 self.take(*row.takes.split())
                 (after if row.after else before).append(_m_step(row, self, plan))
                 continue
