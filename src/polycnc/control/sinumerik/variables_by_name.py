@@ -45,7 +45,7 @@ def read(channel: Channel, name: str) -> Any:
                 raise KeyError(name)
             compiler.emitter.line(f"{compiler.emitter.object(result)}.append({value.code})")
             compiler.emitter.step()(channel)
-        except AlarmError as error:
+        except (AlarmError, TypeError, IndexError) as error:  # without value: its DEF was never reached
             raise KeyError(name) from error
     found = result[0]
     return found.name if isinstance(found, Axis) else int(found) if isinstance(found, bool) else found

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.language.sinumerik import calls, definitions, files, flow, keywords, runtime
 from polycnc.language.sinumerik.emitter import Emitter, provide
@@ -59,9 +59,7 @@ class BlockCompiler(ExpressionReader):
         handler = _STATEMENTS.get(token.text) if token.kind == "name" else None
         if handler is not None and self.scope.find(token.text) is None:
             handler(self)
-        elif token.kind == "word" and token.letter == "L" and not _assigns(self.ahead()):
-            calls.program_call(self)
-        elif token.kind == "name" and self._calls_program(token):
+        elif self._calls_program(token):
             calls.program_call(self)
         else:
             self._mixed()
@@ -69,8 +67,12 @@ class BlockCompiler(ExpressionReader):
             raise self.error()
 
     def _calls_program(self, token: Token) -> bool:
-        """Whether a name that begins the block is neither variable nor word: a program then."""
+        """Whether a name that begins the block is neither variable nor word: a program then; `L123` always is."""
         name = token.text
+        if token.kind == "word":
+            return token.letter == "L" and not _assigns(self.ahead())
+        if token.kind != "name":
+            return False
         if name[0] == "$" or self.scope.find(name) is not None or name in self.scope.memory.axes:
             return False
         if name in keywords.CYCLES:
@@ -93,7 +95,7 @@ class BlockCompiler(ExpressionReader):
                 raise syntax(assigned.column, f"{assigned.text}=")
         self.words.finish()
 
-    # ---- assignments ---------------------------------------------------------------------------------------------
+    # ---- assignments ---------------------------------------------------------------------------------------
 
     def assignment(self) -> None:
         """`variable=expression`, `=SET(…)`, `=REP(…)`."""
@@ -140,7 +142,8 @@ class BlockCompiler(ExpressionReader):
 
     @staticmethod
     def _system_fill(place: SystemPlace, values: str) -> str:
-        return f"set_system_elements(lambda at, value: {place.code}.write(channel, at, value), {place.indices}, {values})"
+        write = f"lambda at, value: {place.code}.write(channel, at, value)"
+        return f"set_system_elements({write}, {place.indices}, {values})"
 
     def value_list(self, type_: Type) -> list[str]:
         """Codes of `(v1,v2,,v4)`; a gap is the type's zero, for AXIS an error."""
@@ -167,7 +170,7 @@ class BlockCompiler(ExpressionReader):
         self.expect(")")
         return value, count
 
-    # ---- procedures ----------------------------------------------------------------------------------------------
+    # ---- procedures ----------------------------------------------------------------------------------------
 
     def procedure(self, token: Token, letters: str) -> None:
         """A predefined procedure; its name has been read."""
@@ -201,7 +204,7 @@ def is_word(name: str, scope: Scope) -> bool:
 
 
 def expanded(tokens: list[Token], scope: Scope) -> list[Token]:
-    """The tokens with macros replaced by their texts, which stand at the macro's place; macros do not nest."""
+    """The tokens with macros replaced by their texts, at the macro's place; macros do not nest."""
     if not scope.macros and not scope.memory.macros:
         return tokens
     if tokens[0].text == "DEFINE":

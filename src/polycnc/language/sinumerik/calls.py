@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 MAX_PASSES = 9999
 
 
-# ---- finding programs --------------------------------------------------------------------------------------------
+# ---- finding programs --------------------------------------------------------------------------------------
 
 
 def find_program(channel: Channel, name: str) -> Program | None:
@@ -51,7 +51,7 @@ def _header(channel: Channel, program: Program) -> Header:
     return code.header(channel)
 
 
-# ---- calls -------------------------------------------------------------------------------------------------------
+# ---- calls -------------------------------------------------------------------------------------------------
 
 
 def call_program(
@@ -62,10 +62,10 @@ def call_program(
     passes: int,
     kind: str = "sub",
 ) -> None:
-    """Go on with a subprogram. Its level keeps in `data` what belongs to this call:
+    """Go on with a subprogram. Its level keeps in `data` what belongs to this call.
 
-    `given` which parameters were written ($P_SUBPAR), `single_block` whether single block acts, `display` what an
-    alarm shows, `saved` what SAVE brings back.
+    `given` which parameters were written ($P_SUBPAR), `single_block` whether single block acts, `display`
+    what an alarm shows, `saved` what SAVE brings back.
     """
     if not 1 <= passes <= MAX_PASSES:
         raise AlarmError("12100", text=str(passes))
@@ -282,7 +282,7 @@ def external_call(compiler: BlockCompiler) -> None:
 
 
 def call_external(channel: Channel, name: str) -> None:
-    """Run a program of the external memory; without one there, of the user memory. Alarm 14011 for neither."""
+    """Run a program of the external memory, else of the user memory; alarm 14011 for neither."""
     control = channel.control
     setting = control.system_variable("$SC_EXT_PROG_PATH").read(channel, ())  # type: ignore[attr-defined]
     program = channel.store.find_external(name, str(setting)) or find_program(channel, name)
@@ -321,7 +321,7 @@ def forget_resolved(memory: LanguageMemory) -> None:
         program.forget_steps()
 
 
-# ---- returns -----------------------------------------------------------------------------------------------------
+# ---- returns -----------------------------------------------------------------------------------------------
 
 
 def return_(compiler: BlockCompiler) -> None:
@@ -355,7 +355,7 @@ def return_to(channel: Channel, target: str, after: int, levels: int, to_start: 
         return
     if target:
         level = channel.level
-        code: SinumerikProgram = getattr(level.code, "whole", level.code)
+        code: Any = getattr(level.code, "whole", level.code)
         index = code.find_return_target(target, level.current)
         if index < 0:
             raise AlarmError("14080", text=target)

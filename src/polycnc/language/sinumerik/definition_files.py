@@ -1,4 +1,4 @@
-"""Definition files: global user variables and macros, read when a channel first runs a program (1.1.5, 1.26)."""
+"""Definition files: global user variables and macros, read when a channel starts (1.1.5, 1.26)."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ def load_definitions(channel: Channel) -> None:
         try:
             _run(code, channel)
         except AlarmError as error:
-            raise AlarmError(error.code, hint=error.hint, **dict(error.args_by_name)) from error
+            error.column = 0
+            raise
 
 
 def _run(code: SinumerikProgram, channel: Channel) -> None:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import Emitter
 from polycnc.language.sinumerik.errors import NcSyntaxError
-from polycnc.language.sinumerik.expressions import ExpressionReader
 from polycnc.language.sinumerik.runtime import default_value
 from polycnc.language.sinumerik.values import MAX_STRING, Type
 from polycnc.language.sinumerik.variables import Variable, element_count
@@ -18,6 +17,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.language.sinumerik.blocks import BlockCompiler
+    from polycnc.language.sinumerik.expressions import ExpressionReader
     from polycnc.language.sinumerik.lexer import Token
     from polycnc.language.sinumerik.scope import Scope
 
@@ -292,7 +292,7 @@ def _redefine_control(compiler: BlockCompiler, token: Token) -> None:
     compiler.emitter.line(f"channel.control.procedure(channel, 'REDEF', {arguments}, {token.column})")
 
 
-# ---- programs and macros -----------------------------------------------------------------------------------------
+# ---- programs and macros -----------------------------------------------------------------------------------
 
 
 @dataclass(slots=True)

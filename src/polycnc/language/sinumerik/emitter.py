@@ -1,7 +1,7 @@
 """Steps from source text: blocks of equal shape share one compiled function and differ in numbers only.
 
-Compiled code has its numbers (`n0`, `n1`, …) and its objects (`o0`, …) as parameters. Python's compiler therefore runs
-once for each shape of block, not for each block.
+Compiled code has its numbers (`n0`, `n1`, …) and its objects (`o0`, …) as parameters. Python's compiler
+therefore runs once for each shape of block, not for each block.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class Emitter:
         """Add a statement."""
         self.lines.append("    " * self.indent + text)
 
-    def number(self, value: int | float, token: Token) -> str:
+    def number(self, value: float, token: Token) -> str:
         """Name of a number that stands in the block."""
         self.numbers.append(Number(value, token.start, token.end))
         return f"n{len(self.numbers) - 1}"

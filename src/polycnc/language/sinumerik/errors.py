@@ -1,4 +1,4 @@
-"""Alarms of the NC language, by what is wrong. Texts are in the control's catalogue; `text` is the place it names."""
+"""Alarms of the NC language, by what is wrong. The texts are in the control's catalogue; they name `text`."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """A program of the NC language, ready to run: its blocks, labels and structures.
 
-Blocks are compiled when they are reached. A block that is reached once is not kept: a CAM program of a million lines
-would fill the memory with steps that never run again.
+Blocks are compiled when they are reached. A block that is reached once is not kept: a CAM program of a
+million lines would fill the memory with steps that never run again.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class SinumerikProgram:
         self._texts: dict[str, Step] = {}
         self._shapes = Shapes()
 
-    # ---- steps ---------------------------------------------------------------------------------------------------
+    # ---- steps ---------------------------------------------------------------------------------------------
 
     def __len__(self) -> int:
         return len(self._lines)
@@ -146,7 +146,7 @@ class SinumerikProgram:
         line = self.text(index)
         return expanded(tokenize(line, prefix_of(line).end), self.scope_of(channel))
 
-    # ---- names ---------------------------------------------------------------------------------------------------
+    # ---- names ---------------------------------------------------------------------------------------------
 
     def scope_of(self, channel: Channel) -> Scope:
         """What names mean in this program."""
@@ -207,7 +207,7 @@ class SinumerikProgram:
         """Whether a step stands before the first executable block."""
         return self.is_definition_file or index < self.first_statement
 
-    # ---- labels and structures -----------------------------------------------------------------------------------
+    # ---- labels and structures -----------------------------------------------------------------------------
 
     @property
     def labels(self) -> Labels:

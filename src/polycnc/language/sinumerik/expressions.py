@@ -128,7 +128,7 @@ class ExpressionReader(TokenReader):
         """Code of an expression as BOOL."""
         return self.value(Type.BOOL)
 
-    # ---- operators -----------------------------------------------------------------------------------------------
+    # ---- operators -----------------------------------------------------------------------------------------
 
     def _unary(self) -> Expr:
         token = self.token
@@ -212,7 +212,7 @@ class ExpressionReader(TokenReader):
         if not operand.type.is_number:
             raise NcSyntaxError("12150", token.column, token.text)
 
-    # ---- conversions (1.8) ---------------------------------------------------------------------------------------
+    # ---- conversions (1.8) ---------------------------------------------------------------------------------
 
     def converted(self, value: Expr, type_: Type, token: Token) -> str:
         """Code of a value as another type; alarm 12150 where the language has no conversion."""
@@ -232,7 +232,7 @@ class ExpressionReader(TokenReader):
             return f"str({value.code})"
         return self.converted(value, Type.STRING, token)
 
-    # ---- operands ------------------------------------------------------------------------------------------------
+    # ---- operands ------------------------------------------------------------------------------------------
 
     def _primary(self) -> Expr:
         token = self.take()

@@ -1,6 +1,7 @@
-"""File functions of the NC language: WRITE, READ, DELETE, ISFILE, FILE…, CHECKSUM (job planning 1.18 to 1.23).
+"""File functions: WRITE, READ, DELETE, ISFILE, FILE…, CHECKSUM (job planning 1.18 to 1.23).
 
-Files are the programs of the program store. Every procedure reports in its first argument instead of raising an alarm.
+Files are the programs of the program store. Every procedure reports in its first argument instead of raising
+an alarm.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ class FileError(Exception):
 
 
 def _place(channel: Channel, name: str) -> tuple[str, str]:
-    """Directory and stored name; a bare name is beside the selected program and an MPF unless it says otherwise."""
+    """Directory and stored name; a bare name lies beside the selected program and means an MPF."""
     if not name or len(name) > MAX_PATH or any(character <= " " for character in name):
         raise FileError(BAD_PATH)
     directory, stored = split_stored_path(name)

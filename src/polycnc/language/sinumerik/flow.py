@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 JUMPS = ("GOTO", "GOTOF", "GOTOB", "GOTOC")
 
 
-# ---- jumps (1.10) ------------------------------------------------------------------------------------------------
+# ---- jumps (1.10) ------------------------------------------------------------------------------------------
 
 
 def _target(compiler: BlockCompiler) -> str:
@@ -53,13 +53,12 @@ def emit_jump(compiler: BlockCompiler) -> None:
     word = compiler.take()
     if word.text not in JUMPS:
         raise compiler.error(word)
-    compiler.emitter.line(
-        f"return jump(channel, {compiler.emitter.object(compiler.program)}, {word.text!r}, {_target(compiler)})"
-    )
+    program = compiler.emitter.object(compiler.program)
+    compiler.emitter.line(f"return jump(channel, {program}, {word.text!r}, {_target(compiler)})")
 
 
 def jump_to(channel: Channel, program: SinumerikProgram, word: str, target: str) -> None:
-    """Go on at a target; alarm 14080 if there is none in the direction of the search (GOTOC: go on with the next)."""
+    """Go on at a target; alarm 14080 if the search finds none (GOTOC: go on with the next block)."""
     level = channel.level
     index = program.find_target(target, level.current, word)
     if index >= 0:
@@ -109,7 +108,7 @@ def branch(compiler: BlockCompiler) -> None:
         condition = compiler.condition()
 
 
-# ---- control structures (1.12) -----------------------------------------------------------------------------------
+# ---- control structures (1.12) -----------------------------------------------------------------------------
 
 
 def _structure(compiler: BlockCompiler, word: Token) -> Structure:
@@ -197,7 +196,7 @@ def _count(compiler: BlockCompiler, *, first: bool) -> str:
     return f"({value.code} <= {compiler.value(Type.INT)})"
 
 
-# ---- repetition of program sections (1.11) -----------------------------------------------------------------------
+# ---- repetition of program sections (1.11) -----------------------------------------------------------------
 
 
 def repeat(compiler: BlockCompiler) -> None:

@@ -22,10 +22,12 @@ class SystemVariable(Protocol):
     """
 
     @property
-    def type(self) -> Type: ...
+    def type(self) -> Type:
+        """Data type."""
 
     @property
-    def stop(self) -> bool: ...
+    def stop(self) -> bool:
+        """Whether it belongs to the main run."""
 
     def read(self, channel: Channel, indices: tuple[Any, ...]) -> Any:
         """The value; indices are ints, axes or frame components (text) as programmed."""
@@ -41,16 +43,16 @@ class LanguageControl(Protocol):
     """Group number of every G function in canonical spelling (`G1`, `CIP`, `KONT`)."""
 
     def g_function(self, group: int, number: int) -> str:
-        """The function that `G[group]=number` names; alarm 12470 if there is none or the group is not modal."""
+        """The function of `G[group]=number`; alarm 12470 for none, or a group that is not modal."""
 
     def execute(self, channel: Channel, block: Block, values: tuple[Any, ...]) -> bool:
         """Run the functions and words of a block; true if a modal subprogram (MCALL) follows the block."""
 
     def procedure(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> None:
-        """Run a predefined procedure or a cycle; an omitted argument is None, a VAR argument a `Reference`."""
+        """Run a predefined procedure or a cycle; an argument left out is None, VAR is a `Reference`."""
 
     def function(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> Any:
-        """The value of a predefined function that depends on the control's state (`keywords.py` knows its type)."""
+        """The value of a function that depends on the control's state; `keywords.py` knows its type."""
 
     def system_variable(self, name: str) -> SystemVariable:
         """The variable `$NAME`; alarm 12550 for one that does not exist (or is not supported yet)."""
@@ -76,16 +78,15 @@ class LanguageMemory:
     """What the NC language keeps for one channel: the control puts it into `channel.memory.language`.
 
     Attributes:
-        r: R parameters. Compiled blocks hold this very list: change it in place only.
-        axes: Every axis and spindle identifier of the channel (channel, geometry and machine axes, `S1`…), upper case.
+        r: R parameters. Compiled blocks hold this very list: change it in place only. axes: Every axis and
+        spindle identifier of the channel (channel, geometry and machine axes, `S1`…), upper case.
         exact_order: `<` and `>` compare exactly (MD10280 bit 0); otherwise equal within 1E-12 is neither.
         main_variables_everywhere: Variables of the main program are known in subprograms (MD11120).
-        global_variables: User variables of the definition files (GUD), upper case.
-        macros: Texts of DEFINE … AS of the definition files, upper case names.
-        call_path: Directory of CALLPATH, or empty.
-        modal_call: What MCALL has set: called after every block with path motion.
-        definitions_loaded: The definition files have been read.
-        programs: Every compiled program; they forget what they have resolved when files or search paths change.
+        global_variables: User variables of the definition files (GUD), upper case. macros: Texts of DEFINE …
+        AS of the definition files, upper case names. call_path: Directory of CALLPATH, or empty. modal_call:
+        What MCALL has set: called after every block with path motion. definitions_loaded: The definition
+        files have been read. programs: Every compiled program; they forget what they have resolved when files
+        or search paths change.
     """
 
     r: list[float]

@@ -65,8 +65,8 @@ class Labels:
     def section_ends(self, start: int, last: str, here: int) -> set[int]:
         """Ends of a section that begins at a step: its end label, ENDLABEL, or the block before REPEAT.
 
-        ENDLABEL counts only between the start and the REPEAT that stands behind it; a pass that jumps past one
-        ends at the next.
+        ENDLABEL counts only between the start and the REPEAT that stands behind it; a pass that jumps past
+        one ends at the next.
         """
         if last:
             end = _first(place for place in self.places(last) if place >= start)

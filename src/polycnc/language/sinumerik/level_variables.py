@@ -26,7 +26,7 @@ class LevelVariable(NamedTuple):
         """The value."""
         return self.value(channel, indices)
 
-    def write(self, channel: Channel, indices: tuple[Any, ...], value: Any) -> None:
+    def write(self, _channel: Channel, _indices: tuple[Any, ...], _value: Any) -> None:
         """Alarm 17070: it is read-only."""
         raise AlarmError("17070", text=self.name)
 

@@ -1,8 +1,8 @@
 """Blocks as tokens (840D sl Fundamentals 2.2, job planning 1.1).
 
-Upper and lower case are equal, blanks are free except inside names and numbers: `N10G1X10Y-5` is four words. A letter
-followed by digits is one token (`word`), because only the parser knows whether `X1` is X with value 1, the axis X1 or,
-before `=`, an extended address.
+Upper and lower case are equal, blanks are free except inside names and numbers: `N10G1X10Y-5` is four words.
+A letter followed by digits is one token (`word`), because only the parser knows whether `X1` is X with value
+1, the axis X1 or, before `=`, an extended address.
 """
 
 from __future__ import annotations
@@ -115,13 +115,13 @@ def tokenize(line: str, start: int = 0) -> list[Token]:
             tokens.append(Token(kind, text.upper(), 0, begin, position))
     rest = position + len(line[position:]) - len(line[position:].lstrip(_BLANK))
     if rest < len(line) and line[rest] != ";":
-        raise syntax(rest + 1, line[rest:].split()[0])
+        raise syntax(rest + 1, line[rest:].split(maxsplit=1)[0])
     tokens.append(Token("end", "", 0, rest, rest))
     return tokens
 
 
 class Prefix(NamedTuple):
-    """What stands before the words of a block: skip level (-1 for none), block number, label, and where they end."""
+    """What stands before the words: skip level (-1 for none), block number, label, and where they end."""
 
     skip: int
     number: str

@@ -70,7 +70,7 @@ class WordReader:
             alarm.column = self.word_columns[alarm.position]
             raise
 
-    # ---- G functions ---------------------------------------------------------------------------------------------
+    # ---- G functions ---------------------------------------------------------------------------------------
 
     def _g_function(self, token: Token, code: str) -> None:
         group = self.compiler.scope.control.g_groups[code]
@@ -79,7 +79,7 @@ class WordReader:
         self.groups[group] = code
         self.codes.append(repr(code))
 
-    def _indirect_g(self, token: Token) -> None:
+    def _indirect_g(self) -> None:
         """`G[group]=number` (1.2.1): no calculation on the right-hand side."""
         compiler = self.compiler
         compiler.expect("[")
@@ -90,7 +90,7 @@ class WordReader:
         self.codes.append(f"channel.control.g_function({group}, {number})")
         self.dynamic = True
 
-    # ---- words ---------------------------------------------------------------------------------------------------
+    # ---- words ---------------------------------------------------------------------------------------------
 
     def _number_word(self, token: Token) -> None:
         """A letter with a number: `X10`, `G1`, or an extended address `S2=`."""
@@ -118,7 +118,7 @@ class WordReader:
         if name in scope.memory.axes:
             self._addressed(token)
         elif name == "G" and compiler.at("["):
-            self._indirect_g(token)
+            self._indirect_g()
         elif name in scope.control.g_groups and not self._assigned():
             self._g_function(token, name)
         elif name in keywords.PROCEDURES and not self._assigned():

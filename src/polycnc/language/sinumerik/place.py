@@ -25,7 +25,7 @@ def fail(error: Exception, channel: Channel) -> NoReturn:
 
 
 def hide_levels(alarm: AlarmError, channel: Channel) -> None:
-    """With DISPLOF an alarm stands at the call in the last level that is shown (1.25.2.6); levels above it end."""
+    """With DISPLOF an alarm stands at the call in the last level that is shown (1.25.2.6)."""
     hidden = False
     while len(channel.stack) > 1 and channel.level.data.get("display") == "off":
         channel.pop()

@@ -1,4 +1,4 @@
-"""Places that values are read from and written to: variables, elements, characters, components, R, system variables."""
+"""Places of values: variables, elements, characters, components, R parameters, system variables."""
 
 from __future__ import annotations
 

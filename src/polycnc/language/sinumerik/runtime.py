@@ -119,7 +119,7 @@ def power_of_e(x: float) -> float:
 
 def bound(low: float, high: float, x: float) -> float:
     """BOUND: the value, or the limit that it exceeds."""
-    return float(low if x < low else high if x > high else x)
+    return float(low if x < low else min(x, high))
 
 
 def int_quotient(a: int, b: int) -> int:
@@ -180,7 +180,7 @@ def part_of(text: str, start: int, count: int | None = None) -> str:
 
 
 def char_at(text: str, index: int) -> int:
-    """One character of a string as CHAR; alarm 17020 outside the string. The place behind the last reads 0."""
+    """One character of a string as CHAR; alarm 17020 outside the string."""
     if not 0 <= index < len(text):
         raise AlarmError("17020", text=str(index))
     return ord(text[index])
@@ -236,7 +236,7 @@ def repeat_element(items: list[Any], start: int, value: Any, count: int | None =
 def set_system_elements(
     write: Callable[[tuple[Any, ...], Any], None], indices: tuple[Any, ...], values: Sequence[Any]
 ) -> None:
-    """SET and REP on a system variable: the last number among the indices advances, an axis does not (1.1.12)."""
+    """SET and REP on a system variable: the last number of the indices advances, no axis (1.1.12)."""
     place = max((i for i, index in enumerate(indices) if isinstance(index, int)), default=-1)
     if place < 0:
         raise AlarmError("12430", text="SET")
@@ -295,9 +295,9 @@ NAMESPACE: dict[str, Any] = {
     function.__name__: function
     for function in (
         sind, cosd, tand, asind, acosd, atan2d, root, square, natural_log, power_of_e, bound, int_quotient,
-        real_quotient, remainder, number_in, is_number, axis_named, first_of, part_of, char_at, with_char, fitting,
-        limited, out_of_range, set_elements, repeat_element, set_system_elements, frame_of, inverse_frame,
-        frame_component, with_component, joined, real_text, round_half_up, checked_int, checked_char, char_of_text,
-        trunc, floor, ceil,
+        real_quotient, remainder, number_in, is_number, axis_named, first_of, part_of, char_at, with_char,
+        fitting, limited, out_of_range, set_elements, repeat_element, set_system_elements, frame_of,
+        inverse_frame, frame_component, with_component, joined, real_text, round_half_up, checked_int,
+        checked_char, char_of_text, trunc, floor, ceil,
     )
 } | {"near": near}  # fmt: skip

@@ -1,4 +1,4 @@
-"""Names of a program: user variables, R parameters, system variables, axes, and the places that values lie in."""
+"""Names of a program: user variables, R parameters, system variables, axes."""
 
 from __future__ import annotations
 
@@ -165,7 +165,7 @@ class Scope:
         return f"{caller}(channel, {token.text!r}, {arguments}, {token.column})"
 
     def arguments(self, reader: ExpressionReader, token: Token, letters: str) -> str:
-        """Code of the tuple of arguments in parentheses; None for each one left out (letters as in `keywords`)."""
+        """Code of the tuple of arguments in parentheses; None for each one left out."""
         codes: list[str] = []
         if reader.accept("("):
             while not reader.at(")"):
@@ -210,7 +210,8 @@ def is_known(name: str, control: LanguageControl) -> bool:
 
 _TABLES = (
     keywords.FUNCTIONS, keywords.SAME_TYPE_FUNCTIONS, keywords.FRAME_FUNCTIONS, keywords.CONTROL_FUNCTIONS,
-    keywords.FILE_FUNCTIONS, keywords.FILE_PROCEDURES, keywords.PROCEDURES, keywords.ADDRESSES, keywords.MODIFIERS,
-    keywords.INDEXED_WORDS, keywords.FRAME_COMPONENTS, keywords.STRUCTURE, keywords.DEFINITIONS, keywords.CALLS,
-    keywords.OPERATORS, keywords.PARTS, keywords.SYNCHRONOUS, keywords.NOT_EXECUTED, keywords.SINGLE_BLOCK,
+    keywords.FILE_FUNCTIONS, keywords.FILE_PROCEDURES, keywords.PROCEDURES, keywords.ADDRESSES,
+    keywords.MODIFIERS, keywords.INDEXED_WORDS, keywords.FRAME_COMPONENTS, keywords.STRUCTURE,
+    keywords.DEFINITIONS, keywords.CALLS, keywords.OPERATORS, keywords.PARTS, keywords.SYNCHRONOUS,
+    keywords.NOT_EXECUTED, keywords.SINGLE_BLOCK,
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Program levels: how deep they may lie, how they end, and sections of a program that run as a level of their own."""
+"""Program levels: how deep they lie, how they end, and sections of a program as levels."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ INTERRUPT_LEVELS = 2
 
 
 class Section:
-    """A part of a program as a program of its own: it ends behind the first of its end blocks that is run through.
+    """A part of a program as a program of its own: it ends behind the end block that is run through.
 
     A jump out of the section does not end it: it goes on until it comes through one of the end blocks (1.11).
 
@@ -78,8 +78,8 @@ def leave(channel: Channel) -> None:
 def end_of_subprogram(channel: Channel) -> None:
     """A level below the main program ends: by M17, RET, M2, M30, or because it has no further blocks.
 
-    A subprogram runs its next pass (P), or its caller goes on. A repeated section runs its next pass at its end; any
-    other end aborts the repetition, and the block behind REPEAT is next (1.11).
+    A subprogram runs its next pass (P), or its caller goes on. A repeated section runs its next pass at its
+    end; any other end aborts the repetition, and the block behind REPEAT is next (1.11).
     """
     level = channel.level
     section = level.code

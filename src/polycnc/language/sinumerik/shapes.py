@@ -1,8 +1,8 @@
 """Steps for blocks that differ from an earlier one in numbers only, without reading them anew.
 
-`N10 G1 X=R1*2.5 Y-3` and `N20 G1 X=R1*7.25 Y12` have one shape: their text without block number and without the numbers
-that compiled code has as parameters. The numbers of a known shape go straight into its compiled code. A shape is learnt
-only if the compiler itself lifted exactly the numbers that the pattern here finds.
+`N10 G1 X=R1*2.5 Y-3` and `N20 G1 X=R1*7.25 Y12` have one shape: their text without block number and without
+the numbers that compiled code has as parameters. The numbers of a known shape go straight into its compiled
+code. A shape is learnt only if the compiler itself lifted exactly the numbers that the pattern here finds.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from polycnc.channel.stack import Step
     from polycnc.language.sinumerik.emitter import Emitter, Factory
 
-#: An axis or path address with its number, or a number by itself; never one that belongs to a name, R, G, M or `X1=`.
+#: An axis or path address with its number, or a number by itself; never a part of a name, R, G, M or `X1=`.
 _NUMBER = re.compile(
     r"(?<![\w$.])(?:([A-CFI-KSU-Z])[ \t]*([+-]?(?:\d+\.?\d*|\.\d+))|(\d+\.?\d*|\.\d+))(?![\w.]|[ \t]*=[^=])",
     re.IGNORECASE | re.ASCII,
@@ -26,7 +26,7 @@ _KEEP = 4096
 class _Shape(NamedTuple):
     factory: Factory
     objects: tuple[Any, ...]
-    kinds: tuple[type[int] | type[float], ...]
+    kinds: tuple[type[int | float], ...]
 
 
 class Shapes:

@@ -73,7 +73,7 @@ def _close(stack: list[Structure], found: dict[int, Structure], kind: str, index
 
 
 def _structure_word(text: str) -> str:
-    """The word with which a block takes part in a structure, or nothing (IF with a jump, REPEAT with a label)."""
+    """The word of a structure in a block; none for IF with a jump and REPEAT with a label."""
     try:
         tokens = tokenize(text, prefix_of(text).end)
     except AlarmError:

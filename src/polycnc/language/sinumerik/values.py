@@ -1,7 +1,7 @@
 """Data types of the NC language and the conversions between them (job planning 1.1.13, 1.8).
 
-Values inside are plain Python values: INT `int`, REAL `float`, BOOL `bool`, CHAR `int` (the code), STRING `str`,
-AXIS `Axis`, FRAME `FrameValue`. The type of an expression is known when its block is compiled.
+Values inside are plain Python values: INT `int`, REAL `float`, BOOL `bool`, CHAR `int` (the code), STRING
+`str`, AXIS `Axis`, FRAME `NcFrame`. The type of an expression is known when its block is compiled.
 """
 
 from __future__ import annotations

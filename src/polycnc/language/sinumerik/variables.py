@@ -1,7 +1,8 @@
 """User variables: what DEF declares, and where values lie while a program runs (job planning 1.1.5, 1.1.12).
 
-Local variables (LUD, PUD) lie in the list `level.locals`, each in the slot that its declaration has; global ones (GUD)
-in a list of their own. An array is an `Array` in its slot, a parameter by reference (VAR) a `Reference`.
+Local variables (LUD, PUD) lie in the list `level.locals`, each in the slot that its declaration has; global
+ones (GUD) in a list of their own. An array is an `Array` in its slot, a parameter by reference (VAR) a
+`Reference`.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
 """What a compiled NC block hands to the control: G functions and words.
 
-A block without calculation is a `Block` (what was programmed, without the numbers) and a tuple of values, one for
-each word. Blocks are interned: two blocks with the same functions and addresses are one object, so a control works out
-once how such a block acts in some modal state and keeps that in `channel.mode.plans[block]`.
+A block without calculation is a `Block` (what was programmed, without the numbers) and a tuple of values, one
+for each word. Blocks are interned: two blocks with the same functions and addresses are one object, so a
+control works out once how such a block acts in some modal state and keeps that in
+`channel.mode.plans[block]`.
 """
 
 from __future__ import annotations
@@ -17,8 +18,8 @@ class WordShape:
     """A word of a block without its value.
 
     Attributes:
-        address: Upper case: `X`, `X1`, `F`, `S`, `M`, `T`, `CR`, `AR`, `TURN`, `POS`, `SPOS`, `LIMS`, …
-        index: Extension of the address: `S2=` and `S[2]` give 2, `POS[X]` gives `Axis("X")`, else None. A word
+        address: Upper case: `X`, `X1`, `F`, `S`, `M`, `T`, `CR`, `AR`, `TURN`, `POS`, `SPOS`, … index:
+        Extension of the address: `S2=` and `S[2]` give 2, `POS[X]` gives `Axis("X")`, else None. A word
             `AX[A]=` has the address of its axis, not `AX`; `PO[]=` has the index "".
         modifier: What stands round the value: `AC`, `IC`, `DC`, `ACP`, `DIC`, `PM`, `QU`, `FPO`, … or empty.
     """
@@ -72,7 +73,7 @@ class Block:
 _blocks: dict[tuple[tuple[str, ...], tuple[WordShape, ...]], Block] = {}
 
 
-class WordAlarm(AlarmError):
+class WordAlarm(AlarmError):  # noqa: N818 - an alarm is what it is called on the machine
     """An alarm about one word of the running block; the language adds the column.
 
     Args:
@@ -82,7 +83,8 @@ class WordAlarm(AlarmError):
     """
 
     def __init__(self, code: str, position: int, **args: object) -> None:
-        super().__init__(code, **args)
+        super().__init__(code)
+        self.args_by_name = args
         self.position = position
 
 
