@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
+from polycnc.control.fanuc.code_calls import registered_codes
 from polycnc.control.fanuc.milling_codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.fanuc.milling_cycles import MILLING_DRILLING
 from polycnc.control.fanuc.system_variables import MILLING_VARIABLES
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.code_calls import CodeCalls
     from polycnc.control.word_address.codes import GCode, MCode, Planner
     from polycnc.control.word_address.drilling import Drilling
 
@@ -31,6 +33,10 @@ class FanucMilling(MillingControl):
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
     drilling: ClassVar[Drilling] = MILLING_DRILLING
+
+    def code_calls(self, channel: Channel) -> CodeCalls:
+        """Codes registered by 6050 to 6089 and 6001#5."""
+        return registered_codes(channel)
 
     def make_memory(self, channel: Channel) -> MacroMemory:
         """Offsets, tools and variables."""

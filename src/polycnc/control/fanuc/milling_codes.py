@@ -5,6 +5,7 @@ from __future__ import annotations
 from polycnc.control.fanuc.milling_cycles import MILLING_DRILLING
 from polycnc.control.word_address import (
     auxiliary,
+    code_calls,
     coordinates,
     data_input,
     extended,
@@ -121,7 +122,7 @@ M_CODES = m_table(
 ADDRESSES = {
     "F": auxiliary.plan_feed,
     "S": auxiliary.plan_spindle_speed,
-    "T": auxiliary.plan_tool,
+    "T": code_calls.plan_tool_or_call,
     "B": auxiliary.plan_second_auxiliary,
     "H": length.plan_length_number,
     "D": radius.plan_radius_number,
@@ -146,4 +147,5 @@ POWER_ON = {
     "rotation": "G69",
     "polar": "G15",
     "mirror": "G50.1",
+    "calls": code_calls.ALL,
 }

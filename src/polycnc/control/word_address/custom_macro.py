@@ -4,21 +4,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from polycnc.control.word_address import macro_calls
+from polycnc.control.word_address import code_calls, macro_calls
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.numbers import NumberRules
 from polycnc.geometry.arcs import radius_mismatch
+from polycnc.program import ProgramFileError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.code_calls import CodeCalls
+    from polycnc.control.word_address.codes import GCode, MCode, Step
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.geometry.arcs import Point
     from polycnc.program import Program
 
-_MACRO_KINDS = ("macro", "modal")
+_MACRO_KINDS = ("macro", "modal", "g-macro", "m-macro")
 #: Levels of macros, of subprograms, and together (FANUC macro B reference §5.1).
 MACRO_LEVELS, SUBPROGRAM_LEVELS, LEVELS = 5, 10, 15
 
@@ -79,8 +81,11 @@ class CustomMacroControl(WordAddressControl):
     # ---- programs ------------------------------------------------------------------------------------
 
     def find_program(self, channel: Channel, number: int) -> Program:
-        """A program by its number; the alarm where it is missing."""
-        program = channel.store.find_number(number)
+        """A program by its number; the alarm where it is missing or cannot be read."""
+        try:
+            program = channel.store.find_number(number)
+        except ProgramFileError as error:
+            raise self.fail("no_program", address="P", number=number, detail=str(error)) from error
         if program is None:
             raise self.fail("no_program", address="P", number=number)
         return program
@@ -102,6 +107,7 @@ class CustomMacroControl(WordAddressControl):
         """End of a subprogram or macro: the caller's local variables return."""
         channel.pop()
         channel.memory.locals = channel.level.locals
+        code_calls.note_level(channel)
 
     def start(self, channel: Channel) -> None:
         """Power-on state; the main program has local variables of its own."""
@@ -111,10 +117,26 @@ class CustomMacroControl(WordAddressControl):
     # ---- calls ---------------------------------------------------------------------------------------
 
     def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
-        """G66.1 takes every block as arguments; G, M and T codes may be registered as macro calls."""
-        return macro_calls.plan_argument_block(builder, plan)
+        """G66.1 takes every block as arguments; M codes may be registered as macro calls."""
+        return code_calls.plan_m_macro(builder, plan) or macro_calls.plan_argument_block(builder, plan)
+
+    def code_calls(self, _channel: Channel) -> CodeCalls:
+        """The G, M and T codes that call programs."""
+        return code_calls.CodeCalls()
+
+    def g_table(self, channel: Channel) -> Mapping[str, GCode]:
+        """The G table with the codes that call programs here."""
+        table = super().g_table(channel)
+        calls = self.code_calls(channel)
+        if not calls.g or "G" not in channel.mode.codes.get("calls", ""):
+            return table
+        return {**table, **calls.g_rows()}
+
+    def m_row(self, builder: Builder, number: int) -> MCode:
+        """The row of an M code, or of the subprogram that it calls."""
+        return code_calls.m_row(builder, number) or super().m_row(builder, number)
 
     def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
-        """The modal macro behind a block that moves."""
-        step = macro_calls.plan_modal_call(builder, plan)
-        return [step] if step is not None else []
+        """The program registered for T, and the modal macro behind a block that moves."""
+        steps = (code_calls.plan_tool_call(builder), macro_calls.plan_modal_call(builder, plan))
+        return [step for step in steps if step is not None]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address import subprograms
 from polycnc.control.word_address.numbers import length_converter
 from polycnc.control.word_address.variables import LOCALS
 from polycnc.control.word_address.words import Words
@@ -16,8 +17,10 @@ if TYPE_CHECKING:
     from polycnc.program import Program
 
 #: Argument assignment I.
-ARGUMENTS = {"A": 1, "B": 2, "C": 3, "I": 4, "J": 5, "K": 6, "D": 7, "E": 8, "F": 9, "H": 11, "M": 13, "Q": 17, "R": 18,
-             "S": 19, "T": 20, "U": 21, "V": 22, "W": 23, "X": 24, "Y": 25, "Z": 26}  # fmt: skip
+ARGUMENTS = {
+    "A": 1, "B": 2, "C": 3, "I": 4, "J": 5, "K": 6, "D": 7, "E": 8, "F": 9, "H": 11, "M": 13, "Q": 17, "R": 18,
+    "S": 19, "T": 20, "U": 21, "V": 22, "W": 23, "X": 24, "Y": 25, "Z": 26,
+}  # fmt: skip
 #: Further arguments of G66.1 and of blocks that it takes as argument lists.
 FURTHER_ARGUMENTS = {"G": 10, "L": 12, "N": 14, "P": 16}
 _LENGTHS = frozenset("ABCIJKQRUVWXYZ")
@@ -34,11 +37,11 @@ class ModalCall:
     each_block: bool
 
 
-def arguments_of(words: Words, skip: str = "") -> list[float | None]:
-    """Local variables that the words of a block set.
+def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) -> list[float | None]:
+    """Local variables that the words of a block set; `without_m` is the M code that calls.
 
-    Assignment I gives each letter its variable. I, J, K may repeat, up to ten sets (assignment II): a set closes when
-    a letter comes that is not behind the last one. Of two words for one variable the later one counts.
+    Assignment I gives each letter its variable. I, J, K may repeat, up to ten sets (assignment II): a set
+    closes when a letter comes that is not behind the last one. Of two words for one variable the later counts.
     """
     local: list[float | None] = [None] * LOCALS
     number, last = 0, ""
@@ -63,22 +66,39 @@ def arguments_of(words: Words, skip: str = "") -> list[float | None]:
                 value = convert(value) / (25.4 if words.plan.inch else 1.0)
         local[variable] = value
     for code in words.plan.m_codes:
-        local[ARGUMENTS["M"]] = float(code)
+        if code != without_m:
+            local[ARGUMENTS["M"]] = float(code)
     return local
 
 
 def call_macro(channel: Channel, words: Words) -> None:
     """G65 P L arguments."""
+    refuse_g_behind(words, "G65")
     program, repeats = _macro(channel, words)
-    if repeats > 0:
-        enter_macro(channel, program, arguments_of(words, "PLG"), repeats)
+    enter_macro(channel, program, arguments_of(words, "PLG"), repeats)
 
 
 def start_modal_call(channel: Channel, words: Words) -> None:
     """G66 P L arguments: the macro follows every block that moves; G66.1: every block."""
+    code = channel.mode["macro"]
+    refuse_g_behind(words, code)
     program, repeats = _macro(channel, words)
-    each = channel.mode["macro"] == "G66.1"
-    channel.memory.modal_calls.append(ModalCall(program, repeats, arguments_of(words, "PLG"), each))
+    start_modal(channel, program, repeats, arguments_of(words, "PLG"), each=code == "G66.1")
+
+
+def start_modal(
+    channel: Channel, program: Program, repeats: int, arguments: list[float | None], *, each: bool
+) -> None:
+    """From the next block on a macro follows every block that moves, or every block."""
+    channel.mode = channel.mode.with_code("macro", "G66.1" if each else "G66")
+    channel.memory.modal_calls.append(ModalCall(program, repeats, arguments, each))
+
+
+def refuse_g_behind(words: Words, call: str) -> None:
+    """Alarm for a G code behind the code that calls: it cannot be an argument."""
+    order = words.plan.order
+    if any(key[0] == "G" for key in order[order.index(call) + 1 :]):
+        raise words.fail("g_as_argument", call)
 
 
 def end_modal_call(channel: Channel, words: Words) -> None:
@@ -93,35 +113,43 @@ def end_modal_call(channel: Channel, words: Words) -> None:
 
 
 def _macro(channel: Channel, words: Words) -> tuple[Program, int]:
-    number = words.integer("P") if "P" in words else None
-    if number is None:
-        raise words.fail("no_program", "P")
     repeats = words.integer("L") if "L" in words else None
-    return channel.control.find_program(channel, number), 1 if repeats is None else repeats
+    return subprograms.called_program(channel, words), 1 if repeats is None else repeats
 
 
 def enter_macro(
-    channel: Channel, program: Program, arguments: list[float | None], repeats: int = 1, *, kind: str = "macro"
+    channel: Channel,
+    program: Program,
+    arguments: list[float | None],
+    repeats: int = 1,
+    *,
+    kind: str = "macro",
 ) -> None:
-    """Put a macro on the stack with local variables of its own."""
+    """Put a macro on the stack with local variables of its own; nothing for no repeats."""
+    if repeats < 1:
+        return
     channel.control.check_nesting(channel, kind)
     channel.memory.locals = arguments
     channel.push(program, kind=kind, repeats=repeats - 1, local=arguments)
 
 
 def plan_modal_call(builder: Builder, plan: Plan) -> Step | None:
-    """What follows the blocks of a shape while a modal call is active, or None."""
+    """What follows the blocks of a shape while a modal call is active, or None.
+
+    A move in a modal macro is followed by the macro that was called before it, and so on (nested G66).
+    """
     if builder.before["macro"] not in ("G66", "G66.1") or builder.mode["macro"] == "G67":
         return None
     if any(row.group == "macro" for row in builder.codes):
         return None
-    moves = bool(plan.axis_words) and not any(row.axis_words and row.code == "G4" for row in builder.codes)
+    if not plan.axis_words or any(row.axis_words and row.code == "G4" for row in builder.codes):
+        return None
 
     def follow(channel: Channel, _values: list[float]) -> None:
-        call = channel.memory.modal_calls[-1] if channel.memory.modal_calls else None
-        if call is None or not moves or any(level.kind == "modal" for level in channel.stack):
-            return
-        if call.repeats > 0:
+        calls = channel.memory.modal_calls
+        inside = sum(1 for level in channel.stack if level.kind == "modal")
+        if inside < len(calls):
+            call = calls[-1 - inside]
             enter_macro(channel, call.program, list(call.arguments), call.repeats, kind="modal")
 
     return follow

@@ -64,6 +64,7 @@ class Memory:
         zero_frame: Turn of the work coordinate system (SYNTEC G92.1); identity on most controls.
         length_offset: Shift of each axis by the active tool length.
         tool: Tool in the spindle; `next_tool` is selected.
+        last_m: The last M code sent to the machine.
         h: Number of the active length offset; `d` of the radius offset.
         side: Side that G41/G42 ask for: 1, -1, 0 off.
         compensation: The stage that compensates, once it was needed.
@@ -91,6 +92,7 @@ class Memory:
         self.length_offset = [0.0] * count
         self.tool = 0
         self.next_tool = 0
+        self.last_m = 0
         self.h = 0
         self.d = 0
         self.side = 0

@@ -238,6 +238,7 @@ def _m_step(row: MCode, builder: Builder, plan: Plan) -> Step:
             channel.event("m", code=code)
         else:
             channel.event("m", code=code, spindle=int(values[spindle]))
+        channel.memory.last_m = code
         if handler is not None:
             handler(channel, values)
 

@@ -17,15 +17,31 @@ def call_subprogram(channel: Channel, words: Words) -> None:
     """M98 P L Q: program P, L times, from sequence number Q; without P within the same program."""
     number, repeats = _program_and_repeats(channel, words)
     sequence = words.integer("Q") if "Q" in words else None
-    if number is None:
-        if sequence is None:
-            raise words.fail("no_program", "M98")
+    if number is None and not words.plan.program_name and sequence is not None:
         program = channel.level.code.program
     else:
-        program = channel.control.find_program(channel, number)
-    if repeats < 1:
-        return
+        program = called_program(channel, words, number)
     enter_subprogram(channel, program, repeats, sequence)
+
+
+def called_program(channel: Channel, words: Words, number: int | None = None) -> Program:
+    """The program that P or `<NAME>` names."""
+    if words.plan.program_name:
+        return _by_name(channel, words)
+    if number is None:
+        number = words.integer("P") if "P" in words else None
+    if number is None:
+        raise words.fail("no_program", "P")
+    program: Program = channel.control.find_program(channel, number)
+    return program
+
+
+def _by_name(channel: Channel, words: Words) -> Program:
+    name = words.plan.program_name
+    program = channel.store.find_name(name)
+    if program is None:
+        raise words.fail("no_program", f"<{name}>")
+    return program
 
 
 def call_external_subprogram(channel: Channel, words: Words) -> None:
@@ -35,17 +51,18 @@ def call_external_subprogram(channel: Channel, words: Words) -> None:
         raise words.fail("no_program", "M198")
     if any(level.kind == "external" for level in channel.stack):
         raise words.fail("external_nested", "M198")
-    program = channel.store.find_number(number)
+    program = channel.store.find_external_number(number)
     if program is None:
         raise words.fail("no_program", "P")
-    if repeats >= 1:
-        enter_subprogram(channel, program, repeats, None, kind="external")
+    enter_subprogram(channel, program, repeats, None, kind="external")
 
 
 def enter_subprogram(
     channel: Channel, program: Program, repeats: int, sequence: int | None, *, kind: str = "sub"
 ) -> None:
-    """Put a subprogram on the stack: it shares the caller's local variables."""
+    """Put a subprogram on the stack: it shares the caller's local variables; nothing for no repeats."""
+    if repeats < 1:
+        return
     channel.control.check_nesting(channel, kind)
     local = channel.level.locals
     level = channel.push(program, kind=kind, repeats=repeats - 1, local=local)
@@ -70,7 +87,9 @@ def return_from_subprogram(channel: Channel, words: Words) -> None:
     level = channel.level
     sequence = words.integer("P") if "P" in words else None
     if len(channel.stack) == 1:
-        level.index = 0 if sequence is None else level.code.find_sequence(sequence, level.current, "no_return_sequence")
+        level.index = (
+            0 if sequence is None else level.code.find_sequence(sequence, level.current, "no_return_sequence")
+        )
         level.data.clear()
         return
     left = words.integer("L") if "L" in words else None

@@ -83,7 +83,6 @@ class MacroMemory(Memory):
             name: int(bool(value)) for name, value in channel.setup.switches.signals.items()
         }
         self.control_switches: dict[str, int] = {}
-        self.last_m = 0
         self.date = 20000101
         self.time = 0
         self.angle_range_signed = self.parameters.bit(6004, 0)

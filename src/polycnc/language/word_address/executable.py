@@ -31,7 +31,7 @@ _LOOP = re.compile(r"(?<![A-Z])(DO|END)[ \t]*(\d)")
 _HEAD = re.compile(r"[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?")
 _SKIP = re.compile(r"[ \t]*/[ \t]*(\d?)")
 _NUMBER_TEXT = re.compile(r"[ \t]*([-+]?)[ \t]*(\d+\.?\d*|\.\d+)")
-_NAME = re.compile(r"[ \t]*<([^>]*)>")
+_NAME = re.compile(r"[ \t]*P?[ \t]*(<[^<>]+>)")
 
 
 @dataclass(frozen=True)
@@ -43,14 +43,12 @@ class Grammar:
         max_digits: Digits that a number may have.
         comma_addresses: Letters that may follow a comma (`,R` `,C`); they become addresses `,R`.
         letters: Letters that may be addresses.
-        string_addresses: Addresses that may be given a `<NAME>` (program names).
     """
 
     alarms: Mapping[str, str]
     max_digits: int = 8
     comma_addresses: str = "RCAD"
     letters: str = "ABCDEFGHIJKLMNPQRSTUVWXYZ"
-    string_addresses: str = "P"
 
 
 def empty_block(_channel: Channel) -> None:
@@ -249,10 +247,12 @@ class WordAddressProgram:
     def _word(self, reader: BlockReader, words: _BlockWords) -> None:
         """Read one word."""
         start = reader.pos
-        address = reader.address()
         name = _NAME.match(reader.text, reader.pos)
-        if name and address in self.grammar.string_addresses:
-            raise reader.fail("not_supported", start)
+        if name:
+            words.keys.append(name[1])
+            reader.pos = name.end()
+            return
+        address = reader.address()
         number = _NUMBER_TEXT.match(reader.text, reader.pos)
         if number:
             sign, digits = number[1], number[2]

@@ -10,7 +10,7 @@ A key of the signature is a code (`G1`, `G54.1`, `M30`) or an address and how it
     `X`   no decimal point           `X.`  up to three decimals
     `X:`  four decimals              `X;`  more decimals, which a control may cut off
     `X#`  from an expression         (a vacant variable leaves the word out)
-    `X"`  a text
+    `X"`  a text                     `<NAME>`  the name of a program that the block calls
 
 An address is a letter, `,R`, or a letter with an index (`X1`, where the control writes `X1=50.`).
 """
@@ -123,5 +123,5 @@ class ExpressionBlock:
 
 
 def is_fixed_code(key: str) -> bool:
-    """Whether a signature key is a G or M code with its number."""
-    return key[0] in "GM" and len(key) > 1 and key[1].isdigit()
+    """Whether a signature key has no value: a G or M code with its number, or a program name."""
+    return (key[0] in "GM" and len(key) > 1 and key[1].isdigit()) or key[0] == "<"
