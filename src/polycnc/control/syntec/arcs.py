@@ -143,8 +143,8 @@ def _scaled_center(
     Points are programmed ones; the answer is such that the programming frame maps it to the right place.
     """
     memory = channel.memory
-    u, v, w = words.plane
-    factors = memory.scale_factors
+    u, v, _ = words.plane
+    factors: Vector = memory.scale_factors
     if channel.mode["scaling"] != "G51" or abs(factors[u]) == abs(factors[v]):
         return center
     frame = memory.frames.product()

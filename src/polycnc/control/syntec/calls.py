@@ -1,7 +1,7 @@
-"""Calls on SYNTEC: macros by G65, G66 and by G, M and T codes, subprograms by M98 and M198, and the ways back.
+"""Calls: macros by G65, G66 and by G, M and T codes, subprograms by M98 and M198, and the ways back.
 
-A macro called by a code takes words of its block by reading them; the words that it left alone act as usual when it
-is over (macro language reference, sections 4.2 and 7).
+A macro called by a code takes words of its block by reading them; the words that it left alone act as usual
+when it is over (macro language reference, sections 4.2 and 7).
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from polycnc.control.syntec.variables import INDEXED_LETTERS, Locals
 from polycnc.language.syntec.blocks import FORMS
 from polycnc.language.syntec.values import Text, Value
 from polycnc.language.word_address import WordBlock
-from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -28,8 +27,8 @@ if TYPE_CHECKING:
 MAX_LEVELS = 64
 #: Pr3701 to Pr3710: value of the parameter to the G code that a macro replaces.
 REGISTERED_G = {
-    -1: "G0", 1: "G1", 2: "G2", 3: "G3", 4: "G53", 5: "G40", 6: "G41", 7: "G42", 8: "G43", 9: "G44", 10: "G49",
-    11: "G4", 12: "G2.4", 13: "G3.4",
+    -1: "G0", 1: "G1", 2: "G2", 3: "G3", 4: "G53", 5: "G40", 6: "G41", 7: "G42", 8: "G43", 9: "G44",
+    10: "G49", 11: "G4", 12: "G2.4", 13: "G3.4",
 }  # fmt: skip
 #: M codes that cannot be registered as macros.
 NEVER_REGISTERED = frozenset({0, 1, 2, 30, 96, 97, 98, 99})
@@ -128,7 +127,8 @@ def _program(channel: Channel, number: Value | None) -> Program:
         return program
     if not isinstance(number, int | float) or number != int(number) or number < 0:
         raise control.fail("program_number", address="P")
-    return control.find_program(channel, int(number))
+    found: Program = control.find_program(channel, int(number))
+    return found
 
 
 def enter_macro(
@@ -303,14 +303,17 @@ def _enter_subprogram(channel: Channel, words: Words, program: Program) -> None:
 
 
 def _whole(words: Words, address: str, mistake: str) -> int:
-    value = words.typed(address)
-    if isinstance(value, str) or value is None or value != int(value) or value < 0:
+    value: Any = words.typed(address)
+    if value is None or isinstance(value, str) or value != int(value) or value < 0:
         raise words.fail(mistake, address)
     return int(value)
 
 
 def return_from_program(channel: Channel, words: Words) -> None:
-    """M99: back behind the call, P to an N number, Q to a line of the caller; in the main program to the top."""
+    """M99: back behind the call, P to an N number, Q to a line of the caller; in the main program to its top.
+
+    P and Q end all passes of the call.
+    """
     sequence = _whole(words, "P", "program_number") if "P" in words else None
     line = _whole(words, "Q", "program_number") if "Q" in words else None
     leave_program(channel, jumps=sequence is not None or line is not None)
@@ -322,7 +325,7 @@ def return_from_program(channel: Channel, words: Words) -> None:
 
 
 def leave_program(channel: Channel, *, jumps: bool = False) -> None:
-    """The end of a pass: the next one begins, or the caller goes on. A main program begins again at its top."""
+    """The end of a pass: the next one begins, or the caller goes on; a main program begins again."""
     level = channel.level
     if len(channel.stack) == 1:
         level.index = level.entry

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from polycnc.control.syntec import arcs, calls, cycles, motion, spindles
+from polycnc.control.syntec import arcs, calls, cycles, length, motion, spindles
 from polycnc.control.syntec import coordinates as frames
-from polycnc.control.word_address import auxiliary, coordinates, length, path, radius
+from polycnc.control.word_address import auxiliary, coordinates, path, radius
 from polycnc.control.word_address import extended as base_extended
 from polycnc.control.word_address import frames as base_frames
+from polycnc.control.word_address import length as base_length
 from polycnc.control.word_address.codes import GCode, MCode, Order, m_table, not_yet, table
 
 MOTION = Order.MOTION
@@ -111,7 +112,7 @@ ADDRESSES = {
     **{f"S{number}": motion.plan_named_spindle(number) for number in range(1, 11)},
     "T": auxiliary.plan_tool,
     "B": auxiliary.plan_second_auxiliary,
-    "H": length.plan_length_number,
+    "H": base_length.plan_length_number,
     "D": radius.plan_radius_number,
 }
 

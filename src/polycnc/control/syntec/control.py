@@ -85,9 +85,10 @@ class SyntecMill(WordAddressControl):
         for number in range(3601, 3611):
             if memory.parameter(number) in calls.NEVER_REGISTERED - {0}:
                 raise self.fail("registered_m", number=number)
-        sections = split_channels(channel.level.code.program)
-        if channel.number in sections:
-            channel.level.code = channel.executable(sections[channel.number])
+        section = split_channels(channel.level.code.program).get(channel.number)
+        if section is not None:
+            channel.stack.pop()
+            channel.push(section, kind="main", local=memory.locals)
         if memory.parameter(3838) == 1:
             channel.mode = channel.mode.with_code("stroke", "G22")
 
@@ -123,6 +124,10 @@ class SyntecMill(WordAddressControl):
 
     # ---- alarms ------------------------------------------------------------------------------------------
 
+    def arithmetic_alarm(self, _error: ArithmeticError) -> AlarmError:
+        """The alarm for a calculation whose result no variable can hold."""
+        return AlarmError("COR-004", hint="hint.syntec.overflow")
+
     def not_yet(self, code: str, address: str = "") -> AlarmError:
         """The alarm for something that the control knows and polycnc does not execute."""
         return AlarmError("PC0001", hint="hint.not-supported", address=address, code=code)
@@ -143,7 +148,7 @@ class SyntecMill(WordAddressControl):
 
     def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
         """G65, G66, and macros called by G, M and T codes."""
-        assert isinstance(builder, SyntecBuilder)  # noqa: S101 - `plan` makes no other
+        assert isinstance(builder, SyntecBuilder)  # `plan` makes no other
         return None if builder.plain else calls.plan_call(builder, plan)
 
     def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
@@ -160,7 +165,7 @@ class SyntecMill(WordAddressControl):
 
     def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
         """The modal macro behind a block."""
-        assert isinstance(builder, SyntecBuilder)  # noqa: S101 - `plan` makes no other
+        assert isinstance(builder, SyntecBuilder)  # `plan` makes no other
         step = calls.plan_modal_call(builder, plan)
         return [step] if step is not None else []
 

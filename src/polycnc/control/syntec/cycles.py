@@ -36,9 +36,7 @@ CYCLES = {
     "G85": DrillCycle(drilling.bore, bottom_from_initial=True),
     "G86": DrillCycle(drilling.bore_and_stop, bottom_from_initial=True),
     "G87": DrillCycle(drilling.bore_back, dwells=True),
-    "G88": DrillCycle(
-        partial(drilling.bore_and_halt, feeds_out=True), dwells=True, bottom_from_initial=True
-    ),
+    "G88": DrillCycle(partial(drilling.bore_and_halt, feeds_out=True), dwells=True, bottom_from_initial=True),
     "G89": DrillCycle(drilling.bore, dwells=True, bottom_from_initial=True),
 }
 TAPPING = ("G74", "G84")
@@ -117,7 +115,7 @@ def _feed_by_threads(channel: Channel, per_inch: float) -> None:
     channel.feed = lead if per_revolution else lead * channel.memory.spindle_speed / 60.0
 
 
-# ---- hole patterns ------------------------------------------------------------------------------------------
+# ---- hole patterns ---------------------------------------------------------------------------------------
 
 
 def circle_of_holes(channel: Channel, words: Words) -> None:
@@ -127,7 +125,7 @@ def circle_of_holes(channel: Channel, words: Words) -> None:
     start = words.angle("J") or 0.0
     pitch = 360.0 / abs(count) * (1 if count > 0 else -1)
     center = _base(channel, words)
-    _drill_points(channel, words, (_round(center, radius, start + k * pitch) for k in range(abs(count))))
+    _drill_points(channel, (_round(center, radius, start + k * pitch) for k in range(abs(count))))
 
 
 def line_of_holes(channel: Channel, words: Words) -> None:
@@ -136,7 +134,7 @@ def line_of_holes(channel: Channel, words: Words) -> None:
     pitch = _length(words, "I")
     start = _base(channel, words)
     angle = words.angle("J") or 0.0
-    _drill_points(channel, words, (_round(start, k * pitch, angle) for k in range(count)))
+    _drill_points(channel, (_round(start, k * pitch, angle) for k in range(count)))
 
 
 def arc_of_holes(channel: Channel, words: Words) -> None:
@@ -145,11 +143,11 @@ def arc_of_holes(channel: Channel, words: Words) -> None:
     radius = _length(words, "I", positive=True)
     start, pitch = words.angle("J") or 0.0, words.angle("P") or 0.0
     center = _base(channel, words)
-    _drill_points(channel, words, (_round(center, radius, start + k * pitch) for k in range(count)))
+    _drill_points(channel, (_round(center, radius, start + k * pitch) for k in range(count)))
 
 
 def grid_of_holes(channel: Channel, words: Words) -> None:
-    """G137.1 X Y I P J K: P holes along X with pitch I, K along Y with pitch J, row by row to and fro (2.71)."""
+    """G137.1 X Y I P J K: P holes along X, pitch I, and K along Y, pitch J, row by row to and fro (2.71)."""
     columns, rows = _count(words, "P"), _count(words, "K")
     across, along = _length(words, "I"), _length(words, "J")
     x, y = _base(channel, words)
@@ -158,7 +156,7 @@ def grid_of_holes(channel: Channel, words: Words) -> None:
         for j in range(rows)
         for i in range(columns)
     )
-    _drill_points(channel, words, points)
+    _drill_points(channel, points)
 
 
 def _count(words: Words, address: str, *, signed: bool = False) -> int:
@@ -192,7 +190,7 @@ def _round(center: tuple[float, float], radius: float, angle: float) -> tuple[fl
     return (center[0] + radius * cosine, center[1] + radius * sine)
 
 
-def _drill_points(channel: Channel, words: Words, points: Iterator[tuple[float, float]]) -> None:
+def _drill_points(channel: Channel, points: Iterator[tuple[float, float]]) -> None:
     """Position over each point and drill with the data of the active cycle."""
     if not is_active(channel) or channel.memory.cycle_data is None:
         raise AlarmError("COR-023", word="", hint="hint.syntec.pattern-without-cycle")

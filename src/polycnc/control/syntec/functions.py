@@ -1,4 +1,4 @@
-"""Functions of the macro language that the control executes: arguments, parameters, stack, bits, messages, files."""
+"""Functions of the macro language that need the control: arguments, stack, bits, messages, files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The memory of a SYNTEC control during a run: what the word-address base keeps, and the variables of macros."""
+"""The memory of a SYNTEC control: what the word-address base keeps, and the variables of macros."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class SyntecMemory(Memory):
 
     Attributes:
         locals: #1 to #400 of the running level.
-        user: #401 to #999; `modal_longs` #1080 on; `modal_doubles` #2001 on; `words` #1500 on and other words.
+        user: #401 to #999; `modal_longs` #1080 on; `modal_doubles` #2001 on; `words` #1502 and the like.
         globals: `@` variables and R registers.
         stack: PUSH and POP.
         bits: Bits I, O, A, C of the PLC interface by name.
@@ -51,13 +51,13 @@ class SyntecMemory(Memory):
         self.words: dict[int, Value] = {}
         self.globals = Globals()
         self.stack: list[Value] = []
-        self.random = Random(0)  # noqa: S311 - one sequence for every run, by intention
+        self.random = Random(0)
         self.bits: dict[str, int] = {
             name: int(bool(value))
             for name, value in channel.setup.switches.signals.items()
             if name[:1] in BIT_FAMILIES and name[1:].isdigit()
         }
-        self.skip_flags = 0
+        self.skip_flags: int = 0
         self.skip_machine: list[float] | None = None
         self.last_center = (0.0, 0.0, 0.0)
         self.mid_point: list[float] | None = None

@@ -1,4 +1,4 @@
-"""Motion codes of SYNTEC beside arcs: G00 with speed, G31, G33, G45 to G48, G53, feed under G93 (2.1 to 2.37)."""
+"""Motion codes beside arcs: G00 with speed, G31, G33, G45 to G48, G53, feed under G93 (2.1 to 2.37)."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def plan_feed(builder: Builder) -> Step:
 
 
 def change_feed_mode(channel: Channel, words: Words) -> None:
-    """G93, G94, G95: each mode has its own F; one that was never programmed is 1000 per minute, 1 per revolution."""
+    """G93, G94, G95: each mode has its own F; without one it is 1000 per minute, 1 per revolution."""
     memory, mode = channel.memory, channel.mode["feed"]
     if mode != memory.feed_mode:
         if "F" not in words:
@@ -91,7 +91,7 @@ def change_feed_mode(channel: Channel, words: Words) -> None:
 
 
 def with_inverse_time(builder: Builder, plan: Plan, step: Step) -> Step:
-    """G93: F times the block length, on arcs F times the radius, in mm/min; F stands in every block (2.64)."""
+    """G93: F times the block length, on arcs F times the radius; F stands in every block (2.64)."""
     arc = builder.mode["motion"] in ("G2", "G3")
     u, v, _ = PLANES[builder.mode["plane"]]
     radius, centers = builder.slot("R"), [builder.slot(CENTER_WORDS[axis]) for axis in (u, v)]

@@ -1,6 +1,7 @@
 """Machine parameters (Pr) as delivered, and what they mean for reading numbers.
 
-Only parameters that polycnc evaluates are here; `PARAM(n)` of another one is VACANT unless the setup names it.
+Only parameters that polycnc evaluates are here; `PARAM(n)` of another one is VACANT unless the setup names
+it.
 """
 
 from __future__ import annotations

@@ -21,7 +21,8 @@ AXIS_PLACES = 18
 #: System variable to the modal group whose active code it shows.
 MODAL = {
     1000: "motion", 1002: "plane", 1004: "distance", 1006: "stroke", 1008: "feed", 1010: "unit",
-    1012: "compensation", 1014: "length", 1016: "scaling", 1018: "surface_speed", 1020: "path", 1022: "rotation",
+    1012: "compensation", 1014: "length", 1016: "scaling", 1018: "surface_speed", 1020: "path",
+    1022: "rotation",
 }  # fmt: skip
 
 

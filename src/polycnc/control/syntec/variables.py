@@ -1,4 +1,4 @@
-"""Variables of the SYNTEC macro language: locals by level, `#` spaces, `@` spaces and the R registers behind them."""
+"""Variables of the macro language: locals by level, `#` spaces, `@` spaces and R registers behind them."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ Write = Callable[["SyntecMemory", int, Value], None]
 
 #: Words of a call and the local variables that they set. G, N and O cannot be arguments.
 ARGUMENTS = {
-    "A": 1, "B": 2, "C": 3, "I": 4, "J": 5, "K": 6, "D": 7, "E": 8, "F": 9, "H": 11, "L": 12, "M": 13, "P": 16,
-    "Q": 17, "R": 18, "S": 19, "T": 20, "U": 21, "V": 22, "W": 23, "X": 24, "Y": 25, "Z": 26,
+    "A": 1, "B": 2, "C": 3, "I": 4, "J": 5, "K": 6, "D": 7, "E": 8, "F": 9, "H": 11, "L": 12, "M": 13,
+    "P": 16, "Q": 17, "R": 18, "S": 19, "T": 20, "U": 21, "V": 22, "W": 23, "X": 24, "Y": 25, "Z": 26,
 }  # fmt: skip
 LETTERS = {variable: letter for letter, variable in ARGUMENTS.items()}
 #: A macro that reads one of these words takes them all.
@@ -98,7 +98,7 @@ class Locals(dict[int, Value]):
 
 @dataclass(frozen=True, slots=True)
 class Space:
-    """Variables `first` to `last`; `read` and `write` get the offset from `first`. Without `write` read-only."""
+    """Variables `first` to `last`, read and written by their offset; without `write` read-only."""
 
     first: int
     last: int

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 NO_LINE = "COR-018"
 _BLANKS = str.maketrans("", "", " \t")
+_SEQUENCE = re.compile(r"[ \t]*(?:/\d?[ \t]*)*N[ \t]*(\d+)", re.IGNORECASE)
 _HEAD = re.compile(r"[ \t]*[O:][ \t]*\d+", re.IGNORECASE)
 
 
@@ -36,6 +37,7 @@ class MacroProgram:
         self.program = program
         tokens = tokenize(program.lines, macro=True, first_line=program.first_line)
         self._layout = StatementReader(tokens).read()
+        self.steps: Sequence[Step | None] = self._layout.steps
 
     @property
     def mistakes(self) -> Sequence[AlarmError]:
@@ -49,8 +51,7 @@ class MacroProgram:
 
     def step(self, index: int) -> Step | None:
         """A step; None behind the last one."""
-        steps = self._layout.steps
-        return steps[index] if index < len(steps) else None
+        return self.steps[index] if index < len(self.steps) else None
 
     def line(self, index: int) -> int:
         """The line of the file at which a step's statement begins."""
@@ -70,6 +71,11 @@ class MacroProgram:
         if step is None:
             raise AlarmError(NO_SEQUENCE, number=number)
         return step
+
+    def sequence_at(self, index: int) -> int:
+        """The last N number at or before a step; 0 where there is none."""
+        before = [(step, number) for number, step in self._layout.sequences.items() if step <= index]
+        return max(before)[1] if before else 0
 
     def find_line(self, line: int) -> int:
         """The first step of a line, or of the next line that has one."""
@@ -103,6 +109,14 @@ class IsoProgram(WordAddressProgram):
     def find_sequence(self, number: int, _index: int = 0, mistake: str = "no_sequence") -> int:
         """The step of `N number`, the first of equal ones in the file."""
         return super().find_sequence(number, -1, mistake)
+
+    def sequence_at(self, index: int) -> int:
+        """The last N number at or before a step; 0 where there is none."""
+        for line in reversed(self.lines[: index + 1]):
+            match = _SEQUENCE.match(line)
+            if match:
+                return int(match[1])
+        return 0
 
     def find_line(self, line: int) -> int:
         """The step of a line."""

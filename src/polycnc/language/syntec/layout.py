@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -136,10 +137,12 @@ class Layout:
 
 
 def raising(error: AlarmError) -> Step:
-    """The step of a statement that cannot be read."""
+    """The step of a statement that cannot be read. It stands in the line of the mistake."""
+    alarm = copy(error)
+    alarm.line = 0
 
     def stop(_channel: Channel) -> None:
-        raise error
+        raise alarm
 
     return stop
 
