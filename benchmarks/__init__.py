@@ -1,1 +1,1 @@
-"""Speed and quality against the project's limits: `python -m benchmarks`."""
+"""Benchmarks: every figure is a ratio to a peer or to a stated limit, measured in the same run."""

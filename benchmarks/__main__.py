@@ -1,0 +1,27 @@
+"""`make bench`: every figure of the project, one line each; exit status 1 where a goal is missed."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from benchmarks import interpreter, startup
+
+BENCHMARKS = (interpreter.plain_blocks, interpreter.macro_loop, interpreter.memory, startup.small_run)
+
+
+def main() -> int:
+    """Run all benchmarks and print their ratios."""
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    missed = 0
+    for benchmark in BENCHMARKS:
+        for figure in benchmark():
+            mark = "  --  " if figure.ratio is None else f"{figure.ratio:5.2f}x"
+            missed += figure.ratio is not None and figure.ratio < 1.0
+            print(f"{mark}  {figure.name}: {figure.said}", flush=True)
+    print("a ratio of 1 is the goal; above it is better")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,55 @@
+"""Measuring: processor time of this process or of a child, and how a result is said."""
+
+from __future__ import annotations
+
+import resource
+import subprocess
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One result. `ratio` is how much better than asked (above 1 the goal is reached); None where a peer is missing."""
+
+    name: str
+    said: str
+    ratio: float | None
+
+
+def best_of(action: Callable[[], object], runs: int = 3) -> float:
+    """Shortest processor time of an action in this process, seconds."""
+    times = []
+    for _ in range(runs):
+        begin = time.process_time()
+        action()
+        times.append(time.process_time() - begin)
+    return min(times)
+
+
+def process_time(command: Sequence[str], runs: int = 3) -> float:
+    """Shortest processor time of a command, user and system, seconds."""
+    times = []
+    for _ in range(runs):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        times.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+    return min(times)
+
+
+def rate(name: str, ours: float, limit: float, unit: str) -> Figure:
+    """A rate against a lower limit."""
+    return Figure(name, f"{ours:,.0f} {unit}, limit {limit:,.0f}", ours / limit)
+
+
+def against(name: str, ours: float, peer: str, theirs: float, goal: float, unit: str) -> Figure:
+    """A rate against a peer's; `goal` is how many times the peer's rate is asked."""
+    said = f"{ours:,.0f} {unit}, {peer} {theirs:,.0f}: {ours / theirs:.1f} times, asked {goal:g}"
+    return Figure(name, said, ours / theirs / goal)
+
+
+def skipped(name: str, why: str) -> Figure:
+    """A figure that cannot be had here."""
+    return Figure(name, f"skipped: {why}", None)
