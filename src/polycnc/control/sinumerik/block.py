@@ -10,12 +10,13 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.positions import AxisTerm, axis_term
+from polycnc.language.sinumerik.words import WordShape
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
     from polycnc.control.sinumerik.memory import Memory
-    from polycnc.language.sinumerik.words import Block, WordShape
+    from polycnc.language.sinumerik.words import Block
 
     Values = tuple[Any, ...]
 
@@ -44,7 +45,7 @@ class Draft:
         self.codes = codes
         self.steps: list[Step] = []
         self.moves = False
-        self._open = dict(enumerate(block.words))
+        self._open = {i: _with_spindle(word) for i, word in enumerate(block.words)}
 
     def take(self, address: str) -> int | None:
         """Take the word of an address without index; its place, or None if the block does not have it."""
@@ -93,3 +94,10 @@ class Draft:
     def close(self, position: int) -> None:
         """Take the word at a place."""
         del self._open[position]
+
+
+def _with_spindle(word: WordShape) -> WordShape:
+    """`S2=` is S with the extension 2, though S2 is also the name of a spindle."""
+    if word.index is None and word.address[0] == "S" and word.address[1:].isdigit():
+        return WordShape("S", int(word.address[1:]), word.modifier)
+    return word

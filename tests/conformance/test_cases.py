@@ -1,0 +1,35 @@
+"""Every case of this folder passes, and the list of features that is shipped says what they prove."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from polycnc.cases.features import case_files, claimed, shipped
+from polycnc.cases.format import case_id, parse_case
+from polycnc.cases.reading import read_cases
+from polycnc.cases.runner import run_case
+
+HERE = Path(__file__).parent
+CASES = [(path, number, data) for path in case_files(HERE) for number, data in enumerate(read_cases(path), 1)]
+
+
+def name_of(case: tuple[Path, int, Any]) -> str:
+    return case_id(case[2], case[1])
+
+
+@pytest.mark.parametrize("case", CASES, ids=name_of)
+def test_the_control_does_what_its_manual_says(case: tuple[Path, int, Any]) -> None:
+    outcome = run_case(parse_case(case[2]), HERE)
+    assert outcome.status == "passed", outcome.message
+
+
+def test_no_two_cases_have_the_same_id() -> None:
+    names = [name_of(case) for case in CASES]
+    assert sorted(names) == sorted(set(names))
+
+
+def test_the_shipped_list_of_features_is_current() -> None:
+    assert shipped() == claimed(data for _, _, data in CASES), "run `make features`"
