@@ -28,7 +28,7 @@ def row(type_: str, line: int = 1, **to_and_more: Any) -> dict[str, Any]:
 CAME = [row("rapid", X=0.0, Z=2.0), row("feed", 2, X=0.0, Z=-5.0, feed=100.0), row("rapid", 3, X=50.0, Z=2.0)]
 
 
-# ---- moves ---------------------------------------------------------------------------------------------------------
+# ---- moves ---------------------------------------------------------------------------------------------
 
 
 def test_exact_moves_must_be_all_moves() -> None:
@@ -79,7 +79,7 @@ def test_modulo_axes_are_compared_around_the_turn() -> None:
     assert not around.equal({"C": 180}, {"C": 0})
 
 
-# ---- final, variables ------------------------------------------------------------------------------------------------
+# ---- final, variables ----------------------------------------------------------------------------------
 
 
 def test_final_positions_are_compared_on_each_display() -> None:
@@ -112,7 +112,7 @@ def test_variables_are_compared_by_kind(expected: object, actual: object, equal:
     assert (differences == []) is equal
 
 
-# ---- alarms ----------------------------------------------------------------------------------------------------------
+# ---- alarms --------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -162,7 +162,7 @@ def test_an_alarm_can_be_placed_by_its_block_number() -> None:
     assert alarms([{"code": 10, "block": "N50"}], "PS0010") != []
 
 
-# ---- events, stops -----------------------------------------------------------------------------------------------------
+# ---- events, stops -------------------------------------------------------------------------------------
 
 HAPPENED: list[dict[str, Any]] = [
     {"type": "s", "speed": 1200.0, "spindle": 1},

@@ -51,7 +51,11 @@ def test_an_empty_file_has_no_cases(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("text", "message"),
-    [("a: 1\n", "case.no-list"), ("- [unclosed\n", "case.no-yaml"), ("- !!python/object:os.system x\n", "case.no-yaml")],
+    [
+        ("a: 1\n", "case.no-list"),
+        ("- [unclosed\n", "case.no-yaml"),
+        ("- !!python/object:os.system x\n", "case.no-yaml"),
+    ],
 )
 def test_what_is_no_list_of_cases_is_unreadable(tmp_path: Path, text: str, message: str) -> None:
     with pytest.raises(UnreadableError) as caught:

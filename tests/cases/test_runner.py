@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 import yaml
 
+from polycnc import session
 from polycnc.cases import runner
 from polycnc.cases.features import claimed, counted
 from polycnc.cases.runner import Outcome, run_cases
@@ -111,8 +112,10 @@ def test_a_case_that_cannot_be_understood_names_what_is_wrong(
     assert told in outcome.message
 
 
-def test_a_mistake_of_polycnc_fails_its_case_and_no_other(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    real = runner.open_session
+def test_a_mistake_of_polycnc_fails_its_case_and_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real = session.open_session
 
     def broken(program: str, **options: Any) -> Any:
         if "BREAK" in program:
@@ -135,12 +138,14 @@ def test_cases_of_other_features_are_counted_as_skipped(tmp_path: Path) -> None:
     only = outcomes(tmp_path, CASE, other, selection=Selection(only=frozenset({"f.one"})))
     assert [outcome.status for outcome in only] == ["passed", "skipped"]
     without = outcomes(tmp_path, CASE, other, selection=Selection(skip=frozenset({"f.one"})))
-    assert [outcome.status for outcome in without][0] == "skipped"
+    assert without[0].status == "skipped"
 
 
 def test_a_machine_file_lies_beside_the_case_file(tmp_path: Path) -> None:
     (tmp_path / "mine.toml").write_text('base = "mill3"\n[axis.X]\nlimit_plus = 5\n', encoding="utf-8")
-    (outcome,) = outcomes(tmp_path, changed(setup={"machine": "mine.toml"}, expect={"alarms": [{"code": "any"}]}))
+    (outcome,) = outcomes(
+        tmp_path, changed(setup={"machine": "mine.toml"}, expect={"alarms": [{"code": "any"}]})
+    )
     assert outcome.message == ""
 
 
@@ -156,5 +161,7 @@ def test_a_feature_works_only_if_all_its_cases_pass() -> None:
 
 
 def test_features_that_cases_speak_of_are_counted_by_control() -> None:
-    cases = yaml.safe_load("[{feature: b, control: x}, {feature: a, control: x}, {feature: b, control: x}, {control: x}]")
+    cases = yaml.safe_load(
+        "[{feature: b, control: x}, {feature: a, control: x}, {feature: b, control: x}, {control: x}]"
+    )
     assert claimed(cases) == {"x": {"a": 1, "b": 2}}

@@ -50,7 +50,9 @@ def test_an_ambiguous_program_asks_for_the_control(console: Console) -> None:
 def test_the_trace_is_json_lines_with_what_the_report_counts(console: Console) -> None:
     console.file("good.nc", GOOD)
     console("run", "good.nc", "--control", "fanuc-m", "--trace", "out.jsonl")
-    records = [json.loads(line) for line in (console.folder / "out.jsonl").read_text(encoding="utf-8").splitlines()]
+    records = [
+        json.loads(line) for line in (console.folder / "out.jsonl").read_text(encoding="utf-8").splitlines()
+    ]
     moves = [record for record in records if "to" in record]
     assert [move["type"] for move in moves] == ["rapid", "feed", "feed", "cw", "rapid"]
     assert moves[3]["center"] == {"X": 120, "Y": 20}
@@ -104,7 +106,9 @@ def test_what_the_program_prints_goes_to_its_own_file(console: Console) -> None:
 def test_an_output_file_is_written_whole_or_not_at_all(console: Console) -> None:
     console.file("good.nc", GOOD)
     console.file("out.csv", "precious")
-    said = console("run", "good.nc", "--control", "fanuc-m", "--trace", "out.csv", "--print", "missing/out.txt")
+    said = console(
+        "run", "good.nc", "--control", "fanuc-m", "--trace", "out.csv", "--print", "missing/out.txt"
+    )
     assert said.status == 2
     assert (console.folder / "out.csv").read_text(encoding="utf-8") == "precious"
     assert sorted(path.name for path in console.folder.iterdir()) == ["good.nc", "out.csv"]
@@ -139,7 +143,8 @@ def test_the_block_limit_ends_a_loop(console: Console) -> None:
 
 
 @pytest.mark.parametrize(
-    ("seconds", "shown"), [(0, "0:00.0"), (59.96, "1:00.0"), (61.5, "1:01.5"), (3725, "1:02:05.0"), (0.04, "0:00.0")]
+    ("seconds", "shown"),
+    [(0, "0:00.0"), (59.96, "1:00.0"), (61.5, "1:01.5"), (3725, "1:02:05.0"), (0.04, "0:00.0")],
 )
 def test_times_are_shown_as_on_a_clock(seconds: float, shown: str) -> None:
     assert clock(seconds) == shown

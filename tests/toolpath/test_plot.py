@@ -56,7 +56,9 @@ def test_three_views_share_one_scale() -> None:
     assert set(groups) == {"view-xy", "view-xz", "view-yz"}
     widths = {}
     for name in ("view-xy", "view-xz"):
-        (path,) = [p.get("d", "") for p in groups[name].iter(f"{SVG}path") if p.get("stroke") == TOOL_COLOURS[0]]
+        (path,) = [
+            p.get("d", "") for p in groups[name].iter(f"{SVG}path") if p.get("stroke") == TOOL_COLOURS[0]
+        ]
         points = ends(path)
         widths[name] = points[1][0] - points[0][0]
     assert widths["view-xy"] == widths["view-xz"]

@@ -52,7 +52,9 @@ def test_diameter_axes_show_twice_the_radius_in_positions_and_centres() -> None:
     assert record["feed"] == 0.2
 
 
-@pytest.mark.parametrize(("mode", "inside", "shown"), [("G94", 2.0, 120.0), ("G95", 2.0, 2.0), ("G93", 2.0, 120.0)])
+@pytest.mark.parametrize(
+    ("mode", "inside", "shown"), [("G94", 2.0, 120.0), ("G95", 2.0, 2.0), ("G93", 2.0, 120.0)]
+)
 def test_feed_is_shown_in_the_unit_of_the_feed_mode(mode: str, inside: float, shown: float) -> None:
     draft = Draft().under(Context(feed_mode=mode)).move(Kind.FEED, 1, 0, 0, feed=inside)
     (record,) = draft.display().records()

@@ -82,8 +82,9 @@ def _where(error: BaseException) -> str:
 
 
 def _differences(case: Case, folder: Path) -> list[str]:
+    # A text without a line end would be taken for the name of a file.
     session = open_session(
-        case.program,
+        case.program.removesuffix("\n") + "\n",
         control=case.control,
         setup=case.setup,
         files=case.files,

@@ -1,0 +1,46 @@
+# Needs python3 (3.11 or newer) with venv, and make. Everything else goes into .venv.
+
+PYTHON ?= python3
+VENV ?= .venv
+BIN := $(VENV)/bin
+
+.PHONY: help demo test check bench features clean
+
+help:
+	@echo "make demo      install polycnc into $(VENV) and run every program of examples/"
+	@echo "make test      run all tests"
+	@echo "make check     lint, formatting, types, direction of imports"
+	@echo "make bench     run the benchmarks"
+	@echo "make features  renew the list of features that polycnc is shipped with"
+	@echo "make clean     remove $(VENV) and what tools have left behind"
+
+# One stamp for each set of extras: installed again when pyproject.toml has changed.
+$(VENV)/.installed-%: pyproject.toml
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.$(if $(filter-out plain,$*),[$*])'
+	touch $@
+
+demo: $(VENV)/.installed-plain
+	@for program in examples/*/*.*; do \
+	  case "$$program" in *.md|*.yaml|*.toml) continue;; esac; \
+	  echo "== $$program"; \
+	  $(BIN)/polycnc run "$$program" --control "$$(basename "$$(dirname "$$program")")" || exit $$?; \
+	done
+
+test: $(VENV)/.installed-test
+	$(BIN)/python -m pytest -n 2
+
+check: $(VENV)/.installed-test $(VENV)/.installed-check
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+	$(BIN)/python -m pytest tests/test_imports.py
+
+bench: $(VENV)/.installed-bench
+	$(BIN)/python -m benchmarks
+
+features: $(VENV)/.installed-plain
+	$(BIN)/polycnc features --from tests/conformance --format json --output src/polycnc/data/features.json
+
+clean:
+	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis

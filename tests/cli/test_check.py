@@ -1,0 +1,159 @@
+from __future__ import annotations
+
+import io
+import json
+import sys
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree
+
+import jsonschema
+
+from tests.cli.console import BAD, GOOD
+from tests.cli.sarif_schema import SARIF
+
+if TYPE_CHECKING:
+    import pytest
+
+    from tests.cli.console import Console
+
+MAIN = "O1\nG0 X1.\nM98 P9001\nM30\n"
+SUB = "O9001\nG0 X2.\nG999\nM99\n"
+FANUC = ("--control", "fanuc-m")
+
+
+def sarif(console: Console, *words: str) -> dict[str, Any]:
+    report: dict[str, Any] = json.loads(console("check", *words, *FANUC, "--format", "sarif").out)
+    jsonschema.Draft202012Validator(SARIF).validate(report)
+    (run,) = report["runs"]
+    assert isinstance(run, dict)
+    return run
+
+
+def test_a_good_program_says_nothing(console: Console) -> None:
+    console.file("good.nc", GOOD)
+    said = console("check", "good.nc", *FANUC)
+    assert (said.status, said.out, said.err) == (0, "", "")
+
+
+def test_a_finding_is_one_line_with_its_place(console: Console) -> None:
+    console.file("bad.nc", BAD)
+    said = console("check", "bad.nc", *FANUC)
+    assert said.status == 1
+    (line,) = said.out.splitlines()
+    assert line.startswith("bad.nc:3:")
+    assert ": PS0010 " in line
+
+
+def test_a_finding_in_a_called_file_names_that_file(console: Console) -> None:
+    console.file("main.nc", MAIN)
+    console.file("O9001.nc", SUB)
+    (line,) = console("check", "main.nc", *FANUC).out.splitlines()
+    assert line.startswith("O9001.nc:3:")
+
+
+def test_exit_zero_keeps_the_findings_and_drops_the_status(console: Console) -> None:
+    console.file("bad.nc", BAD)
+    said = console("check", "bad.nc", *FANUC, "--exit-zero")
+    assert said.status == 0
+    assert "PS0010" in said.out
+
+
+def test_one_unreadable_file_does_not_hide_the_findings_of_the_others(console: Console) -> None:
+    console.file("bad.nc", BAD)
+    said = console("check", "missing.nc", "bad.nc", *FANUC, "--exit-zero")
+    assert said.status == 2
+    assert "PS0010" in said.out
+    assert "missing.nc" in said.err
+
+
+def test_standard_input_is_called_by_the_name_it_is_given(
+    console: Console, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "stdin", SimpleNamespace(buffer=io.BytesIO(BAD.encode())))
+    said = console("check", "-", "--stdin-filename", "editor.nc", *FANUC)
+    assert said.out.startswith("editor.nc:3:")
+
+
+def test_json_names_place_code_rule_and_calls(console: Console) -> None:
+    console.file("main.nc", MAIN)
+    console.file("O9001.nc", SUB)
+    (finding,) = json.loads(console("check", "main.nc", *FANUC, "--format", "json").out)
+    assert (finding["file"], finding["line"], finding["rule"]) == ("O9001.nc", 3, "fanuc/PS0010")
+    assert finding["calls"] == [{"file": "main.nc", "line": 3}]
+
+
+def test_github_commands_are_escaped(console: Console) -> None:
+    console.file("50%.nc", BAD)
+    said = console("check", "50%.nc", *FANUC, "--format", "github")
+    assert said.out.startswith("::error file=50%25.nc,line=3,")
+
+
+def test_junit_has_a_test_case_for_every_file(console: Console) -> None:
+    console.file("good.nc", GOOD)
+    console.file("bad.nc", BAD)
+    suite = ElementTree.fromstring(console("check", "good.nc", "bad.nc", *FANUC, "--format", "junit").out)
+    assert (suite.get("tests"), suite.get("failures")) == ("2", "1")
+
+
+def test_sarif_of_a_good_program_has_no_results(console: Console) -> None:
+    console.file("good.nc", GOOD)
+    run = sarif(console, "good.nc")
+    assert run["results"] == []
+    assert run["invocations"] == [{"executionSuccessful": True, "exitCode": 0}]
+
+
+def test_sarif_places_a_finding_relative_to_the_working_folder(console: Console) -> None:
+    console.file("größe 1.nc", BAD)
+    (result,) = sarif(console, "größe 1.nc")["results"]
+    place = result["locations"][0]["physicalLocation"]
+    assert place["artifactLocation"] == {"uri": "gr%C3%B6%C3%9Fe%201.nc", "uriBaseId": "%SRCROOT%"}
+    assert place["region"]["startLine"] == 3
+    assert result["ruleId"] == "fanuc/PS0010"
+
+
+def test_sarif_tells_the_way_of_the_calls(console: Console) -> None:
+    console.file("main.nc", MAIN)
+    console.file("O9001.nc", SUB)
+    (result,) = sarif(console, "main.nc")["results"]
+    steps = result["codeFlows"][0]["threadFlows"][0]["locations"]
+    places = [step["location"]["physicalLocation"] for step in steps]
+    lines = [(place["artifactLocation"]["uri"], place["region"]["startLine"]) for place in places]
+    assert lines == [("main.nc", 3), ("O9001.nc", 3)]
+
+
+def test_sarif_has_one_rule_for_many_findings_and_different_fingerprints(console: Console) -> None:
+    for name in ("a.nc", "b.nc"):
+        console.file(name, BAD)
+    run = sarif(console, "a.nc", "b.nc")
+    assert len(run["tool"]["driver"]["rules"]) == 1
+    assert {result["ruleIndex"] for result in run["results"]} == {0}
+    assert len({result["partialFingerprints"]["primaryLocationLineHash"] for result in run["results"]}) == 2
+
+
+def test_a_fingerprint_survives_lines_that_are_put_in_above(console: Console) -> None:
+    console.file("a.nc", BAD)
+    before = sarif(console, "a.nc")["results"][0]["partialFingerprints"]
+    console.file("a.nc", BAD.replace("G90", "(NEW)\nG90"))
+    assert sarif(console, "a.nc")["results"][0]["partialFingerprints"] == before
+
+
+def test_a_report_file_is_written_instead_of_standard_output(console: Console) -> None:
+    console.file("bad.nc", BAD)
+    said = console("check", "bad.nc", *FANUC, "--format", "sarif", "--output", "out.sarif")
+    assert said.out == ""
+    assert json.loads((console.folder / "out.sarif").read_text(encoding="utf-8"))["version"] == "2.1.0"
+
+
+def test_characters_that_cannot_be_read_are_a_warning_without_a_status(console: Console) -> None:
+    (console.folder / "odd.nc").write_bytes(b"O1\n(\xff\xfe\x80)\nG0 X1.\nM30\n")
+    said = console("check", "odd.nc", *FANUC, "--encoding", "utf-8")
+    assert said.status == 0
+    assert "odd.nc: encoding" in said.out
+
+
+def test_a_program_that_no_call_reaches_is_a_warning(console: Console) -> None:
+    console.file("twice.nc", "%\nO1\nM98 P2\nM30\nO2\nG0 X1.\nM99\nO2\nG0 X2.\nM99\n%\n")
+    said = console("check", "twice.nc", *FANUC)
+    assert said.status == 0
+    assert "twice.nc:8: shadowed" in said.out

@@ -1,0 +1,107 @@
+"""The commands that only look things up, or draw."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from typing import TYPE_CHECKING
+from xml.etree import ElementTree
+
+import pytest
+
+from polycnc.control.registry import ids
+from polycnc.machine import builtin_ids
+from tests.cli.console import BAD, GOOD
+
+if TYPE_CHECKING:
+    from tests.cli.console import Console
+
+FANUC = ("--control", "fanuc-m")
+
+
+def test_the_built_in_machines_are_listed_one_a_line(console: Console) -> None:
+    said = console("machines")
+    assert [line.split()[0] for line in said.out.splitlines()] == list(builtin_ids())
+
+
+def test_a_machine_is_shown_as_a_file_that_can_be_used(console: Console) -> None:
+    shown = console("machines", "show", "mill3").out
+    assert tomllib.loads(shown)["axis"]["X"]["kind"] == "linear"
+    console.file("copy.toml", shown)
+    console.file("good.nc", GOOD)
+    assert console("run", "good.nc", *FANUC, "--machine", "copy.toml").status == 0
+
+
+def test_an_alarm_is_explained_however_its_code_is_written(console: Console) -> None:
+    for code in ("PS0010", "10", "010"):
+        said = console("alarms", code, *FANUC)
+        assert said.status == 0
+        assert said.out.startswith("fanuc-m PS0010 ")
+
+
+def test_all_alarms_of_a_control_are_listed(console: Console) -> None:
+    said = console("alarms", *FANUC)
+    assert len(said.out.splitlines()) > 20
+
+
+def test_features_are_counted_for_every_control(console: Console) -> None:
+    said = console("features")
+    assert [line.split()[0] for line in said.out.splitlines()] == list(ids())
+
+
+def test_features_of_a_folder_are_those_whose_cases_all_pass(console: Console) -> None:
+    (console.folder / "cases").mkdir()
+    case = (
+        "- {{id: {id}, feature: {feature}, control: fanuc-m, program: 'G0 X1.',"
+        " expect: {{final: {{work: {{X: {x}}}}}}}}}\n"
+    )
+    console.file(
+        "cases/a.yaml",
+        case.format(id=1, feature="f.good", x=1)
+        + case.format(id=2, feature="f.half", x=1)
+        + case.format(id=3, feature="f.half", x=2),
+    )
+    said = console("features", "--from", "cases", "--format", "json")
+    assert json.loads(said.out) == {"fanuc-m": {"f.good": 1}}
+    assert "f.good" in console("features", "--from", "cases", *FANUC).out
+
+
+def test_a_drawing_is_svg(console: Console) -> None:
+    console.file("good.nc", GOOD)
+    said = console("plot", "good.nc", *FANUC, "-o", "good.svg")
+    assert (said.status, said.err) == (0, "")
+    root = ElementTree.parse(console.folder / "good.svg").getroot()
+    assert len(list(root.iter("{http://www.w3.org/2000/svg}g"))) == 3
+
+
+def test_the_view_can_be_chosen(console: Console) -> None:
+    console.file("good.nc", GOOD)
+    console("plot", "good.nc", *FANUC, "-o", "good.svg", "--view", "xy")
+    assert 'id="view-xz"' not in (console.folder / "good.svg").read_text(encoding="utf-8")
+
+
+def test_a_program_that_alarms_is_drawn_up_to_the_alarm(console: Console) -> None:
+    console.file("bad.nc", BAD)
+    said = console("plot", "bad.nc", *FANUC, "-o", "bad.svg")
+    assert said.status == 1
+    assert "PS0010" in said.err
+    assert (console.folder / "bad.svg").exists()
+
+
+def test_a_picture_without_its_library_says_what_to_install(
+    console: Console, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import sys
+
+    monkeypatch.setitem(sys.modules, "resvg_py", None)
+    console.file("good.nc", GOOD)
+    said = console("plot", "good.nc", *FANUC, "-o", "good.png")
+    assert said.status == 2
+    assert "polycnc[png]" in said.err
+
+
+def test_a_picture_is_png(console: Console) -> None:
+    pytest.importorskip("resvg_py")
+    console.file("good.nc", GOOD)
+    assert console("plot", "good.nc", *FANUC, "-o", "good.png").status == 0
+    assert (console.folder / "good.png").read_bytes().startswith(b"\x89PNG")

@@ -1,0 +1,94 @@
+"""Imports run downwards, and small runs load no heavy library."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import polycnc
+
+SOURCE = Path(polycnc.__file__).parent
+#: From the ground up: a folder (or module) imports only those that stand before it.
+LAYERS = (
+    "messages",
+    "geometry",
+    "toolpath",
+    "machine",
+    "program",
+    "language",
+    "channel",
+    "cycles",
+    "compensation",
+    "control",
+    "motion",
+    "session",
+    "cases",
+    "cli",
+)
+HEAVY = {"numpy", "numba", "pyarrow", "pydantic", "rich", "asyncua", "pygls", "nicegui"}
+MODULES = sorted(SOURCE.rglob("*.py"))
+
+
+def layer_of(module: str) -> str | None:
+    """The layer of `polycnc.machine.model`; None for the package itself and what lies outside of it."""
+    parts = module.split(".")
+    return parts[1] if parts[0] == "polycnc" and len(parts) > 1 else None
+
+
+def imports_of(path: Path) -> set[str]:
+    """Full names of what a module imports, in functions too; what only type checkers read does not count."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
+            node.body = [ast.Pass()]
+    found: set[str] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}: imports are absolute"
+            module = node.module or ""
+            found |= {f"polycnc.{alias.name}" for alias in node.names} if module == "polycnc" else {module}
+    return found
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: path.relative_to(SOURCE).as_posix())
+def test_imports_run_downwards(path: Path) -> None:
+    own = path.relative_to(SOURCE).parts[0].removesuffix(".py")
+    if own in ("__init__", "__main__"):
+        return
+    assert own in LAYERS, f"{own} has no place in the order of layers"
+    for module in imports_of(path):
+        layer = layer_of(module)
+        if layer is None or module == "polycnc.__version__":
+            continue
+        assert layer in LAYERS, f"{path.name} imports {module}"
+        assert LAYERS.index(layer) <= LAYERS.index(own), f"{own} imports upwards: {module}"
+
+
+def loaded_by(code: str, folder: Path) -> set[str]:
+    """Top-level names of all modules that a fresh interpreter has loaded after running some code."""
+    probe = f"import sys\n{code}\nprint(' '.join({{name.partition('.')[0] for name in sys.modules}}))"
+    done = subprocess.run(
+        [sys.executable, "-c", probe], cwd=folder, capture_output=True, text=True, timeout=60, check=True
+    )
+    return set(done.stdout.splitlines()[-1].split())
+
+
+def test_importing_the_package_loads_nothing_of_it(tmp_path: Path) -> None:
+    probe = "import polycnc\nassert not [name for name in sys.modules if name.startswith('polycnc.')]"
+    assert "polycnc" in loaded_by(probe, tmp_path)
+
+
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_a_small_run_loads_no_heavy_library(tmp_path: Path, command: str) -> None:
+    (tmp_path / "part.nc").write_text("O1\nG90 G0 X1.\nG2 X2. R5. F100.\nM30\n", encoding="utf-8")
+    words = [command, "part.nc", "--control", "fanuc-m"]
+    probe = (
+        f"from polycnc.cli import main\ntry: main({words!r})\nexcept SystemExit as left: assert not left.code"
+    )
+    assert loaded_by(probe, tmp_path) & HEAVY == set()

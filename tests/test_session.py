@@ -1,0 +1,123 @@
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+import polycnc
+from polycnc.machine import FileError
+from polycnc.program import ProgramFileError
+from polycnc.session import SessionError, block_number, open_session
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+PROGRAM = "O7\nT2 M6\nG90 G54 G0 X10. Z5.\nG1 Z-1. F60.\n#100=4\nM30\n"
+
+
+def test_a_program_can_be_a_text_bytes_or_a_file(tmp_path: Path) -> None:
+    path = tmp_path / "part.nc"
+    path.write_text(PROGRAM, encoding="utf-8")
+    results = [
+        polycnc.run(source, control="fanuc-m") for source in (PROGRAM, PROGRAM.encode(), path, str(path))
+    ]
+    assert all(result.final["work"] == {"X": 10, "Y": 0, "Z": -1} for result in results)
+
+
+def test_the_result_holds_rows_time_tools_and_variables() -> None:
+    result = polycnc.run(PROGRAM, control="fanuc-m")
+    assert result.ok
+    assert [row["type"] for row in result.rows if "to" in row] == ["rapid", "feed"]
+    assert result.time > 6.0  # 6 mm at 60 mm/min
+    assert [tool.tool for tool in result.tools if tool.tool] == [2]
+    assert result.variables["#100"] == 4
+    assert "#100" in list(result.variables)
+
+
+def test_the_moves_are_an_arrow_table() -> None:
+    result = polycnc.run(PROGRAM, control="fanuc-m")
+    table = result.moves
+    assert table.num_rows == len(result.rows)
+    assert table.schema.metadata[b"machine"] == b"mill3"
+
+
+def test_an_alarm_is_a_value_with_its_text() -> None:
+    result = polycnc.run("G999\n", control="fanuc-m")
+    (alarm,) = result.alarms
+    assert not result.ok
+    assert (alarm.code, alarm.line) == ("PS0010", 1)
+    assert result.alarm_text(alarm, "en") != result.alarm_text(alarm, "zh-TW")
+
+
+def test_a_setup_can_be_given_as_values_and_moves_the_machine() -> None:
+    result = polycnc.run(PROGRAM, control="fanuc-m", setup={"work_offsets": {"G54": {"X": -100}}})
+    assert result.final["machine"]["X"] == -90
+
+
+def test_nothing_leaks_from_one_run_into_the_next() -> None:
+    first = polycnc.run(PROGRAM, control="fanuc-m")
+    polycnc.run("G91 G0 X5.\n#100=9\nM0\n", control="fanuc-m")
+    again = polycnc.run(PROGRAM, control="fanuc-m")
+    assert first.rows == again.rows
+    assert first.time == again.time
+
+
+def test_a_long_run_gives_the_same_whether_its_path_is_kept_or_not() -> None:
+    program = "O1\nWHILE [#1 LT 70000] DO1\n#1=#1+1\nG1 X[#1/1000] F500.\nEND1\nM30\n".replace("#1 ", "#101 ")
+    program = (
+        program.replace("#1=#1+1", "#101=#101+1")
+        .replace("[#1/1000]", "[#101/1000.]")
+        .replace("WHILE [", "#101=0\nWHILE [")
+    )
+    kept = open_session(program, control="fanuc-m").run()
+    rows: list[int] = []
+    session = open_session(program, control="fanuc-m", keep=False)
+    session.consumers.append(lambda chunk: rows.append(len(chunk)))
+    dropped = session.run()
+    assert len(rows) > 1
+    assert sum(rows) == len(kept.toolpath)
+    assert dropped.time == pytest.approx(kept.time)
+    assert len(dropped.toolpath.chunks) == 1
+
+
+def test_prints_go_to_a_file(tmp_path: Path) -> None:
+    out = tmp_path / "out.txt"
+    polycnc.run("#101=2.5\nPOPEN\nDPRNT[X#101[23]]\nPCLOS\nM30\n", control="fanuc-m", print_to=out)
+    assert out.read_text(encoding="utf-8").startswith("X")
+
+
+@pytest.mark.parametrize(
+    ("options", "error"),
+    [
+        ({"control": "nothing"}, SessionError),
+        ({}, SessionError),
+        ({"control": "fanuc-m", "machine": "nothing"}, FileError),
+        ({"control": "fanuc-m", "setup": {"nothing": 1}}, FileError),
+        ({"control": "fanuc-m", "search": ["nothing"]}, ProgramFileError),
+        ({"control": "fanuc-m", "setup": {"channels": {1: ["Q"]}}}, SessionError),
+    ],
+)
+def test_what_cannot_begin_raises_a_readable_error(
+    options: dict[str, object], error: type[Exception]
+) -> None:
+    with pytest.raises(error) as caught:
+        polycnc.run(PROGRAM, **options)  # type: ignore[arg-type]
+    assert len(str(caught.value)) > 10
+
+
+def test_evidence_for_two_controls_is_told() -> None:
+    with pytest.raises(SessionError) as caught:
+        polycnc.run("#1:=5\nDEF REAL A\n")
+    assert caught.value.message == "session.control-doubtful"
+
+
+def test_a_block_is_called_by_its_n_word_or_its_line() -> None:
+    program = open_session("N10 G0 X1.\n/2 N0020 G0\nG0\n", control="fanuc-m").result.program
+    assert [block_number(program, line) for line in (1, 2, 3, 9)] == ["N10", "N0020", "3", "9"]
+
+
+def test_the_package_hands_out_what_it_names() -> None:
+    for name in polycnc.__all__:
+        assert getattr(polycnc, name) is not None
+    with pytest.raises(AttributeError):
+        polycnc.nothing  # noqa: B018
