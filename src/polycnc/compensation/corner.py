@@ -44,6 +44,8 @@ class CornerViolation(Enum):
     """What can be wrong with a corner; where the control gives no code, the corner is left as it is."""
 
     NO_NEXT_MOVE = "no move in the plane follows, or the block has none itself"
+    #: Counts as `NO_NEXT_MOVE` where the control has no code of its own for it.
+    RAPID = "one of the two moves is a rapid"
     TOO_SHORT = "a move is shorter than the chamfer or rounding needs"
 
 
@@ -192,6 +194,8 @@ class CornerStage:
 
     def _violate(self, violation: CornerViolation, line: int) -> None:
         code = self._violations.get(violation)
+        if code is None and violation is CornerViolation.RAPID:
+            code = self._violations.get(CornerViolation.NO_NEXT_MOVE)
         if code is not None:
             raise AlarmError(code, line=line)
 
@@ -201,7 +205,7 @@ class CornerStage:
         request = held.request
         if Kind.RAPID in (held.move.kind, move.kind):
             if not request.modal:
-                self._violate(CornerViolation.NO_NEXT_MOVE, held.move.line)
+                self._violate(CornerViolation.RAPID, held.move.line)
         elif a is not None and b is not None and abs(offset.turn(a, b)) > _STRAIGHT_ON:
             size = request.size
             cuts = _cuts(request.shape, a, b, size)

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 #: Argument assignment I.
 ARGUMENTS = {
-    "A": 1, "B": 2, "C": 3, "I": 4, "J": 5, "K": 6, "D": 7, "E": 8, "F": 9, "H": 11, "M": 13, "Q": 17, "R": 18,
-    "S": 19, "T": 20, "U": 21, "V": 22, "W": 23, "X": 24, "Y": 25, "Z": 26,
+    "A": 1, "B": 2, "C": 3, "I": 4, "J": 5, "K": 6, "D": 7, "E": 8, "F": 9, "H": 11, "M": 13, "Q": 17,
+    "R": 18, "S": 19, "T": 20, "U": 21, "V": 22, "W": 23, "X": 24, "Y": 25, "Z": 26,
 }  # fmt: skip
 #: Further arguments of G66.1 and of blocks that it takes as argument lists.
 FURTHER_ARGUMENTS = {"G": 10, "L": 12, "N": 14, "P": 16}
@@ -41,7 +41,8 @@ def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) 
     """Local variables that the words of a block set; `without_m` is the M code that calls.
 
     Assignment I gives each letter its variable. I, J, K may repeat, up to ten sets (assignment II): a set
-    closes when a letter comes that is not behind the last one. Of two words for one variable the later counts.
+    closes when a letter comes that is not behind the last one. Of two words for one variable the later one
+    counts.
     """
     local: list[float | None] = [None] * LOCALS
     number, last = 0, ""

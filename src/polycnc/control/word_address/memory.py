@@ -10,6 +10,7 @@ from polycnc.geometry.frames import IDENTITY, Frame
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.compensation import CutterCompensation
+    from polycnc.compensation.corner import CornerStage
     from polycnc.control.word_address.drilling import CycleData
     from polycnc.control.word_address.macro_calls import ModalCall
 
@@ -68,6 +69,7 @@ class Memory:
         h: Number of the active length offset; `d` of the radius offset.
         side: Side that G41/G42 ask for: 1, -1, 0 off.
         compensation: The stage that compensates, once it was needed.
+        corners: The stage that chamfers and rounds corners, once it was needed.
         cycle_data: What the active drilling cycle remembers.
         intermediate: Intermediate point of the last G28/G30 (programmed coordinates), for G29.
     """
@@ -98,6 +100,7 @@ class Memory:
         self.side = 0
         self.engaged_side = 0
         self.compensation: CutterCompensation | None = None
+        self.corners: CornerStage | None = None
         self.contour_control = False
         self.exact_stop_block = False
         self.modal_calls: list[ModalCall] = []

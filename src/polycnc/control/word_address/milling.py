@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policies import HARTFORD, Policy
-from polycnc.control.word_address import frames
+from polycnc.control.word_address import corners, frames
 from polycnc.control.word_address.custom_macro import CustomMacroControl
 
 if TYPE_CHECKING:
-
     from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.memory import Memory, ToolOffset
-    from polycnc.control.word_address.plan import Plan
+    from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
 
 
@@ -26,6 +26,10 @@ class MillingControl(CustomMacroControl):
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
 
     # ---- motion --------------------------------------------------------------------------------------
+
+    def plan_corner(self, builder: Builder) -> Step | None:
+        """What ,R and ,C ask for."""
+        return corners.plan_corner_words(builder)
 
     def polar_target(self, channel: Channel, plan: Plan, values: list[float]) -> list[float]:
         """End point under G16."""

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.path import Move
 from polycnc.compensation import CutterCompensation, Plane, Violation
+from polycnc.control.word_address import corners
 from polycnc.control.word_address.path import PLANES
 from polycnc.toolpath import Kind
 
@@ -61,7 +62,9 @@ def _engage(channel: Channel, words: Words, side: int) -> None:
     memory.engaged_side = side
     control = channel.control
     tip = control.nose_tip(channel)
-    stage.engage(side_on_display(channel), control.radius_value(channel, memory.d), tip, place_of_block(channel))
+    stage.engage(
+        side_on_display(channel), control.radius_value(channel, memory.d), tip, place_of_block(channel)
+    )
     channel.context_changed()
 
 
@@ -120,7 +123,7 @@ def compensation_stage(channel: Channel) -> CutterCompensation:
     plane = Plane(u, v, w, geometry)
     stage = CutterCompensation(plane, policy, violation_codes(channel.control.alarms), channel.table)
     memory.compensation = stage
-    channel.put_stage(stage)
+    corners.put_behind_corners(channel, stage)
     return stage
 
 
