@@ -118,6 +118,8 @@ class WordAddressControl:
         if self.FEED_AT_START is not None:
             channel.feed = self.FEED_AT_START
         coordinates.refresh_zero(channel)
+        for name, value in channel.setup.variables.items():
+            self.write_variable(channel, name, value)
 
     def start_codes(self, channel: Channel) -> dict[str, str]:
         """Code of every modal group at program start."""
