@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import cos, hypot, pi, radians, sin
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik import motion, tables
+from polycnc.control.sinumerik import limits, motion, tables
 from polycnc.control.sinumerik.positions import Way, is_diameter, length_factor, number, target
 from polycnc.geometry import arcs
 from polycnc.language.sinumerik.values import Axis
@@ -208,6 +208,8 @@ def curve(
 ) -> None:
     """Move along an arc in space and remember it for CT."""
     memory: Memory = channel.memory
+    if memory.limits:
+        limits.check(channel, end)
     sense = 1.0 if kind in (Kind.CCW, Kind.HELIX_CCW) else -1.0
     memory.previous = (channel.coordinates.position, (center, normal), sense)
     channel.curve(kind, end, feed, center=center, normal=normal, turns=turns)

@@ -7,7 +7,16 @@ from importlib import resources
 from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from polycnc.control.sinumerik import frames, functions, gcodes, procedures, stages, tables, variables_by_name
+from polycnc.control.sinumerik import (
+    frames,
+    functions,
+    gcodes,
+    limits,
+    procedures,
+    stages,
+    tables,
+    variables_by_name,
+)
 from polycnc.control.sinumerik.frames import Frames, stored_frames
 from polycnc.control.sinumerik.machine_data import MachineData
 from polycnc.control.sinumerik.memory import Memory
@@ -73,6 +82,7 @@ class Sinumerik:
         memory.feed_mode = tables.FEED_TYPES[channel.mode["feed"]].mode
         memory.frames.select(gcodes.number_of(channel.mode["zero_offset"]) - 1)
         frames.apply(channel)
+        limits.refresh(channel)
         for name, value in channel.setup.variables.items():
             self.write_variable(channel, name, value)
 
@@ -195,9 +205,7 @@ class Sinumerik:
         """The context that holds now."""
         mode, coordinates = channel.mode, channel.coordinates
         memory: Memory = channel.memory
-        feed = (
-            tables.FEED_TYPES[mode["feed"]] if mode["feed"] in tables.FEED_TYPES else tables.FEED_TYPES["G94"]
-        )
+        feed = tables.FEED_TYPES[mode["feed"]]
         spindle = memory.spindles.all.get(memory.spindles.master)
         diameter = mode["diameter"] in ("DIAMON", "DIAM90") and memory.transverse >= 0
         side = stages.SIDES.get(mode["side"], 0)

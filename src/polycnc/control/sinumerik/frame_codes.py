@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import cos, radians, sin
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik import frames
+from polycnc.control.sinumerik import frames, limits
 from polycnc.control.sinumerik.positions import AxisTerm, length_factor, number
 from polycnc.control.sinumerik.tables import PLANES
 from polycnc.geometry.frames import Frame, Vector
@@ -229,6 +229,7 @@ def _limit(draft: Draft, side: str) -> Step:
         for term in terms:
             value = number(values, term.position) * term.factor
             memory.data.write(f"$SA_WORKAREA_LIMIT_{side}", (channel.axes[term.column],), value)
+        limits.refresh(channel)
 
     return run
 

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.control.sinumerik.frames import Frames
+    from polycnc.control.sinumerik.limits import Limit
     from polycnc.control.sinumerik.machine_data import MachineData
     from polycnc.control.sinumerik.spindles import Spindles
     from polycnc.control.sinumerik.stages import Stages
@@ -54,6 +55,7 @@ class Memory:
             for counter-clockwise; None before the first.
         feed_mode: How F is meant, as the toolpath's feed modes.
         modal_corner_feed: FRCM in internal units, NaN for the path feed.
+        limits: Ranges that targets must stay in.
         exact_stop_block: G9 holds for the running block.
         feeds: Feed of positioning axes (FA), mm/s or degrees/s, by column.
         allowance_mm: OFFN.
@@ -78,6 +80,7 @@ class Memory:
     feed_mode: str = "G94"
     modal_corner_feed: float = nan
     exact_stop_block: bool = False
+    limits: tuple[Limit, ...] = ()
     feeds: dict[int, float] = field(default_factory=dict)
     allowance_mm: float = 0.0
     disc: float = 0.0

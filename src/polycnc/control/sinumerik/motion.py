@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import cos, isnan, nan, radians, sin, tan
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik import tables
+from polycnc.control.sinumerik import limits, tables
 from polycnc.control.sinumerik.positions import AxisTerm, Way, axis_term, length_factor, number, target
 from polycnc.language.sinumerik.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
@@ -43,6 +43,8 @@ def rapid(draft: Draft) -> Step | None:
 def linear(draft: Draft) -> Step | None:
     """G1: straight with path feed; FB for the block's own feed."""
     block_feed = draft.take("FB")
+    if block_feed is None and not draft.has("AP", "RP", "ANG"):
+        return _plain_linear(draft.take_axes())
     goal = goal_of(draft)
     if goal is None:
         return None
@@ -51,6 +53,44 @@ def linear(draft: Draft) -> Step | None:
     def run(channel: Channel, values: Values) -> None:
         feed = channel.feed if block_feed is None else number(values, block_feed) * factor
         line(channel, Kind.FEED, goal(channel, values), checked_feed(feed))
+
+    return run
+
+
+def _plain_linear(terms: list[AxisTerm]) -> Step | None:
+    """G1 with axis words alone; where all are absolute, in one function: most blocks of most programs."""
+    if not terms:
+        return None
+    if any(term.way is not Way.ABSOLUTE for term in terms):
+        return lambda channel, values: line(
+            channel, Kind.FEED, target(channel, terms, values), checked_feed(channel.feed)
+        )
+    plain = [(term.position, term.column, term.factor) for term in terms]
+
+    def run(channel: Channel, values: Values) -> None:
+        coordinates = channel.coordinates
+        start = coordinates.position
+        end = start.copy()
+        owed = coordinates.pending
+        moves = False
+        for position, column, factor in plain:
+            value = values[position]
+            if value.__class__ is not float:
+                value = number(values, position)
+            value *= factor
+            if not -SAME_MM < value - end[column] < SAME_MM:
+                moves = True
+            end[column] = value
+            owed[column] = 0.0
+        feed = channel.feed
+        if not feed > 0.0:
+            raise AlarmError("10860")
+        if moves:
+            memory: Memory = channel.memory
+            if memory.limits:
+                limits.check(channel, end)
+            memory.previous = (start, None, 0.0)
+            channel.straight(Kind.FEED, end, feed)
 
     return run
 
@@ -73,6 +113,8 @@ def line(channel: Channel, kind: Kind, end: list[float], feed: float) -> None:
     start = channel.coordinates.position
     if any(abs(a - b) > SAME_MM for a, b in zip(end, start, strict=True)):
         memory: Memory = channel.memory
+        if memory.limits:
+            limits.check(channel, end)
         memory.previous = (start, None, 0.0)
         channel.straight(kind, end, feed)
 
@@ -290,6 +332,8 @@ def special(channel: Channel, kind: Kind, end: list[float], feed: float, paramet
     start = channel.coordinates.position
     memory: Memory = channel.memory
     if any(abs(a - b) > SAME_MM for a, b in zip(end, start, strict=True)):
+        if memory.limits:
+            limits.check(channel, end)
         memory.previous = (start, None, 0.0)
         channel.curve(kind, end, feed, parameters=parameters)
 
@@ -370,7 +414,9 @@ def positioning(draft: Draft) -> list[Step]:
 
 def _position_axis(term: AxisTerm) -> Step:
     def run(channel: Channel, values: Values) -> None:
-        coordinates = channel.coordinates
-        coordinates.arrive(target(channel, (term,), values))
+        end = target(channel, (term,), values)
+        if channel.memory.limits:
+            limits.check(channel, end)
+        channel.coordinates.arrive(end)
 
     return run

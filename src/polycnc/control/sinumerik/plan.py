@@ -15,6 +15,7 @@ from polycnc.control.sinumerik import (
     frame_codes,
     frames,
     gcodes,
+    limits,
     motion,
     spindle_speed,
     stages,
@@ -245,9 +246,7 @@ def _plane(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps ha
 def _feed_type(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """Group 15: another kind of feed needs a new F; G97 keeps the speed that G96 had."""
     memory: Memory = channel.memory
-    feed = tables.FEED_TYPES.get(channel.mode["feed"])
-    if feed is None:
-        raise not_supported(channel.mode["feed"])
+    feed = tables.FEED_TYPES[channel.mode["feed"]]
     spindle_speed.change_of_feed_type(channel, feed.surface_speed, channel.mode["feed"])
     if feed.mode != memory.feed_mode:
         channel.feed = nan
@@ -268,6 +267,10 @@ def _side(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps hav
     channel.context_changed()
 
 
+def _working_area(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    limits.refresh(channel)
+
+
 def _rules(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     stages.changed_rules(channel)
 
@@ -278,6 +281,7 @@ EFFECTS: dict[str, Step] = {
     "plane": _plane,
     "feed": _feed_type,
     "diameter": _diameter,
+    "working_area": _working_area,
 }
 #: After the words of the block: the tool is that of the block's own T and D.
 LATE_EFFECTS: dict[str, Step] = {"approach": _rules, "corner": _rules, "side": _side}

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.sinumerik import limits
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.language.sinumerik.nc_frame import NEUTRAL
 from polycnc.language.sinumerik.values import Axis
@@ -130,8 +131,9 @@ def path_group(channel: Channel, args: Arguments) -> None:
     memory.values["FGROUP", ()] = tuple(memory.column(axis.name) for axis in args)
 
 
-def new_configuration(_channel: Channel, _args: Arguments) -> None:
-    """NEWCONF: machine data written by the program act; they do so at once here."""
+def new_configuration(channel: Channel, _args: Arguments) -> None:
+    """NEWCONF: machine data that the program has written act."""
+    limits.refresh(channel)
 
 
 def transformation_off(channel: Channel, _args: Arguments) -> None:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from math import isnan
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik import gcodes, link_memory
+from polycnc.control.sinumerik import gcodes, limits, link_memory
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frame_variables import FRAME_VARIABLES
 from polycnc.control.sinumerik.known_variables import is_known
@@ -137,6 +137,8 @@ def _machine_datum(name: str) -> SystemVariable:
 
     def write(channel: Channel, indices: Indices, new: Any) -> None:
         channel.memory.data.write(name, indices, new)
+        if name in limits.DATA:
+            limits.refresh(channel)
 
     return SystemVariable(name, kinds.get(type(value), Type.REAL), read, write)
 

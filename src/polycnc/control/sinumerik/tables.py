@@ -34,6 +34,7 @@ FEED_TYPES = {
     "G95": _PER_REVOLUTION,
     "G96": FeedType("G95", 1.0, surface_speed=True),
     "G97": _PER_REVOLUTION,
+    "G931": FeedType("G93", 1.0),
     "G961": FeedType("G94", 1.0 / MINUTE, surface_speed=True),
     "G971": _PER_MINUTE,
     "G942": _PER_MINUTE,

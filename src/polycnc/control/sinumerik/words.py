@@ -92,7 +92,7 @@ def spindle_number(shape: WordShape, position: int) -> int | None:
 def speed(draft: Draft, position: int, shape: WordShape) -> Step:
     """S: rpm, or m/min under constant cutting speed; alarm 16763 below zero."""
     wanted = spindle_number(shape, position)
-    surface = tables.FEED_TYPES.get(draft.mode["feed"], tables.FEED_TYPES["G94"]).surface_speed
+    surface = tables.FEED_TYPES[draft.mode["feed"]].surface_speed
 
     def run(channel: Channel, values: Values) -> None:
         spindle = channel.memory.spindles.get(wanted)
