@@ -1,13 +1,12 @@
-"""Ten paths of different kind, each as rows of a toolpath and as the curve itself, for comparison with a reference."""
+"""Paths of different kind, each as rows of a toolpath and as the curve itself, for comparison."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from math import cos, hypot, inf, pi, sin, sqrt
+from math import cos, hypot, pi, sin, sqrt
 
 from polycnc.machine import Machine, load_machine
-from polycnc.motion.planner import Planner
 from polycnc.toolpath import Context, Kind, Toolpath
 
 Vector = tuple[float, ...]
@@ -17,7 +16,7 @@ Curve = Callable[[float], tuple[Vector, Vector, Vector]]
 
 @dataclass
 class Section:
-    """A smooth part of a path: `length` mm of `curve`, and how many steps the reference needs to resolve it."""
+    """A smooth part of a path: `length` mm of `curve`, and the steps that the reference takes over it."""
 
     length: float
     curve: Curve
@@ -108,7 +107,7 @@ class Path:
     def spline(
         self, point: Callable[[float], tuple[Vector, Vector, Vector]], end: float, points: int
     ) -> Path:
-        """A smooth curve by a parameter from 0 to `end`, written as spline rows through evenly spaced points."""
+        """A smooth curve by a parameter from 0 to `end`, as spline rows through even points."""
         fine = 20 * points
         ways, parameters, total = [0.0], [0.0], 0.0
         for k in range(fine):
@@ -184,7 +183,7 @@ def _facets(path: Path) -> Path:
 
 
 def paths() -> list[Path]:
-    """The ten paths."""
+    """The paths."""
     slot = Path("slot").line(60.0, 0.0, 0.0).arc(60.0, 12.0, pi).line(0.0, 24.0, 0.0).arc(0.0, 12.0, pi)
     return [
         Path("line", feed=200.0).line(120.0, 80.0, -30.0),
@@ -203,91 +202,3 @@ def paths() -> list[Path]:
         Path("wave as spline", feed=120.0).spline(_wave, 100.0, 300),
         Path("rotary", axes=("X", "Y", "Z", "A")).line(50.0, 0.0, 0.0, 90.0).line(100.0, 30.0, 0.0, 100.0),
     ]
-
-
-def planned(path: Path) -> tuple[float, dict[int, float]]:
-    """Seconds that the planner gives, and the largest speed squared at the start of each row."""
-    from polycnc.motion.kernels.columns import ENTRY2, ROW, VECTORS
-
-    entries: dict[int, float] = {}
-    width = VECTORS + 4 * len(path.axes)
-
-    def note(pieces: object, count: int) -> None:
-        for at in range(0, count * width, width):
-            entries.setdefault(int(pieces[at + ROW]), pieces[at + ENTRY2])  # type: ignore[index]
-
-    planner = Planner(path.toolpath, path.machine, on_pieces=note)
-    return planner.finish().total_s, entries
-
-
-def reference(path: Path, entries: dict[int, float]) -> float:
-    """Seconds of the time-optimal plan that toppra finds, with the planner's speeds at the corners between sections."""
-    import numpy as np
-    import toppra
-    from toppra.constraint import (
-        DiscretizationType,
-        JointAccelerationConstraint,
-        JointVelocityConstraintVarying,
-    )
-    from toppra.interpolator import AbstractGeometricPath
-
-    toppra.setup_logging("ERROR")
-    starts = np.concatenate([[0.0], np.cumsum([section.length for section in path.sections])])
-    n = len(path.axes)
-    # Two grid points beside each joint, so that no derivative is taken across it.
-    gap = 1e-9 * starts[-1]
-    grid = [0.0]
-    for i, section in enumerate(path.sections):
-        # Closer near both ends, where the speed changes most.
-        share = 0.5 - 0.5 * np.cos(np.linspace(0.0, pi, section.steps + 1))
-        grid.extend(starts[i] + gap + share * (section.length - 2.0 * gap))
-    grid.append(float(starts[-1]))
-
-    class Curve(AbstractGeometricPath):  # type: ignore[misc]
-        """The sections end to end, with the length itself as one more axis: its speed limit is the feed."""
-
-        @property
-        def dof(self) -> int:
-            return n + 1
-
-        @property
-        def path_interval(self) -> object:
-            return np.array([0.0, starts[-1]])
-
-        @property
-        def waypoints(self) -> None:
-            return None
-
-        def __call__(self, places: object, order: int = 0) -> object:
-            values = [self.at(float(s), order) for s in np.atleast_1d(places)]
-            return np.array(values[0] if np.ndim(places) == 0 else values)
-
-        def at(self, s: float, order: int) -> list[float]:
-            i = min(int(np.searchsorted(starts, s, "right")) - 1, len(path.sections) - 1)
-            vector = path.sections[i].curve(s - starts[i])[order]
-            return [*vector, (s, 1.0, 0.0)[order]]
-
-    machine = path.machine
-    limits = np.array([machine.axis[name].max_feed for name in path.axes] + [path.feed])
-    pull = np.array([machine.axis[name].acceleration for name in path.axes] + [1e6])
-    corners = {float(starts[i]): max(sqrt(entries[i]), 0.01) for i in range(1, len(path.sections))}
-
-    def speeds(s: float) -> object:
-        top = limits.copy()
-        for corner, speed in corners.items():
-            if abs(s - corner) < 2.0 * gap:
-                top[-1] = min(top[-1], speed)
-        return np.stack([-top, top], axis=1)
-
-    constraints = [
-        JointVelocityConstraintVarying(speeds),
-        JointAccelerationConstraint(
-            np.stack([-pull, pull], axis=1), discretization_scheme=DiscretizationType.Collocation
-        ),
-    ]
-    points = np.array(grid)
-    algorithm = toppra.algorithm.TOPPRA(constraints, Curve(), gridpoints=points, solver_wrapper="seidel")
-    _, speed, _ = algorithm.compute_parameterization(0.0, 0.0)
-    if speed is None or np.isnan(speed).any():
-        return inf
-    return float(np.sum(2.0 * np.diff(points) / (speed[1:] + speed[:-1])))

@@ -1,0 +1,149 @@
+"""The planner against its limits: segments a second, and the time-optimal bound that toppra computes."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin, sqrt
+from time import perf_counter
+from typing import Any
+
+from benchmarks.planner_paths import Path, paths
+from polycnc.machine import load_machine
+from polycnc.motion import plan
+from polycnc.motion.kernels.columns import ENTRY2, ROW, VECTORS
+from polycnc.motion.planner import Planner
+from polycnc.toolpath import Context, Kind, Toolpath
+
+SEGMENTS_PER_SECOND = 300_000
+WORST_RATIO = 1.03
+
+
+def segments_per_second(rows: int = 600_000) -> float:
+    """Rows planned a second: a spiral of short cuts over a wavy surface, kernels compiled and warm."""
+    toolpath = Toolpath(("X", "Y", "Z"))
+    number = toolpath.context_number(Context(tolerance_mm=0.01))
+    for k in range(rows):
+        angle, radius = 0.01 * k, 10.0 + 2e-4 * k
+        end = [radius * cos(angle), radius * sin(angle), 2.0 * sin(0.07 * k)]
+        toolpath.append(Kind.FEED, 0, k + 1, number, 80.0, end)
+        toolpath.block_boundary()
+    machine = load_machine("mill3")
+    plan(toolpath, machine)
+    begin = perf_counter()
+    plan(toolpath, machine)
+    return rows / (perf_counter() - begin)
+
+
+def planned(path: Path) -> tuple[float, dict[int, float]]:
+    """Seconds that the planner gives a path, and the bound on squared speed at the start of each row."""
+    entries: dict[int, float] = {}
+    width = VECTORS + 4 * len(path.axes)
+
+    def note(pieces: Any, count: int) -> None:
+        for at in range(0, count * width, width):
+            entries.setdefault(int(pieces[at + ROW]), pieces[at + ENTRY2])
+
+    return Planner(path.toolpath, path.machine, on_pieces=note).finish().total_s, entries
+
+
+def reference(path: Path, entries: dict[int, float]) -> float:
+    """Seconds of the time-optimal plan that toppra finds, given the planner's bounds at the joints."""
+    import numpy as np
+    import toppra
+    from toppra.constraint import (
+        DiscretizationType,
+        JointAccelerationConstraint,
+        JointVelocityConstraintVarying,
+    )
+
+    toppra.setup_logging("ERROR")
+    machine = path.machine
+    starts = np.concatenate([[0.0], np.cumsum([section.length for section in path.sections])])
+    # No derivative is taken across a joint: there is a grid point at either side of it.
+    gap = 1e-9 * starts[-1]
+    # The path's length is one more axis; its speed limit is the feed.
+    tops = np.array([machine.axis[name].max_feed for name in path.axes] + [path.feed])
+    pulls = np.array([machine.axis[name].acceleration for name in path.axes] + [1e6])
+    joints = {float(starts[i]): max(sqrt(entries[i]), 0.01) for i in range(1, len(path.sections))}
+
+    def speeds(s: float) -> Any:
+        top = tops.copy()
+        top[-1] = min([top[-1], *(speed for joint, speed in joints.items() if abs(s - joint) < 2.0 * gap)])
+        return np.stack([-top, top], axis=1)
+
+    points = _grid(path, starts, gap)
+    scheme = DiscretizationType.Collocation
+    limits = [
+        JointVelocityConstraintVarying(speeds),
+        JointAccelerationConstraint(np.stack([-pulls, pulls], axis=1), discretization_scheme=scheme),
+    ]
+    algorithm = toppra.algorithm.TOPPRA(
+        limits, _curve(path, starts), gridpoints=points, solver_wrapper="seidel"
+    )
+    _, speed, _ = algorithm.compute_parameterization(0.0, 0.0)
+    return float(np.sum(2.0 * np.diff(points) / (speed[1:] + speed[:-1])))
+
+
+def _grid(path: Path, starts: Any, gap: float) -> Any:
+    """Places along the path, closer near the joints, where the speed changes most."""
+    import numpy as np
+
+    inner = [
+        start
+        + gap
+        + (0.5 - 0.5 * np.cos(np.linspace(0.0, pi, section.steps + 1))) * (section.length - 2.0 * gap)
+        for start, section in zip(starts[:-1], path.sections, strict=True)
+    ]
+    return np.concatenate([[0.0], *inner, [starts[-1]]])
+
+
+def _curve(path: Path, starts: Any) -> Any:
+    """The sections end to end, in the form that toppra reads."""
+    import numpy as np
+    from toppra.interpolator import AbstractGeometricPath
+
+    class Curve(AbstractGeometricPath):  # type: ignore[misc]
+        """All axes, and the length."""
+
+        dof = len(path.axes) + 1
+        path_interval = np.array([0.0, starts[-1]])
+        waypoints = None
+
+        def __call__(self, places: Any, order: int = 0) -> Any:
+            values = [self.at(float(s), order) for s in np.atleast_1d(places)]
+            return np.array(values[0] if np.ndim(places) == 0 else values)
+
+        def at(self, s: float, order: int) -> list[float]:
+            """Position or derivative at a length."""
+            i = min(int(np.searchsorted(starts, s, "right")) - 1, len(path.sections) - 1)
+            return [*path.sections[i].curve(s - starts[i])[order], (s, 1.0, 0.0)[order]]
+
+    return Curve()
+
+
+def ratios() -> dict[str, float]:
+    """The planner's time over the reference's, by name of the path."""
+    result = {}
+    for path in paths():
+        seconds, entries = planned(path)
+        result[path.name] = seconds / reference(path, entries)
+    return result
+
+
+def main() -> None:
+    """Print each measure beside its limit."""
+    speed = segments_per_second()
+    print(f"planner: {speed:,.0f} segments/s, {speed / SEGMENTS_PER_SECOND:.2f} times the limit")
+    try:
+        import toppra  # noqa: F401
+    except ImportError:
+        print("planner: no comparison with the time-optimal bound, for toppra is not installed")
+        return
+    found = ratios()
+    for name, ratio in found.items():
+        print(f"planner: {name}: {ratio:.4f} of the time-optimal bound")
+    worst = max(found.values())
+    print(f"planner: worst of {len(found)} paths {worst:.4f}, limit {WORST_RATIO}")
+
+
+if __name__ == "__main__":
+    main()
