@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.language.sinumerik import calls, definitions, files, flow, keywords, runtime
+from polycnc.language.sinumerik import calls, definitions, files, flow, keywords, runtime, vocabulary
 from polycnc.language.sinumerik.emitter import Emitter, provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, syntax
 from polycnc.language.sinumerik.expressions import ExpressionReader
@@ -67,7 +67,7 @@ class BlockCompiler(ExpressionReader):
             raise self.error()
 
     def _calls_program(self, token: Token) -> bool:
-        """Whether a name that begins the block is neither variable nor word: a program then; `L123` always is."""
+        """Whether a name that begins the block is that of a program: no variable, no word; or `L123`."""
         name = token.text
         if token.kind == "word":
             return token.letter == "L" and not _assigns(self.ahead())
@@ -280,4 +280,5 @@ provide(
     define=define,
     file_procedure=files.file_procedure,
     file_function=files.file_function,
+    name_function=vocabulary.name_function,
 )

@@ -171,8 +171,10 @@ class ExpressionReader(TokenReader):
         if operator == "/":
             return Expr(f"({left.code} / {right.code})", Type.REAL)
         if operator == "MOD":
-            a, b = self.converted(left, Type.INT, token), self.converted(right, Type.INT, token)
-            return Expr(f"remainder({a}, {b})", Type.INT)
+            (a, a2), (b, b2) = (self.emitter.twice(self.converted(x, Type.INT, token)) for x in (left, right))
+            # Python's % has the sign of the divisor: the same where neither is negative.
+            positive = f"({a} >= 0) & ({b} > 0)"
+            return Expr(f"({a2} % {b2} if {positive} else remainder({a2}, {b2}))", Type.INT)
         if operator == "DIV":
             function = "real_quotient" if real else "int_quotient"
             return Expr(f"{function}({left.code}, {right.code})", Type.REAL if real else Type.INT)
@@ -276,13 +278,21 @@ class ExpressionReader(TokenReader):
                     raise NcSyntaxError("14020", token.column, token.text)
                 codes.append("None")
                 continue
-            codes.append(self.value(keywords.TYPE_LETTERS[letter.upper()]))
+            codes.append(self._function_argument(letter))
         self.expect(")")
         if "memory" in function.code:
             code = function.code.replace("memory", self.emitter.object(self.scope.memory))
         else:
             code = function.code
         return Expr(code.format(*codes), function.result)
+
+    def _function_argument(self, letter: str) -> str:
+        """Code of an argument; functions of REAL take any number as it is."""
+        token = self.token
+        value = self.expression()
+        if letter == "R" and value.type.is_number:
+            return value.code
+        return self.converted(value, keywords.TYPE_LETTERS[letter.upper()], token)
 
     def _same_type(self, token: Token, count: int, code: str) -> Expr:
         """ABS, MINVAL, MAXVAL: REAL if one of the arguments is, else INT."""

@@ -125,13 +125,13 @@ CTABTSV     (Iva)       REAL
 GETACTTD    (VI)        INT
 GETDNO      (II)        INT
 GETFREELOC  (VVIII)     INT
+GETMDACT    ()          INT
 GETT        (Si)        INT
 GETTCOR     ([ssiii)    INT
 GETTENV     (SV)        INT
 DELTOOLENV  (s)         INT
 INTERSEC    ([[[)       BOOL
 ISAXIS      (I)         BOOL
-ISVAR       (S)         BOOL
 LENTOAX     ([[sb)      INT
 MEAFRAME    ([[V)       FRAME
 MEASURE     ()          INT
@@ -141,7 +141,6 @@ POSRANGE    (ARRi)      BOOL
 SETDNO      (III)       BOOL
 SETTCOR     ([siiiiii)  INT
 SPI         (I)         AXIS
-STRINGIS    (S)         INT
 TOOLENV     (S)         INT
 """)
 
@@ -156,6 +155,8 @@ FILE_PROCEDURES = {
     "FILESTAT": "VSV",
     "FILEINFO": "VSV",
 }
+#: Functions about names.
+NAME_FUNCTIONS = {"STRINGIS": Function("S", Type.INT), "ISVAR": Function("S", Type.BOOL)}
 FILE_FUNCTIONS = {"ISFILE": Function("S", Type.BOOL), "CHECKSUM": Function("VSii", Type.INT)}
 
 #: Predefined procedures that the control executes.
@@ -217,7 +218,8 @@ LIST_ADDRESSES = frozenset(
 )
 
 #: What may stand round the value of a word. Positioning attributes with their number for GP (1.2.2).
-POSITION_ATTRIBUTES = ("", *["AC", "IC", "DC", "ACP", "ACN", "OC", "PC", "DAC", "DIC", "RAC", "RIC", "CAC", "CIC", "CDC", "CACP", "CACN"])
+_ATTRIBUTES = "AC IC DC ACP ACN OC PC DAC DIC RAC RIC CAC CIC CDC CACP CACN"
+POSITION_ATTRIBUTES = ("", *_ATTRIBUTES.split())
 MODIFIERS = frozenset({*POSITION_ATTRIBUTES[1:], "PM", "PR", "QU", "FPO", "GP"})
 FRAME_COMPONENTS = frozenset({"TR", "FI", "RT", "SC", "MI"})
 

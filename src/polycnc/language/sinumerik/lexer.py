@@ -139,6 +139,6 @@ def prefix_of(line: str) -> Prefix:
     if number:
         number = number[0].upper() + str(int(number[1:]))
     label = LABEL.match(line, end)
-    if label is None:
+    if label is None or label[1].upper().startswith("GOTO"):  # GOTOF :20 is a jump to a main block
         return Prefix(skip, number or "", "", end)
     return Prefix(skip, number or "", label[1].upper(), label.end())

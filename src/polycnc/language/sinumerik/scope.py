@@ -147,22 +147,15 @@ class Scope:
         axis = self.memory.axes.get(token.text)
         if axis is not None:
             return Expr(reader.emitter.object(axis), Type.AXIS)
-        function = keywords.CONTROL_FUNCTIONS.get(token.text) or keywords.FILE_FUNCTIONS.get(token.text)
-        if function is not None:
-            caller = (
-                "channel.control.function" if token.text in keywords.CONTROL_FUNCTIONS else "file_function"
-            )
-            arguments = self.arguments(reader, token, function.arguments)
-            return Expr(self._function_call(caller, token, arguments), function.result)
+        for caller, functions in _FUNCTION_CALLERS:
+            function = functions.get(token.text)
+            if function is not None:
+                arguments = self.arguments(reader, token, function.arguments)
+                call = caller.format(name=repr(token.text), arguments=arguments, column=token.column)
+                return Expr(call, function.result)
         if is_known(token.text, self.control):
             raise NcSyntaxError("12080", token.column, token.text)
         raise unknown(token.column, token.text)
-
-    @staticmethod
-    def _function_call(caller: str, token: Token, arguments: str) -> str:
-        if caller == "file_function":
-            return f"file_function(channel, {token.text!r}, {arguments})"
-        return f"{caller}(channel, {token.text!r}, {arguments}, {token.column})"
 
     def arguments(self, reader: ExpressionReader, token: Token, letters: str) -> str:
         """Code of the tuple of arguments in parentheses; None for each one left out."""
@@ -203,6 +196,14 @@ class Scope:
         return f"chr({value.code})" if value.type is Type.CHAR else value.code
 
 
+#: How compiled code asks for the value of a function that is more than its arguments.
+_FUNCTION_CALLERS = (
+    ("channel.control.function(channel, {name}, {arguments}, {column})", keywords.CONTROL_FUNCTIONS),
+    ("name_function(channel, {name}, {arguments})", keywords.NAME_FUNCTIONS),
+    ("file_function(channel, {name}, {arguments})", keywords.FILE_FUNCTIONS),
+)
+
+
 def is_known(name: str, control: LanguageControl) -> bool:
     """Whether a name is a word of the language."""
     return any(name in table for table in _TABLES) or name in control.g_groups
@@ -210,7 +211,8 @@ def is_known(name: str, control: LanguageControl) -> bool:
 
 _TABLES = (
     keywords.FUNCTIONS, keywords.SAME_TYPE_FUNCTIONS, keywords.FRAME_FUNCTIONS, keywords.CONTROL_FUNCTIONS,
-    keywords.FILE_FUNCTIONS, keywords.FILE_PROCEDURES, keywords.PROCEDURES, keywords.ADDRESSES,
+    keywords.NAME_FUNCTIONS, keywords.FILE_FUNCTIONS, keywords.FILE_PROCEDURES, keywords.PROCEDURES,
+    keywords.ADDRESSES,
     keywords.MODIFIERS, keywords.INDEXED_WORDS, keywords.FRAME_COMPONENTS, keywords.STRUCTURE,
     keywords.DEFINITIONS, keywords.CALLS, keywords.OPERATORS, keywords.PARTS, keywords.SYNCHRONOUS,
     keywords.NOT_EXECUTED, keywords.SINGLE_BLOCK,
