@@ -113,7 +113,7 @@ def join_loop(steps: list[tuple[int, Step]], end: int, loop_end: LoopEnd) -> Ste
         f"    level.index = {end + 1}",
         "    return",
     )
-    source.add("    ", f"level.index = {first}")
+    source.add("    ", f"level.index = {first}", "channel.attention = True")
     return source.function(one_by_one=join(steps))
 
 

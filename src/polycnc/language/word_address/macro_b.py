@@ -60,7 +60,8 @@ class Reader:
 
     def fail(self, name: str, column: int | None = None) -> AlarmError:
         """The alarm for a mistake at this place."""
-        return AlarmError(self.alarms[name], column=(self.pos if column is None else column) + 1)
+        place = self.pos if column is None else column
+        return AlarmError(self.alarms[name], column=place + 1, word=self.text[place : place + 1])
 
     def space(self) -> None:
         """Pass over blanks."""

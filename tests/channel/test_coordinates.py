@@ -1,0 +1,54 @@
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from polycnc.channel.coordinates import Coordinates
+from polycnc.geometry.frames import IDENTITY, rotation, translation
+
+LENGTH = st.floats(-1000.0, 1000.0)
+
+
+def coordinates(*machine: float) -> Coordinates:
+    return Coordinates(("X", "Y", "Z"), (0, 1, 2), list(machine))
+
+
+def test_new_offsets_leave_the_machine_where_it_is() -> None:
+    c = coordinates(100.0, 50.0, 0.0)
+    c.set_zero(IDENTITY, [20.0, 10.0, -5.0])
+    assert c.machine == [100.0, 50.0, 0.0]
+    assert c.position == [80.0, 40.0, 5.0]
+
+
+def test_a_travelled_change_is_owed_to_increments() -> None:
+    c = coordinates(0.0, 0.0, 50.0)
+    c.set_zero(IDENTITY, [0.0, 0.0, 120.0], travelled=True)
+    assert c.pending == [0.0, 0.0, 120.0]
+    assert c.owes
+
+
+def test_a_work_offset_is_not_owed() -> None:
+    c = coordinates(0.0, 0.0, 50.0)
+    c.set_zero(IDENTITY, [0.0, 0.0, 120.0])
+    assert not c.owes
+
+
+@given(LENGTH, LENGTH, LENGTH, st.floats(-360.0, 360.0))
+def test_display_and_machine_are_inverse(x: float, y: float, z: float, angle: float) -> None:
+    c = coordinates(0.0, 0.0, 0.0)
+    c.set_zero(translation(7.0, -3.0, 2.0) @ rotation(2, angle), [1.0, 2.0, 3.0])
+    assert c.from_machine(c.to_machine([x, y, z])) == pytest.approx([x, y, z], abs=1e-9)
+
+
+@given(LENGTH, LENGTH, st.floats(-360.0, 360.0))
+def test_programmed_and_display_are_inverse(x: float, y: float, angle: float) -> None:
+    c = coordinates(x, y, 0.0)
+    c.set_programming(rotation(2, angle))
+    assert c.to_position(c.programmed) == pytest.approx(c.position, abs=1e-9)
+
+
+def test_a_missing_geometry_axis_counts_as_zero() -> None:
+    c = Coordinates(("X", "Z"), (0, -1, 1), [0.0, 0.0])
+    c.set_zero(rotation(2, 90.0), [0.0, 0.0])
+    assert c.to_machine([10.0, 4.0]) == pytest.approx([0.0, 4.0])
