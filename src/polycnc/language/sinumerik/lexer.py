@@ -115,7 +115,7 @@ def tokenize(line: str, start: int = 0) -> list[Token]:
             tokens.append(Token(kind, text.upper(), 0, begin, position))
     rest = position + len(line[position:]) - len(line[position:].lstrip(_BLANK))
     if rest < len(line) and line[rest] != ";":
-        raise syntax(rest + 1, line[rest:].split(maxsplit=1)[0])
+        raise syntax(rest + 1, (line[rest:].split(maxsplit=1) or [repr(line[rest])])[0])
     tokens.append(Token("end", "", 0, rest, rest))
     return tokens
 
