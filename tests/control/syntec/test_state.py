@@ -1,0 +1,88 @@
+"""States at power-on and what one run leaves behind for the next: nothing."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from polycnc.session import Result, open_session
+
+
+def run(program: str, files: dict[str, str] | None = None, **setup: Any) -> Result:
+    return open_session(program, control="syntec-mill", setup=setup, files=files or {}).run()
+
+
+def test_a_run_starts_in_the_power_on_state_of_the_manual() -> None:
+    result = run("%@MACRO\n#1 := #1000;\nM30;\n")
+    mode = result.channel.mode
+    assert [mode[group] for group in ("plane", "distance", "feed", "unit", "compensation", "length")] == [
+        "G17", "G90", "G94", "G71", "G40", "G49",
+    ]  # fmt: skip
+    assert result.ok
+
+
+def test_pr3836_starts_in_feed_per_revolution() -> None:
+    result = run("G01 X1.\nM30\n", parameters={"3836": 1})
+    assert result.rows[0]["feed"] == 1.0
+
+
+def test_nothing_of_one_run_reaches_the_next() -> None:
+    text = "%@MACRO\nG91 G55 G68 X0 Y0 R30.;\n@5 := @5 + 1;\n#401 := #401 + 1;\n#1 := RANDOM();\nM30;\n"
+    first, second = run(text), run(text)
+    for name in ("@5", "#401", "#1"):
+        assert first.variables[name] == second.variables[name]
+    assert first.variables["@5"] == 1
+
+
+def test_a_channel_runs_its_own_section_of_a_file() -> None:
+    result = run("$1\nG00 X1.\nM30\n$2\nG00 X2.\nM30\n")
+    assert [row["to"]["X"] for row in result.rows if row["type"] == "rapid"] == [1.0]
+    assert result.rows[0]["line"] == 2
+
+
+def test_variables_of_the_setup_are_there_at_the_start() -> None:
+    result = run("%@MACRO\n#2 := #101 + @3 + @106000;\nM30;\n", variables={"#101": 1.5, "@3": 2, "R6000": 3})
+    assert result.variables["#2"] == 6.5
+
+
+def test_variables_that_do_not_exist_are_no_key() -> None:
+    result = run("M30\n")
+    for name in ("#7777", "@3000", "Q5", "#A"):
+        with pytest.raises(KeyError):
+            result.variables[name]
+
+
+def test_names_of_variables_that_hold_something_are_listed() -> None:
+    result = run("%@MACRO\n#1 := 1;\n@2 := 2;\n@106000 := 3;\n#2001 := 4;\n#450 := 5;\nM30;\n")
+    assert list(result.variables) == ["#1", "#450", "#2001", "@2", "R6000"]
+
+
+def test_an_alarm_names_line_and_column_of_the_mistake() -> None:
+    result = run("%@MACRO\nG00 X1.;\n#1 := 3 + ;\nM30;\n")
+    alarm = result.alarms[0]
+    assert (alarm.code, alarm.line, alarm.column) == ("COM-003", 3, 11)
+    assert "syntax" in result.alarm_text(alarm, "en").lower()
+
+
+def test_an_alarm_inside_a_macro_names_the_macro_and_its_caller() -> None:
+    result = run("%@MACRO\n\nG65 P10;\nM30;\n", {"O0010": "%@MACRO\n#1 := 1 MOD 0;\nM99;\n"})
+    alarm = result.alarms[0]
+    assert (alarm.code, alarm.program, alarm.line) == ("COR-004", "O0010", 2)
+    assert [line for _, line in alarm.call_chain] == [3]
+
+
+def test_user_alarms_carry_the_text_of_the_macro() -> None:
+    result = run('%@MACRO\nALARM(7, "NO TOOL");\n')
+    assert result.alarm_text(result.alarms[0]) == "NO TOOL"
+    assert result.alarms[0].code == "MAR-007"
+
+
+def test_an_endless_loop_ends_at_the_block_limit() -> None:
+    session = open_session("%@MACRO\nWHILE 1 DO\nEND_WHILE;\n", control="syntec-mill", block_limit=5000)
+    assert session.run().alarms[0].code == "PC0002"
+
+
+def test_macro_statements_leave_no_rows() -> None:
+    result = run("%@MACRO\nFOR #1 := 1 TO 5 DO #2 := #1; END_FOR;\nM30;\n")
+    assert [row["type"] for row in result.rows] == ["m"]
