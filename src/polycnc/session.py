@@ -125,7 +125,7 @@ class Result:
         """The rows as a pyarrow table, one column for each value; needs pyarrow."""
         from polycnc.toolpath.export import arrow_table
 
-        return arrow_table(self.display, self.display.records(), self.metadata)
+        return arrow_table(self.display, self.toolpath.chunks, self.metadata)
 
     @property
     def metadata(self) -> dict[str, str]:

@@ -112,6 +112,12 @@ def test_variables_are_compared_by_kind(expected: object, actual: object, equal:
     assert (differences == []) is equal
 
 
+def test_a_variable_that_the_control_does_not_have_is_a_difference() -> None:
+    values: dict[str, object] = {}
+    (difference,) = compare.compare_variables({"#9x": 1}, values.__getitem__, 0.001)
+    assert "#9x" in difference
+
+
 # ---- alarms --------------------------------------------------------------------------------------------
 
 

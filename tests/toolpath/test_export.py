@@ -5,9 +5,13 @@ import io
 import json
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
+from polycnc.geometry.frames import rotation
 from polycnc.toolpath import Context, Kind
-from polycnc.toolpath.export import WRITERS, Csv, JsonLines, Parquet, arrow_table, rounded
+from polycnc.toolpath.export import WRITERS, Csv, JsonLines, Parquet, arrow_table, flattened
+from polycnc.toolpath.trace import AxisLayout
 from tests.toolpath.paths import Z_UP, Draft
 
 
@@ -32,7 +36,7 @@ def written_text(writer: type[JsonLines | Csv], draft: Draft) -> str:
 
 def test_json_lines_hold_one_object_a_row_in_order(draft: Draft) -> None:
     records = [json.loads(line) for line in written_text(JsonLines, draft).splitlines()]
-    assert records == [rounded(record) for record in draft.display().records()]
+    assert records == list(draft.display().records())
     assert len(records) == 5
 
 
@@ -56,13 +60,50 @@ def test_csv_of_a_run_without_rows_still_has_its_header() -> None:
 
 def test_an_arrow_table_holds_the_same_values_with_null_for_what_is_absent(draft: Draft) -> None:
     display = draft.display()
-    table = arrow_table(display, display.records(), {"control": "fanuc-m"})
+    table = arrow_table(display, draft.toolpath.chunks, {"control": "fanuc-m"})
     rows = table.to_pylist()
     assert [row["type"] for row in rows] == ["t", "rapid", "cw", "message", "feed"]
     assert rows[1]["feed"] is None
     assert rows[2]["center_y"] == 0
+    assert (rows[4]["x"], rows[4]["unit"]) == (1.0, "inch")
+    assert rows[0]["x"] is None
     assert rows[0]["tool"] == "2"
     assert table.schema.metadata == {b"control": b"fanuc-m"}
+
+
+ROW = st.tuples(
+    st.sampled_from([Kind.RAPID, Kind.FEED, Kind.THREAD]), *[st.floats(-1e4, 1e4)] * 3, st.floats(0.01, 99)
+)
+
+
+@given(
+    rows=st.lists(ROW, max_size=12),
+    inch=st.booleans(),
+    mode=st.sampled_from(["G93", "G94", "G95"]),
+    angle=st.floats(-360, 360),
+    diameter=st.integers(0, 15),
+)
+def test_whole_columns_show_the_very_values_of_single_rows(
+    rows: list[tuple[Kind, float, float, float, float]], inch: bool, mode: str, angle: float, diameter: int
+) -> None:
+    layout = AxisLayout((0, 1, -1), rotary=frozenset({3}), modulo=frozenset({3}))
+    draft = Draft(("X", "Y", "Z", "C"), chunk_rows=5)
+    moved = Context(
+        frame=rotation(2, angle), offsets=(1, 2, 3, 4), inch=inch, feed_mode=mode, diameter_axes=diameter
+    )
+    draft.event("m", code=3)
+    for number, (kind, x, y, c, feed) in enumerate(rows):
+        draft.under((Context(), moved)[number % 2]).move(kind, x, y, 5, c, feed=feed)
+    display = draft.display(layout)
+    by_row = list(display.records())
+    by_column = [record for chunk in draft.toolpath.chunks for record in display._records_by_column(chunk)]
+    assert by_column == by_row
+    table = arrow_table(display, draft.toolpath.chunks, {}).to_pylist()
+    present = [{key: value for key, value in row.items() if value is not None} for row in table]
+    assert present == [{**flattened(record), **CODE_AS_TEXT.get(record["type"], {})} for record in by_row]
+
+
+CODE_AS_TEXT = {"m": {"code": "3"}}
 
 
 def test_parquet_reads_back_as_the_arrow_table(draft: Draft) -> None:
@@ -74,7 +115,7 @@ def test_parquet_reads_back_as_the_arrow_table(draft: Draft) -> None:
         writer.take(chunk)
     writer.close()
     display = draft.display()
-    expected = arrow_table(display, display.records(), {"control": "fanuc-m"})
+    expected = arrow_table(display, draft.toolpath.chunks, {"control": "fanuc-m"})
     read = parquet.read_table(io.BytesIO(stream.getvalue()))
     assert read.to_pylist() == expected.to_pylist()
     assert read.schema.equals(expected.schema, check_metadata=True)

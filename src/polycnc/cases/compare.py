@@ -141,7 +141,11 @@ def compare_variables(
     """Variables at the program end, read by name."""
     differences = []
     for name, value in expected.items():
-        came = read(name)
+        try:
+            came = read(name)
+        except KeyError:
+            differences.append(text("case.variable-unknown", name=name))
+            continue
         if not values_equal(value, came, tolerance):
             differences.append(
                 text("case.variable-differs", name=name, expected=show(value), came=show(came))

@@ -1,4 +1,4 @@
-"""Which features work, told by cases: a feature works on a control if it has cases there and all of them pass."""
+"""Which features work, told by cases: a feature works on a control if all of its cases there pass."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The motion of a run as a table: moves and events in order, with the contexts that hold while they happen."""
+"""The motion of a run as a table: moves and events in order, with the contexts that hold meanwhile."""
 
 from polycnc.toolpath.context import Context
 from polycnc.toolpath.events import Event

@@ -16,7 +16,7 @@ class Context:
         inch: Words and display are in inches. Lengths in the table stay in millimetres.
         feed_mode: `G93`, `G94` or `G95`, in FANUC milling terms whatever the control writes.
         frame: Work coordinates to machine coordinates of the geometry axes, without the tool.
-        offsets: Shift from work to machine of every channel axis beside `frame`, tool included, in mm or degrees.
+        offsets: Shift from work to machine of every channel axis beside `frame`, tool included (mm, degrees).
         tool: Tool number in the spindle, 0 for none; `tool_name` where the control calls tools by name.
         radius_mm: Radius that cutter compensation applies, 0 when it is off.
         side: Cutter compensation: 0 off, 1 left, -1 right.

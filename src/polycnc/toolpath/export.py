@@ -10,14 +10,14 @@ import csv
 import json
 from typing import IO, TYPE_CHECKING, Any, Protocol, TypeAlias
 
+from polycnc.toolpath.kinds import TYPE_NAMES
+
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Mapping
 
     from polycnc.toolpath.table import Chunk
     from polycnc.toolpath.trace import Display
 
-#: Decimals of the values in text formats: finer than any control resolves, far above rounding noise.
-DECIMALS = 7
 #: Columns that stand before the positions, and behind them. Values of events go into the last ones.
 _FIRST = ("type", "program", "line", "unit")
 _NUMBERS = ("feed", "turns", "seconds", "revolutions", "lead", "start_angle", "speed", "spindle")
@@ -48,7 +48,7 @@ class JsonLines:
     def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""
         encode, records = self._encode, self._display.records_of(chunk)
-        self._stream.writelines(encode(rounded(record)) + "\n" for record in records)
+        self._stream.writelines(encode(record) + "\n" for record in records)
 
     def close(self) -> None:
         """Nothing stands behind the last line."""
@@ -66,7 +66,7 @@ class Csv:
     def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""
         for record in self._display.records_of(chunk):
-            flat = flattened(rounded(record))
+            flat = flattened(record)
             self._writer.writerow([flat.get(column, "") for column in self._columns])
 
     def close(self) -> None:
@@ -85,8 +85,7 @@ class Parquet:
 
     def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""
-        records = self._display.records_of(chunk)
-        self._writer.write_table(arrow_table(self._display, records, self._metadata))
+        self._writer.write_table(arrow_table(self._display, [chunk], self._metadata))
 
     def close(self) -> None:
         """Write the end of the file."""
@@ -99,19 +98,6 @@ WRITERS: dict[str, tuple[str, Callable[[IO[Any], Display, Metadata], TraceWriter
     ".csv": ("w", Csv),
     ".parquet": ("wb", Parquet),
 }
-
-
-def rounded(record: Record) -> Record:
-    """The record with rounding noise taken off its numbers."""
-    return {key: _rounded(value) for key, value in record.items()}
-
-
-def _rounded(value: Any) -> Any:
-    if isinstance(value, float):
-        return round(value, DECIMALS) + 0.0  # -0.0 becomes 0.0
-    if isinstance(value, dict):
-        return {key: _rounded(item) for key, item in value.items()}
-    return value
 
 
 def table_columns(display: Display) -> tuple[str, ...]:
@@ -141,20 +127,48 @@ def arrow_schema(display: Display, metadata: Metadata) -> Any:
     return pa.schema(fields, metadata=dict(metadata))
 
 
-def arrow_table(display: Display, records: Iterable[Record], metadata: Metadata) -> Any:
-    """Records as an Arrow table; a value that a row does not have is null."""
+def arrow_table(display: Display, chunks: Iterable[Chunk], metadata: Metadata) -> Any:
+    """Chunks as an Arrow table; a value that a row does not have is null."""
     import pyarrow as pa
 
     schema = arrow_schema(display, metadata)
-    flat = [flattened(record) for record in records]
-    columns = [
-        pa.array(_column(flat, field.name, is_text=field.name in _TEXTS), type=field.type) for field in schema
-    ]
-    return pa.Table.from_arrays(columns, schema=schema)
+    batches = [_batch(display, chunk, schema) for chunk in chunks if len(chunk)]
+    return pa.Table.from_batches(batches, schema=schema)
 
 
-def _column(flat: list[Record], name: str, *, is_text: bool) -> Iterator[Any]:
-    """The values of one column; codes and tools may be numbers or names, as texts they are both."""
-    for record in flat:
-        value = record.get(name)
-        yield str(value) if is_text and value is not None else value
+def _batch(display: Display, chunk: Chunk, schema: Any) -> Any:
+    """The rows of one chunk: positions and feeds by whole columns, curves and events row by row."""
+    import numpy as np
+    import pyarrow as pa
+
+    shown = display.columns(chunk)
+    programs = display.toolpath.programs
+    columns: dict[str, Any] = {
+        "type": np.array(TYPE_NAMES, object)[shown["kind"]],
+        "program": np.array(programs, object)[shown["program"]],
+        "line": shown["line"].astype(np.int32),
+        "unit": shown["unit"],
+    }
+    for i, axis in enumerate(display.axes):
+        columns[axis.lower()] = shown["work"][:, i]
+        columns[f"machine_{axis.lower()}"] = shown["machine"][:, i]
+    columns["feed"] = shown["feed"]
+    sparse = {name: np.full(len(chunk), None, object) for name in schema.names if name not in columns}
+    columns |= sparse
+    _fill(display, chunk, columns, sparse)
+    return pa.record_batch(
+        [pa.array(columns[field.name], type=field.type, from_pandas=True) for field in schema], schema=schema
+    )
+
+
+def _fill(display: Display, chunk: Chunk, columns: Mapping[str, Any], sparse: Mapping[str, Any]) -> None:
+    """Fill in what rows with curve parameters add to the sparse columns, and events to all."""
+    for i, number in enumerate(chunk.curve):
+        if number < 0:
+            continue
+        row = display.toolpath.row_of(chunk, i)
+        filled = sparse if row.event is None else columns
+        for name, value in flattened(display.record(row)).items():
+            if name in filled:
+                # Codes and tools may be numbers or names: as texts they are both.
+                filled[name][i] = str(value) if name in _TEXTS else value

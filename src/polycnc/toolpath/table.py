@@ -1,30 +1,32 @@
 """The toolpath: columns in chunks, contexts and events beside them.
 
-Columns are plain `array.array` buffers while a chunk is being written, so that a short program needs no array library;
-`Chunk.numpy()` gives views of the same memory. Lengths are millimetres (radius, never diameter), rotary positions
-degrees, feeds mm/s, mm/rev or 1/s as the context's feed mode says.
+Columns are plain `array.array` buffers while a chunk is being written, so that a short program needs no array
+library; `Chunk.numpy()` gives views of the same memory. Lengths are millimetres (radius, never diameter), rotary
+positions degrees, feeds mm/s, mm/rev or 1/s as the context's feed mode says.
 """
 
 from __future__ import annotations
 
 from array import array
-from collections.abc import Callable, Iterator, Sequence
 from math import isnan, nan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from polycnc.toolpath.events import Event
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
     from polycnc.toolpath.context import Context
+    from polycnc.toolpath.events import Event
 
 #: Value of the `curve` column where a row has no curve parameters.
 NO_CURVE = -1
-#: Numbers a curve row: centre x y z (work coordinates, mm), unit normal x y z of the arc's plane, full turns beyond
-#: the first, spare. A dwell: seconds, revolutions. A thread or tap: lead mm, start angle degrees.
+#: Numbers a curve row: centre x y z (work coordinates, mm), unit normal x y z of the arc's plane, full turns
+#: beyond the first, spare. A dwell: seconds, revolutions. A thread or tap: lead mm, start angle degrees.
 CURVE_WIDTH = 8
 CHUNK_ROWS = 65_536
 NO_FEED = nan
+_KINDS = tuple(Kind)
 
 
 class Row(NamedTuple):
@@ -68,8 +70,13 @@ class Chunk:
         self.add = self._row_writer()
 
     def _row_writer(self) -> Callable[[int, int, int, int, float, Sequence[float], int], None]:
-        """What adds a row. The columns' own methods are at hand: this runs once for every row of a program."""
-        kind, program, line, context = self.kind.append, self.program.append, self.line.append, self.context.append
+        """What adds a row. The columns' own methods are at hand: this runs once for every row."""
+        kind, program, line, context = (
+            self.kind.append,
+            self.program.append,
+            self.line.append,
+            self.context.append,
+        )
         feed, end, curve = self.feed.append, self.end.extend, self.curve.append
 
         def add(k: int, p: int, n: int, c: int, f: float, e: Sequence[float], v: int = NO_CURVE) -> None:
@@ -104,7 +111,9 @@ class Chunk:
     def truncate(self, rows: int) -> None:
         """Drop every row from number `rows` (within the chunk) on, with its curve and event."""
         events = sum(1 for kind in self.kind[rows:] if kind == Kind.EVENT)
-        curves = sum(1 for k, c in zip(self.kind[rows:], self.curve[rows:], strict=True) if c >= 0 and k != Kind.EVENT)
+        curves = sum(
+            1 for k, c in zip(self.kind[rows:], self.curve[rows:], strict=True) if c >= 0 and k != Kind.EVENT
+        )
         if events:
             del self.events[-events:]
         if curves:
@@ -119,7 +128,7 @@ class Toolpath:
 
     Args:
         axes: Names of the channel's axes, in column order.
-        on_full: Called with each chunk that is full; a consumer that returns true has taken it, and it is dropped.
+        on_full: Called with each full chunk; a consumer that returns true has taken it, and it is dropped.
     """
 
     def __init__(
@@ -161,7 +170,14 @@ class Toolpath:
         return number
 
     def append(
-        self, kind: int, program: int, line: int, context: int, feed: float, end: list[float], curve: int = NO_CURVE
+        self,
+        kind: int,
+        program: int,
+        line: int,
+        context: int,
+        feed: float,
+        end: list[float],
+        curve: int = NO_CURVE,
     ) -> None:
         """Add a row. `curve` is what `add_curve` gave for it, or `NO_CURVE`."""
         self.chunk.add(kind, program, line, context, feed, end, curve)
@@ -207,24 +223,30 @@ class Toolpath:
 
     def rows_of(self, chunk: Chunk) -> Iterator[Row]:
         """The rows of one chunk as Python values."""
-        n = chunk.axes
-        for i, kind in enumerate(chunk.kind):
-            c = chunk.curve[i]
-            is_event = kind == Kind.EVENT
-            yield Row(
-                chunk.first + i,
-                Kind(kind),
-                self.programs[chunk.program[i]],
-                chunk.line[i],
-                tuple(chunk.end[i * n : (i + 1) * n]),
-                chunk.feed[i],
-                tuple(chunk.curves[c * CURVE_WIDTH : (c + 1) * CURVE_WIDTH]) if c >= 0 and not is_event else (),
-                self.contexts[chunk.context[i]],
-                chunk.events[c] if is_event else None,
-            )
+        for i in range(len(chunk)):
+            yield self.row_of(chunk, i)
 
-    def to_machine(self, end: tuple[float, ...] | list[float], context: Context, geometry: tuple[int, ...]) -> list[float]:
-        """Machine position of a row's end point: the frame acts on the `geometry` axes, the offsets on all."""
+    def row_of(self, chunk: Chunk, i: int) -> Row:
+        """One row of a chunk as Python values."""
+        n, c = chunk.axes, chunk.curve[i]
+        kind = _KINDS[chunk.kind[i]]
+        is_event = kind is Kind.EVENT
+        return Row(
+            chunk.first + i,
+            kind,
+            self.programs[chunk.program[i]],
+            chunk.line[i],
+            tuple(chunk.end[i * n : (i + 1) * n]),
+            chunk.feed[i],
+            tuple(chunk.curves[c * CURVE_WIDTH : (c + 1) * CURVE_WIDTH]) if c >= 0 and not is_event else (),
+            self.contexts[chunk.context[i]],
+            chunk.events[c] if is_event else None,
+        )
+
+    def to_machine(
+        self, end: tuple[float, ...] | list[float], context: Context, geometry: tuple[int, ...]
+    ) -> list[float]:
+        """Machine position of a row's end point: the frame acts on `geometry` axes, the offsets on all."""
         machine = list(end)
         if not context.frame.is_identity:
             image = context.frame.apply(*(end[i] if i >= 0 else 0.0 for i in geometry))

@@ -8,9 +8,10 @@ within one turn.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
-from polycnc.toolpath.kinds import TYPE_NAMES, Kind
+from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -20,6 +21,10 @@ if TYPE_CHECKING:
     from polycnc.toolpath.table import Chunk, Row, Toolpath
 
 MM_PER_INCH = 25.4
+#: Steps of a unit that the displays resolve: finer than any control, far above rounding noise.
+_STEPS = 1e7
+#: From so many rows on, whole columns (and the start of NumPy) are faster than row by row.
+COLUMN_ROWS = 10_000
 _FULL_TURN = 360.0
 #: Seconds in the time unit of each feed mode: per minute, per revolution (no time in it), inverse minutes.
 _TIME_FACTOR = {"G93": 60.0, "G94": 60.0, "G95": 1.0}
@@ -41,13 +46,22 @@ class AxisLayout:
 
 
 @dataclass(frozen=True, slots=True)
-class _Scale:
-    """Factors from the table's units to the displays' under one context."""
+class Scale:
+    """Factors from the table's units to the displays' under one context.
+
+    Attributes:
+        work: For each axis of the work display.
+        machine: For each axis of the machine display.
+        length: For lengths along no axis (leads).
+        feed: For the feed in the context's feed mode.
+        unit: Unit of lengths.
+    """
 
     work: tuple[float, ...]
     machine: tuple[float, ...]
     length: float
     feed: float
+    unit: str
 
 
 class Display:
@@ -66,40 +80,92 @@ class Display:
         alarm_text: Callable[[Mapping[str, Any]], str] | None = None,
     ) -> None:
         self.axes = toolpath.axes
-        self._toolpath = toolpath
-        self._layout = layout
+        self.toolpath = toolpath
+        self.layout = layout
         self._alarm_text = alarm_text
         self.modulo_axes = frozenset(self.axes[i] for i in layout.modulo)
-        self._scales: dict[int, _Scale] = {}
+        self._scales: dict[int, Scale] = {}
 
     def records(self) -> Iterator[dict[str, Any]]:
         """The records of all rows that the toolpath still holds, in order."""
-        for row in self._toolpath.rows():
+        for row in self.toolpath.rows():
             yield self.record(row)
 
     def records_of(self, chunk: Chunk) -> Iterator[dict[str, Any]]:
-        """The records of one chunk."""
-        for row in self._toolpath.rows_of(chunk):
-            yield self.record(row)
+        """The records of one chunk. Long chunks go by whole columns, which gives the same values."""
+        if len(chunk) >= COLUMN_ROWS and find_spec("numpy") is not None:
+            yield from self._records_by_column(chunk)
+        else:
+            for row in self.toolpath.rows_of(chunk):
+                yield self.record(row)
+
+    def _records_by_column(self, chunk: Chunk) -> Iterator[dict[str, Any]]:
+        shown = self.columns(chunk)
+        names = ("kind", "program", "line", "unit", "work", "machine", "feed", "curve")
+        axes, programs = self.axes, self.toolpath.programs
+        rows = zip(*(shown[name].tolist() for name in names), strict=True)
+        for i, (kind, program, line, unit, work, machine, feed, curve) in enumerate(rows):
+            if curve >= 0:
+                yield self.record(self.toolpath.row_of(chunk, i))
+                continue
+            record = {
+                "type": TYPE_NAMES[kind],
+                "program": programs[program],
+                "line": line,
+                "unit": unit,
+                "to": dict(zip(axes, work, strict=True)),
+                "machine": dict(zip(axes, machine, strict=True)),
+            }
+            if feed == feed:
+                record["feed"] = feed
+            yield record
+
+    def columns(self, chunk: Chunk) -> dict[str, Any]:
+        """What `Chunk.numpy` gives, `feed` as shown, and with it `work`, `machine` (n, axes) and `unit`.
+
+        Rows that are events have NaN for positions and None for the unit. Needs NumPy.
+        """
+        import numpy as np
+
+        columns = chunk.numpy()
+        kind, end, feed = columns["kind"], columns["end"], columns["feed"].copy()
+        work, machine = np.empty_like(end), np.empty_like(end)
+        unit = np.full(len(chunk), None, object)
+        for number in np.unique(columns["context"]):
+            rows = columns["context"] == number
+            context = self.toolpath.contexts[number]
+            scale = self.scale(context)
+            work[rows] = end[rows] * scale.work
+            machine[rows] = _machine_columns(end[rows], context, self.layout.geometry) * scale.machine
+            feed[rows] *= np.where(kind[rows] == Kind.THREAD, scale.length, scale.feed)
+            unit[rows] = scale.unit
+        work, machine, feed = (np.rint(values * _STEPS) / _STEPS + 0.0 for values in (work, machine, feed))
+        for i in self.layout.modulo:
+            work[:, i] %= _FULL_TURN
+        is_event = kind == Kind.EVENT
+        work[is_event] = machine[is_event] = np.nan
+        unit[is_event] = None
+        return {**columns, "work": work, "machine": machine, "feed": feed, "unit": unit}
 
     def record(self, row: Row) -> dict[str, Any]:
-        """One row as a record of the trace (see the documentation of `run --trace`)."""
+        """One row as a record of the trace."""
         if row.event is not None:
             return self._event(row, row.event)
-        scale = self._scale(row.context)
+        scale = self.scale(row.context)
         record: dict[str, Any] = {
             "type": TYPE_NAMES[row.kind],
             "program": row.program,
             "line": row.line,
-            "unit": "inch" if row.context.inch else "mm",
+            "unit": scale.unit,
             "to": self.work(row.end, row.context),
             "machine": self.machine(row.end, row.context),
         }
         if row.has_feed:
             # The F of a thread is its lead, whatever the feed mode.
-            record["feed"] = row.feed * (scale.length if row.kind == Kind.THREAD else scale.feed)
+            factor = scale.length if row.kind == Kind.THREAD else scale.feed
+            record["feed"] = _shown(row.feed * factor)
         if row.curve:
-            record.update(self._curve(row, scale))
+            record.update(self.curve(row.kind, row.curve, scale))
         return record
 
     def _event(self, row: Row, event: Event) -> dict[str, Any]:
@@ -110,48 +176,64 @@ class Display:
 
     def work(self, end: Sequence[float], context: Context) -> dict[str, float]:
         """A position (absolute, internal units) as the work display shows it."""
-        values = [value * factor for value, factor in zip(end, self._scale(context).work, strict=True)]
-        for i in self._layout.modulo:
-            values[i] = round(values[i] % _FULL_TURN, 9) % _FULL_TURN
-        return dict(zip(self.axes, values, strict=True))
+        factors = self.scale(context).work
+        shown = {axis: _shown(v * f) for axis, v, f in zip(self.axes, end, factors, strict=True)}
+        for axis in self.modulo_axes:
+            shown[axis] = shown[axis] % _FULL_TURN
+        return shown
 
     def machine(self, end: Sequence[float], context: Context) -> dict[str, float]:
         """A position (absolute, internal units) as the machine display shows it, never in inches."""
-        position = self._toolpath.to_machine(tuple(end), context, self._layout.geometry)
-        factors = self._scale(context).machine
-        return {axis: v * f for axis, v, f in zip(self.axes, position, factors, strict=True)}
+        position = self.toolpath.to_machine(tuple(end), context, self.layout.geometry)
+        factors = self.scale(context).machine
+        return {axis: _shown(v * f) for axis, v, f in zip(self.axes, position, factors, strict=True)}
 
-    def _scale(self, context: Context) -> _Scale:
+    def scale(self, context: Context) -> Scale:
+        """The factors that hold under a context."""
         scale = self._scales.get(id(context))
         if scale is None:
             length = 1.0 / MM_PER_INCH if context.inch else 1.0
             diameter = [2.0 if context.diameter_axes >> i & 1 else 1.0 for i in range(len(self.axes))]
-            work = [d if i in self._layout.rotary else d * length for i, d in enumerate(diameter)]
-            per_length = 1.0 if context.feed_mode == "G93" else length
-            feed = _TIME_FACTOR[context.feed_mode] * per_length
-            scale = self._scales[id(context)] = _Scale(tuple(work), tuple(diameter), length, feed)
+            work = tuple(d if i in self.layout.rotary else d * length for i, d in enumerate(diameter))
+            feed = _TIME_FACTOR[context.feed_mode] * (1.0 if context.feed_mode == "G93" else length)
+            unit = "inch" if context.inch else "mm"
+            scale = self._scales[id(context)] = Scale(work, tuple(diameter), length, feed, unit)
         return scale
 
-    def _curve(self, row: Row, scale: _Scale) -> dict[str, Any]:
+    def curve(self, kind: int, curve: Sequence[float], scale: Scale) -> dict[str, Any]:
         """What the curve parameters of a row add to its record."""
-        if row.kind == Kind.DWELL:
-            seconds, revolutions = row.curve[0], row.curve[1]
-            return {"revolutions": revolutions} if revolutions else {"seconds": seconds}
-        if row.kind in (Kind.THREAD, Kind.TAP):
-            return {"lead": row.curve[0] * scale.length, "start_angle": row.curve[1]}
-        if row.kind in (Kind.CW, Kind.CCW, Kind.HELIX_CW, Kind.HELIX_CCW):
-            return self._arc(row.curve, scale)
-        return {}
+        if kind == Kind.DWELL:
+            seconds, revolutions = curve[0], curve[1]
+            return {"revolutions": _shown(revolutions)} if revolutions else {"seconds": _shown(seconds)}
+        if kind in (Kind.THREAD, Kind.TAP):
+            return {"lead": _shown(curve[0] * scale.length), "start_angle": _shown(curve[1])}
+        return self._arc(curve, scale) if kind in ARC_KINDS else {}
 
-    def _arc(self, curve: tuple[float, ...], scale: _Scale) -> dict[str, Any]:
+    def _arc(self, curve: Sequence[float], scale: Scale) -> dict[str, Any]:
         """Centre on the axes of the arc's plane (all three where it is tilted), and further turns."""
         center, normal, turns = curve[0:3], curve[3:6], curve[6]
         tilted = sum(1 for component in normal if abs(component) > 1e-9) > 1
         shown: dict[str, float] = {}
-        for i, value, component in zip(self._layout.geometry, center, normal, strict=True):
+        for i, value, component in zip(self.layout.geometry, center, normal, strict=True):
             if i >= 0 and (tilted or abs(component) <= 1e-9):
-                shown[self.axes[i]] = value * scale.work[i]
+                shown[self.axes[i]] = _shown(value * scale.work[i])
         record: dict[str, Any] = {"center": shown}
         if turns:
-            record["turns"] = turns + 1
+            record["turns"] = _shown(turns + 1)
         return record
+
+
+def _shown(value: float) -> float:
+    """A value without rounding noise and without -0.0, to the same bits as `Display.columns`."""
+    return round(value * _STEPS) / _STEPS
+
+
+def _machine_columns(end: Any, context: Context, geometry: tuple[int, int, int]) -> Any:
+    """`Toolpath.to_machine` for whole columns (n, axes), in the same order of operations."""
+    machine = end.copy()
+    if not context.frame.is_identity:
+        x, y, z = (end[:, i] if i >= 0 else 0.0 for i in geometry)
+        for i, (a, b, c), shift in zip(geometry, context.frame.m, context.frame.t, strict=True):
+            if i >= 0:
+                machine[:, i] = a * x + b * y + c * z + shift
+    return machine + context.offsets if context.offsets else machine
