@@ -1,7 +1,7 @@
 """Mistakes by name and the SYNTEC alarms for them.
 
-Codes are those of the milling manual and of the macro language. COR-012 and COR-013 stand in neither: they are
-what such controls show for a missing program and for calls nested too deep. The manual names no alarm for
+Codes are those of the milling manual and of the macro language. COR-012 and COR-013 stand in neither: they
+are what such controls show for a missing program and for calls nested too deep. The manual names no alarm for
 software travel limits: PC0004 is polycnc's own.
 """
 

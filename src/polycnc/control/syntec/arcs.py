@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.geometry.arcs import Point
-    from polycnc.geometry.frames import Vector
+    from polycnc.geometry.frames import Frame, Vector
 
 OPTION_THREE_POINT_ARC = 19
 THREE_POINT_CODES = ("G2.4", "G3.4")
@@ -147,7 +147,7 @@ def _scaled_center(
     factors: Vector = memory.scale_factors
     if channel.mode["scaling"] != "G51" or abs(factors[u]) == abs(factors[v]):
         return center
-    frame = memory.frames.product()
+    frame: Frame = memory.frames.product()
     inverse = frame.inverse()
 
     def image(point: Point) -> Vector:

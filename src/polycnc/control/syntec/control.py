@@ -132,7 +132,7 @@ class SyntecMill(WordAddressControl):
         """The alarm for something that the control knows and polycnc does not execute."""
         return AlarmError("PC0001", hint="hint.not-supported", address=address, code=code)
 
-    def untaken(self, address: str, builder: Builder) -> AlarmError:
+    def untaken(self, address: str, _builder: Builder) -> AlarmError:
         """The alarm for a word that nothing in its block takes."""
         if address.startswith(","):
             return self.not_yet(address, address)
