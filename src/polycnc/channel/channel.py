@@ -78,6 +78,7 @@ class Channel:
         level: The running program level, `stack[-1]`.
         head: First stage of the path, or None while moves go straight to the table.
         mark: Rows of the chunk when the running block began.
+        control: The control, for the handlers of its family, which know its class.
         memory: The control's own state (variables, offsets, tools), set by `Control.start`.
     """
 
@@ -92,7 +93,8 @@ class Channel:
         block_limit: int = DEFAULT_BLOCK_LIMIT,
         toolpath: Toolpath | None = None,
     ) -> None:
-        self.control = control
+        self._control = control
+        self.control: Any = control
         self.machine = machine
         self.setup = setup
         self.store = store
@@ -182,7 +184,7 @@ class Channel:
         """The compiled form of a program; each program is compiled once."""
         key = id(program)
         if key not in self._executables:
-            self._executables[key] = self.control.compile(program)
+            self._executables[key] = self._control.compile(program)
         return self._executables[key]
 
     @property
@@ -223,7 +225,7 @@ class Channel:
         """Run a program to its end or to an alarm, yielding whenever the channel must wait."""
         self.push(program, kind="main")
         try:
-            self.control.start(self)
+            self._control.start(self)
         except AlarmError as error:
             self._alarm(error)
         while not self._finished:
@@ -250,7 +252,7 @@ class Channel:
                         level.current = index
                         step = level.code.step(index)
                         if step is None:
-                            self.control.end_of_program(self)
+                            self._control.end_of_program(self)
                             break
                     level.current = index
                     level.index = index + 1
@@ -262,7 +264,7 @@ class Channel:
                 if self._head is not None:
                     self._head.block()
                 if self.blocks >= self.block_limit:
-                    raise self.control.block_limit()
+                    raise self._control.block_limit()
                 self.mark = toolpath.mark()
                 if self.mark >= CHUNK_ROWS:
                     toolpath.block_boundary()
@@ -276,7 +278,7 @@ class Channel:
             self._alarm(error)
         except ArithmeticError as error:
             self._take_back()
-            self._alarm(self.control.arithmetic_alarm(error))
+            self._alarm(self._control.arithmetic_alarm(error))
         except RecursionError:
             self._take_back()
             self._alarm(AlarmError("PC0003"))
@@ -322,7 +324,7 @@ class Channel:
         if level and error.address and not column and not error.line:
             column = level.code.column(level.current, error.address)
         alarm = Alarm(
-            control=self.control.id,
+            control=self._control.id,
             code=error.code,
             program=name,
             line=line,
@@ -356,7 +358,7 @@ class Channel:
     def context_number(self) -> int:
         """Number of the context that holds now."""
         if self._context_changed:
-            self._context = self.toolpath.context_number(self.control.context(self))
+            self._context = self.toolpath.context_number(self._control.context(self))
             self._context_changed = False
         return self._context
 
@@ -447,13 +449,13 @@ class Channel:
         machine = self.coordinates.to_machine(end)
         for i, (low, high) in enumerate(self._limits):
             if machine[i] < low - 1e-9:
-                raise self.control.over_travel(self.axes[i], -1)
+                raise self._control.over_travel(self.axes[i], -1)
             if machine[i] > high + 1e-9:
-                raise self.control.over_travel(self.axes[i], 1)
+                raise self._control.over_travel(self.axes[i], 1)
         if self.stroke_zone is not None:
             axis = self.stroke_zone.violated(machine)
             if axis >= 0:
-                raise self.control.over_travel(self.axes[axis], 1)
+                raise self._control.over_travel(self.axes[axis], 1)
 
 
 class TableStage:

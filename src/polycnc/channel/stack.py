@@ -20,9 +20,13 @@ class Executable(Protocol):
     Steps are numbered from 0. A step is a callable that does what its block says; jumps set `level.index`.
     """
 
-    program: Program
-    #: Steps that are compiled and kept; None, or nothing at all, where `step` must be asked.
-    steps: Sequence[Step | None]
+    @property
+    def program(self) -> Program:
+        """The text."""
+
+    @property
+    def steps(self) -> Sequence[Step | None]:
+        """Steps that are compiled and kept, by number; None, or nothing at all, where `step` must be asked."""
 
     def step(self, index: int) -> Step | None:
         """The step of a block, compiled on demand; None behind the last block."""
@@ -64,5 +68,5 @@ class Level:
     line_of: Callable[[int], int] = field(init=False)
 
     def __post_init__(self) -> None:
-        self.steps = getattr(self.code, "steps", ())
+        self.steps = self.code.steps
         self.line_of = self.code.line

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.coordinates import refresh_zero
 from polycnc.control.word_address.length import renew_length
 from polycnc.control.word_address.memory import EXTERNAL
+from polycnc.control.word_address.subprograms import sequences_of
 from polycnc.control.word_address.variables import Read, Registry, SystemRange, Write
 from polycnc.messages import AlarmError
 
@@ -151,7 +152,7 @@ def _extended(m: MacroMemory, _i: int) -> float:
 
 
 def _sequence(m: MacroMemory, _i: int) -> float:
-    return float(m.channel.level.code.sequence(m.channel.level.current))
+    return float(sequences_of(m.channel.level).sequence(m.channel.level.current))
 
 
 def _program(m: MacroMemory, _i: int) -> float:

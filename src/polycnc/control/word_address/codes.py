@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.plan import Builder
+    from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
 
 #: Acts when its block runs.
@@ -23,6 +23,8 @@ Handler = Callable[["Channel", "Words"], None]
 Step = Callable[["Channel", list[float]], Any]
 #: Looks at the shape of a block once and gives its step; for codes whose speed matters.
 Planner = Callable[["Builder"], "Step | None"]
+#: The same for motion codes, which also need the plan that is being made.
+MotionPlanner = Callable[["Builder", "Plan"], "Step | None"]
 
 
 class Order(IntEnum):
@@ -49,17 +51,19 @@ class GCode:
         axis_words: The code takes the axis words of its block, so that the active motion code does not.
         order: When in the block it acts.
         ends: Another modal group that goes back to its power-on code (a motion code ends a drilling cycle).
+        idle_in_cycle: Has no effect in a block while a drilling cycle is active.
         not_yet: Known to the control, not executed by polycnc.
     """
 
     code: str
     group: str = ""
     handler: Handler | None = None
-    planner: Planner | None = None
+    planner: MotionPlanner | None = None
     takes: str = ""
     axis_words: bool = False
     order: Order = Order.SETTING
     ends: str = ""
+    idle_in_cycle: bool = False
     not_yet: bool = False
 
     @property

@@ -6,12 +6,13 @@ from functools import cached_property
 from importlib import resources
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from polycnc.control.word_address import coordinates, path
+from polycnc.control.word_address import coordinates, frames, path
 from polycnc.control.word_address.codes import GCode, MCode
 from polycnc.control.word_address.drilling import Drilling, give_way, plan_drilling
 from polycnc.control.word_address.memory import Memory
 from polycnc.control.word_address.numbers import NumberRules
 from polycnc.control.word_address.plan import Builder, Plan
+from polycnc.geometry.arcs import radius_mismatch
 from polycnc.language.word_address import Grammar, WordAddressProgram
 from polycnc.messages import AlarmError, Catalogue
 from polycnc.program import Form
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.channel.stack import Executable
     from polycnc.control.word_address.codes import Planner, Step
+    from polycnc.geometry.arcs import Point
     from polycnc.program import Program
 
 
@@ -183,6 +185,33 @@ class WordAddressControl:
     def drilling_rules(self, _channel: Channel) -> Drilling:
         """How the control drills."""
         return self.drilling
+
+    # ---- what the motion planners ask ---------------------------------------------------------------------------
+
+    def feed_factor(self, _builder: Builder, _form: str, _mode: str) -> float:
+        """What an F word counts in: 1 for whole units."""
+        return 1.0
+
+    def arc_tolerance(self, _channel: Channel) -> float:
+        """Allowed difference between the radii at start and end of an arc, mm."""
+        return 0.01
+
+    def check_arc(self, channel: Channel, start: Point, end: Point, center: Point) -> None:
+        """Alarm for an end point that is not on the circle."""
+        if abs(radius_mismatch(start, end, center)) > self.arc_tolerance(channel) + 1e-9:
+            raise self.fail("arc_end")
+
+    def plan_arc_without_center(self, builder: Builder, _plan: Plan) -> Step | None:
+        """An arc block without radius and centre."""
+        raise self.fail("no_center", address=builder.mode["motion"])
+
+    def plan_corner(self, _builder: Builder) -> Step | None:
+        """What chamfer and corner words of a block ask for; None on a control without them."""
+        return None
+
+    def polar_target(self, channel: Channel, plan: Plan, values: list[float]) -> list[float]:
+        """End point of a block in polar words."""
+        return frames.polar_target(channel, plan, values)
 
     def nose_tip(self, _channel: Channel) -> tuple[float, float]:
         """Way from the centre of the tool to its programmed point, in the plane, in units of its radius."""

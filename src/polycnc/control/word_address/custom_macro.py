@@ -7,17 +7,15 @@ from typing import TYPE_CHECKING, ClassVar
 from polycnc.control.word_address import code_calls, macro_calls
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.numbers import NumberRules
-from polycnc.geometry.arcs import radius_mismatch
 from polycnc.program import ProgramFileError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.code_calls import CodeCalls
     from polycnc.control.word_address.codes import GCode, MCode, Step
     from polycnc.control.word_address.plan import Builder, Plan
-    from polycnc.geometry.arcs import Point
     from polycnc.program import Program
 
 _MACRO_KINDS = ("macro", "modal", "g-macro", "m-macro")
@@ -58,19 +56,6 @@ class CustomMacroControl(WordAddressControl):
         """Allowed difference between the radii at start and end, mm."""
         number, delivered = self.ARC_TOLERANCE_PARAMETER
         return channel.setup.parameters.number(number, default=delivered)
-
-    def check_arc(self, channel: Channel, start: Point, end: Point, center: Point) -> None:
-        """Alarm for an end point that is not on the circle."""
-        if abs(radius_mismatch(start, end, center)) > self.arc_tolerance(channel) + 1e-9:
-            raise self.fail("arc_end")
-
-    def plan_arc_without_center(self, builder: Builder, _plan: Plan) -> Step | None:
-        """G02/G03 without R, I, J, K."""
-        raise self.fail("no_center", address=builder.mode["motion"])
-
-    def plan_corner(self, _builder: Builder) -> Callable[[Channel, list[float]], object] | None:
-        """What ,R and ,C ask for."""
-        return None
 
     def reference_point(self, channel: Channel, axis: int, number: int) -> float:
         """Machine position of a reference point of an axis."""

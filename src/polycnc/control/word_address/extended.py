@@ -49,6 +49,15 @@ def high_speed_machining(channel: Channel, words: Words) -> None:
     channel.context_changed()
 
 
+def high_speed_mode(channel: Channel, words: Words) -> None:
+    """G05 P0, P1, P2, P10000 of MELDAS: high-speed modes; the path is unchanged."""
+    number = words.integer("P")
+    if number not in (0, 1, 2, 10000):
+        raise words.fail("address", "P")
+    channel.memory.contour_control = number != 0
+    channel.context_changed()
+
+
 def contour_control(channel: Channel, words: Words) -> None:
     """G05.1 Q1 [R1 … R10] / Q0: AI contour control; R chooses a level of precision."""
     level = words.integer("R") if "R" in words else None

@@ -96,7 +96,7 @@ def end_mirror(channel: Channel, words: Words) -> None:
 
 def _set_mirror(channel: Channel) -> None:
     frames = channel.memory.frames
-    center: Vector = tuple(frames.mirrored.get(i, 0.0) for i in range(3))  # type: ignore[assignment]
+    center: Vector = tuple(frames.mirrored.get(i, 0.0) for i in range(3))
     factors = [-1.0 if i in frames.mirrored else 1.0 for i in range(3)]
     frames.mirror = about(center, scaling(*factors)) if frames.mirrored else IDENTITY
     _refresh(channel)

@@ -5,14 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policies import HARTFORD, Policy
-from polycnc.control.word_address import corners, frames
+from polycnc.control.word_address import corners
 from polycnc.control.word_address.custom_macro import CustomMacroControl
+from polycnc.control.word_address.length import renew_length
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.memory import Memory, ToolOffset
-    from polycnc.control.word_address.plan import Builder, Plan
+    from polycnc.control.word_address.plan import Builder
     from polycnc.control.word_address.words import Words
 
 
@@ -20,9 +21,11 @@ class MillingControl(CustomMacroControl):
     """A machining centre of the FANUC kind.
 
     Attributes:
+        OVERRUN_PARAMETER: Parameter of each axis with the overrun of G60.
         LENGTH_TRAVELS_ALONE: G43 H without a Z word moves Z by the offset at once.
     """
 
+    OVERRUN_PARAMETER: ClassVar[int] = 5440
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
 
     # ---- motion --------------------------------------------------------------------------------------
@@ -30,10 +33,6 @@ class MillingControl(CustomMacroControl):
     def plan_corner(self, builder: Builder) -> Step | None:
         """What ,R and ,C ask for."""
         return corners.plan_corner_words(builder)
-
-    def polar_target(self, channel: Channel, plan: Plan, values: list[float]) -> list[float]:
-        """End point under G16."""
-        return frames.polar_target(channel, plan, values)
 
     def scale_factors(self, channel: Channel, words: Words) -> tuple[float, float, float]:
         """Factors of G51: P for all axes, or I J K; without a point in units of 5400#7."""
@@ -70,3 +69,18 @@ class MillingControl(CustomMacroControl):
     def compensation_policy(self, _channel: Channel) -> Policy:
         """Rules of radius compensation."""
         return HARTFORD
+
+    def overrun(self, channel: Channel, axis: int) -> float:
+        """How far and on which side G60 positions past the target of an axis, mm (sign: last direction)."""
+        return channel.setup.parameters.number(self.OVERRUN_PARAMETER, channel.axes[axis])
+
+    def measuring(self, channel: Channel, _words: Words) -> tuple[float, float, float]:
+        """G37: way before the target at feed (6251), allowed difference (6254), feed (6241)."""
+        number = channel.setup.parameters.number
+        name = channel.axes[channel.coordinates.geometry[2]]
+        return number(6251, name), number(6254, name), number(6241, name) / 60.0
+
+    def note_length(self, channel: Channel, number: int, change: float) -> None:
+        """Add a measured difference to a length offset."""
+        channel.memory.offset_number(number).length += change
+        renew_length(channel)

@@ -91,6 +91,7 @@ class Builder:
         self._taken: set[str] = set()
         self._read_signature()
         self.mode = self.before.with_codes(control.modal_changes(self.codes))
+        self._drop_idle_codes()
         self.inch = control.is_inch(self.mode)
         self.rules = control.number_rules(channel)
 
@@ -117,6 +118,15 @@ class Builder:
             self.order.append(address)
             position += 1
         self.codes = list(by_group.values())
+
+    def _drop_idle_codes(self) -> None:
+        """Leave out codes that have no effect while a drilling cycle is active; their words are theirs."""
+        idle = [row for row in self.codes if row.idle_in_cycle]
+        if idle and self.mode.codes.get("cycle", "") in self.control.drilling_rules(self.channel).cycles:
+            for row in idle:
+                self.take(*row.addresses)
+            self.codes = [row for row in self.codes if not row.idle_in_cycle]
+            self.mode = self.before.with_codes(self.control.modal_changes(self.codes))
 
     def _row(self, code: str) -> GCode:
         row = self.control.g_table(self.channel).get(code)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Level
     from polycnc.control.word_address.words import Words
+    from polycnc.language.word_address import WordAddressProgram
     from polycnc.program import Program
 
 #: Five and more digits of P hold the number of repeats in front of a four-digit program number.
@@ -67,7 +69,12 @@ def enter_subprogram(
     local = channel.level.locals
     level = channel.push(program, kind=kind, repeats=repeats - 1, local=local)
     if sequence is not None:
-        level.index = level.entry = level.code.find_sequence(sequence, -1, "no_return_sequence")
+        level.index = level.entry = sequences_of(level).find_sequence(sequence, -1, "no_return_sequence")
+
+
+def sequences_of(level: Level) -> WordAddressProgram:
+    """The program of a level as what knows sequence numbers: on these controls every program does."""
+    return cast("WordAddressProgram", level.code)
 
 
 def _program_and_repeats(channel: Channel, words: Words) -> tuple[int | None, int]:
@@ -88,7 +95,7 @@ def return_from_subprogram(channel: Channel, words: Words) -> None:
     sequence = words.integer("P") if "P" in words else None
     if len(channel.stack) == 1:
         level.index = (
-            0 if sequence is None else level.code.find_sequence(sequence, level.current, "no_return_sequence")
+            0 if sequence is None else sequences_of(level).find_sequence(sequence, level.current, "no_return_sequence")
         )
         level.data.clear()
         return
@@ -103,4 +110,4 @@ def return_from_subprogram(channel: Channel, words: Words) -> None:
     channel.control.leave(channel)
     if sequence is not None:
         caller = channel.level
-        caller.index = caller.code.find_sequence(sequence, caller.current, "no_return_sequence")
+        caller.index = sequences_of(caller).find_sequence(sequence, caller.current, "no_return_sequence")

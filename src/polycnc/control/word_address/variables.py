@@ -93,7 +93,8 @@ class MacroMemory(Memory):
     def fail(self, mistake: str) -> AlarmError:
         """The control's alarm for a mistake in an expression."""
         control = self.channel.control
-        return control.fail(mistake)  # type: ignore[attr-defined, no-any-return]
+        error: AlarmError = control.fail(mistake)
+        return error
 
     @property
     def increment(self) -> float:
@@ -104,7 +105,7 @@ class MacroMemory(Memory):
     def is_inch(self) -> bool:
         """Whether the program's unit is the inch."""
         control = self.channel.control
-        return bool(control.is_inch(self.channel.mode))  # type: ignore[attr-defined]
+        return bool(control.is_inch(self.channel.mode))
 
     def read(self, number: int) -> float | None:
         """A variable by number."""
@@ -168,7 +169,7 @@ class MacroMemory(Memory):
 
     # ---- printing -----------------------------------------------------------------------------------------------
 
-    def print_open(self, opened: bool) -> None:  # noqa: FBT001 - POPEN and PCLOS are the two values
+    def print_open(self, opened: bool) -> None:
         """POPEN, PCLOS."""
         self.printing = opened
 

@@ -7,8 +7,8 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.language.word_address.macro_b import Reader, compile_source
 from polycnc.language.word_address.joining import JOINABLE, MAX_JOINED, join, join_loop
+from polycnc.language.word_address.macro_b import Reader, compile_source
 from polycnc.language.word_address.statements import KEYWORD, LoopEnd, parse_statement
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock, code_key, is_fixed_code, word_key
 from polycnc.messages import AlarmError

@@ -260,7 +260,7 @@ def compile_source(source: str) -> Callable[[Any, list[float]], Any]:
     function = _compiled.get(source)
     if function is None:
         code = compile(f"lambda m, k: {source}", "<macro>", "eval")
-        function = _compiled[source] = eval(code, functions.NAMESPACE)  # noqa: S307 - source is ours, not the user's
+        function = _compiled[source] = eval(code, functions.NAMESPACE)
     return function
 
 
@@ -269,6 +269,6 @@ def compile_statement(source: str) -> Callable[[Any, list[float]], Any]:
     function = _compiled.get(source)
     if function is None:
         space = dict(functions.NAMESPACE)
-        exec(compile(f"def run(m, k):\n    {source}", "<macro>", "exec"), space)  # noqa: S102 - as above
+        exec(compile(f"def run(m, k):\n    {source}", "<macro>", "exec"), space)
         function = _compiled[source] = space["run"]
     return function
