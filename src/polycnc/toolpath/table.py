@@ -1,8 +1,8 @@
 """The toolpath: columns in chunks, contexts and events beside them.
 
 Columns are plain `array.array` buffers while a chunk is being written, so that a short program needs no array
-library; `Chunk.numpy()` gives views of the same memory. Lengths are millimetres (radius, never diameter), rotary
-positions degrees, feeds mm/s, mm/rev or 1/s as the context's feed mode says.
+library; `Chunk.numpy()` gives views of the same memory. Lengths are millimetres (radius, never diameter),
+rotary positions degrees, feeds mm/s, mm/rev or 1/s as the context's feed mode says.
 """
 
 from __future__ import annotations
@@ -52,7 +52,8 @@ class Chunk:
     """Up to `CHUNK_ROWS` rows. `axes` is the number of channel axes; `end` is flat, `axes` numbers a row."""
 
     __slots__ = (
-        "add", "axes", "context", "curve", "curves", "end", "events", "feed", "first", "kind", "line", "program",
+        "add", "axes", "context", "curve", "curves", "end", "events", "feed", "first", "kind", "line",
+        "program",
     )  # fmt: skip
 
     def __init__(self, axes: int, first: int) -> None:
