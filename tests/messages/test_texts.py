@@ -1,0 +1,72 @@
+"""Every text that a user reads exists in both languages, and every id that the code names exists."""
+
+from __future__ import annotations
+
+import ast
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import polycnc
+from polycnc.messages.catalogue import LANGUAGES, Catalogue, fill, set_language
+
+SOURCE = Path(polycnc.__file__).parent
+CATALOGUES = sorted(
+    path
+    for path in SOURCE.rglob("*.toml")
+    if path.name in ("messages.toml", "alarms.toml") or path.stem == "fields"
+)
+OWN = tomllib.loads((SOURCE / "messages" / "messages.toml").read_text(encoding="utf-8"))
+
+
+def placeholders(text: str) -> set[str]:
+    return set(re.findall(r"\{(\w+)\}", text))
+
+
+@pytest.mark.parametrize("path", CATALOGUES, ids=lambda path: path.relative_to(SOURCE).as_posix())
+def test_every_text_exists_in_both_languages_with_the_same_values_in_it(path: Path) -> None:
+    for key, entry in tomllib.loads(path.read_text(encoding="utf-8")).items():
+        for part in ("", "cause-", "remedy-"):
+            texts = [entry.get(part + lang) for lang in LANGUAGES]
+            if not any(texts) and part:
+                continue
+            assert all(texts), f"{key}: {part}text in one language only"
+            assert len({frozenset(placeholders(text)) for text in texts if text}) == 1, f"{key}: {texts}"
+
+
+def named_in(path: Path) -> set[str]:
+    """Ids that a module passes to `text(…)`, `SessionError(…)` and `UnreadableError(…)` as they stand."""
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Call) and node.args and isinstance(node.func, ast.Name):
+            first = node.args[0]
+            if node.func.id in ("text", "SessionError", "UnreadableError") and isinstance(
+                first, ast.Constant
+            ):
+                found.add(str(first.value))
+    return found
+
+
+@pytest.mark.parametrize("folder", ["cli", "cases", "session.py"])
+def test_every_text_that_the_command_line_asks_for_exists(folder: str) -> None:
+    paths = [SOURCE / folder] if folder.endswith(".py") else sorted((SOURCE / folder).glob("*.py"))
+    named = set().union(*map(named_in, paths))
+    assert named
+    assert named - set(OWN) == set()
+
+
+def test_a_placeholder_without_a_value_is_shown_as_it_stands() -> None:
+    assert fill("{code} at {line}", {"line": 3}) == "{code} at 3"
+
+
+def test_a_language_that_polycnc_does_not_speak_is_refused() -> None:
+    with pytest.raises(ValueError, match="de"):
+        set_language("de")
+
+
+def test_a_missing_id_is_a_mistake_of_polycnc() -> None:
+    catalogue = Catalogue(SOURCE / "messages" / "messages.toml")
+    with pytest.raises(KeyError):
+        catalogue.text("no such id")
