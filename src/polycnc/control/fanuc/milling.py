@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
+from polycnc.compensation.policies import HARTFORD, Approach, Policy
 from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.fanuc.code_calls import registered_codes
 from polycnc.control.fanuc.milling_codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
@@ -37,6 +39,18 @@ class FanucMilling(MillingControl):
     def code_calls(self, channel: Channel) -> CodeCalls:
         """Codes registered by 6050 to 6089 and 6001#5."""
         return registered_codes(channel)
+
+    def compensation_policy(self, channel: Channel) -> Policy:
+        """Start-up types A, B, C (5003#0, #1), blocks read ahead (19625), interference (5008)."""
+        parameters = channel.setup.parameters
+        return replace(
+            HARTFORD,
+            approach=Approach.CORNER if parameters.bit(5003, 0) else Approach.SQUARE,
+            shifts_without_motion=bool(parameters.bit(5003, 1)),
+            read_blocks=min(max(int(parameters.number(19625, default=3)), 3), 8),
+            least_move_mm=parameters.number(5010, default=HARTFORD.least_move_mm),
+            checks_direction=not parameters.bit(5008, 1),
+        )
 
     def make_memory(self, channel: Channel) -> MacroMemory:
         """Offsets, tools and variables."""

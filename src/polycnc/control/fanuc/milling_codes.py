@@ -2,34 +2,71 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from polycnc.control.fanuc.milling_cycles import MILLING_DRILLING
 from polycnc.control.word_address import (
     auxiliary,
     code_calls,
     coordinates,
+    corner_vectors,
     data_input,
     extended,
     frames,
     length,
     macro_calls,
     path,
+    position_offset,
     radius,
     skip,
     subprograms,
+    thread,
+    tool_measuring,
 )
 from polycnc.control.word_address.codes import GCode, MCode, Order, m_table, not_yet, table
+from polycnc.control.word_address.drilling import is_active
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.codes import Handler
+    from polycnc.control.word_address.words import Words
+
+#: Codes that a drilling cycle refuses (PS0044).
+_RETURNS = {
+    "G27": coordinates.check_reference,
+    "G28": coordinates.return_to_reference,
+    "G29": coordinates.return_from_reference,
+    "G30": coordinates.return_to_further_reference,
+}
+
+
+def _outside_cycles(code: str, handler: Handler) -> Handler:
+    """A handler that refuses its code while a drilling cycle is active."""
+
+    def act(channel: Channel, words: Words) -> None:
+        if is_active(channel):
+            raise words.fail("cycle_reference", code)
+        handler(channel, words)
+
+    return act
+
+
+def moves(code: str, handler: Handler, takes: str = "", **fields: Any) -> GCode:
+    """A row of a one-shot code that takes the axis words of its block."""
+    return GCode(code, handler=handler, takes=takes, axis_words=True, order=Order.MOTION, **fields)
+
 
 G_CODES = table(
     GCode("G0", "motion", ends="cycle", planner=path.plan_rapid),
     GCode("G1", "motion", ends="cycle", planner=path.plan_line),
     GCode("G2", "motion", ends="cycle", planner=path.plan_arc_cw),
     GCode("G3", "motion", ends="cycle", planner=path.plan_arc_ccw),
-    GCode("G4", handler=auxiliary.dwell, takes="X P U", axis_words=True, order=Order.MOTION),
-    GCode("G5", handler=extended.high_speed_machining, takes="P", order=Order.SETTING),
-    GCode("G5.1", handler=extended.contour_control, takes="Q R", order=Order.SETTING),
+    moves("G4", auxiliary.dwell, "X P U"),
+    GCode("G5", handler=extended.high_speed_machining, takes="P"),
+    GCode("G5.1", handler=extended.contour_control, takes="Q R"),
     GCode("G8", handler=extended.advance_preview, takes="P"),
     GCode("G9", handler=extended.exact_stop_block),
-    GCode("G10", handler=data_input.input_data, takes="L P R", axis_words=True, order=Order.MOTION),
+    moves("G10", data_input.input_data, "L P R"),
     GCode("G11"),
     GCode("G15", "polar"),
     GCode("G16", "polar", frames.start_polar),
@@ -38,28 +75,35 @@ G_CODES = table(
     GCode("G19", "plane", coordinates.note_context),
     GCode("G20", "unit", coordinates.note_context),
     GCode("G21", "unit", coordinates.note_context),
-    GCode("G22", "stroke", extended.stroke_check_on, takes="I J K", axis_words=True, order=Order.MOTION),
+    GCode(
+        "G22", "stroke", extended.stroke_check_on, takes="I J K", axis_words=True, order=Order.MOTION
+    ),
     GCode("G23", "stroke", extended.stroke_check_off),
-    GCode("G27", handler=coordinates.check_reference, axis_words=True, order=Order.MOTION),
-    GCode("G28", handler=coordinates.return_to_reference, axis_words=True, order=Order.MOTION),
-    GCode("G29", handler=coordinates.return_from_reference, axis_words=True, order=Order.MOTION),
-    GCode("G30", handler=coordinates.return_to_further_reference, takes="P", axis_words=True, order=Order.MOTION),
-    GCode("G31", handler=skip.skip_move, takes="P", axis_words=True, order=Order.MOTION),
+    GCode("G25", "fluctuation"),
+    GCode("G26", "fluctuation", takes="P Q R I"),
+    *(moves(code, _outside_cycles(code, act), "P" if code == "G30" else "") for code, act in _RETURNS.items()),
+    moves("G31", skip.skip_move, "P"),
+    GCode("G33", "motion", ends="cycle", planner=thread.plan_thread),
+    moves("G37", tool_measuring.measure_length, "H"),
+    GCode("G38", handler=corner_vectors.hold_vector, takes="I J K", order=Order.COMPENSATION),
+    GCode("G39", handler=corner_vectors.corner_arc, takes="I J K", order=Order.COMPENSATION),
     GCode("G40", "compensation", radius.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
-    GCode("G41", "compensation", radius.compensate_left, takes="D", order=Order.COMPENSATION),
-    GCode("G42", "compensation", radius.compensate_right, takes="D", order=Order.COMPENSATION),
+    GCode("G41", "compensation", corner_vectors.compensate_left, takes="D I J K", order=Order.COMPENSATION),
+    GCode("G42", "compensation", corner_vectors.compensate_right, takes="D I J K", order=Order.COMPENSATION),
     GCode("G43", "length", length.compensate_length, takes="H", order=Order.LENGTH),
     GCode("G44", "length", length.compensate_length, takes="H", order=Order.LENGTH),
+    *(moves(code, position_offset.offset_move, "D", idle_in_cycle=True) for code in position_offset.TIMES),
     GCode("G49", "length", length.cancel_length, order=Order.LENGTH),
     GCode("G50", "scaling", frames.end_scale),
     GCode("G51", "scaling", frames.scale, takes="I J K P", axis_words=True),
     GCode("G50.1", "mirror", frames.end_mirror, axis_words=True),
     GCode("G51.1", "mirror", frames.mirror, axis_words=True),
     GCode("G52", handler=coordinates.set_local_system, axis_words=True),
-    GCode("G53", handler=coordinates.move_in_machine_system, axis_words=True, order=Order.MOTION),
+    moves("G53", coordinates.move_in_machine_system),
     GCode("G54", "wcs", extended.select_work_offset, takes="P"),
     GCode("G54.1", "wcs", extended.select_work_offset, takes="P"),
     *(GCode(f"G{number}", "wcs", extended.select_work_offset) for number in range(55, 60)),
+    moves("G60", position_offset.position_one_way),
     GCode("G61", "path", coordinates.note_context),
     GCode("G62", "path", coordinates.note_context),
     GCode("G63", "path", coordinates.note_context),
@@ -74,8 +118,8 @@ G_CODES = table(
     *(GCode(code, "cycle") for code in MILLING_DRILLING.cycles),
     GCode("G90", "distance"),
     GCode("G91", "distance"),
-    GCode("G92", handler=extended.set_position_or_limit, takes="S", axis_words=True, order=Order.MOTION),
-    GCode("G92.1", handler=coordinates.preset_system, axis_words=True, order=Order.MOTION),
+    moves("G92", extended.set_position_or_limit, "S"),
+    moves("G92.1", coordinates.preset_system),
     GCode("G93", "feed", coordinates.forget_feed, order=Order.FEED_MODE),
     GCode("G94", "feed", coordinates.forget_feed, order=Order.FEED_MODE),
     GCode("G95", "feed", coordinates.forget_feed, order=Order.FEED_MODE),
@@ -84,9 +128,8 @@ G_CODES = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G5.4", "G6.2", "G7.1", "G107", "G12.1", "G13.1", "G112", "G113", "G25", "G26", "G33", "G37", "G38", "G39",
-        "G40.1", "G41.1", "G42.1", "G43.4", "G43.5", "G45", "G46", "G47", "G48", "G53.1", "G53.6", "G54.2", "G54.4",
-        "G60", "G68.2", "G68.3", "G68.4", "G10.9",
+        "G5.4", "G6.2", "G7.1", "G107", "G12.1", "G13.1", "G112", "G113", "G40.1", "G41.1", "G42.1", "G43.4",
+        "G43.5", "G53.1", "G53.6", "G54.2", "G54.4", "G68.2", "G68.3", "G68.4", "G10.9",
     ),
 )  # fmt: skip
 
@@ -132,7 +175,8 @@ POWER_ON = {
     "motion": "G0",
     "plane": "G17",
     "distance": "G90",
-    "stroke": "G22",
+    "stroke": "G23",
+    "fluctuation": "G25",
     "feed": "G94",
     "unit": "G21",
     "compensation": "G40",

@@ -6,7 +6,7 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.turning_tools import refresh
-from polycnc.control.word_address import coordinates
+from polycnc.control.word_address import coordinates, extended, frames
 from polycnc.control.word_address.path import PLANES
 from polycnc.toolpath import Kind
 
@@ -144,6 +144,41 @@ def select_plane(channel: Channel, words: Words) -> None:
     c.geometry = (basic[0], basic[1], basic[2])
     channel.memory.single_cycle.clear()
     channel.context_changed()
+
+
+def select_work_offset(channel: Channel, words: Words) -> None:
+    """G54 to G59, G54 P: the work coordinate system; no motion by itself."""
+    if channel.memory.frames.rotates:
+        raise words.fail("in_rotation", channel.mode["wcs"])
+    extended.select_work_offset(channel, words)
+
+
+def rotate(channel: Channel, words: Words) -> None:
+    """G68.1 X Z R: rotation of the plane about a point, counter-clockwise; 5410 where R is missing."""
+    frames.rotate(channel, words)
+
+
+def mirror_turret(channel: Channel, words: Words) -> None:
+    """G68: X of the opposite turret: mirrored, and shifted by the distance of the turrets (1290; II.4.8)."""
+    _check_alone(words, "G68")
+    memory = channel.memory
+    axis = channel.coordinates.geometry[0]
+    distance = memory.radius_of(axis, memory.parameters.number(1290))
+    memory.frames.set_turret(distance)
+    channel.coordinates.set_programming(memory.frames.product(), memory.frames.shift)
+
+
+def end_mirror_turret(channel: Channel, words: Words) -> None:
+    """G69."""
+    _check_alone(words, "G69")
+    memory = channel.memory
+    memory.frames.set_turret(None)
+    channel.coordinates.set_programming(memory.frames.product(), memory.frames.shift)
+
+
+def _check_alone(words: Words, code: str) -> None:
+    if words.axes():
+        raise words.fail("turret_form", code)
 
 
 def plane_axes(channel: Channel) -> tuple[int, int]:

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.control.word_address.memory import ProgrammingFrames
 from polycnc.control.word_address.variables import MacroMemory
-from polycnc.geometry.frames import IDENTITY, Frame, translation
+from polycnc.geometry.frames import IDENTITY, Frame, scaling, translation
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.turning_shape import Shape
     from polycnc.control.word_address.variables import Registry
     from polycnc.machine.setup import Offsets, Tool
 
@@ -41,13 +42,18 @@ class TurningFrames(ProgrammingFrames):
     def __init__(self, axes: int, geometry: tuple[int, int, int]) -> None:
         super().__init__()
         self.offset = [0.0] * axes
+        self.turret = IDENTITY
         self._geometry = geometry
 
     def product(self) -> Frame:
         """The whole frame of the geometry axes."""
         x, y, z = (self.offset[i] if i >= 0 else 0.0 for i in self._geometry)
-        frame = translation(x, y, z) @ super().product()
+        frame = self.turret @ translation(x, y, z) @ super().product()
         return IDENTITY if frame.is_identity else frame
+
+    def set_turret(self, distance: float | None) -> None:
+        """X of the opposite turret, mirrored at this distance (mm, radius); None for the own turret."""
+        self.turret = IDENTITY if distance is None else translation(distance, 0.0, 0.0) @ scaling(-1.0, 1.0, 1.0)
 
     @property
     def rotates(self) -> bool:
@@ -72,8 +78,14 @@ class TurningMemory(MacroMemory):
         work_shift: Shift of all work coordinate systems (G10 P0, work shift screen).
         feed_code: G98 or G99 under which F was given.
         single_cycle: Modal words of G90, G92, G94.
-        cycle_data: Modal words of drilling and grinding cycles.
+        cycle_values: Parameters of turning cycles that a program has overwritten.
+        clamp: M code that clamps the C axis in drilling cycles, 0 for none.
+        rigid_tapping: M29 was given.
+        parameter_input: Between G10 L52 and G11.
+        increment_limits: Largest increment of axes (G91.1).
+        basic_geometry: Axes X, Y, Z, whatever parallel ones a plane has chosen.
         reading_shape: Blocks are read for their shape only: T, S, M do nothing.
+        shape: What has been read of it.
     """
 
     def __init__(self, channel: Channel, registry: Registry) -> None:
@@ -92,15 +104,21 @@ class TurningMemory(MacroMemory):
         self.geometry_active = 0
         self.feed_code = ""
         self.single_cycle: dict[str, Any] = {}
-        self.cycle_data: dict[str, Any] = {}
+        self.cycle_values: dict[int, float] = {}
+        self.clamp = 0
+        self.rigid_tapping = False
+        self.parameter_input = False
+        self.increment_limits: dict[int, float] = {}
+        self.basic_geometry = channel.coordinates.geometry
         self.reading_shape = False
+        self.shape: Shape | None = None
         for name in self.work_offsets:
             self.work_offsets[name] = [self.radius_of(i, value) for i, value in enumerate(self.work_offsets[name])]
 
     def radius_of(self, axis: int, shown: float) -> float:
         """A value of the displays (diameter where the axis has one), mm, in internal units."""
-        diameter = self.channel.control.is_diameter(self.channel, axis)  # type: ignore[attr-defined]
-        return shown / 2.0 if diameter else shown
+        internal: float = self.channel.control.from_display(self.channel, axis, shown)  # type: ignore[attr-defined]
+        return internal
 
     def _from_setup(self, tool: Tool) -> TurningOffset:
         def vector(values: Offsets | Tool) -> dict[str, float]:
@@ -113,6 +131,10 @@ class TurningMemory(MacroMemory):
         return TurningOffset(
             vector(tool), vector(tool.wear), vector(tool.geom2), tool.radius, tool.wear.radius, tool.tip
         )
+
+    def cycle_parameter(self, number: int) -> float:
+        """A parameter of the turning cycles: what the program gave last, else the machine's."""
+        return self.cycle_values.get(number, self.parameters.number(number))
 
     def turning_offset(self, number: int) -> TurningOffset:
         """An offset number; zero until it is set."""

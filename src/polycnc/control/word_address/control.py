@@ -231,6 +231,10 @@ class WordAddressControl:
         """Whether words of an axis are diameters."""
         return self.DIAMETER_PROGRAMMING and channel.axis_data[axis].diameter
 
+    def from_display(self, channel: Channel, axis: int, value: float) -> float:
+        """A position as the displays show it (millimetres, diameter where the axis has one), in internal units."""
+        return value / 2.0 if self.is_diameter(channel, axis) else value
+
     def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
         """The axis that an address names and whether the word is an increment; None for another address."""
         index = channel.axis_index.get(address)

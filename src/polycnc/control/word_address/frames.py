@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 
 
 def _refresh(channel: Channel) -> None:
-    channel.coordinates.set_programming(channel.memory.frames.product())
+    parts = channel.memory.frames
+    channel.coordinates.set_programming(parts.product(), parts.shift)
 
 
 def _point(channel: Channel, words: Words) -> list[float]:

@@ -48,6 +48,11 @@ class ProgrammingFrames:
         self.mirrored: dict[int, float] = {}
         self.rotation = IDENTITY
 
+    @property
+    def shift(self) -> list[float] | None:
+        """Shift of axes beside the geometry, before the display; None for none."""
+        return None
+
     def product(self) -> Frame:
         """The whole frame."""
         frame = self.rotation @ self.mirror @ self.scale

@@ -36,6 +36,7 @@ def signal_position(channel: Channel, start: list[float], end: list[float], at: 
         i = channel.axis_index.get(name)
         if i is None:
             continue
+        value = channel.control.from_display(channel, i, value)
         way = end[i] - start[i]
         if abs(way) < 1e-12:
             if abs(start[i] - value) > 1e-9:

@@ -1,0 +1,220 @@
+"""FANUC Series 0i-TF Plus lathe (control id `fanuc-0i-tf`)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from polycnc.control.fanuc import (
+    turning_comp,
+    turning_drilling,
+    turning_repetitive,
+    turning_shape,
+    turning_single,
+    turning_tools,
+)
+from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
+from polycnc.control.fanuc.turning_codes import ADDRESSES, M_CODES, POWER_ON, g_table, written_codes
+from polycnc.control.fanuc.turning_memory import TurningMemory
+from polycnc.control.fanuc.turning_variables import TURNING_VARIABLES
+from polycnc.control.word_address import path
+from polycnc.control.word_address.codes import MCode
+from polycnc.control.word_address.custom_macro import CustomMacroControl
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from polycnc.channel.channel import Channel
+    from polycnc.compensation.policies import Policy
+    from polycnc.control.word_address.codes import GCode, Planner, Step
+    from polycnc.control.word_address.drilling import Drilling
+    from polycnc.control.word_address.plan import Builder, Plan
+    from polycnc.geometry.arcs import Point
+
+#: M codes that cannot be passed over in a shape.
+_CALLS = frozenset({2, 30, 98, 99, 198})
+#: Letters of 1022: the basic axes X, Y, Z and their parallels.
+_BASIC_ROLES = {"X": 1, "Y": 2, "Z": 3}
+
+
+class FanucTurning(CustomMacroControl):
+    """FANUC 0i-TF Plus: G code systems A, B and C, diameters, turning cycles, tool offsets by T."""
+
+    id: ClassVar[str] = "fanuc-0i-tf"
+    alarm_package: ClassVar[str] = "polycnc.control.fanuc"
+    default_machine: ClassVar[str] = "lathe2"
+    m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
+    addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
+    power_on: ClassVar[Mapping[str, str]] = POWER_ON
+    alarms: ClassVar[Mapping[str, str]] = ALARMS
+    foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
+    DIAMETER_PROGRAMMING: ClassVar[bool] = True
+    INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z", "H": "C"}
+
+    # ---- state -----------------------------------------------------------------------------------------------
+
+    def system(self, channel: Channel) -> str:
+        """The G code system, A, B or C (3401#6 GSB, #7 GSC)."""
+        bit = channel.setup.parameters.bit
+        return "C" if bit(3401, 7) else "B" if bit(3401, 6) else "A"
+
+    def g_table(self, channel: Channel) -> Mapping[str, GCode]:
+        """The G codes as programs of this channel write them."""
+        bit = channel.setup.parameters.bit
+        return g_table(
+            self.system(channel),
+            circular_thread=bool(bit(3405, 3)),
+            grinding=bool(bit(5106, 0)),
+            series_15=turning_drilling.is_series_15(channel),
+        )
+
+    def written_code(self, channel: Channel, group: str) -> str:
+        """The active code of a modal group as the program writes it."""
+        code = channel.mode[group]
+        return written_codes(self.system(channel)).get((group, code), code)
+
+    def make_memory(self, channel: Channel) -> TurningMemory:
+        """Offsets, tools and variables."""
+        return TurningMemory(channel, TURNING_VARIABLES)
+
+    def start(self, channel: Channel) -> None:
+        """Power-on state; positions of the setup are those of the displays, X in diameter."""
+        super().start(channel)
+        machine = channel.coordinates.machine
+        shown = [channel.memory.radius_of(i, value) for i, value in enumerate(machine)]
+        channel.coordinates.arrive_machine(shown)
+        channel.memory.feed_code = channel.mode["feed"]
+
+    def start_codes(self, channel: Channel) -> dict[str, str]:
+        """Code of every modal group at power-on (3402)."""
+        bit = channel.setup.parameters.bit
+        codes = dict(self.power_on)
+        if bit(3402, 0):
+            codes["motion"] = "G1"
+        if bit(3402, 1):
+            codes["plane"] = "G17"
+        elif bit(3402, 2):
+            codes["plane"] = "G19"
+        if bit(3402, 3) and self.system(channel) != "A":
+            codes["distance"] = "G91"
+        if bit(3402, 4):
+            codes["feed"] = "G98"
+        if bit(3402, 7):
+            codes["stroke"] = "G23"
+        if bit(0, 2):
+            codes["unit"] = "G20"
+        return codes
+
+    # ---- axes and numbers ------------------------------------------------------------------------------------
+
+    def is_diameter(self, channel: Channel, axis: int) -> bool:
+        """Whether words of an axis are diameters (1006#3 DIA; delivered: X)."""
+        data = channel.axis_data[axis]
+        delivered = int(data.diameter)
+        return bool(channel.setup.parameters.bit(1006, 3, channel.axes[axis], delivered)) and not data.rotary
+
+    def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
+        """X/U, Z/W, Y/V, C/H in system A; G90/G91 in B and C."""
+        if self.system(channel) != "A":
+            index = channel.axis_index.get(address)
+            return None if index is None else (index, builder.mode["distance"] == "G91")
+        return super().axis_of_address(channel, address, builder)
+
+    def axis_role(self, channel: Channel, axis: int) -> int:
+        """1, 2, 3 for the basic axes, 5, 6, 7 for their parallels, 0 for others (1022)."""
+        name = channel.axes[axis]
+        parallel = _BASIC_ROLES.get(channel.axis_data[axis].parallel_to, -4) + 4
+        delivered = _BASIC_ROLES.get(name, parallel)
+        return int(channel.setup.parameters.number(1022, name, delivered))
+
+    def reference_point(self, channel: Channel, axis: int, number: int) -> float:
+        """Machine position of a reference point; the parameter of a diameter axis is a diameter."""
+        name = channel.axes[axis]
+        shown = channel.setup.parameters.get(self.REFERENCE_PARAMETERS[number], name)
+        if isinstance(shown, int | float):
+            return float(channel.memory.radius_of(axis, float(shown)))
+        return channel.axis_data[axis].reference_points[number - 1]
+
+    # ---- motion ----------------------------------------------------------------------------------------------
+
+    def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
+        """The step of the active motion code, or of the active drilling cycle."""
+        if builder.mode["cycle"] != "G80":
+            return turning_drilling.plan(builder, plan)
+        turning_drilling.give_way(builder)
+        motion = builder.mode["motion"]
+        row = next(code for code in self.g_table(builder.channel).values() if _is_motion(code, motion))
+        return row.planner(builder, plan) if row.planner is not None else None  # type: ignore[call-arg]
+
+    def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
+        """Modal macro calls; words of single cycles that a one-shot code clears."""
+        further = (
+            turning_shape.plan_note(builder, plan),
+            turning_single.plan_clearing(builder),
+            turning_drilling.plan_leaving(builder),
+        )
+        return [*super().after_motion(builder, plan), *(step for step in further if step is not None)]
+
+    def end_of_program(self, channel: Channel) -> None:
+        """The shape of G70 ends with its last block; every other text as usual."""
+        if channel.level.kind == turning_repetitive.SHAPE_KIND:
+            turning_repetitive.end_of_shape(channel)
+        else:
+            super().end_of_program(channel)
+
+    def plan_arc_without_center(self, builder: Builder, plan: Plan) -> Step | None:
+        """G02/G03 without R, I, K: a straight line; PS0022 by 3403#5 CIR."""
+        if builder.channel.setup.parameters.bit(3403, 5):
+            raise self.fail("no_center", address=builder.mode["motion"])
+        return path.plan_line(builder, plan)
+
+    def check_arc(self, channel: Channel, start: Point, end: Point, center: Point) -> None:
+        """Alarm for an end point off the circle; 3410 = 0: no check."""
+        if self.arc_tolerance(channel) > 0.0:
+            super().check_arc(channel, start, end, center)
+
+    def plan_corner(self, builder: Builder) -> Callable[[Channel, list[float]], object] | None:
+        """Chamfer and corner R, or a vector given by I and K within compensation."""
+        return turning_comp.plan_line_words(builder)
+
+    # ---- drilling, spindle, M --------------------------------------------------------------------------------
+
+    def drilling_rules(self, channel: Channel) -> Drilling:
+        """The drilling cycles of the chosen format."""
+        return turning_drilling.rules(channel)
+
+    def spindle_slot(self, builder: Builder) -> int | None:
+        """P beside S or M names the spindle (3703#3 MPP, or the builder's), where no code takes it."""
+        if not builder.has("P") or any("P" in row.takes or row.takes == "*" for row in builder.codes):
+            return None
+        if any("P" in self.m_code(number).takes for number in builder.m_codes):
+            return None
+        if builder.mode["cycle"] != "G80" or not (builder.m_codes or builder.has("S")):
+            return None
+        builder.take("P")
+        return builder.slot("P")
+
+    def m_row(self, builder: Builder, number: int) -> MCode:
+        """The row of an M code in a block; clamp codes of drilling blocks belong to the cycle."""
+        if builder.mode["cycle"] != "G80" and turning_drilling.is_clamp(builder.channel, number):
+            return MCode(number, handler=turning_drilling.note_clamp(number), silent=True)
+        if builder.mode.codes.get(turning_shape.GROUP) == turning_shape.READING and number not in _CALLS:
+            return MCode(number, silent=True)
+        return self.m_code(number)
+
+    # ---- offsets ---------------------------------------------------------------------------------------------
+
+    def radius_value(self, channel: Channel, _number: int) -> float:
+        """Nose radius of the active offset, mm."""
+        return turning_tools.nose_radius(channel)
+
+    def nose_tip(self, channel: Channel) -> tuple[float, float]:
+        """Way from the nose centre to the imaginary tip, in units of the radius."""
+        return turning_tools.nose_tip(channel)
+
+    def compensation_policy(self, channel: Channel) -> Policy:
+        """Rules of nose radius compensation by 5003, 5008, 5010, 19607, 19625."""
+        return turning_comp.policy(channel)
+
+
+def _is_motion(code: GCode, motion: str) -> bool:
+    return code.group == "motion" and code.code == motion

@@ -1,0 +1,60 @@
+"""Small codes of the lathe: dwell, surface speed, spindle watch, rigid tapping, largest increment."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address import auxiliary
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.words import Words
+
+
+def dwell(channel: Channel, words: Words) -> None:
+    """G04 X, U (seconds) or P (milliseconds); spindle revolutions under G99 with 3405#1 DWL."""
+    if not (channel.memory.parameters.bit(3405, 1) and channel.mode["feed"] == "G99"):
+        auxiliary.dwell(channel, words)
+        return
+    thousandths = words.integer("P") if "P" in words else None
+    if thousandths is not None:
+        channel.dwell(revolutions=thousandths / 1000.0)
+        return
+    for address in ("X", "U"):
+        if address in words:
+            value = words.typed(address) or 0.0
+            channel.dwell(revolutions=value / 1000.0 if words.form(address) == "" else value)
+            return
+
+
+def surface_speed(channel: Channel, words: Words) -> None:
+    """G96 S [P]: P is the controlled axis whose work coordinate is the diameter, 0 for that of 3770."""
+    if "P" in words:
+        axis = words.integer("P") or 0
+        if not 0 <= axis <= len(channel.axes):
+            raise words.fail("surface_axis", "P")
+    channel.context_changed()
+
+
+def switch_by_q(_channel: Channel, words: Words) -> None:
+    """G05.4 Q1, Q0: another current loop of the drives; the path is unchanged."""
+    if words.integer("Q") not in (0, 1):
+        raise words.fail("address", "Q")
+
+
+def note_fluctuation(_channel: Channel, _words: Words) -> None:
+    """G26 P Q R I: the spindle's speed is watched; an ideal spindle never leaves the window."""
+
+
+def rigid_tapping(channel: Channel, _words: Words) -> None:
+    """M29: the next tapping cycle locks spindle and axis."""
+    channel.memory.rigid_tapping = True
+
+
+def limit_increment(channel: Channel, words: Words) -> None:
+    """G91.1: largest increment of each named axis in one block; 0 ends the check."""
+    limits = channel.memory.increment_limits
+    for axis, value, _ in words.axes():
+        limits[axis] = abs(value)
+    for axis in [axis for axis, value in limits.items() if not value]:
+        del limits[axis]

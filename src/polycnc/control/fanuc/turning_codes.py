@@ -1,0 +1,238 @@
+"""G codes of the lathe in the systems A, B and C as one table, M codes, addresses (0i-TF Plus II.2).
+
+A row says how a code is written in each system (3401#6, #7) and what it does. Inside polycnc a code has one name
+whatever the system: that of system A, and of B and C where A has none. So handlers know one name only.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING
+
+from polycnc.control.fanuc import (
+    turning_auxiliary,
+    turning_comp,
+    turning_coordinates,
+    turning_data,
+    turning_measuring,
+    turning_repetitive,
+    turning_single,
+    turning_threads,
+    turning_tools,
+)
+from polycnc.control.fanuc.turning_drilling import NORMAL_CYCLES, SERIES_15_CYCLES
+from polycnc.control.word_address import auxiliary, coordinates, extended, frames, macro_calls, path, subprograms
+from polycnc.control.word_address.codes import GCode, MCode, Order, m_table
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+SYSTEMS = "ABC"
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A code and how it is written in systems A, B and C; empty where a system does not have it."""
+
+    codes: tuple[str, str, str]
+    code: GCode
+
+
+def same(code: GCode, *aliases: str) -> tuple[Row, ...]:
+    """A code that is written alike in all systems, and further ways to write it."""
+    return tuple(Row((written,) * 3, code) for written in (code.code, *aliases))
+
+
+def by_system(a: str, b: str, c: str, code: GCode) -> tuple[Row, ...]:
+    """A code that is written differently."""
+    return (Row((a, b, c), code),)
+
+
+def not_yet(*codes: str) -> tuple[Row, ...]:
+    """Codes that the control knows and polycnc does not execute yet."""
+    return tuple(row for code in codes for row in same(GCode(code, not_yet=True)))
+
+
+def _motion(code: str, planner: object) -> GCode:
+    return GCode(code, "motion", ends="cycle", planner=planner)  # type: ignore[arg-type]
+
+
+def _point(code: str, handler: object, takes: str = "") -> GCode:
+    """A one-shot code that takes the axis words of its block."""
+    return GCode(code, handler=handler, takes=takes, axis_words=True, order=Order.MOTION)  # type: ignore[arg-type]
+
+
+ROWS: tuple[Row, ...] = (
+    *same(_motion("G0", path.plan_rapid)),
+    *same(_motion("G1", path.plan_line)),
+    *same(_motion("G2", path.plan_arc_cw)),
+    *same(_motion("G3", path.plan_arc_ccw)),
+    *same(_point("G4", turning_auxiliary.dwell, "X P U")),
+    *same(GCode("G5", handler=extended.high_speed_machining, takes="P")),
+    *same(GCode("G5.1", handler=extended.contour_control, takes="Q R")),
+    *same(GCode("G5.4", handler=turning_auxiliary.switch_by_q, takes="Q")),
+    *same(GCode("G8", handler=extended.advance_preview, takes="P")),
+    *same(GCode("G9", handler=extended.exact_stop_block)),
+    *same(_point("G10", turning_data.input_data, "L P R Q C E F")),
+    *same(GCode("G11", handler=turning_data.end_parameter_input)),
+    *same(GCode("G13.1", "polar_interpolation"), "G113"),
+    *same(GCode("G17", "plane", turning_coordinates.select_plane)),
+    *same(GCode("G18", "plane", turning_coordinates.select_plane)),
+    *same(GCode("G19", "plane", turning_coordinates.select_plane)),
+    *by_system("G20", "G20", "G70", GCode("G20", "unit", coordinates.note_context)),
+    *by_system("G21", "G21", "G71", GCode("G21", "unit", coordinates.note_context)),
+    *same(GCode("G22", "stroke", turning_data.stroke_check_on, takes="I J K", axis_words=True, order=Order.MOTION)),
+    *same(GCode("G23", "stroke", extended.stroke_check_off)),
+    *same(GCode("G25", "fluctuation")),
+    *same(GCode("G26", "fluctuation", turning_auxiliary.note_fluctuation, takes="P Q R I")),
+    *same(_point("G27", turning_coordinates.check_reference)),
+    *same(_point("G28", turning_coordinates.return_to_reference), "G28.2"),
+    *same(_point("G29", coordinates.return_from_reference)),
+    *same(_point("G30", turning_coordinates.return_to_further_reference, "P"), "G30.2"),
+    *same(_point("G31", turning_measuring.skip_move, "P")),
+    *by_system("G32", "G33", "G33", _motion("G32", turning_threads.plan_thread)),
+    *same(_motion("G34", turning_threads.plan_growing_thread)),
+    *same(GCode("G38", handler=turning_comp.hold_vector, order=Order.COMPENSATION)),
+    *same(GCode("G39", handler=turning_comp.corner_arc, takes="I J K", order=Order.MOTION)),
+    *same(GCode("G40", "compensation", turning_comp.cancel, takes="I J K", order=Order.COMPENSATION)),
+    *same(GCode("G41", "compensation", turning_comp.left, takes="D", order=Order.COMPENSATION)),
+    *same(GCode("G42", "compensation", turning_comp.right, takes="D", order=Order.COMPENSATION)),
+    *same(GCode("G40.1", "normal_direction")),
+    *same(GCode("G43.7", "atc_offset", turning_tools.select_by_code, takes="D", order=Order.LENGTH), "G44.7"),
+    *same(GCode("G49", "atc_offset", turning_tools.cancel_by_code, order=Order.LENGTH)),
+    *by_system("G50", "G92", "G92", _point("G50", turning_coordinates.set_position, "S")),
+    *by_system("G50.3", "G92.1", "G92.1", _point("G50.3", turning_coordinates.preset_system)),
+    *same(GCode("G50.1", "mirror", frames.end_mirror, axis_words=True)),
+    *same(GCode("G51.1", "mirror", frames.mirror, axis_words=True)),
+    *same(GCode("G50.2", "polygon"), "G250"),
+    *same(_point("G52", turning_coordinates.set_local_system)),
+    *same(_point("G53", turning_coordinates.move_in_machine_system, "P")),
+    *same(_point("G53.2", turning_coordinates.feed_in_machine_system)),
+    *same(GCode("G54", "wcs", turning_coordinates.select_work_offset, takes="P"), "G54.1"),
+    *(row for n in range(55, 60) for row in same(GCode(f"G{n}", "wcs", turning_coordinates.select_work_offset))),
+    *same(GCode("G61", "path", coordinates.note_context)),
+    *same(GCode("G63", "path", coordinates.note_context)),
+    *same(GCode("G64", "path", coordinates.note_context)),
+    *same(GCode("G65", handler=macro_calls.call_macro, takes="*", axis_words=True, order=Order.CALL)),
+    *same(GCode("G66", "macro", macro_calls.start_modal_call, takes="*", axis_words=True, order=Order.CALL)),
+    *same(GCode("G66.1", "macro", macro_calls.start_modal_call, takes="*", axis_words=True, order=Order.CALL)),
+    *same(GCode("G67", "macro", macro_calls.end_modal_call)),
+    *same(GCode("G68", "turret_mirror", turning_coordinates.mirror_turret, takes="P")),
+    *same(GCode("G69", "turret_mirror", turning_coordinates.end_mirror_turret)),
+    *same(GCode("G68.1", "rotation", turning_coordinates.rotate, takes="R", axis_words=True)),
+    *same(GCode("G69.1", "rotation", frames.end_rotation)),
+    *by_system("G70", "G70", "G72", _point("G70", turning_repetitive.finish, "P Q")),
+    *by_system("G71", "G71", "G73", _point("G71", turning_repetitive.rough_turning, turning_repetitive.WORDS)),
+    *by_system("G72", "G72", "G74", _point("G72", turning_repetitive.rough_facing, turning_repetitive.WORDS)),
+    *by_system("G73", "G73", "G75", _point("G73", turning_repetitive.repeat_pattern, turning_repetitive.WORDS)),
+    *by_system("G74", "G74", "G76", _point("G74", turning_repetitive.peck_facing, turning_repetitive.WORDS)),
+    *by_system("G75", "G75", "G77", _point("G75", turning_repetitive.groove, turning_repetitive.WORDS)),
+    *by_system("G76", "G76", "G78", _point("G76", turning_repetitive.thread, turning_repetitive.WORDS)),
+    *same(GCode("G80", "cycle")),
+    *by_system("G90", "G77", "G20", _motion("G90", turning_single.plan_single_cycle)),
+    *by_system("G92", "G78", "G21", _motion("G92", turning_single.plan_single_cycle)),
+    *by_system("G94", "G79", "G24", _motion("G94", turning_single.plan_single_cycle)),
+    *same(GCode("G91.1", handler=turning_auxiliary.limit_increment, axis_words=True, order=Order.MOTION)),
+    *same(GCode("G96", "surface_speed", turning_auxiliary.surface_speed, takes="P")),
+    *same(GCode("G97", "surface_speed", coordinates.note_context)),
+    *by_system("G98", "G94", "G94", GCode("G98", "feed", turning_coordinates.keep_feed_number, order=Order.FEED_MODE)),
+    *by_system("G99", "G95", "G95", GCode("G99", "feed", turning_coordinates.keep_feed_number, order=Order.FEED_MODE)),
+    *by_system("", "G90", "G90", GCode("G90", "distance")),
+    *by_system("", "G91", "G91", GCode("G91", "distance")),
+    *by_system("", "G98", "G98", GCode("G98", "return")),
+    *by_system("", "G99", "G99", GCode("G99", "return")),
+    *not_yet(
+        "G4.1", "G7.1", "G107", "G10.6", "G12.1", "G112", "G31.8", "G35", "G41.1", "G42.1", "G50.4", "G50.5", "G50.6",
+        "G51.2", "G251", "G51.4", "G51.5", "G51.6", "G53.1", "G53.6", "G68.2", "G68.3", "G68.4", "G80.4", "G80.5",
+        "G81.1", "G81.4", "G81.5", "G96.1", "G96.2", "G96.3", "G96.4",
+    ),
+)  # fmt: skip
+
+#: 3405#3 G36 = 0: automatic tool offset; = 1: circular thread, and the offset is G37.1, G37.2.
+MEASURING_36 = (
+    *same(_point("G36", turning_measuring.measure_first)),
+    *same(_point("G37", turning_measuring.measure_second)),
+)
+MEASURING_37 = (
+    *same(_point("G37.1", turning_measuring.measure_first)),
+    *same(_point("G37.2", turning_measuring.measure_second)),
+    *not_yet("G36"),
+)
+#: 5106#0 GFX = 1: grinding cycles in place of G71 to G74.
+GRINDING = tuple(
+    row
+    for a, c in (("G71", "G72"), ("G72", "G73"), ("G73", "G74"), ("G74", "G75"))
+    for row in by_system(a, a, c, GCode(a, not_yet=True))
+)
+
+
+@cache
+def g_table(system: str, *, circular_thread: bool, grinding: bool, series_15: bool) -> Mapping[str, GCode]:
+    """The G table of a system as programs write it, with what the machine's parameters choose."""
+    column = SYSTEMS.index(system)
+    drilling = SERIES_15_CYCLES if series_15 else NORMAL_CYCLES
+    chosen = (
+        *ROWS,
+        *(MEASURING_37 if circular_thread else MEASURING_36),
+        *(GRINDING if grinding else ()),
+        *(row for code in drilling for row in same(GCode(code, "cycle"))),
+    )
+    return {row.codes[column]: row.code for row in chosen if row.codes[column]}
+
+
+@cache
+def written_codes(system: str) -> Mapping[tuple[str, str], str]:
+    """How a modal code, by group and inner name, is written in a system."""
+    column = SYSTEMS.index(system)
+    return {(row.code.group, row.code.code): row.codes[column] for row in reversed(ROWS) if row.codes[column]}
+
+
+M_CODES = m_table(
+    MCode(0, after=True, handler=auxiliary.stop, silent=True),
+    MCode(1, after=True, handler=auxiliary.optional_stop, silent=True),
+    MCode(2, after=True, handler=auxiliary.end_program),
+    MCode(3, handler=auxiliary.spindle_clockwise),
+    MCode(4, handler=auxiliary.spindle_counter_clockwise),
+    MCode(5, after=True, handler=auxiliary.spindle_stop),
+    MCode(9, after=True),
+    MCode(13, handler=auxiliary.spindle_clockwise),
+    MCode(14, handler=auxiliary.spindle_counter_clockwise),
+    MCode(19, after=True, handler=auxiliary.spindle_stop),
+    MCode(29, handler=turning_auxiliary.rigid_tapping),
+    MCode(30, after=True, handler=auxiliary.end_program),
+    MCode(98, after=True, handler=subprograms.call_subprogram, takes="P L Q", silent=True),
+    MCode(99, after=True, handler=subprograms.return_from_subprogram, takes="P L", silent=True),
+    MCode(198, after=True, handler=subprograms.call_external_subprogram, takes="P L", silent=True),
+)
+
+ADDRESSES = {
+    "F": auxiliary.plan_feed,
+    "S": auxiliary.plan_spindle_speed,
+    "T": turning_tools.plan_tool,
+    "B": auxiliary.plan_second_auxiliary,
+}
+
+POWER_ON = {
+    "motion": "G0",
+    "polar_interpolation": "G13.1",
+    "plane": "G18",
+    "distance": "G90",
+    "stroke": "G22",
+    "feed": "G99",
+    "unit": "G21",
+    "fluctuation": "G25",
+    "compensation": "G40",
+    "normal_direction": "G40.1",
+    "atc_offset": "G49",
+    "mirror": "G50.1",
+    "polygon": "G50.2",
+    "wcs": "G54",
+    "path": "G64",
+    "macro": "G67",
+    "turret_mirror": "G69",
+    "rotation": "G69.1",
+    "cycle": "G80",
+    "surface_speed": "G97",
+    "return": "G98",
+}

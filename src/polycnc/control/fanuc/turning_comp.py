@@ -1,0 +1,118 @@
+"""Nose radius compensation of the lathe: G40 to G42, G38, G39, and I, K vectors (0i-TF Plus II.5.2 to 5.4)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from polycnc.compensation.policies import FANUC_A, Approach, Policy
+from polycnc.control.fanuc import turning_corners
+from polycnc.control.word_address import radius
+from polycnc.control.word_address.path import PLANES
+from polycnc.geometry.offset import Joint, Outer
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.plan import Builder
+    from polycnc.control.word_address.words import Words
+
+LINES = frozenset({"G0", "G1"})
+
+
+def policy(channel: Channel) -> Policy:
+    """The rules that the parameters choose."""
+    parameters = channel.memory.parameters
+    bit = parameters.bit
+    return replace(
+        FANUC_A,
+        approach=Approach.CORNER if bit(5003, 0) else Approach.SQUARE,
+        shifts_without_motion=bool(bit(5003, 1)),
+        outer=Outer(0.0, Joint.ARC) if bit(19607, 2) else FANUC_A.outer,
+        read_blocks=min(max(int(parameters.number(19625, default=3)), 3), 8),
+        least_move_mm=parameters.number(5010, default=0.001),
+        checks_direction=not (bit(5008, 3) or bit(5008, 1)),
+        avoids=bool(bit(19607, 5)),
+    )
+
+
+def left(channel: Channel, words: Words) -> None:
+    """G41: the nose is left of the contour."""
+    _engage(channel, words, radius.compensate_left)
+
+
+def right(channel: Channel, words: Words) -> None:
+    """G42: the nose is right of the contour."""
+    _engage(channel, words, radius.compensate_right)
+
+
+def _engage(channel: Channel, words: Words, engage: Callable[[Channel, Words], None]) -> None:
+    memory = channel.memory
+    if memory.reading_shape:
+        _refuse_in_shape(channel, words)
+        return
+    memory.d = memory.offset_active
+    engage(channel, words)
+
+
+def cancel(channel: Channel, words: Words) -> None:
+    """G40, with the direction of the wall behind the last point in I, J, K."""
+    if channel.memory.reading_shape:
+        _refuse_in_shape(channel, words)
+        return
+    radius.cancel_compensation(channel, words)
+
+
+def _refuse_in_shape(channel: Channel, words: Words) -> None:
+    """G40 to G42 in the shape of G71 to G73: an alarm; with 5106#2 NT1 or #3 NT2 they do nothing there."""
+    bit = channel.memory.parameters.bit
+    if not (bit(5106, 2) or bit(5106, 3)):
+        raise words.fail("shape_command", channel.mode["compensation"])
+
+
+def hold_vector(channel: Channel, _words: Words) -> None:
+    """G38: the block in front ends square on itself, and this block keeps that vector."""
+    stage = channel.memory.compensation
+    if stage is not None and stage.active:
+        stage.hold_vector()
+
+
+def corner_arc(channel: Channel, words: Words) -> None:
+    """G39 [I K]: an arc about the corner; no motion in its block."""
+    stage = channel.memory.compensation
+    if words.axes():
+        raise words.fail("corner_arc_moves", "G39")
+    if stage is None or not stage.active:
+        return
+    stage.corner_arc(radius.place_of_block(channel), _direction(channel, words))
+
+
+def _direction(channel: Channel, words: Words) -> tuple[float, float] | None:
+    """The direction that I, J, K give in the plane, None without."""
+    u, v, _ = PLANES[channel.mode["plane"]]
+    direction = (words.length("IJK"[u]) or 0.0, words.length("IJK"[v]) or 0.0)
+    return None if direction == (0.0, 0.0) else direction
+
+
+def plan_line_words(builder: Builder) -> Callable[[Channel, list[float]], object] | None:
+    """What I, J, K, R, C and the comma words of a G00 or G01 block ask for: a corner shape or a vector."""
+    if builder.mode["motion"] not in LINES:
+        return None
+    vectors = builder.channel.setup.parameters.bit(3405, 4) and builder.mode["compensation"] != "G40"
+    if not vectors or any(row.code == "G40" for row in builder.codes):
+        return turning_corners.plan_corner(builder)
+    u, v, _ = PLANES[builder.mode["plane"]]
+    letters = ("IJK"[u], "IJK"[v])
+    if not any(builder.has(letter) for letter in letters):
+        return turning_corners.plan_corner(builder)
+    builder.take(*letters)
+    words = [(builder.slot(a), builder.length(a) if builder.has(a) else None) for a in letters]
+
+    def force(channel: Channel, values: list[float]) -> None:
+        stage = channel.memory.compensation
+        if stage is not None and stage.active:
+            direction = [0.0 if s is None else (c(values[s]) if c else values[s]) for s, c in words]
+            stage.forced_vector((direction[0], direction[1]))
+
+    return force

@@ -1,0 +1,108 @@
+"""G10 and G22 of the lathe: work offsets, work shift, tool offsets, parameters, stroke limits."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.fanuc.turning_tools import MAX_OFFSETS, offset_changed, refresh
+from polycnc.control.word_address import extended
+from polycnc.control.word_address.data_input import WORK_SYSTEMS
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.words import Words
+
+#: Geometry offsets are numbered from here in G10 and in offset files.
+GEOMETRY = 10_000
+PARAMETER_INPUT = (50, 52)
+#: 4th and 5th axis offsets: word and the parameter with the axis' number (II.5.1.5).
+FURTHER_AXES = {"E": 5044, "F": 5045}
+
+
+def input_data(channel: Channel, words: Words) -> None:
+    """G10 L2, L20 work offsets; without L by P: 0 work shift, 1 … wear, 10001 … geometry."""
+    kind = words.integer("L") if "L" in words else None
+    number = words.integer("P") if "P" in words else None
+    if kind in PARAMETER_INPUT:
+        channel.memory.parameter_input = True
+        return
+    if number is None or number < 0:
+        raise words.fail("g10_number", "P" if "P" in words else "G10")
+    if kind == 2:
+        if number >= len(WORK_SYSTEMS):
+            raise words.fail("g10_number", "P")
+        _set_work_offset(channel, words, channel.memory.work_offset(WORK_SYSTEMS[number]))
+    elif kind == 20:
+        if not 1 <= number <= channel.control.EXTENDED_WORK_SYSTEMS:
+            raise words.fail("g10_number", "P")
+        _set_work_offset(channel, words, channel.memory.work_offset(f"G54.1 P{number}"))
+    elif kind is not None:
+        raise words.fail("g10_number", "L")
+    elif number == 0:
+        _set_work_offset(channel, words, channel.memory.work_shift)
+    else:
+        _set_tool_offset(channel, words, number)
+
+
+def _set_work_offset(channel: Channel, words: Words, offset: list[float]) -> None:
+    for axis, value, incremental in words.axes():
+        offset[axis] = offset[axis] + value if incremental else value
+    refresh(channel)
+
+
+def _set_tool_offset(channel: Channel, words: Words, number: int) -> None:
+    memory = channel.memory
+    is_geometry = number > GEOMETRY
+    number = number - GEOMETRY if is_geometry else number
+    if not 1 <= number <= MAX_OFFSETS or (is_geometry and memory.common_offsets):
+        raise words.fail("g10_number", "P")
+    offset = memory.turning_offset(number)
+    values = offset.geometry if is_geometry else offset.wear
+    radius_word = words.length("R")
+    by_increment = words.length("C") if "C" not in channel.axes else None
+    for axis, value, incremental in words.axes():
+        name = channel.axes[axis]
+        values[name] = values.get(name, 0.0) + value if incremental else value
+    for address, parameter in FURTHER_AXES.items():
+        further = words.length(address)
+        if further is not None:
+            values[_further_axis(channel, words, address, parameter)] = further
+    field = "radius" if is_geometry else "radius_wear"
+    if radius_word is not None:
+        setattr(offset, field, radius_word)
+    if by_increment is not None:
+        setattr(offset, field, getattr(offset, field) + by_increment)
+    tip = words.integer("Q")
+    if tip is not None:
+        if not 0 <= tip <= 9:
+            raise words.fail("g10_value", "Q")
+        offset.tip = tip
+    offset_changed(channel)
+
+
+def _further_axis(channel: Channel, words: Words, address: str, parameter: int) -> str:
+    number = int(channel.memory.parameters.number(parameter))
+    if not 1 <= number <= len(channel.axes):
+        raise words.fail("g10_format", address)
+    return channel.axes[number - 1]
+
+
+def end_parameter_input(channel: Channel, _words: Words) -> None:
+    """G11: the lines of G10 L52 are over."""
+    channel.memory.parameter_input = False
+
+
+def stroke_check_on(channel: Channel, words: Words) -> None:
+    """G22 X Z I K: stored stroke check 2 in machine coordinates; values of a diameter axis are diameters."""
+    upper = {axis: value for axis, value, _ in words.axes()}
+    named: list[tuple[int, float, float]] = []
+    for letter, axis in zip("IJK", channel.coordinates.geometry, strict=True):
+        low = words.length(letter, diameter=axis >= 0 and channel.control.is_diameter(channel, axis))
+        if (low is None) != (axis not in upper):
+            raise words.fail("address", letter)
+        if low is not None:
+            named.append((axis, min(low, upper[axis]), max(low, upper[axis])))
+    if named:
+        axes, lows, highs = zip(*named, strict=True)
+        inside = not channel.memory.parameters.bit(1300, 0)
+        channel.stroke_zone = extended.StrokeZone(tuple(lows), tuple(highs), tuple(axes), inside)

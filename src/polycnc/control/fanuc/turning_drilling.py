@@ -1,0 +1,223 @@
+"""Drilling cycles of the lathe: G83 to G89 on face and side, Series 15 format, clamping of C (0i-TF Plus II.4.3, 6.5)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address import drilling as base
+from polycnc.control.word_address.drilling import DrillCycle, Drilling, third_axis
+from polycnc.cycles import drilling, drilling_lathe
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.codes import Handler, Step
+    from polycnc.control.word_address.plan import Builder, Plan
+    from polycnc.control.word_address.words import Words
+    from polycnc.cycles.drilling import Cycle, Hole, Stroke
+
+BORE = partial(drilling.bore, out=2.0)
+#: Cycles with their axis: the face is drilled along Z, the side along X (II.4.3).
+NORMAL_CYCLES = ("G83", "G83.5", "G83.6", "G84", "G85", "G87", "G87.5", "G87.6", "G88", "G89")
+#: Series 15 format (II.6.5).
+SERIES_15_CYCLES = ("G81", "G82", "G83", "G83.1", "G84", "G84.2", "G85", "G89")
+TAPS = frozenset({"G84", "G88", "G84.2"})
+_RELIEF = {"G83.1": 5114, "G83.5": 5114, "G87.5": 5114, "G83.6": 5115, "G87.6": 5115, "G84": 5213, "G88": 5213, "G84.2": 5213}
+
+
+def is_series_15(channel: Channel) -> bool:
+    """Whether programs are in the Series 15 format (0001#1 FCV)."""
+    return bool(channel.setup.parameters.bit(1, 1))
+
+
+def _drills_in_series_15(channel: Channel) -> bool:
+    """5102#3 F16: drilling stays in the normal format, with repeats by L."""
+    return is_series_15(channel) and not channel.setup.parameters.bit(5102, 3)
+
+
+@dataclass(frozen=True, slots=True)
+class _Choice:
+    """What parameters choose among the drilling cycles."""
+
+    series_15: bool
+    repeats_by_l: bool
+    clears_chips: bool
+    absolute_r: bool
+
+
+def rules(channel: Channel) -> Drilling:
+    """The drilling cycles by the channel's parameters."""
+    bit = channel.setup.parameters.bit
+    series_15 = _drills_in_series_15(channel)
+    absolute = series_15 and bit(5102, 6) and channel.mode["distance"] == "G90"
+    return _rules(_Choice(series_15, is_series_15(channel), bool(bit(5101, 2)), bool(absolute)))
+
+
+@cache
+def _rules(choice: _Choice) -> Drilling:
+    common = Drilling(
+        {},
+        r_is_increment=not choice.absolute_r,
+        by_r=True,
+        repeats="L" if choice.repeats_by_l else "K",
+        triggers="R",
+        axis=_axis,
+        relief=_relief,
+        turn=_turn,
+        dress=_dress,
+    )
+    peck: Cycle = drilling.peck_clearing_chips if choice.clears_chips else drilling.peck_breaking_chips
+    if choice.series_15:
+        cycles = {
+            "G81": DrillCycle(drilling.drill),
+            "G82": DrillCycle(drilling.drill, dwells=True),
+            "G83": DrillCycle(drilling.peck_clearing_chips, pecks=True, dwells=True),
+            "G83.1": DrillCycle(drilling.peck_breaking_chips, pecks=True, dwells=True),
+            "G84": DrillCycle(drilling.tap, dwells=True),
+            "G84.2": DrillCycle(drilling_lathe.tap, dwells=True, pecks=True),
+            "G85": DrillCycle(BORE),
+            "G89": DrillCycle(BORE, dwells=True),
+        }
+        return replace(common, cycles=cycles, kept=("R", "P", "Q", ",D"), once=("J",))
+    face = {
+        "G83": DrillCycle(peck, dwells=True, pecks=True, axis="Z"),
+        "G83.5": DrillCycle(drilling.peck_breaking_chips, dwells=True, pecks=True, axis="Z"),
+        "G83.6": DrillCycle(drilling.peck_clearing_chips, dwells=True, pecks=True, axis="Z"),
+        "G84": DrillCycle(drilling_lathe.tap, dwells=True, pecks=True, axis="Z"),
+        "G85": DrillCycle(BORE, dwells=True, axis="Z"),
+    }
+    side = {"G87": "G83", "G87.5": "G83.5", "G87.6": "G83.6", "G88": "G84", "G89": "G85"}
+    cycles = {**face, **{code: replace(face[like], axis="X") for code, like in side.items()}}
+    return replace(common, cycles=cycles, kept=("R", "P", ",D", "J"), once=("Q",))
+
+
+def _axis(builder: Builder) -> int:
+    """Series 15: Z, or the axis on the plane by 5101#0 FXY."""
+    if builder.channel.setup.parameters.bit(5101, 0):
+        return third_axis(builder)
+    return builder.channel.coordinates.geometry[2]
+
+
+def _relief(channel: Channel, code: str) -> float:
+    """Retract or clearance between pecks: `,D`, else the cycle's parameter, mm."""
+    data = channel.memory.cycle_data
+    if ",D" in data:
+        return float(data.amount(",D"))
+    number = _RELIEF.get(code)
+    if number is None:
+        clears = channel.memory.parameters.bit(5101, 2) or _drills_in_series_15(channel)
+        number = 5115 if clears else 5114
+    return channel.memory.parameters.number(number)
+
+
+def plan(builder: Builder, plan: Plan) -> Step:
+    """A block while a drilling cycle is active."""
+    return base.plan_drilling(builder, plan)
+
+
+def give_way(builder: Builder) -> None:
+    """A cycle code that a motion code of its block cancels."""
+    base.give_way(builder)
+
+
+# ---- spindle ---------------------------------------------------------------------------------------------------
+
+
+def _turn(channel: Channel, direction: int) -> None:
+    """A reversal goes to the machine as M03 or M04, by 5105#3 M5T with M05 in front; rigid tapping sends none."""
+    memory = channel.memory
+    base.turn_spindle(channel, direction)
+    if is_rigid(channel):
+        return
+    if memory.parameters.bit(5105, 3):
+        channel.event("m", code=5)
+    if direction:
+        channel.event("m", code=3 if direction > 0 else 4)
+
+
+def is_rigid(channel: Channel) -> bool:
+    """Whether a tap is cut in step with a servo spindle: M29, 5200#0, or G84.2."""
+    memory = channel.memory
+    return bool(memory.rigid_tapping or memory.parameters.bit(5200, 0) or channel.mode["cycle"] == "G84.2")
+
+
+# ---- what the machine adds ---------------------------------------------------------------------------------------
+
+
+def _dress(channel: Channel, code: str, hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
+    """Clamping of the C axis about the hole, and the speed of a rigid tap on its way out."""
+    if code in TAPS:
+        check_tap(channel)
+        strokes = drilling_lathe.with_extraction(strokes, hole, extraction(channel))
+    clamp = channel.memory.clamp
+    if clamp:
+        seconds = channel.memory.parameters.number(5111) / 1000.0
+        strokes = drilling_lathe.clamped(strokes, clamp, _unclamp(channel, clamp), seconds)
+    return strokes
+
+
+def is_clamp(channel: Channel, number: int) -> bool:
+    """Whether an M code clamps the C axis in a drilling block (5110; with 5161#4 also 13544)."""
+    parameters = channel.setup.parameters
+    if _drills_in_series_15(channel) or not number:
+        return False
+    codes = [int(parameters.number(5110))]
+    if parameters.bit(5161, 4):
+        codes.append(int(parameters.number(13544)))
+    return number in codes
+
+
+def _unclamp(channel: Channel, clamp: int) -> int:
+    parameters = channel.memory.parameters
+    if not parameters.bit(5161, 4):
+        return clamp + 1
+    return int(parameters.number(13543 if clamp == int(parameters.number(5110)) else 13545))
+
+
+def note_clamp(number: int) -> Handler:
+    """The handler of a clamp code: it holds until the cycle ends."""
+
+    def note(channel: Channel, _words: Words) -> None:
+        channel.memory.clamp = number
+
+    return note
+
+
+def check_tap(channel: Channel) -> None:
+    """A rigid tap needs a speed, and no constant surface speed."""
+    if not is_rigid(channel):
+        return
+    if channel.mode["surface_speed"] == "G96":
+        raise channel.control.fail("rigid_speed", address="S")
+    if not channel.feed > 0.0:
+        raise channel.control.fail("rigid_feed", address="F")
+
+
+def extraction(channel: Channel) -> float:
+    """How much faster a rigid tap comes out (5200#4 DOV, 5201#4 OV3, 5211, J; II.4.5.4)."""
+    memory = channel.memory
+    parameters = memory.parameters
+    if not is_rigid(channel) or not parameters.bit(5200, 4):
+        return 1.0
+    data, speed = memory.cycle_data, memory.spindle_speed
+    if "J" in data and parameters.bit(5201, 4) and speed > 0.0:
+        rpm = data.amount("J") * (1.0 if channel.control.number_rules(channel).calculator else 1000.0)
+        percent = 100.0 * rpm / speed
+        return percent / 100.0 if 100.0 <= percent <= 200.0 else 1.0
+    percent = parameters.number(5211) * (10.0 if parameters.bit(5201, 3) else 1.0)
+    return percent / 100.0 if percent > 0.0 else 1.0
+
+
+def plan_leaving(builder: Builder) -> Step | None:
+    """The end of a drilling cycle: clamp code and rigid tapping are forgotten."""
+    if builder.before["cycle"] == "G80" or builder.mode["cycle"] != "G80":
+        return None
+
+    def leave(channel: Channel, _values: list[float]) -> None:
+        channel.memory.clamp = 0
+        channel.memory.rigid_tapping = False
+
+    return leave

@@ -1,0 +1,74 @@
+"""Skip and automatic tool offset: G31, G36, G37 (0i-TF Plus II.5.8)."""
+
+from __future__ import annotations
+
+from math import copysign, nan
+from typing import TYPE_CHECKING
+
+from polycnc.control.fanuc.turning_tools import offset_changed
+from polycnc.control.word_address import skip
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.words import Words
+
+
+def skip_move(channel: Channel, words: Words) -> None:
+    """G31: straight at F to the target or to where the skip signal comes."""
+    skip.skip_move(channel, words)
+
+
+def measure_first(channel: Channel, words: Words) -> None:
+    """G36 X (3405#3 = 1: G37.1)."""
+    _measure(channel, words, "X")
+
+
+def measure_second(channel: Channel, words: Words) -> None:
+    """G37 Z (3405#3 = 1: G37.2)."""
+    _measure(channel, words, "Z")
+
+
+def _measure(channel: Channel, words: Words, name: str) -> None:
+    """Rapid to the deceleration point, on at 6241 to the signal; its distance from the target goes to the offset.
+
+    Deceleration point: 6251 before the target; the signal counts within 6254 on either side of it.
+    """
+    memory, c = channel.memory, channel.coordinates
+    parameters = memory.parameters
+    named = words.axes()
+    if len(named) != 1 or channel.axes[named[0][0]] != name or named[0][2]:
+        raise words.fail("measure_axis", name)
+    if not memory.offset_active:
+        raise words.fail("measure_no_offset", name)
+    if channel.mode["compensation"] != "G40":
+        raise words.fail("comp_skip", name)
+    axis, target, _ = named[0]
+    # 6251 and 6254 are radius values whatever the axis.
+    before, window = parameters.number(6251, name), parameters.number(6254, name)
+    programmed = c.programmed[:]
+    programmed[axis] = target
+    target_position = c.to_position(programmed)[axis]
+    towards = copysign(1.0, target_position - c.position[axis])
+    end = c.position[:]
+    end[axis] = target_position - towards * before
+    channel.straight(Kind.RAPID, end, nan)
+    measured = _signal(channel, axis)
+    if measured is None or abs(measured - target_position) > window + 1e-9:
+        raise words.fail("measure_signal", name)
+    end = c.position[:]
+    end[axis] = measured
+    channel.straight(Kind.SKIP, end, parameters.number(6241, name) / _seconds(channel))
+    values = memory.turning_offset(memory.offset_active).wear
+    values[name] = values.get(name, 0.0) + measured - target_position
+    offset_changed(channel)
+
+
+def _seconds(channel: Channel) -> float:
+    """6241 is mm/min; under G99 the toolpath counts mm/rev."""
+    return 60.0 if channel.mode["feed"] == "G98" else 1.0
+
+
+def _signal(channel: Channel, axis: int) -> float | None:
+    at = channel.setup.switches.measure_signal_at.get(channel.axes[axis])
+    return None if at is None else channel.memory.radius_of(axis, at)

@@ -1,0 +1,368 @@
+"""Multiple repetitive cycles G70 to G76: their words in the two formats (0i-TF Plus II.4.2, 6.4).
+
+Normal format: two blocks; the first, without shape or end point, stores amounts that live on. Series 15 format
+(0001#1): one block with D, I, K.
+"""
+
+from __future__ import annotations
+
+from math import nan
+from typing import TYPE_CHECKING
+
+from polycnc.channel.stack import Level
+from polycnc.control.fanuc.turning_coordinates import feed_number, plane_axes
+from polycnc.control.fanuc.turning_drilling import is_series_15
+from polycnc.control.fanuc.turning_shape import Section, contour_of, read_shape
+from polycnc.control.fanuc.turning_single import runout
+from polycnc.control.fanuc.turning_strokes import emit, enter_compensation, leave_compensation
+from polycnc.control.fanuc.turning_threads import start_angle
+from polycnc.cycles.contour import reversal, swapped, swapped_stroke
+from polycnc.cycles.threading import ThreadCuts, multiple_threading
+from polycnc.cycles.turning_pattern import repeat_pattern as pattern_strokes
+from polycnc.cycles.turning_peck import Pecks, peck_columns
+from polycnc.cycles.turning_rough import Roughing, rough
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.turning_shape import Shape
+    from polycnc.control.word_address.words import Words
+    from polycnc.cycles.contour import Contour
+    from polycnc.cycles.plane_stroke import PlaneStroke
+
+#: All words that a cycle block may hold beside axis words.
+WORDS = "P Q U V W R D I J K A"
+#: Increment words of the plane's first and second axis.
+INCREMENTS = {"G18": ("W", "U"), "G17": ("U", "V"), "G19": ("V", "W")}
+#: Centre words of the plane's first and second axis.
+CENTERS = {"G18": ("K", "I"), "G17": ("I", "J"), "G19": ("J", "K")}
+DEPTH, ESCAPE, CLEARANCE = 5132, 5133, 5134
+PATTERN_SECOND, PATTERN_FIRST, PATTERN_PASSES = 5135, 5136, 5137
+RETURN = 5139
+THREAD_LEAST, THREAD_ALLOWANCE, THREAD_FINISHING, THREAD_ANGLE = 5140, 5141, 5142, 5143
+CHAMFER = 5130
+TIP_ANGLES = (80, 60, 55, 30, 29, 0)
+SHAPE_KIND = "shape"
+
+
+# ---- shape cycles ----------------------------------------------------------------------------------------------
+
+
+def finish(channel: Channel, words: Words) -> None:
+    """G70 P Q: run the shape once as it is written, then back to where the cycle began."""
+    first, last = _shape_numbers(words)
+    code = channel.level.code
+    code = code.code if isinstance(code, Section) else code
+    begin = code.find_sequence(first, channel.level.current, "no_shape_start")  # type: ignore[attr-defined]
+    end = code.find_sequence(last, begin - 1, "no_shape_end")  # type: ignore[attr-defined]
+    level = channel.level
+    section = Level(Section(code, end), begin, begin, level.program_number, 0, begin, SHAPE_KIND, level.locals)
+    section.data["start"] = channel.coordinates.position
+    channel.stack.append(section)
+    channel.level = section
+
+
+def end_of_shape(channel: Channel) -> None:
+    """The shape of G70 is cut: back to the start in rapid, on with the block behind G70."""
+    start: list[float] = channel.level.data["start"]
+    channel.straight(Kind.RAPID, start, nan)
+    channel.pop()
+
+
+def rough_turning(channel: Channel, words: Words) -> None:
+    """G71: strokes along the first axis of the plane."""
+    _rough(channel, words, along=0)
+
+
+def rough_facing(channel: Channel, words: Words) -> None:
+    """G72: strokes along the second axis of the plane."""
+    _rough(channel, words, along=1)
+
+
+def _rough(channel: Channel, words: Words, *, along: int) -> None:
+    memory, plane = channel.memory, channel.mode["plane"]
+    depth_word = INCREMENTS[plane][1 - along]
+    if "P" not in words and "Q" not in words:
+        _store(channel, words, {depth_word: DEPTH, "R": ESCAPE})
+        return
+    series_15 = is_series_15(channel)
+    depth = _series_15_depth(words) if series_15 and "D" in words else memory.cycle_parameter(DEPTH)
+    if not depth > 0.0:
+        raise words.fail("cycle_depth", "D" if series_15 else "U")
+    shape, contour = _read(channel, words)
+    axes = plane_axes(channel)
+    _check_first_block(channel, shape, axes[1 - along])
+    pockets = axes[along] in (shape.first_axes or ())
+    _check_monotone(channel, contour, along, pockets=pockets)
+    bit = memory.parameters.bit
+    allowance, extra = _allowance(channel, words), _extra(channel, words)
+    cuts = Roughing(
+        depth,
+        memory.cycle_parameter(ESCAPE),
+        allowance=_turned(allowance, along),
+        extra=_turned(extra, along),
+        pockets=pockets,
+        finishes=not bit(5105, 2 if pockets else 1),
+        infeed_rapid=shape.first_code == "G0",
+        escape_rapid=bool(bit(5124, 0)),
+        clearance=memory.cycle_parameter(CLEARANCE),
+        returns_rapid=bool(bit(5107, 0)),
+        returns_merged=bool(bit(5107, 1)) and not pockets,
+    )
+    if along:
+        strokes: Iterable[PlaneStroke] = (swapped_stroke(stroke) for stroke in rough(swapped(contour), cuts))
+    else:
+        strokes = rough(contour, cuts)
+    _cut(channel, strokes)
+    channel.level.index = shape.end + 1
+
+
+def _turned(pair: tuple[float, float], along: int) -> tuple[float, float]:
+    return (pair[1], pair[0]) if along else pair
+
+
+def repeat_pattern(channel: Channel, words: Words) -> None:
+    """G73: the shape itself, pass by pass nearer to the finished part."""
+    memory, plane = channel.memory, channel.mode["plane"]
+    first_word, second_word = INCREMENTS[plane]
+    if "P" not in words and "Q" not in words:
+        _store(channel, words, {first_word: PATTERN_FIRST, second_word: PATTERN_SECOND})
+        if "R" in words:
+            memory.cycle_values[PATTERN_PASSES] = round(words.typed("R") or 0.0)
+        return
+    if is_series_15(channel) and "D" in words:
+        first_center, second_center = CENTERS[plane]
+        escape = (words.length(first_center) or 0.0, words.length(second_center) or 0.0)
+        passes = _count(words, "D")
+    else:
+        escape = (memory.cycle_parameter(PATTERN_FIRST), memory.cycle_parameter(PATTERN_SECOND))
+        passes = int(memory.cycle_parameter(PATTERN_PASSES))
+    if passes < 1:
+        raise words.fail("cycle_depth", "D" if "D" in words else "R")
+    shape, contour = _read(channel, words)
+    if not shape.first_code:
+        raise channel.control.fail("shape_first_block", address="P")
+    _cut(channel, pattern_strokes(contour, escape, passes, _allowance(channel, words)))
+    channel.level.index = shape.end + 1
+
+
+def _read(channel: Channel, words: Words) -> tuple[Shape, Contour]:
+    first, last = _shape_numbers(words)
+    shape = read_shape(channel, first, last)
+    contour = contour_of(channel, shape)
+    if not contour:
+        raise channel.control.fail("shape_command", address="P")
+    return shape, contour
+
+
+def _shape_numbers(words: Words) -> tuple[int, int]:
+    first, last = words.integer("P"), words.integer("Q")
+    if first is None or last is None:
+        raise words.fail("no_shape_start", "P" if first is None else "Q")
+    return first, last
+
+
+def _check_first_block(channel: Channel, shape: Shape, infeed: int) -> None:
+    """The first block says G00 or G01, and moves the axis of infeed."""
+    if not shape.first_code:
+        raise channel.control.fail("shape_first_block", address="P")
+    if infeed not in (shape.first_axes or ()):
+        raise channel.control.fail("shape_command", address="P")
+
+
+def _check_monotone(channel: Channel, contour: Contour, along: int, *, pockets: bool) -> None:
+    """Type I: both axes go one way only; type II: that of the strokes. Small reversals are allowed (5145, 5146)."""
+    shape = contour[1:]
+    if not shape:
+        return
+    for axis, (parameter, mistake) in enumerate(((5145, "shape_first_axis"), (5146, "shape_second_axis"))):
+        if pockets and axis != along:
+            continue
+        begin, end = shape[0].edge.start[axis], shape[-1].edge.end[axis]
+        direction = 1.0 if end >= begin else -1.0
+        if reversal(shape, axis, direction) > channel.memory.cycle_parameter(parameter) + 1e-6:
+            raise channel.control.fail(mistake, address="P")
+
+
+def _allowance(channel: Channel, words: Words) -> tuple[float, float]:
+    """Finishing allowances along the first and second axis, mm of radius; the words follow their axis."""
+    found = []
+    for axis, address in zip(plane_axes(channel), INCREMENTS[channel.mode["plane"]], strict=True):
+        found.append(words.length(address, diameter=channel.control.is_diameter(channel, axis)) or 0.0)
+    return found[0], found[1]
+
+
+def _extra(channel: Channel, words: Words) -> tuple[float, float]:
+    """Rough-finishing allowances of the Series 15 format, on the side of the finishing allowance (II.6.4.1)."""
+    if not is_series_15(channel):
+        return (0.0, 0.0)
+    extra = []
+    for amount, address in zip(_allowance(channel, words), CENTERS[channel.mode["plane"]], strict=True):
+        value = abs(words.length(address) or 0.0)
+        extra.append(-value if amount < 0.0 else value)
+    return extra[0], extra[1]
+
+
+def _cut(channel: Channel, strokes: Iterable[PlaneStroke]) -> None:
+    """Make the strokes; compensation is in the shape already, so the path's own one rests meanwhile."""
+    stage = channel.memory.compensation
+    compensated = stage is not None and stage.active and channel.memory.side
+    if compensated:
+        leave_compensation(channel)
+    emit(channel, strokes)
+    if compensated:
+        enter_compensation(channel)
+
+
+# ---- pecking -----------------------------------------------------------------------------------------------------
+
+
+def peck_facing(channel: Channel, words: Words) -> None:
+    """G74: pecks along the first axis of the plane, columns along the second."""
+    _peck(channel, words, along=0)
+
+
+def groove(channel: Channel, words: Words) -> None:
+    """G75: pecks along the second axis of the plane, columns along the first."""
+    _peck(channel, words, along=1)
+
+
+def _peck(channel: Channel, words: Words, *, along: int) -> None:
+    memory = channel.memory
+    if not words.axes():
+        _store(channel, words, {"R": RETURN})
+        return
+    axes = plane_axes(channel)
+    start, end = _corner(channel, words, axes)
+    if is_series_15(channel):
+        amounts = [abs(words.length(letter) or 0.0) for letter in CENTERS[channel.mode["plane"]]]
+        relief = _series_15_depth(words) if "D" in words else 0.0
+    else:
+        # P is the amount along the second axis, Q along the first, in G74 and G75 alike.
+        amounts = [_increments(words, "Q"), _increments(words, "P")]
+        relief = words.length("R") or 0.0
+    pecks = Pecks(amounts[along], memory.cycle_parameter(RETURN), amounts[1 - along], relief)
+    strokes = peck_columns(_turned(start, along), _turned(end, along), pecks)
+    emit(channel, (swapped_stroke(stroke) for stroke in strokes) if along else strokes)
+
+
+def _corner(
+    channel: Channel, words: Words, axes: tuple[int, int]
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Start and corner of a cycle in the plane, on the display."""
+    c = channel.coordinates
+    point = c.programmed[:]
+    for axis, value, incremental in words.axes():
+        if axis not in axes:
+            raise words.fail("cycle_axis", words.plan.axis_words[0].address)
+        point[axis] = point[axis] + value if incremental else value
+    end = c.to_position(point)
+    return (c.position[axes[0]], c.position[axes[1]]), (end[axes[0]], end[axes[1]])
+
+
+# ---- threading ---------------------------------------------------------------------------------------------------
+
+
+def thread(channel: Channel, words: Words) -> None:
+    """G76: a whole thread, pass by pass."""
+    memory = channel.memory
+    if not words.axes():
+        _store_thread(channel, words)
+        return
+    axes = plane_axes(channel)
+    start, end = _corner(channel, words, axes)
+    series_15 = is_series_15(channel)
+    if series_15:
+        taper = words.length(CENTERS[channel.mode["plane"]][1]) or 0.0
+        height = abs(words.length(CENTERS[channel.mode["plane"]][0]) or 0.0)
+        first, angle = _series_15_depth(words), abs(words.typed("A") or 0.0)
+        method = words.integer("P") or 0 if "P" in words else 0
+        turn = start_angle(words.typed("Q") or 0.0)
+        finishing = max(int(memory.cycle_parameter(THREAD_FINISHING)), 1)
+    else:
+        taper = words.length("R") or 0.0
+        height, first = _increments(words, "P"), _increments(words, "Q")
+        angle, method, turn = memory.cycle_parameter(THREAD_ANGLE), 1, 0.0
+        finishing = max(int(memory.cycle_parameter(THREAD_FINISHING)), 1)
+    lead = feed_number(channel)
+    if not lead > 0.0:
+        raise words.fail("no_feed", "F")
+    if not height > 0.0 or not first > 0.0:
+        raise words.fail("cycle_depth", "P" if not height > 0.0 else "Q")
+    cuts = ThreadCuts(
+        height,
+        min(first, height),
+        memory.cycle_parameter(THREAD_LEAST) if method in (0, 1, 2) else 0.0,
+        memory.cycle_parameter(THREAD_ALLOWANCE),
+        finishing,
+        constant_depth=method in (3, 4),
+    )
+    if cuts.allowance >= height:
+        raise words.fail("cycle_depth", "R")
+    strokes = multiple_threading(
+        start, end, taper, cuts, runout(channel),
+        half_angle_deg=angle / 2.0, zigzag=method in (2, 4), start_angle_deg=turn,
+    )  # fmt: skip
+    emit(channel, strokes, lead=lead)
+
+
+def _store_thread(channel: Channel, words: Words) -> None:
+    """The first block of G76: P packs finishing passes, chamfer in 0.1 leads and tip angle; Q and R are depths."""
+    values = channel.memory.cycle_values
+    packed = words.integer("P") if "P" in words else None
+    if packed is not None:
+        passes, rest = divmod(abs(packed), 10_000)
+        chamfer, angle = divmod(rest, 100)
+        if angle not in TIP_ANGLES or passes > 99:
+            raise words.fail("thread_words", "P")
+        values[CHAMFER], values[THREAD_ANGLE] = float(chamfer), float(angle)
+        if passes:
+            values[THREAD_FINISHING] = float(passes)
+    if "Q" in words:
+        values[THREAD_LEAST] = _increments(words, "Q")
+    if "R" in words:
+        values[THREAD_ALLOWANCE] = abs(words.length("R") or 0.0)
+
+
+# ---- words -------------------------------------------------------------------------------------------------------
+
+
+def _store(channel: Channel, words: Words, parameters: dict[str, int]) -> None:
+    """The first block of the two: its words overwrite the parameters, as radius values."""
+    for address, number in parameters.items():
+        value = words.length(address)
+        if value is not None:
+            signed = number in (PATTERN_FIRST, PATTERN_SECOND)
+            channel.memory.cycle_values[number] = value if signed else abs(value)
+
+
+def _increments(words: Words, address: str) -> float:
+    """A depth in least increments, without a decimal point, mm."""
+    if address not in words:
+        return 0.0
+    if words.form(address) not in ("", "#"):
+        raise words.fail("point", address)
+    return abs(_least_increments(words, address))
+
+
+def _least_increments(words: Words, address: str) -> float:
+    value = words.integer(address) or 0
+    rules = words.plan.rules
+    if words.plan.inch:
+        return value * 25.4 / 10.0**rules.decimals_inch
+    return float(value / 10.0**rules.decimals)
+
+
+def _series_15_depth(words: Words) -> float:
+    """D: least increments even under calculator input; a decimal point is an alarm (II.6.4)."""
+    if words.form("D") not in ("", "#"):
+        raise words.fail("point", "D")
+    return _least_increments(words, "D")
+
+
+def _count(words: Words, address: str) -> int:
+    if words.form(address) not in ("", "#"):
+        raise words.fail("point", address)
+    return abs(words.integer(address) or 0)

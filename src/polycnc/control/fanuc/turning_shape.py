@@ -1,0 +1,208 @@
+"""Shapes of G70 to G73: the blocks from P to Q, read ahead by running them with the tool held (II.4.2.8).
+
+The control reads a shape by interpreting its blocks, macro statements included. So does polycnc: the blocks run in a
+modal state of their own (`shape` = `reading`), in which F, S, T and M do nothing, and their moves are caught before they
+reach the toolpath. Then everything is put back, and the cycle cuts along the moves.
+"""
+
+from __future__ import annotations
+
+from copy import copy
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+from polycnc.channel.path import Move
+from polycnc.compensation import CutterCompensation, Plane
+from polycnc.control.fanuc.turning_coordinates import plane_axes
+from polycnc.control.fanuc.turning_tools import nose_radius, nose_tip
+from polycnc.control.word_address.path import PLANES
+from polycnc.control.word_address.radius import violation_codes
+from polycnc.cycles.contour import Contour, Piece
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.path import PathStage
+    from polycnc.channel.stack import Level
+    from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.plan import Builder, Plan
+    from polycnc.toolpath import Event
+
+GROUP, READING = "shape", "reading"
+MAX_SHAPE_BLOCKS = 10_000
+_INFEED_CODES = ("G0", "G1")
+_ALLOWED = frozenset({"G0", "G1", "G2", "G3"})
+
+
+@dataclass(slots=True)
+class Shape:
+    """What was read.
+
+    Attributes:
+        moves: Its moves, the infeed first.
+        first_axes: Axes that the first block names.
+        first_code: G0 or G1 of the first block; empty where it has none.
+        end: Step of the last block.
+    """
+
+    moves: list[Move] = field(default_factory=list)
+    first_axes: frozenset[int] | None = None
+    first_code: str = ""
+    end: int = 0
+
+
+class Catcher:
+    """The path's stage while a shape is read: it keeps moves and drops events."""
+
+    def __init__(self) -> None:
+        self.after: PathStage = self
+        self.moves: list[Move] = []
+
+    def move(self, move: Move) -> None:
+        """Keep a move."""
+        self.moves.append(move)
+
+    def event(self, event: Event, program: int, line: int, context: int) -> None:
+        """Drop an event."""
+
+    def block(self) -> None:
+        """Nothing waits here."""
+
+    def flush(self) -> None:
+        """Nothing is held back here."""
+
+
+def plan_note(builder: Builder, plan: Plan) -> Step | None:
+    """A step that tells the reader about a block; only in the plans of shapes that are being read."""
+    if builder.mode.codes.get(GROUP) != READING:
+        return None
+    codes = [row.code for row in builder.codes if row.group == "motion"]
+    if builder.mode["motion"] not in _ALLOWED:
+        raise builder.control.fail("shape_command", address=builder.mode["motion"])
+    if any(row.group == "" and row.code != "G4" for row in builder.codes):
+        raise builder.control.fail("shape_command", address=builder.codes[0].code)
+    axes = frozenset(word.axis for word in plan.axis_words)
+    code = codes[-1] if codes and codes[-1] in _INFEED_CODES else ""
+
+    def note(channel: Channel, _values: list[float]) -> None:
+        shape: Shape | None = channel.memory.shape
+        if shape is not None and shape.first_axes is None:
+            shape.first_axes, shape.first_code = axes, code
+
+    return note
+
+
+def read_shape(channel: Channel, first: int, last: int) -> Shape:
+    """Read the blocks from sequence number `first` to `last` of the running program."""
+    level = channel.level
+    code: Any = level.code
+    begin = code.find_sequence(first, level.current, "no_shape_start")
+    end = code.find_sequence(last, begin - 1, "no_shape_end")
+    shape, catcher = Shape(end=end), Catcher()
+    kept = _Kept(channel)
+    channel.mode = channel.mode.with_code(GROUP, READING)
+    channel.memory.shape, channel.memory.reading_shape = shape, True
+    channel.head = catcher
+    try:
+        _run_blocks(channel, level, begin, end)
+    finally:
+        kept.put_back(channel)
+    shape.moves = [m for m in catcher.moves if m.kind is not Kind.DWELL and (m.center or m.start != m.end)]
+    return shape
+
+
+def _run_blocks(channel: Channel, level: Level, begin: int, end: int) -> None:
+    code: Any = level.code
+    level.index = begin
+    for _ in range(MAX_SHAPE_BLOCKS):
+        index = level.index
+        if index >= len(code.lines):
+            break
+        step = code.compile(code.lines[index], index)
+        level.current, level.index = index, index + 1
+        step(channel)
+        if channel.level is not level or channel.finished or len(channel.stack) == 0:
+            raise channel.control.fail("shape_command", address="P")
+        if index == end:
+            return
+    raise channel.control.fail("no_shape_end", address="Q")
+
+
+class _Kept:
+    """What reading must not change."""
+
+    def __init__(self, channel: Channel) -> None:
+        c, memory, level = channel.coordinates, channel.memory, channel.level
+        self.mode, self.feed, self.head = channel.mode, channel.feed, channel.head
+        self.position, self.programmed, self.pending = c.position, c.programmed, list(c.pending)
+        self.level, self.current, self.index, self.data = level, level.current, level.index, dict(level.data)
+        self.stack, self.finished, self.wait = list(channel.stack), channel.finished, channel.wait
+        self.memory = {name: copy(getattr(memory, name)) for name in _MEMORY_FIELDS}
+
+    def put_back(self, channel: Channel) -> None:
+        c, level = channel.coordinates, self.level
+        channel.mode, channel.feed, channel.head = self.mode, self.feed, self.head
+        c.position, c.programmed, c.pending = self.position, self.programmed, self.pending
+        channel.stack[:] = self.stack
+        channel.level = level
+        level.current, level.index = self.current, self.index
+        level.data.clear()
+        level.data.update(self.data)
+        channel.finished, channel.wait = self.finished, self.wait
+        for name, value in self.memory.items():
+            setattr(channel.memory, name, value)
+        channel.memory.reading_shape, channel.memory.shape = False, None
+        channel.context_changed()
+
+
+_MEMORY_FIELDS = ("spindle_speed", "spindle_direction", "tool", "next_tool", "feed_code", "side", "d", "single_cycle")
+
+
+def contour_of(channel: Channel, shape: Shape) -> Contour:
+    """The shape as edges of the plane, after nose radius compensation where that is active."""
+    first, second = plane_axes(channel)
+    u, v, w = PLANES[channel.mode["plane"]]
+    plane = Plane(u, v, w, channel.coordinates.geometry)
+    for move in shape.moves:
+        if any(s != e for i, (s, e) in enumerate(zip(move.start, move.end, strict=True)) if i not in (first, second)):
+            raise channel.control.fail("shape_command", address="P")
+    moves = _compensated(channel, shape.moves, plane) if channel.memory.side else shape.moves
+    contour: Contour = []
+    for move in moves:
+        edge = plane.edge(move)
+        if edge is not None and (edge.length > 0.0):
+            contour.append(Piece(edge, move.kind is Kind.RAPID))
+    return contour
+
+
+def _compensated(channel: Channel, moves: list[Move], plane: Plane) -> list[Move]:
+    """The moves off the contour by the nose: start-up in the first one, square at the end (II.4.2.1)."""
+    catcher = Catcher()
+    codes = violation_codes(channel.control.alarms)
+    stage = CutterCompensation(plane, channel.control.compensation_policy(channel), codes, catcher)
+    stage.engage(channel.memory.side, nose_radius(channel), nose_tip(channel))
+    for move in moves:
+        stage.move(replace(move))
+        stage.block()
+    stage.flush()
+    return catcher.moves
+
+
+class Section:
+    """The blocks of a shape as a program of its own: G70 runs them once, as they are written."""
+
+    def __init__(self, code: Any, end: int) -> None:
+        self.code = code
+        self.program = code.program
+        self.end = end
+        self.steps: tuple[Step | None, ...] = ()
+
+    def step(self, index: int) -> Step | None:
+        """The step of a block; None behind the last one of the shape."""
+        if index > self.end:
+            return None
+        step: Step = self.code.compile(self.code.lines[index], index)
+        return step
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.code, name)

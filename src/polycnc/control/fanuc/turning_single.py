@@ -1,0 +1,109 @@
+"""Single cycles G90, G92, G94: modal words, what runs a cycle and what clears it (0i-TF Plus II.4.1)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.fanuc.turning_coordinates import feed_number, plane_axes
+from polycnc.control.fanuc.turning_drilling import is_series_15
+from polycnc.control.fanuc.turning_strokes import compensated_cycle, emit
+from polycnc.control.fanuc.turning_threads import start_angle
+from polycnc.control.word_address.path import PLANES
+from polycnc.cycles import turning_single
+from polycnc.cycles.threading import Runout
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.plan import Builder, Plan
+    from polycnc.geometry.arcs import Point
+
+CYCLES = frozenset({"G90", "G92", "G94"})
+#: M codes of the control itself: blocks with nothing else do not repeat a cycle.
+_PROGRAM_CODES = frozenset({2, 30, 98, 99, 198})
+
+
+def plan_single_cycle(builder: Builder, plan: Plan) -> Step | None:
+    """A block in the mode of G90, G92 or G94: take over its words, and run the cycle (II.4.1.5)."""
+    control = builder.control
+    code = builder.mode["motion"]
+    first, second = plane_axes(builder.channel)
+    for word in plan.axis_words:
+        if word.axis not in (first, second):
+            raise control.fail("cycle_axis", address=word.address)
+    taper_letters = _taper_letters(builder, code)
+    taper = next((letter for letter in taper_letters if builder.has(letter)), None)
+    if taper is not None:
+        builder.take(taper)
+    angle = builder.slot("Q") if code == "G92" else None
+    if code == "G92":
+        builder.take("Q")
+    words = bool(plan.axis_words) or taper is not None
+    codes = [row for row in builder.codes if row.group != "motion"]
+    if not words and (codes or _PROGRAM_CODES.intersection(builder.m_codes)):
+        return None
+    taper_slot = builder.slot(taper) if taper is not None else None
+    taper_of = builder.length(taper) if taper is not None else None
+    named = {word.axis: word for word in plan.axis_words}
+
+    def run(channel: Channel, values: list[float]) -> None:
+        data = channel.memory.single_cycle
+        for axis, word in named.items():
+            data[axis] = (word.convert(values[word.slot]) if word.convert else values[word.slot], word.incremental)
+        if taper_slot is not None:
+            data["taper"] = taper_of(values[taper_slot]) if taper_of else values[taper_slot]
+        if not data:
+            return
+        _run(channel, code, (first, second), 0.0 if angle is None else start_angle(values[angle]))
+
+    return run
+
+
+def _run(channel: Channel, code: str, axes: tuple[int, int], angle: float) -> None:
+    data, c = channel.memory.single_cycle, channel.coordinates
+    if not channel.feed > 0.0:
+        raise channel.control.fail("no_feed")
+    corner_point = c.programmed[:]
+    for axis in axes:
+        if axis in data:
+            value, incremental = data[axis]
+            corner_point[axis] = corner_point[axis] + value if incremental else value
+    target = c.to_position(corner_point)
+    start: Point = (c.position[axes[0]], c.position[axes[1]])
+    corner: Point = (target[axes[0]], target[axes[1]])
+    taper = data.get("taper", 0.0)
+    if code == "G92":
+        emit(channel, turning_single.threading(start, corner, taper, runout(channel), angle), lead=feed_number(channel))
+        return
+    cycle = turning_single.longitudinal if code == "G90" else turning_single.facing
+    compensated_cycle(channel, list(cycle(start, corner, taper)))
+
+
+def runout(channel: Channel) -> Runout:
+    """Chamfer at the end of a thread: the machine's input, 5130 (0.1 leads), 5131 (0 for 45 degrees)."""
+    switch = channel.setup.switches.thread_chamfer
+    if switch is False:
+        return Runout()
+    memory = channel.memory
+    tenths = memory.cycle_parameter(5130)
+    return Runout(tenths * 0.1 * feed_number(channel), memory.cycle_parameter(5131) or 45.0)
+
+
+def _taper_letters(builder: Builder, code: str) -> tuple[str, ...]:
+    """R; in the Series 15 format the centre word of the axis along which the taper is measured (II.6.3)."""
+    if not is_series_15(builder.channel):
+        return ("R",)
+    u, v, _ = PLANES[builder.mode["plane"]]
+    return ("R", "IJK"[u if code == "G94" else v])
+
+
+def plan_clearing(builder: Builder) -> Step | None:
+    """Another one-shot code than G04, or another motion code, makes the control forget the cycle's words."""
+    if builder.before["motion"] not in CYCLES:
+        return None
+    leaves = builder.mode["motion"] not in CYCLES
+    if leaves or any(not row.group and row.code != "G4" for row in builder.codes):
+        return lambda channel, _values: channel.memory.single_cycle.clear()
+    return None
+
+

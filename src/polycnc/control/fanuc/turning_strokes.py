@@ -1,0 +1,86 @@
+"""Strokes of plane cycles become moves of the channel."""
+
+from __future__ import annotations
+
+from math import nan
+from typing import TYPE_CHECKING
+
+from polycnc.control.fanuc.turning_coordinates import drop_vector, plane_axes
+from polycnc.control.fanuc.turning_tools import nose_radius, nose_tip
+from polycnc.control.fanuc.turning_threads import thread_move
+from polycnc.control.word_address.path import PLANES
+from polycnc.geometry import offset
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.cycles.plane_stroke import PlaneStroke
+
+
+def emit(channel: Channel, strokes: Iterable[PlaneStroke], *, lead: float = 0.0) -> None:
+    """Make the strokes, at the feed in force; threads at a lead (mm)."""
+    first, second = plane_axes(channel)
+    c = channel.coordinates
+    for stroke in strokes:
+        end = c.position[:]
+        end[first], end[second] = stroke.end
+        if stroke.kind is Kind.RAPID:
+            channel.straight(Kind.RAPID, end, nan)
+            continue
+        if stroke.kind is Kind.THREAD:
+            thread_move(channel, end, lead, stroke.start_angle_deg)
+            continue
+        feed = channel.feed
+        if not feed > 0.0:
+            raise channel.control.fail("no_feed")
+        if stroke.center is None:
+            channel.straight(Kind.FEED, end, feed)
+        else:
+            _arc(channel, stroke, end, feed)
+
+
+def _arc(channel: Channel, stroke: PlaneStroke, end: list[float], feed: float) -> None:
+    u, v, w = PLANES[channel.mode["plane"]]
+    third = channel.coordinates.geometry[w]
+    center = [0.0, 0.0, 0.0]
+    center[w] = channel.coordinates.position[third] if third >= 0 else 0.0
+    if stroke.center is not None:
+        center[u], center[v] = stroke.center
+    normal = (float(w == 0), float(w == 1), float(w == 2))
+    channel.curve(stroke.kind, end, feed, center=(center[0], center[1], center[2]), normal=normal)
+
+
+def compensated_cycle(channel: Channel, strokes: Sequence[PlaneStroke]) -> None:
+    """G90, G94 within nose radius compensation: as if the four strokes were written as G00 and G01 (II.4.1.4).
+
+    The vector is zero at the start and at the end; the nose stays on the side of the material's outside, whatever
+    G41 or G42 say.
+    """
+    memory = channel.memory
+    stage = memory.compensation
+    if stage is None or not stage.active or not memory.side:
+        emit(channel, strokes)
+        return
+    leave_compensation(channel)
+    cut = offset.line(strokes[0].end, strokes[1].end)
+    way = (strokes[2].end[0] - strokes[1].end[0], strokes[2].end[1] - strokes[1].end[1])
+    left = cut.departing[0] * way[1] - cut.departing[1] * way[0] > 0.0
+    stage.engage(1 if left else -1, nose_radius(channel), nose_tip(channel))
+    emit(channel, strokes[:-1])
+    stage.cancel()
+    emit(channel, strokes[-1:])
+    enter_compensation(channel)
+
+
+def leave_compensation(channel: Channel) -> None:
+    """The tool stands on the programmed point and compensation is off, until `enter_compensation`."""
+    drop_vector(channel)
+    channel.memory.compensation.cancel()
+
+
+def enter_compensation(channel: Channel) -> None:
+    """The next move starts compensation up again."""
+    memory = channel.memory
+    memory.compensation.engage(memory.engaged_side, nose_radius(channel), nose_tip(channel))

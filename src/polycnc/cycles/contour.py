@@ -1,0 +1,189 @@
+"""The contour of a turning cycle: edges from the start point over the shape, levels across it, and its checks.
+
+Points are (a, b): `a` runs along the strokes, `b` is the direction of infeed. For longitudinal turning in ZX that is
+(Z, X as radius), for facing (X as radius, Z); `swapped` changes one into the other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import sqrt
+from typing import TYPE_CHECKING
+
+from polycnc.cycles.plane_stroke import PlaneStroke
+from polycnc.geometry import arcs, offset
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from polycnc.geometry.arcs import Point
+    from polycnc.geometry.offset import Edge
+
+_SAME = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """One edge of a contour, and whether it is traversed at rapid."""
+
+    edge: Edge
+    is_rapid: bool = False
+
+    def stroke(self) -> PlaneStroke:
+        """The piece as a motion to its end."""
+        edge = self.edge
+        if edge.center is None:
+            return PlaneStroke(Kind.RAPID if self.is_rapid else Kind.FEED, edge.end)
+        return PlaneStroke(Kind.CCW if edge.ccw else Kind.CW, edge.end, edge.center)
+
+
+Contour = list[Piece]
+
+
+def shifted(contour: Sequence[Piece], da: float, db: float) -> Contour:
+    """The contour moved."""
+
+    def move(point: Point) -> Point:
+        return (point[0] + da, point[1] + db)
+
+    return [_mapped(piece, move, piece.edge.ccw) for piece in contour]
+
+
+def swapped(contour: Sequence[Piece]) -> Contour:
+    """The contour with its two coordinates exchanged; arcs turn the other way then."""
+    return [_mapped(piece, lambda p: (p[1], p[0]), not piece.edge.ccw) for piece in contour]
+
+
+def swapped_stroke(stroke: PlaneStroke) -> PlaneStroke:
+    """A stroke with its two coordinates exchanged."""
+    kind = {Kind.CW: Kind.CCW, Kind.CCW: Kind.CW}.get(stroke.kind, stroke.kind)
+    center = None if stroke.center is None else (stroke.center[1], stroke.center[0])
+    return replace(stroke, kind=kind, end=(stroke.end[1], stroke.end[0]), center=center)
+
+
+def _mapped(piece: Piece, move: object, ccw: bool) -> Piece:
+    edge = piece.edge
+    start, end = move(edge.start), move(edge.end)  # type: ignore[operator]
+    if edge.center is None:
+        return Piece(offset.line(start, end), piece.is_rapid)
+    return Piece(offset.arc(start, end, move(edge.center), ccw), piece.is_rapid)  # type: ignore[operator]
+
+
+def reversal(contour: Sequence[Piece], axis: int, direction: float) -> float:
+    """How far the contour runs back against a direction along one of its coordinates, mm."""
+    worst = 0.0
+    reached = contour[0].edge.start[axis] * direction if contour else 0.0
+    for piece in contour:
+        for value in (point[axis] for point in points(piece.edge)):
+            worst = max(worst, reached - value * direction)
+            reached = max(reached, value * direction)
+    return worst
+
+
+def points(edge: Edge) -> list[Point]:
+    """Start, turning points of an arc, and end of an edge, in the order of travel."""
+    if edge.center is None:
+        return [edge.start, edge.end]
+    center = edge.center
+    radius = arcs.radius_of(center, edge.end)
+    turning = [
+        (center[0] + da * radius, center[1] + db * radius) for da, db in ((1, 0), (0, 1), (-1, 0), (0, -1))
+    ]
+    inside = [p for p in turning if arcs.contains_direction(edge.start, edge.end, center, edge.ccw, p)]
+    inside.sort(key=lambda p: abs(arcs.sweep_angle(edge.start, p, center, edge.ccw)) % arcs.TAU)
+    return [edge.start, *inside, edge.end]
+
+
+def crossings(edge: Edge, level: float) -> list[Point]:
+    """Points of an edge at a level of `b`, in the order of travel; a run along the level gives none."""
+    if edge.center is None:
+        (a0, b0), (a1, b1) = edge.start, edge.end
+        if abs(b1 - b0) <= _SAME or not min(b0, b1) - _SAME <= level <= max(b0, b1) + _SAME:
+            return []
+        part = min(max((level - b0) / (b1 - b0), 0.0), 1.0)
+        return [(a0 + part * (a1 - a0), level)]
+    radius = arcs.radius_of(edge.center, edge.start)
+    height = level - edge.center[1]
+    if abs(height) > radius + _SAME:
+        return []
+    half = sqrt(max(radius * radius - height * height, 0.0))
+    points = [(edge.center[0] + sign * half, level) for sign in (1.0, -1.0)]
+    inside = [
+        point for point in points if arcs.contains_direction(edge.start, edge.end, edge.center, edge.ccw, point, 1e-9)
+    ]
+    return sorted(inside, key=lambda p: abs(arcs.sweep_angle(edge.start, p, edge.center or p, edge.ccw)) % arcs.TAU)
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """Where a level lies free above the contour, between two points of it.
+
+    Attributes:
+        start: `a` at which it begins, seen in the contour's direction.
+        end: `a` at which the contour comes up to the level again, or ends.
+        piece: Number of the piece that ends it; the number of pieces where the contour ends first.
+    """
+
+    start: float
+    end: float
+    piece: int
+
+
+def gaps(contour: Sequence[Piece], level: float, towards: float) -> list[Gap]:
+    """The gaps of a level; `towards` is the direction of infeed (1 or -1): the contour is deeper than the level there."""
+    result: list[Gap] = []
+    opened: float | None = None
+    for number, piece in enumerate(contour):
+        for part in _split(piece.edge, level):
+            deeper = towards * (_middle(part)[1] - level) > _SAME
+            if deeper and opened is None:
+                opened = part.start[0]
+            elif not deeper and opened is not None and towards * (_middle(part)[1] - level) < -_SAME:
+                result.append(Gap(opened, part.start[0], number))
+                opened = None
+    if opened is not None:
+        result.append(Gap(opened, contour[-1].edge.end[0], len(contour)))
+    return result
+
+
+def _split(edge: Edge, level: float) -> Iterator[Edge]:
+    """The parts of an edge between its crossings of a level."""
+    last = edge.start
+    for point in [*crossings(edge, level), edge.end]:
+        if abs(point[0] - last[0]) + abs(point[1] - last[1]) > _SAME:
+            yield _between(edge, last, point)
+            last = point
+
+
+def _between(edge: Edge, start: Point, end: Point) -> Edge:
+    if edge.center is None:
+        return offset.line(start, end)
+    return offset.arc(start, end, edge.center, edge.ccw)
+
+
+def _middle(edge: Edge) -> Point:
+    if edge.center is None:
+        return (0.5 * (edge.start[0] + edge.end[0]), 0.5 * (edge.start[1] + edge.end[1]))
+    return arcs.point_on_arc(edge.start, edge.end, edge.center, edge.ccw, 0.5)
+
+
+def climb(contour: Sequence[Piece], gap: Gap, level: float, until: float, towards: float) -> Contour:
+    """The contour from the end of a gap up to a higher level, or to where it turns down again or ends."""
+    path: Contour = []
+    at: Point = (gap.end, level)
+    for piece in contour[gap.piece :]:
+        for part in _split(piece.edge, until):
+            if part.end == at or _is_before(part, at):
+                continue
+            start = at if not path else part.start
+            rising = towards * (part.end[1] - start[1]) < -_SAME
+            if not rising or towards * (_middle(part)[1] - until) < -_SAME:
+                return path
+            path.append(Piece(_between(piece.edge, start, part.end), piece.is_rapid))
+    return path
+
+
+def _is_before(part: Edge, at: Point) -> bool:
+    """Whether a part of an edge ends where the climb begins."""
+    return abs(part.end[0] - at[0]) + abs(part.end[1] - at[1]) <= _SAME
