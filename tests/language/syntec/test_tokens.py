@@ -59,3 +59,9 @@ def test_a_text_may_hold_any_character() -> None:
 
 def test_a_comment_without_end_is_a_fault() -> None:
     assert tokenize(["G1 (* X"], macro=True)[2].kind == "fault"
+
+
+def test_long_lines_that_are_no_plain_block_are_read_in_passing() -> None:
+    line = "X123456 Y123456 " * 100 + "("
+    for macro in (True, False):
+        assert len(tokenize([line], macro=macro)) > 400

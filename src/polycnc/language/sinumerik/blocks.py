@@ -175,6 +175,7 @@ class BlockCompiler(ExpressionReader):
     def procedure(self, token: Token, letters: str) -> None:
         """A predefined procedure; its name has been read."""
         arguments = self.scope.arguments(self, token, letters)
+        self.emitter.knows_place = True
         self.emitter.line(f"channel.control.procedure(channel, {token.text!r}, {arguments}, {token.column})")
 
     def text(self) -> str:

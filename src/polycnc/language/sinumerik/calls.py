@@ -71,7 +71,7 @@ def call_program(
         raise AlarmError("12100", text=str(passes))
     count_levels(channel)
     header = _header(channel, program)
-    saved = channel.control.save(channel) if "SAVE" in header.attributes else None  # type: ignore[attr-defined]
+    saved = channel.control.save(channel) if "SAVE" in header.attributes else None
     caller = channel.level
     level = channel.push(program, kind=kind, repeats=passes - 1, local=list(args))
     level.data["given"] = given
@@ -250,6 +250,7 @@ def modal_call(compiler: BlockCompiler) -> None:
         code = f"modal_program({compiler.emitter.object(program)}, {args}, {given})"
     elif token.text in keywords.CYCLES:
         arguments = compiler.scope.arguments(compiler, token, "*")
+        compiler.emitter.knows_place = True
         code = f"modal_cycle({token.text!r}, {arguments}, {token.column})"
     else:
         raise NcSyntaxError("14011", token.column, token.text)
@@ -265,7 +266,7 @@ def modal_program(
 
 def modal_cycle(name: str, args: tuple[Any, ...], column: int) -> Callable[[Channel], None]:
     """A modal call of a cycle of the control."""
-    return lambda channel: channel.control.procedure(channel, name, args, column)  # type: ignore[attr-defined]
+    return lambda channel: channel.control.procedure(channel, name, args, column)
 
 
 def call_modal(channel: Channel) -> None:
@@ -284,7 +285,7 @@ def external_call(compiler: BlockCompiler) -> None:
 def call_external(channel: Channel, name: str) -> None:
     """Run a program of the external memory, else of the user memory; alarm 14011 for neither."""
     control = channel.control
-    setting = control.system_variable("$SC_EXT_PROG_PATH").read(channel, ())  # type: ignore[attr-defined]
+    setting = control.system_variable("$SC_EXT_PROG_PATH").read(channel, ())
     program = channel.store.find_external(name, str(setting)) or find_program(channel, name)
     if program is None:
         raise AlarmError("14011", text=name)

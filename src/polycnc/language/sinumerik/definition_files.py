@@ -19,7 +19,7 @@ def load_definitions(channel: Channel) -> None:
     from polycnc.language.sinumerik.executable import SinumerikProgram
 
     for program in channel.store.programs_in(DEF_DIR):
-        code = SinumerikProgram(program, channel.control, definitions=True)  # type: ignore[arg-type]
+        code = SinumerikProgram(program, channel.control, definitions=True)
         try:
             _run(code, channel)
         except AlarmError as error:

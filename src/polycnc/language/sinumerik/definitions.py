@@ -123,18 +123,23 @@ def _string_length(compiler: BlockCompiler, channel: Channel) -> int:
 def define_variables(compiler: BlockCompiler) -> None:
     """DEF: attributes, then names with sizes and first values (1.1.5)."""
     start = compiler.take()
+    compiler.emitter.knows_place = True
     if not compiler.program.in_definitions(compiler.index):
         raise NcSyntaxError("14500", start.column, "DEF")
     attributes = _attributes(compiler)
     if attributes.type is None:
         raise compiler.error()
+    names: set[str] = set()
     while True:
-        _define_one(compiler, attributes, attributes.type)
+        name = _define_one(compiler, attributes, attributes.type)
+        if name.text in names:
+            raise NcSyntaxError("12170", name.column, name.text)
+        names.add(name.text)
         if not compiler.accept(","):
             return
 
 
-def _define_one(compiler: BlockCompiler, attributes: _Attributes, type_: Type) -> None:
+def _define_one(compiler: BlockCompiler, attributes: _Attributes, type_: Type) -> Token:
     token = compiler.take()
     _check_name(token, compiler)
     limits = type_ in (Type.INT, Type.REAL, Type.CHAR)
@@ -164,6 +169,7 @@ def _define_one(compiler: BlockCompiler, attributes: _Attributes, type_: Type) -
         _store(compiler, variable, _checked(compiler, variable, compiler.assigned(type_)))
     else:
         _store(compiler, variable, compiler.emitter.object(_first_value(variable, compiler.scope)))
+    return token
 
 
 def _check_name(token: Token, compiler: BlockCompiler) -> None:
@@ -251,6 +257,7 @@ def _first_array(compiler: BlockCompiler, variable: Variable) -> None:
 def redefine(compiler: BlockCompiler) -> None:
     """REDEF: one attribute of a GUD, or of what belongs to the control (1.1.6)."""
     compiler.take()
+    compiler.emitter.knows_place = True
     token = compiler.take()
     variable = compiler.scope.memory.global_variables.get(token.text)
     if variable is None:

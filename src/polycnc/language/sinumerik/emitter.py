@@ -44,6 +44,7 @@ class Emitter:
         self.uses_locals = False
         self.uses_main = False
         self.uses_stop = False
+        self.knows_place = False  # the code holds step numbers or columns: it is good for this block only
         self._temporaries = 0
         self.indent = 0
 

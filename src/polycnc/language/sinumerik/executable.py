@@ -97,6 +97,7 @@ class SinumerikProgram:
         """Compile every block anew: names may mean other programs now."""
         self.steps[:] = [None] * len(self._lines)
         self._texts.clear()
+        self.forget_shapes()
 
     def forget_shapes(self) -> None:
         """A macro has been defined: equal texts may mean other blocks now."""

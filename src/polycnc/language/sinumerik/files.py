@@ -81,7 +81,7 @@ def write(channel: Channel, name: str, text: str) -> None:
         program = Program(stored, (), directory=directory, form=Form.SINUMERIK)
     _need_idle(channel, program)
     written = replace(program, lines=(*program.lines, text))
-    limit = channel.control.system_variable("$MN_LEN_PROTOCOL_FILE").read(channel, ())  # type: ignore[attr-defined]
+    limit = channel.control.system_variable("$MN_LEN_PROTOCOL_FILE").read(channel, ())
     if limit and size_of(written) > limit * 1024:
         raise FileError(FULL)
     channel.store.replace(written)

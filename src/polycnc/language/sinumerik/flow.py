@@ -70,7 +70,7 @@ def jump_to(channel: Channel, program: SinumerikProgram, word: str, target: str)
 def restart(compiler: BlockCompiler) -> None:
     """GOTOS: back to the program start behind its definitions, if the PLC wants it (1.10.1)."""
     compiler.take()
-    compiler.emitter.uses_stop = True
+    compiler.emitter.uses_stop = compiler.emitter.knows_place = True
     index = compiler.program.first_statement
     compiler.emitter.line(f"if channel.control.restarts(channel): channel.level.index = {index}")
 
@@ -113,6 +113,7 @@ def branch(compiler: BlockCompiler) -> None:
 
 def _structure(compiler: BlockCompiler, word: Token) -> Structure:
     """The structure of the block; 12630 if the block has a label or can be skipped."""
+    compiler.emitter.knows_place = True
     if compiler.marked:
         raise NcSyntaxError("12630", word.column, word.text)
     return compiler.program.structure(compiler.index, word)

@@ -164,6 +164,7 @@ class WordReader:
                 name = repr(part.text)
             else:
                 raise compiler.error(part)
+        compiler.emitter.knows_place = True
         arguments = f"({number}, {priority}, {name}, {flags['LIFTFAST']}, {flags['BLSYNC']})"
         compiler.emitter.line(f"channel.control.procedure(channel, 'SETINT', {arguments}, {token.column})")
 

@@ -151,6 +151,7 @@ class Scope:
             function = functions.get(token.text)
             if function is not None:
                 arguments = self.arguments(reader, token, function.arguments)
+                reader.emitter.knows_place = True
                 call = caller.format(name=repr(token.text), arguments=arguments, column=token.column)
                 return Expr(call, function.result)
         if is_known(token.text, self.control):

@@ -72,7 +72,7 @@ def leave(channel: Channel) -> None:
     """End the running level; a subprogram with SAVE brings back the modal functions of its call."""
     level = channel.pop()
     if level.kind != "repeat" and "saved" in level.data:
-        channel.control.restore(channel, level.data["saved"])  # type: ignore[attr-defined]
+        channel.control.restore(channel, level.data["saved"])
 
 
 def end_of_subprogram(channel: Channel) -> None:

@@ -51,7 +51,7 @@ class Shapes:
     def learn(self, line: str, emitter: Emitter) -> None:
         """Remember the shape of a block that was compiled, if its numbers are those of the pattern."""
         parts = _parts(line)
-        if parts is None or len(self._known) >= _KEEP:
+        if parts is None or emitter.knows_place or len(self._known) >= _KEEP:
             return
         start = _start(line)
         end = line.find(";")

@@ -7,6 +7,7 @@ decimal point, a Double as with one; a VACANT word counts as not written. See `l
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 from polycnc.language.syntec.expressions import ARITHMETIC_RANK, BINARY, Reader, evaluator
@@ -27,6 +28,7 @@ WRONG_SUFFIX = "COR-034"
 #: Letters that may follow a comma: chamfer, rounding, angle.
 SUFFIXES = "CRA"
 MAX_DIGITS = 18
+_WORD = re.compile(r"([A-Z])([-+]?)([\d.]+)")
 #: How a word counts as written when its value is of a type; see `language.word_address.words`.
 FORMS: dict[type, str] = {int: "", float: ".", Text: '"'}
 
@@ -74,6 +76,25 @@ def code_of(letter: str, value: Any) -> str:
 
 class BlockReader(Reader):
     """A reader that knows words."""
+
+    def plain_block(self, token: Token) -> tuple[int | None, WordBlock]:
+        """N number and words of a block that holds nothing but numbers."""
+        sequence: int | None = None
+        signature: list[str] = []
+        values: list[float] = []
+        for letter, sign, number in _WORD.findall(token.text.upper()):
+            if len(number) > MAX_DIGITS or (sign and letter in "GMN"):
+                raise fault(token)
+            if letter == "N" and not signature:
+                if not number.isdigit():
+                    raise fault(token)
+                sequence = int(number)
+            elif letter in "GM":
+                signature.append(code_key(letter, number))
+            else:
+                signature.append(word_key(letter, number))
+                values.append(float(sign + number))
+        return sequence, WordBlock(tuple(signature), values)
 
     def block(self) -> Step:
         """The words up to the end of the block, which stays unread."""

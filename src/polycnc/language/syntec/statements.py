@@ -96,6 +96,10 @@ class StatementReader(BlockReader):
 
     def _statement(self) -> None:
         token = self.next
+        if token.kind == "plain":
+            self.take()
+            self._plain(token)
+            return
         if self.accept(";"):
             if not self.macro:
                 self.layout.emit(WordBlock((), []), token.line)
@@ -110,6 +114,12 @@ class StatementReader(BlockReader):
             self._close(token)
         else:
             self._unlabelled(self.next)
+
+    def _plain(self, token: Token) -> None:
+        sequence, block = self.plain_block(token)
+        if sequence is not None:
+            self.layout.sequences.setdefault(sequence, len(self.layout.steps))
+        self.layout.emit(block, token.line)
 
     def _skipped_statement(self, levels: int, line: int) -> None:
         """A statement behind `/`; block statements cannot be skipped."""

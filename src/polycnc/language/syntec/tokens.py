@@ -41,8 +41,11 @@ _NAMES = sorted(
     key=len,
     reverse=True,
 )
+#: A whole statement in one line that is nothing but words with numbers; most lines of long programs are.
+_PLAIN = r"(?:(?<=\n)|\A)[ \t]*(?:[A-Z][-+]?(?:\d+(?:\.\d*)?|\.\d+)[ \t]*)+;[ \t]*(?=\n|\Z)"
 _PATTERN = r"""
     (?P<newline>\n)
+  | (?P<plain>{plain})
   | (?P<space>[ \t\f\v]+)
   | (?P<comment>//[^\n]*|{comment})
   | (?P<open>{unclosed})
@@ -56,11 +59,11 @@ _PATTERN = r"""
 """
 _names = "|".join(_NAMES)
 _MACRO = re.compile(
-    _PATTERN.format(comment=r"\(\*.*?\*\)", unclosed=r"\(\*", names=_names),
+    _PATTERN.format(comment=r"\(\*.*?\*\)", unclosed=r"\(\*", names=_names, plain=_PLAIN),
     re.VERBOSE | re.IGNORECASE | re.DOTALL,
 )
 _ISO = re.compile(
-    _PATTERN.format(comment=r"\([^)\n]*\)", unclosed=r"\(", names=_names),
+    _PATTERN.format(comment=r"\([^)\n]*\)", unclosed=r"\(", names=_names, plain="(?!)"),
     re.VERBOSE | re.IGNORECASE | re.DOTALL,
 )
 _QUIET = frozenset({"space", "comment"})
@@ -70,7 +73,8 @@ class Token(NamedTuple):
     """One token.
 
     Attributes:
-        kind: `number`, `text`, `name`, `letter`, `symbol`, `fault` or, behind the last one, `end`.
+        kind: `number`, `text`, `name`, `letter`, `symbol`, `fault`, a `plain` block of words, or, behind the
+            last one, `end`.
         text: As typed; names and letters in upper case.
         line: Line of the file, from 1.
         column: Column in the line, from 1.

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 
 #: Longer blocks are refused: no control stores one, and a damaged file must not fill the memory.
 MAX_BLOCK_LENGTH = 4096
-_PLAIN = re.compile(r"(?:[A-Z][-+]?(?:\d+\.?\d*|\.\d+)[ \t]*)+;?")
+#: A number can match in one way only, so a line that fails does so at once.
+_PLAIN = re.compile(r"(?:[A-Z][-+]?(?:\d+(?:\.\d*)?|\.\d+)[ \t]*)+;?")
 _WORD = re.compile(r"([A-Z])([-+]?)([\d.]+)")
 _COMMENT = re.compile(r"\([^)]*\)?")
 _SEQUENCE = re.compile(r"^[ \t]*(?:/\d?[ \t]*)*N[ \t]*0*(\d+)")
