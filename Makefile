@@ -3,6 +3,7 @@
 PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
+CONTROLS := syntec-mill fanuc-m meldas-m sinumerik-840d fanuc-0i-tf
 
 .PHONY: help demo test check bench features clean
 
@@ -20,11 +21,15 @@ $(VENV)/.installed-%: pyproject.toml
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.$(if $(filter-out plain,$*),[$*])'
 	touch $@
 
+# The name of an example begins with its control; a setup lies beside it.
 demo: $(VENV)/.installed-plain
-	@for program in examples/*/*.*; do \
-	  case "$$program" in *.md|*.yaml|*.toml) continue;; esac; \
-	  echo "== $$program"; \
-	  $(BIN)/polycnc run "$$program" --control "$$(basename "$$(dirname "$$program")")" || exit $$?; \
+	@for control in $(CONTROLS); do \
+	  for program in examples/$$control-*.nc examples/$$control-*.mpf; do \
+	    test -f "$$program" || continue; \
+	    setup="$${program%.*}.setup.yaml"; \
+	    echo "== $$program"; \
+	    $(BIN)/polycnc run "$$program" --control $$control $$(test -f "$$setup" && echo --setup "$$setup") || exit $$?; \
+	  done; \
 	done
 
 test: $(VENV)/.installed-test

@@ -37,6 +37,7 @@ def test_an_alarm_is_explained_however_its_code_is_written(console: Console) -> 
         said = console("alarms", code, *FANUC)
         assert said.status == 0
         assert said.out.startswith("fanuc-m PS0010 ")
+        assert "  remedy: " in said.out
 
 
 def test_all_alarms_of_a_control_are_listed(console: Console) -> None:

@@ -38,19 +38,15 @@ def alarms(
 
 
 def _lines(control: str, code: str | None) -> Iterator[str]:
-    """All alarms of a control, or one with its cause and remedy."""
+    """All alarms of a control, or one with its remedy."""
     from polycnc.cases.compare import alarm_key
+    from polycnc.cli.diagnostics import remedy_of
     from polycnc.control import registry
-    from polycnc.messages.catalogue import language
 
     catalogue = registry.control(control).catalogue
     for known in catalogue:
         if code is not None and alarm_key(control, known) != alarm_key(control, code):
             continue
         yield f"{control} {known} {catalogue.text(known)}" if code else f"{known:10} {catalogue.text(known)}"
-        if code is not None:
-            entry = catalogue.entry(known)
-            for part in ("cause", "remedy"):
-                explained = entry.get(f"{part}-{language()}")
-                if explained:
-                    yield f"  {text(f'alarms.{part}')}: {explained}"
+        if code is not None and (remedy := remedy_of(catalogue.entry(known))):
+            yield f"  {text('alarms.remedy')}: {remedy}"

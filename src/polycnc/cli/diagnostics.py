@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Literal
 from xml.etree import ElementTree
 
 from polycnc.messages import text
+from polycnc.messages.catalogue import language
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from polycnc.messages import Alarm
     from polycnc.session import Result
@@ -43,7 +44,6 @@ class Diagnostic:
         source: Text of the line.
         calls: The calls that led there, outermost first.
         summary: What the rule is about, without the values of this case.
-        cause: Why such an alarm comes, where the control's catalogue tells it.
         remedy: What to do about it, where the catalogue tells it.
     """
 
@@ -55,7 +55,6 @@ class Diagnostic:
     source: str = ""
     calls: tuple[Place, ...] = ()
     summary: str = ""
-    cause: str = ""
     remedy: str = ""
 
     def __str__(self) -> str:
@@ -83,9 +82,8 @@ def _of_alarm(result: Result, alarm: Alarm, main: str) -> Diagnostic:
         rule=f"{alarm.control.partition('-')[0]}/{alarm.code}",
         source=source,
         calls=calls,
-        summary=_in_language(entry, ""),
-        cause=_in_language(entry, "cause"),
-        remedy=_in_language(entry, "remedy"),
+        summary=entry.get(language(), ""),
+        remedy=remedy_of(entry),
     )
 
 
@@ -94,12 +92,9 @@ def _shown_file(file: str, result: Result, main: str) -> str:
     return main if not file or file == result.program.path else file
 
 
-def _in_language(entry: dict[str, str], part: str) -> str:
-    from polycnc.messages.catalogue import language
-
-    return entry.get(
-        "-".join(filter(None, (part, language()))), entry.get("-".join(filter(None, (part, "en"))), "")
-    )
+def remedy_of(entry: Mapping[str, str]) -> str:
+    """What to do about an alarm, in the language of the run; empty where the catalogue does not tell."""
+    return entry.get("remedy" if language() == "en" else f"remedy-{language()}", "")
 
 
 def _of_files(result: Result, main: str) -> Iterable[Diagnostic]:

@@ -47,12 +47,12 @@ def as_sarif(found: Sequence[Diagnostic], exit_code: int) -> str:
 
 def _rule(diagnostic: Diagnostic) -> dict[str, Any]:
     summary = diagnostic.summary or diagnostic.message
-    more = " ".join(filter(None, (diagnostic.cause, diagnostic.remedy))) or summary
+    more = diagnostic.remedy or summary
     return {
         "id": diagnostic.rule,
         "name": diagnostic.code,
         "shortDescription": {"text": summary},
-        "fullDescription": {"text": diagnostic.cause or summary},
+        "fullDescription": {"text": summary},
         "help": {"text": more, "markdown": more},
         "defaultConfiguration": {"level": diagnostic.severity},
         "properties": {"tags": ["cnc", diagnostic.rule.partition("/")[0]]},
