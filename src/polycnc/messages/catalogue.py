@@ -36,15 +36,21 @@ def language_of_environment() -> str:
 
 
 class Catalogue:
-    """One table of texts. Missing ids are a mistake in polycnc, never in a program: they raise `KeyError`."""
+    """One table of texts. Missing ids are a mistake in polycnc, never in a program: they raise `KeyError`.
 
-    def __init__(self, source: Traversable) -> None:
-        self._source = source
+    Args:
+        sources: TOML files; of an id in several of them the last one counts.
+    """
+
+    def __init__(self, *sources: Traversable) -> None:
+        self._sources = sources
         self._entries: dict[str, dict[str, str]] | None = None
 
     def _load(self) -> dict[str, dict[str, str]]:
         if self._entries is None:
-            self._entries = tomllib.loads(self._source.read_text(encoding="utf-8"))
+            self._entries = {}
+            for source in self._sources:
+                self._entries |= tomllib.loads(source.read_text(encoding="utf-8"))
         return self._entries
 
     def __contains__(self, key: str) -> bool:

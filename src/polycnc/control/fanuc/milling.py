@@ -27,7 +27,7 @@ class FanucMilling(MillingControl):
     """FANUC 0i-M / 18M class with custom macro B."""
 
     id: ClassVar[str] = "fanuc-m"
-    alarm_package: ClassVar[str] = "polycnc.control.fanuc"
+    alarm_files: ClassVar[tuple[str, ...]] = ("fanuc/alarms.toml", "fanuc/milling_alarms.toml")
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES

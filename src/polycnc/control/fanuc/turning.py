@@ -40,7 +40,7 @@ class FanucTurning(CustomMacroControl):
     """FANUC 0i-TF Plus: G code systems A, B and C, diameters, turning cycles, tool offsets by T."""
 
     id: ClassVar[str] = "fanuc-0i-tf"
-    alarm_package: ClassVar[str] = "polycnc.control.fanuc"
+    alarm_files: ClassVar[tuple[str, ...]] = ("fanuc/alarms.toml",)
     default_machine: ClassVar[str] = "lathe2"
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES

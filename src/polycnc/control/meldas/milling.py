@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from polycnc.control.fanuc.alarm_codes import ALARMS
 from polycnc.control.fanuc.milling_codes import ADDRESSES, M_CODES, POWER_ON
 from polycnc.control.fanuc.system_variables import MILLING_VARIABLES
+from polycnc.control.meldas.alarm_codes import ALARMS
+from polycnc.control.meldas.code_calls import registered_codes
 from polycnc.control.meldas.cycles import DRILLING
 from polycnc.control.meldas.milling_codes import G_CODES
 from polycnc.control.word_address.milling import MillingControl
@@ -16,21 +17,34 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.code_calls import CodeCalls
     from polycnc.control.word_address.codes import GCode, MCode, Planner
     from polycnc.control.word_address.drilling import Drilling
+    from polycnc.control.word_address.words import Words
 
 
 class MeldasMilling(MillingControl):
     """MELDAS M64, M70, M500, M720 class."""
 
     id: ClassVar[str] = "meldas-m"
-    alarm_package: ClassVar[str] = "polycnc.control.fanuc"
+    alarm_files: ClassVar[tuple[str, ...]] = ("fanuc/alarms.toml", "meldas/alarms.toml")
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     drilling: ClassVar[Drilling] = DRILLING
+    REFERENCE_PARAMETERS: ClassVar[dict[int, int]] = {1: 2037, 2: 2038, 3: 2039, 4: 2040}
+    ARC_TOLERANCE_PARAMETER: ClassVar[tuple[int, float]] = (1084, 0.1)
+    OVERRUN_PARAMETER: ClassVar[int] = 8209
+
+    def code_calls(self, channel: Channel) -> CodeCalls:
+        """Codes registered by #7001 to #7303."""
+        return registered_codes(channel)
+
+    def measuring(self, channel: Channel, words: Words) -> tuple[float, float, float]:
+        """G37: R way before the target at feed, D allowed difference, F feed."""
+        return words.length("R") or 0.0, words.length("D") or 0.0, channel.feed
 
     def make_memory(self, channel: Channel) -> MacroMemory:
         """Offsets, tools and variables."""

@@ -3,12 +3,42 @@
 from __future__ import annotations
 
 from polycnc.control.fanuc.milling_codes import G_CODES as FANUC_G_CODES
-from polycnc.control.word_address.codes import not_yet, table
+from polycnc.control.fanuc.milling_codes import moves
+from polycnc.control.word_address import (
+    circle_cutting,
+    coordinates,
+    extended,
+    hole_patterns,
+    skip,
+    tool_measuring,
+)
+from polycnc.control.word_address.codes import GCode, not_yet, table
+
+#: Codes of FANUC that the manual's table does not have.
+FOREIGN = frozenset({
+    "G5.4", "G10.9", "G25", "G26", "G43.5", "G53.6", "G54.2", "G54.4", "G68.3", "G68.4", "G84.2", "G84.3",
+    "G107", "G112", "G113",
+})  # fmt: skip
 
 G_CODES = table(
-    tuple(FANUC_G_CODES.values()),
-    not_yet(
-        "G2.1", "G3.1", "G6.2", "G7", "G7.1", "G12", "G13", "G31.1", "G31.2", "G31.3", "G33", "G34", "G35", "G36",
-        "G37", "G37.1", "G38", "G39", "G40.1", "G41.1", "G42.1", "G45", "G46", "G47", "G48", "G60", "G61.1",
-    ),
-)  # fmt: skip
+    tuple(row for code, row in FANUC_G_CODES.items() if code not in FOREIGN),
+    moves("G2.1", circle_cutting.spiral_cw, "I J K P"),
+    moves("G3.1", circle_cutting.spiral_ccw, "I J K P"),
+    GCode("G5", handler=extended.high_speed_mode, takes="P"),
+    moves("G12", circle_cutting.cut_circle_cw, "I D"),
+    moves("G13", circle_cutting.cut_circle_ccw, "I D"),
+    moves("G28", coordinates.return_to_reference),
+    moves("G29", coordinates.return_from_reference),
+    moves("G27", coordinates.check_reference),
+    moves("G30", coordinates.return_to_further_reference, "P"),
+    moves("G31.1", skip.skip_move),
+    moves("G31.2", skip.skip_move),
+    moves("G31.3", skip.skip_move),
+    moves("G34", hole_patterns.circle_of_holes, "I J K"),
+    moves("G35", hole_patterns.line_of_holes, "I J K"),
+    moves("G36", hole_patterns.arc_of_holes, "I J P K"),
+    moves("G37", tool_measuring.measure_length, "R D"),
+    moves("G37.1", hole_patterns.grid_of_holes, "I J P K"),
+    GCode("G61.1", "path", coordinates.note_context),
+    not_yet("G7", "G70", "G71", "G72", "G75", "G77", "G78", "G79"),
+)

@@ -42,7 +42,7 @@ class SyntecMill(WordAddressControl):
     """SYNTEC milling controls of the 900M … 220MA-5 family."""
 
     id: ClassVar[str] = "syntec-mill"
-    alarm_package: ClassVar[str] = "polycnc.control.syntec"
+    alarm_files: ClassVar[tuple[str, ...]] = ("syntec/alarms.toml",)
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES

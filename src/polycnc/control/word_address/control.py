@@ -34,7 +34,7 @@ class WordAddressControl:
 
     Attributes:
         id: Control id.
-        alarm_package: Package whose `alarms.toml` holds the alarm texts.
+        alarm_files: Files with the alarm texts, as `folder/file`; of two texts for a number the later counts.
         form: How program files are marked off.
         default_machine: Built-in machine of a run that names none.
         g_codes: The G table.
@@ -50,7 +50,7 @@ class WordAddressControl:
     """
 
     id: ClassVar[str] = ""
-    alarm_package: ClassVar[str] = ""
+    alarm_files: ClassVar[tuple[str, ...]] = ()
     g_codes: ClassVar[Mapping[str, GCode]] = {}
     m_codes: ClassVar[Mapping[int, MCode]] = {}
     addresses: ClassVar[Mapping[str, Planner]] = {}
@@ -70,7 +70,8 @@ class WordAddressControl:
     @cached_property
     def catalogue(self) -> Catalogue:
         """Texts of the control's alarms."""
-        return Catalogue(resources.files(self.alarm_package).joinpath("alarms.toml"))
+        files = [file.split("/") for file in self.alarm_files]
+        return Catalogue(*(resources.files(f"polycnc.control.{folder}").joinpath(name) for folder, name in files))
 
     def fail(self, mistake: str, **where: Any) -> AlarmError:
         """The control's alarm for a named mistake."""
