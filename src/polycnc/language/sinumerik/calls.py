@@ -150,7 +150,7 @@ def _arguments(compiler: BlockCompiler, name: Token, program: Program) -> tuple[
 def _left_out(compiler: BlockCompiler, header: Header, place: int, name: Token) -> str:
     value = header.first_values[place]
     if value is None:
-        raise NcSyntaxError("14010", name.column, name.text)
+        raise NcSyntaxError("14010", name.column, header.parameters[place].name)
     return compiler.emitter.object(value) if header.parameters[place].type is Type.FRAME else repr(value)
 
 

@@ -39,14 +39,14 @@ def _given(channel: Channel, indices: tuple[Any, ...]) -> bool:
     """Whether a parameter of the call was written; they count from 1."""
     given = channel.level.data.get("given", ())
     if len(indices) != 1 or not 1 <= indices[0] <= len(given):
-        raise AlarmError("17020", text="$P_SUBPAR")
+        raise AlarmError("17020", text="$P_SUBPAR", index=", ".join(map(str, indices)))
     return bool(given[indices[0] - 1])
 
 
 def _level(channel: Channel, indices: tuple[Any, ...]) -> Level:
     number = indices[0] if indices else len(channel.stack) - 1
     if not 0 <= number < len(channel.stack):
-        raise AlarmError("17020", text="$P_PROG")
+        raise AlarmError("17020", text="$P_PROG", index=number)
     return channel.stack[number]
 
 

@@ -39,10 +39,10 @@ def _stored(reader: ExpressionReader, variable: Variable, code: str) -> str:
     return code if variable.is_plain else f"{reader.emitter.object(variable)}.checked({code})"
 
 
-def checked_index(reader: ExpressionReader, code: str, size: str, dimension: int) -> str:
+def checked_index(reader: ExpressionReader, code: str, size: str, name: str, dimension: int = 1) -> str:
     """Code of an index that must be within a dimension."""
     first, again = reader.emitter.twice(code)
-    return f"({again} if 0 <= {first} < {size} else out_of_range({dimension}, {again}))"
+    return f"({again} if 0 <= {first} < {size} else out_of_range({name!r}, {dimension}, {again}))"
 
 
 class SinglePlace:
@@ -99,7 +99,7 @@ class ElementPlace:
             if dimension:
                 reader.expect(",")
             extent = str(size) if size else f"{array}.dims[{dimension}]"
-            index = checked_index(reader, reader.value(Type.INT), extent, dimension + 1)
+            index = checked_index(reader, reader.value(Type.INT), extent, variable.name, dimension + 1)
             offset = f"{offset} * {extent} + {index}" if offset else index
             if dimension + 1 < len(variable.dims):
                 offset = f"({offset})" if dimension else offset
@@ -243,7 +243,7 @@ class RPlace:
         index = reader.value(Type.INT)
         reader.expect("]")
         values = reader.scope.memory.r
-        return cls(reader.emitter.object(values), checked_index(reader, index, str(len(values)), 1))
+        return cls(reader.emitter.object(values), checked_index(reader, index, str(len(values)), "R"))
 
     def read(self, reader: ExpressionReader) -> Expr:  # noqa: ARG002
         """Code of the parameter."""

@@ -182,14 +182,14 @@ def part_of(text: str, start: int, count: int | None = None) -> str:
 def char_at(text: str, index: int) -> int:
     """One character of a string as CHAR; alarm 17020 outside the string."""
     if not 0 <= index < len(text):
-        raise AlarmError("17020", text=str(index))
+        raise AlarmError("17020", text=text, index=index)
     return ord(text[index])
 
 
 def with_char(text: str, index: int, code: int) -> str:
     """The string after one character was written; a code of 0 ends it there (1.9)."""
     if not 0 <= index < len(text):
-        raise AlarmError("17020", text=str(index))
+        raise AlarmError("17020", text=text, index=index)
     return text[:index] if code == 0 else text[:index] + chr(code) + text[index + 1 :]
 
 
@@ -212,9 +212,9 @@ def limited(value: Any, low: float | None, high: float | None, name: str) -> Any
     return value
 
 
-def out_of_range(dimension: int, index: int) -> int:
+def out_of_range(name: str, dimension: int, index: int) -> int:
     """Alarm 17020, 17030 or 17035: an array has no element with this first, second or third index."""
-    raise AlarmError(("17020", "17030", "17035")[dimension - 1], text=str(index))
+    raise AlarmError(("17020", "17030", "17035")[dimension - 1], text=name, index=index)
 
 
 def set_elements(items: list[Any], start: int, values: Sequence[Any]) -> None:
