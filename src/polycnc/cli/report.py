@@ -35,7 +35,12 @@ class Happenings:
         """Look through a chunk."""
         if not any(event.type in _SHOWN for event in chunk.events):
             return
-        found = [record for record in self._display.records_of(chunk) if record["type"] in _SHOWN]
+        found = [
+            record
+            for record in self._display.records_of(chunk)
+            # A message without text only takes the last one away.
+            if record["type"] in _SHOWN and record.get("text") != ""
+        ]
         room = MOST_HAPPENINGS - len(self.records)
         self.records += found[:room]
         self.more += len(found[room:])
