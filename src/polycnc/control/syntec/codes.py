@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from polycnc.control.syntec import arcs, calls, cycles, length, motion, spindles
+from polycnc.control.syntec import arcs, calls, cycles, length, motion, smoothing, spindles
 from polycnc.control.syntec import coordinates as frames
 from polycnc.control.word_address import auxiliary, coordinates, path, radius
 from polycnc.control.word_address import extended as base_extended
@@ -20,7 +20,10 @@ G_CODES = table(
     GCode("G2.4", "motion", planner=arcs.plan_three_point_arc, ends="cycle"),
     GCode("G3.4", "motion", planner=arcs.plan_three_point_arc, ends="cycle"),
     GCode("G33", "motion", planner=motion.plan_thread, ends="cycle"),
-    GCode("G4", handler=frames.dwell, takes="X P", axis_words=True, order=MOTION),
+    GCode("G4", handler=frames.dwell, takes="X P Q", axis_words=True, order=MOTION),
+    GCode("G5", handler=smoothing.high_precision, takes="P E", axis_words=True),
+    GCode("G5.1", handler=smoothing.smooth_path, takes="Q E R"),
+    GCode("G10.9", handler=frames.switch_diameter, axis_words=True),
     GCode("G9", handler=base_extended.exact_stop_block),
     GCode("G10", handler=frames.input_data, takes="L P R", axis_words=True, order=MOTION),
     GCode("G15", "polar"),
@@ -34,9 +37,9 @@ G_CODES = table(
     GCode("G29", handler=coordinates.return_from_reference, axis_words=True, order=MOTION),
     GCode("G30", handler=frames.return_to_further_reference, takes="P", axis_words=True, order=MOTION),
     GCode("G31", handler=motion.skip_move, takes="P Q", axis_words=True, order=MOTION),
-    GCode("G40", "compensation", radius.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
-    GCode("G41", "compensation", radius.compensate_left, takes="D", order=Order.COMPENSATION),
-    GCode("G42", "compensation", radius.compensate_right, takes="D", order=Order.COMPENSATION),
+    GCode("G40", "compensation", cycles.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
+    GCode("G41", "compensation", cycles.compensate_left, takes="D", order=Order.COMPENSATION),
+    GCode("G42", "compensation", cycles.compensate_right, takes="D", order=Order.COMPENSATION),
     GCode("G43", "length", length.compensate_length, takes="H", order=Order.LENGTH),
     GCode("G44", "length", length.compensate_length, takes="H", order=Order.LENGTH),
     GCode("G49", "length", length.cancel_length, order=Order.LENGTH),
@@ -83,7 +86,7 @@ G_CODES = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G4.1", "G5", "G5.1", "G6.2", "G10.6", "G10.9", "G12.1", "G13.1", "G28.1", "G31.10", "G31.11", "G37",
+        "G4.1", "G6.2", "G10.6", "G12.1", "G13.1", "G28.1", "G31.10", "G31.11", "G37",
         "G37.2", "G37.3", "G40.1", "G41.1", "G42.1", "G41.2", "G42.2", "G41.6", "G42.6", "G43.4", "G43.5",
         "G50.2", "G51.2", "G52.1", "G52.2", "G53.1", "G53.3", "G53.6", "G54.4", "G68.2", "G68.3",
         "G80.2", "G81.1", "G81.2", "G84.48", "G113", "G114.1", "G114.3", "G120.1", "G121",

@@ -12,7 +12,7 @@ from polycnc.control.syntec.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.memory import SyntecMemory
-from polycnc.control.syntec.parameters import decimals, is_diameter, parameter
+from polycnc.control.syntec.parameters import decimals, parameter
 from polycnc.control.word_address import frames
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.numbers import NumberRules
@@ -189,8 +189,8 @@ class SyntecMill(WordAddressControl):
         return float(10.0 ** -(rules.decimals_inch if builder.inch else rules.decimals))
 
     def is_diameter(self, channel: Channel, axis: int) -> bool:
-        """Whether words of an axis are diameters (Pr281~)."""
-        return is_diameter(channel.setup.parameters, axis)
+        """Whether words of an axis are diameters (Pr281~, G10.9)."""
+        return bool(channel.memory.is_diameter(axis))
 
     def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
         """U, V, W are increments of X, Y, Z only with Pr3809 = 1."""

@@ -211,11 +211,27 @@ def rotate(channel: Channel, words: Words) -> None:
     c.set_programming(frames.product())
 
 
+def switch_diameter(channel: Channel, words: Words) -> None:
+    """G10.9 X0 Y1: axes programmed and shown in radius (0) or diameter (1); nothing moves (2.73)."""
+    named = words.plan.axis_words
+    if not named:
+        raise words.fail("diameter_switch", "G10.9")
+    for word in named:
+        value = words.values[word.slot]
+        if value not in (0, 1) or channel.axis_data[word.axis].rotary:
+            raise words.fail("diameter_switch", word.address)
+        channel.memory.diameters[word.axis] = value == 1
+    channel.modes.forget_plans()
+    channel.context_changed()
+
+
 # ---- dwell, data input, cutting modes --------------------------------------------------------------------
 
 
 def dwell(channel: Channel, words: Words) -> None:
     """G04 X or P: X with a point seconds, without milliseconds; P milliseconds, decimals cut off (2.8)."""
+    if "Q" in words:
+        raise channel.control.not_yet("G4 Q", "Q")
     milliseconds = words.typed("P")
     if milliseconds is not None:
         channel.dwell(seconds=int(milliseconds) / 1000.0)

@@ -7,6 +7,7 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.parameters import decimals, parameter
+from polycnc.control.word_address import radius
 from polycnc.control.word_address.drilling import DrillCycle, Drilling, drill_here, is_active, lead_from_feed
 from polycnc.control.word_address.path import PLANES
 from polycnc.cycles import drilling
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.codes import Handler, Step
     from polycnc.control.word_address.drilling import CycleData
     from polycnc.control.word_address.numbers import NumberRules
     from polycnc.control.word_address.plan import Builder
@@ -113,6 +114,23 @@ def _feed_by_threads(channel: Channel, per_inch: float) -> None:
     lead = INCH_MM / per_inch
     per_revolution = channel.mode["feed"] == "G95"
     channel.feed = lead if per_revolution else lead * channel.memory.spindle_speed / 60.0
+
+
+# ---- radius compensation ----------------------------------------------------------------------------
+
+
+def _unless_drilling(handler: Handler, channel: Channel, words: Words) -> None:
+    """G40, G41 and G42 are ignored while a drilling cycle is active (2.47 ff.)."""
+    if channel.mode["cycle"] == "G80":
+        handler(channel, words)
+        return
+    side = {1: "G41", -1: "G42"}.get(channel.memory.side, "G40")
+    channel.mode = channel.mode.with_code("compensation", side)
+
+
+cancel_compensation: Handler = partial(_unless_drilling, radius.cancel_compensation)
+compensate_left: Handler = partial(_unless_drilling, radius.compensate_left)
+compensate_right: Handler = partial(_unless_drilling, radius.compensate_right)
 
 
 # ---- hole patterns ---------------------------------------------------------------------------------------

@@ -6,7 +6,7 @@ from random import Random
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec import functions
-from polycnc.control.syntec.parameters import decimals, parameter
+from polycnc.control.syntec.parameters import decimals, is_diameter, parameter
 from polycnc.control.syntec.system_variables import SYSTEM_VARIABLES
 from polycnc.control.syntec.variables import Globals, Locals, is_local, put
 from polycnc.control.word_address.memory import Memory
@@ -39,6 +39,7 @@ class SyntecMemory(Memory):
         lead: F of G33, mm.
         feeds: The last feed of each feed mode that was left.
         surface_axis: Reference axis of G96.
+        diameters: Axes switched by G10.9: programmed in diameter or not.
     """
 
     def __init__(self, channel: Channel) -> None:
@@ -68,6 +69,7 @@ class SyntecMemory(Memory):
         self.feeds: dict[str, float] = {}
         self.feed_mode = "G94"
         self.surface_axis = 0
+        self.diameters: dict[int, bool] = {}
         self.colour = 0
         self.print_file = ""
         self.functions: dict[str, Callable[..., Value]] = functions.bound(self)
@@ -125,6 +127,11 @@ class SyntecMemory(Memory):
     def parameter(self, number: int) -> int:
         """A machine parameter as a Long."""
         return parameter(self.parameters, number)
+
+    def is_diameter(self, axis: int) -> bool:
+        """Whether an axis is programmed in diameters now (Pr281~, G10.9)."""
+        switched = self.diameters.get(axis)
+        return is_diameter(self.parameters, axis) if switched is None else switched
 
     # ---- levels ------------------------------------------------------------------------------------------
 

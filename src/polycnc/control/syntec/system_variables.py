@@ -6,7 +6,7 @@ from math import isnan
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates import renew_preset_frame
-from polycnc.control.syntec.parameters import WORK_SYSTEMS, is_diameter
+from polycnc.control.syntec.parameters import WORK_SYSTEMS
 from polycnc.control.syntec.variables import Read, Registry, Space, Write, stored
 from polycnc.control.word_address.coordinates import refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL
@@ -85,7 +85,7 @@ def shown(memory: SyntecMemory, axis: int, value: float) -> float:
     """A position or length of an axis (mm radius, degrees) as the program sees it."""
     if memory.channel.axis_data[axis].rotary:
         return value
-    if is_diameter(memory.parameters, axis):
+    if memory.is_diameter(axis):
         value *= 2.0
     return value / INCH_MM if memory.is_inch else value
 
@@ -95,7 +95,7 @@ def meant(memory: SyntecMemory, axis: int, value: Value) -> float:
     result = float(number(value))
     if memory.channel.axis_data[axis].rotary:
         return result
-    if is_diameter(memory.parameters, axis):
+    if memory.is_diameter(axis):
         result /= 2.0
     return result * INCH_MM if memory.is_inch else result
 
@@ -166,7 +166,7 @@ def _channel_number(memory: SyntecMemory, _offset: int) -> Value:
 def _diameter_mask(memory: SyntecMemory, _offset: int) -> Value:
     """#1814: bit n is set while axis n (from 1) is a diameter axis."""
     axes = range(len(memory.channel.axes))
-    return sum(1 << (axis + 1) for axis in axes if is_diameter(memory.parameters, axis))
+    return sum(1 << (axis + 1) for axis in axes if memory.is_diameter(axis))
 
 
 # ---- frames and offsets ----------------------------------------------------------------------------------
