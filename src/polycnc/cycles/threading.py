@@ -35,9 +35,8 @@ def thread_strokes(
     leaving = (begin[0] + part * way, begin[1] + part * (end[1] - begin[1]))
     if part > 0.0:
         yield PlaneStroke(Kind.THREAD, leaving, start_angle_deg=start_angle_deg)
-    room = retract - leaving[1]
-    rise = min(length * tan(radians(runout.angle_deg)), abs(room))
-    yield PlaneStroke(Kind.THREAD, (end[0], leaving[1] + copysign(rise, room)), start_angle_deg=start_angle_deg)
+    rise = copysign(length * tan(radians(runout.angle_deg)), retract - leaving[1])
+    yield PlaneStroke(Kind.THREAD, (end[0], leaving[1] + rise), start_angle_deg=start_angle_deg)
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, ClassVar
 from polycnc.compensation.policies import HARTFORD, Approach, Policy
 from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.fanuc.code_calls import registered_codes
-from polycnc.control.fanuc.milling_codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
+from polycnc.control.fanuc.hartford import FANUC_INTERLOCKS, FANUC_M_CODES
+from polycnc.control.fanuc.milling_codes import ADDRESSES, G_CODES, POWER_ON
 from polycnc.control.fanuc.milling_cycles import MILLING_DRILLING
 from polycnc.control.fanuc.system_variables import MILLING_VARIABLES
 from polycnc.control.word_address.milling import MillingControl
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.code_calls import CodeCalls
     from polycnc.control.word_address.codes import GCode, MCode, Planner
     from polycnc.control.word_address.drilling import Drilling
+    from polycnc.control.word_address.interlocks import Interlock
 
 
 class FanucMilling(MillingControl):
@@ -29,12 +31,13 @@ class FanucMilling(MillingControl):
     id: ClassVar[str] = "fanuc-m"
     alarm_files: ClassVar[tuple[str, ...]] = ("fanuc/alarms.toml", "fanuc/milling_alarms.toml")
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
-    m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
+    m_codes: ClassVar[Mapping[int, MCode]] = FANUC_M_CODES
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
     drilling: ClassVar[Drilling] = MILLING_DRILLING
+    interlocks: ClassVar[tuple[Interlock, ...]] = FANUC_INTERLOCKS
 
     def code_calls(self, channel: Channel) -> CodeCalls:
         """Codes registered by 6050 to 6089 and 6001#5."""

@@ -1,4 +1,4 @@
-"""G and M tables of the FANUC machining centre (Hartford manual §13.2, §14.2; FANUC macro B)."""
+"""G table and addresses of the FANUC machining centre (Hartford manual §13.2; FANUC macro B)."""
 
 from __future__ import annotations
 
@@ -19,16 +19,17 @@ from polycnc.control.word_address import (
     position_offset,
     radius,
     skip,
-    subprograms,
     thread,
     tool_measuring,
 )
-from polycnc.control.word_address.codes import GCode, MCode, Order, m_table, not_yet, table
+from polycnc.control.word_address.codes import GCode, Order, not_yet, table
 from polycnc.control.word_address.drilling import is_active
+from polycnc.control.word_address.interlocks import guarded_speed
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.codes import Handler
+    from polycnc.control.word_address.codes import Handler, Step
+    from polycnc.control.word_address.plan import Builder
     from polycnc.control.word_address.words import Words
 
 #: Codes that a drilling cycle refuses (PS0044).
@@ -133,38 +134,16 @@ G_CODES = table(
     ),
 )  # fmt: skip
 
-M_CODES = m_table(
-    MCode(0, after=True, handler=auxiliary.stop, silent=True),
-    MCode(1, after=True, handler=auxiliary.optional_stop, silent=True),
-    MCode(2, after=True, handler=auxiliary.end_program),
-    MCode(3, handler=auxiliary.spindle_clockwise),
-    MCode(4, handler=auxiliary.spindle_counter_clockwise),
-    MCode(5, after=True, handler=auxiliary.spindle_stop),
-    MCode(6, after=True, handler=auxiliary.change_tool),
-    MCode(9, after=True),
-    MCode(10, after=True),
-    MCode(11, after=True),
-    MCode(13, handler=auxiliary.spindle_clockwise),
-    MCode(14, handler=auxiliary.spindle_counter_clockwise),
-    MCode(19, after=True, handler=auxiliary.spindle_stop),
-    MCode(24, after=True),
-    MCode(25, after=True),
-    MCode(30, after=True, handler=auxiliary.end_program),
-    MCode(54, after=True),
-    MCode(60, after=True),
-    MCode(62, after=True),
-    MCode(64, after=True),
-    MCode(69, after=True),
-    MCode(74, after=True),
-    MCode(76, after=True),
-    MCode(98, after=True, handler=subprograms.call_subprogram, takes="P L Q", silent=True),
-    MCode(99, after=True, handler=subprograms.return_from_subprogram, takes="P L", silent=True),
-    MCode(198, after=True, handler=subprograms.call_external_subprogram, takes="P L", silent=True),
-)
+
+
+def plan_guarded_speed(builder: Builder) -> Step:
+    """S, unless the machine refuses it now."""
+    return guarded_speed(auxiliary.plan_spindle_speed(builder), builder.control.interlocks)
+
 
 ADDRESSES = {
     "F": auxiliary.plan_feed,
-    "S": auxiliary.plan_spindle_speed,
+    "S": plan_guarded_speed,
     "T": code_calls.plan_tool_or_call,
     "B": auxiliary.plan_second_auxiliary,
     "H": length.plan_length_number,

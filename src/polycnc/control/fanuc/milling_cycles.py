@@ -28,6 +28,10 @@ CYCLES = {
     "G88": DrillCycle(drilling.bore_and_halt, dwells=True),
     "G89": DrillCycle(drilling.bore, dwells=True),
 }
+#: Tapping cycles that M29 makes rigid.
+RIGID = frozenset({"G74", "G84"})
+#: The axes count as standing still within this, mm.
+WINDOW_MM = 0.0005
 #: Parameter with the retract or clearance of each pecking cycle, mm.
 RELIEF_PARAMETERS = {"G73": 5114, "G83": 5115, "G74": 5213, "G84": 5213, "G84.2": 5213, "G84.3": 5213}
 
@@ -64,6 +68,21 @@ def shift_off_wall(channel: Channel, data: CycleData, plane: tuple[int, int]) ->
     return (0.0, amount) if second else (amount, 0.0)
 
 
+def check_rigid_tapping(channel: Channel, code: str) -> None:
+    """Between M29 and its tapping cycle nothing may move and S may not change; the spindle needs a speed."""
+    armed = channel.memory.rigid_tapping
+    if code not in RIGID or armed is None:
+        return
+    channel.memory.rigid_tapping = None
+    c = channel.coordinates
+    if any(abs(a - b) > WINDOW_MM for a, b in zip(c.machine, armed.machine, strict=True)):
+        raise channel.control.fail("rigid_position", address=code)
+    if armed.speed != channel.memory.spindle_speed:
+        raise channel.control.fail("rigid_position", address=code)
+    if not armed.speed > 0.0:
+        raise channel.control.fail("rigid_speed", address=code)
+
+
 MILLING_DRILLING = Drilling(
     CYCLES,
     kept="RQPIJ",
@@ -72,4 +91,5 @@ MILLING_DRILLING = Drilling(
     axis=drilling_axis,
     relief=relief,
     shift=shift_off_wall,
+    check=check_rigid_tapping,
 )

@@ -53,7 +53,12 @@ def _engage(channel: Channel, words: Words, engage: Callable[[Channel, Words], N
         _refuse_in_shape(channel, words)
         return
     memory.d = memory.offset_active
+    corner = channel.head if isinstance(channel.head, turning_corners.TurningCorner) else None
     engage(channel, words)
+    if corner is not None and channel.head is not corner:
+        # A corner that waits for its second move stays in front of compensation.
+        corner.after = memory.compensation
+        channel.head = corner
 
 
 def cancel(channel: Channel, words: Words) -> None:

@@ -6,8 +6,9 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.turning_tools import refresh
-from polycnc.control.word_address import coordinates, extended, frames
+from polycnc.control.word_address import coordinates, extended
 from polycnc.control.word_address.path import PLANES
+from polycnc.geometry.frames import about, rotation
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -155,7 +156,23 @@ def select_work_offset(channel: Channel, words: Words) -> None:
 
 def rotate(channel: Channel, words: Words) -> None:
     """G68.1 X Z R: rotation of the plane about a point, counter-clockwise; 5410 where R is missing."""
-    frames.rotate(channel, words)
+    memory, c = channel.memory, channel.coordinates
+    parts = memory.frames
+    if channel.mode["motion"] not in ("G0", "G1"):
+        raise words.fail("rotation_form", "G68.1")
+    center = c.programmed[:]
+    for axis, value, _ in words.axes():
+        center[axis] = value
+    angle = words.angle("R")
+    if angle is None:
+        angle = memory.parameters.number(5410)
+    elif channel.mode["distance"] == "G91" and memory.parameters.bit(5400, 0):
+        angle += memory.rotation_angle
+    memory.rotation_angle = angle
+    x, y, z = (center[i] if i >= 0 else 0.0 for i in c.geometry)
+    parts.rotation = about((x, y, z), rotation(PLANES[channel.mode["plane"]][2], angle))
+    # 11600#5 AX1 = 0: an axis that the next block does not name keeps the value that it had before the rotation.
+    c.set_programming(parts.product(), parts.shift, stays=bool(memory.parameters.bit(11600, 5)))
 
 
 def mirror_turret(channel: Channel, words: Words) -> None:

@@ -81,6 +81,7 @@ class TurningMemory(MacroMemory):
         cycle_values: Parameters of turning cycles that a program has overwritten.
         clamp: M code that clamps the C axis in drilling cycles, 0 for none.
         rigid_tapping: M29 was given.
+        rotation_angle: Angle of the last G68.1, degrees.
         parameter_input: Between G10 L52 and G11.
         increment_limits: Largest increment of axes (G91.1).
         basic_geometry: Axes X, Y, Z, whatever parallel ones a plane has chosen.
@@ -108,6 +109,7 @@ class TurningMemory(MacroMemory):
         self.clamp = 0
         self.rigid_tapping = False
         self.parameter_input = False
+        self.rotation_angle = 0.0
         self.increment_limits: dict[int, float] = {}
         self.basic_geometry = channel.coordinates.geometry
         self.reading_shape = False

@@ -14,7 +14,7 @@ from polycnc.control.fanuc.turning_coordinates import feed_number, plane_axes
 from polycnc.control.fanuc.turning_drilling import is_series_15
 from polycnc.control.fanuc.turning_shape import Section, contour_of, read_shape
 from polycnc.control.fanuc.turning_single import runout
-from polycnc.control.fanuc.turning_strokes import emit, enter_compensation, leave_compensation
+from polycnc.control.fanuc.turning_strokes import emit, enter_compensation, is_compensated, leave_compensation
 from polycnc.control.fanuc.turning_threads import start_angle
 from polycnc.cycles.contour import reversal, swapped, swapped_stroke
 from polycnc.cycles.threading import ThreadCuts, multiple_threading
@@ -60,15 +60,22 @@ def finish(channel: Channel, words: Words) -> None:
     level = channel.level
     section = Level(Section(code, end), begin, begin, level.program_number, 0, begin, SHAPE_KIND, level.locals)
     section.data["start"] = channel.coordinates.position
+    if is_compensated(channel):
+        leave_compensation(channel)
+        enter_compensation(channel)
     channel.stack.append(section)
     channel.level = section
 
 
 def end_of_shape(channel: Channel) -> None:
     """The shape of G70 is cut: back to the start in rapid, on with the block behind G70."""
-    start: list[float] = channel.level.data["start"]
+    start: list[float] = channel.pop().data["start"]
+    if not is_compensated(channel):
+        channel.straight(Kind.RAPID, start, nan)
+        return
+    channel.memory.compensation.cancel()
     channel.straight(Kind.RAPID, start, nan)
-    channel.pop()
+    enter_compensation(channel)
 
 
 def rough_turning(channel: Channel, words: Words) -> None:
@@ -207,8 +214,7 @@ def _extra(channel: Channel, words: Words) -> tuple[float, float]:
 
 def _cut(channel: Channel, strokes: Iterable[PlaneStroke]) -> None:
     """Make the strokes; compensation is in the shape already, so the path's own one rests meanwhile."""
-    stage = channel.memory.compensation
-    compensated = stage is not None and stage.active and channel.memory.side
+    compensated = is_compensated(channel)
     if compensated:
         leave_compensation(channel)
     emit(channel, strokes)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.path import Move
 from polycnc.compensation import CutterCompensation, Plane
 from polycnc.control.fanuc.turning_coordinates import plane_axes
+from polycnc.control.fanuc.turning_corners import TurningCorner
 from polycnc.control.fanuc.turning_tools import nose_radius, nose_tip
 from polycnc.control.word_address.path import PLANES
 from polycnc.control.word_address.radius import violation_codes
@@ -121,9 +122,14 @@ def _run_blocks(channel: Channel, level: Level, begin: int, end: int) -> None:
         step = code.compile(code.lines[index], index)
         level.current, level.index = index, index + 1
         step(channel)
+        if channel.head is not None:
+            channel.head.block()
         if channel.level is not level or channel.finished or len(channel.stack) == 0:
             raise channel.control.fail("shape_command", address="P")
         if index == end:
+            head = channel.head
+            if isinstance(head, TurningCorner) and head.waits:
+                raise channel.control.fail("shape_ends_in_corner", address="Q")
             return
     raise channel.control.fail("no_shape_end", address="Q")
 

@@ -58,11 +58,10 @@ def compensated_cycle(channel: Channel, strokes: Sequence[PlaneStroke]) -> None:
     The vector is zero at the start and at the end; the nose stays on the side of the material's outside, whatever
     G41 or G42 say.
     """
-    memory = channel.memory
-    stage = memory.compensation
-    if stage is None or not stage.active or not memory.side:
+    if not is_compensated(channel):
         emit(channel, strokes)
         return
+    stage = channel.memory.compensation
     leave_compensation(channel)
     cut = offset.line(strokes[0].end, strokes[1].end)
     way = (strokes[2].end[0] - strokes[1].end[0], strokes[2].end[1] - strokes[1].end[1])
@@ -72,6 +71,12 @@ def compensated_cycle(channel: Channel, strokes: Sequence[PlaneStroke]) -> None:
     stage.cancel()
     emit(channel, strokes[-1:])
     enter_compensation(channel)
+
+
+def is_compensated(channel: Channel) -> bool:
+    """Whether nose radius compensation is at work."""
+    stage = channel.memory.compensation
+    return stage is not None and stage.active and bool(channel.memory.side)
 
 
 def leave_compensation(channel: Channel) -> None:

@@ -1,0 +1,58 @@
+"""M codes that both controls of a Hartford machining centre have (manual §14), and the FANUC machine's interlocks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address import auxiliary, frames, interlocks, subprograms
+from polycnc.control.word_address.codes import MCode, m_table
+from polycnc.control.word_address.interlocks import Interlock, words
+
+if TYPE_CHECKING:
+    from polycnc.control.word_address.codes import Handler
+
+
+def after(*codes: int, handler: Handler | None = None) -> tuple[MCode, ...]:
+    """Rows of codes that act after the motion of their block."""
+    return tuple(MCode(code, after=True, handler=handler) for code in codes)
+
+
+def together(*codes: int) -> tuple[MCode, ...]:
+    """Rows of codes that act with the motion of their block."""
+    return tuple(MCode(code) for code in codes)
+
+
+SHARED_M_CODES = (
+    MCode(0, after=True, handler=auxiliary.stop, silent=True),
+    MCode(1, after=True, handler=auxiliary.optional_stop, silent=True),
+    *after(2, 30, handler=auxiliary.end_program),
+    MCode(3, handler=auxiliary.spindle_clockwise),
+    MCode(4, handler=auxiliary.spindle_counter_clockwise),
+    *after(5, 19, handler=auxiliary.spindle_stop),
+    *after(6, handler=auxiliary.change_tool),
+    *together(7, 8, 12, 22, 23, 50, 53, 58, 61, 63, 68, 73, 75),
+    *after(9, 24, 25, 54, 62, 64, 69, 74, 76, 82, 83, 84, 85, 86, 87, 93, 96, 97),
+    *after(10, handler=interlocks.clamp_tool),
+    *after(11, handler=interlocks.unclamp_tool),
+    *after(13, handler=auxiliary.spindle_clockwise),
+    *after(14, handler=auxiliary.spindle_counter_clockwise),
+    *after(20),
+    *together(21),
+    MCode(70, handler=frames.mirror_first_axis),
+    MCode(71, handler=frames.mirror_second_axis),
+    MCode(72, handler=frames.end_mirror_by_m),
+    MCode(98, after=True, handler=subprograms.call_subprogram, takes="P L Q", silent=True),
+    MCode(99, after=True, handler=subprograms.return_from_subprogram, takes="P L", silent=True),
+    MCode(198, after=True, handler=subprograms.call_external_subprogram, takes="P L", silent=True),
+)
+FANUC_M_CODES = m_table(
+    *SHARED_M_CODES,
+    MCode(29, handler=auxiliary.arm_rigid_tapping),
+    *after(60, 65),
+)
+FANUC_INTERLOCKS = (
+    Interlock(words("M6"), interlocks.away_from_tool_change, "1046"),
+    Interlock(words("M19"), interlocks.tool_unclamped, "1094"),
+    Interlock(words("M3", "M4", "M13", "M14"), interlocks.tool_unclamped, "1095"),
+    Interlock(words("S"), interlocks.tool_unclamped, "1105"),
+)
