@@ -121,5 +121,7 @@ def test_parquet_reads_back_as_the_arrow_table(draft: Draft) -> None:
     assert read.schema.equals(expected.schema, check_metadata=True)
 
 
-def test_every_suffix_has_a_writer() -> None:
-    assert set(WRITERS) == {".jsonl", ".csv", ".parquet"}
+def test_every_suffix_that_the_command_line_offers_has_a_writer() -> None:
+    from polycnc.cli.run import TRACES
+
+    assert set(WRITERS) == set(TRACES)

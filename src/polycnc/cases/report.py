@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 from typing import TYPE_CHECKING
-from xml.etree import ElementTree
 
+from polycnc.cases.junit import Entry, as_xml
 from polycnc.messages import text
 
 if TYPE_CHECKING:
@@ -35,26 +35,11 @@ def as_json(outcomes: Sequence[Outcome]) -> str:
 
 
 def as_junit(outcomes: Sequence[Outcome]) -> str:
-    """JUnit XML as CI servers read it; the feature stands in `classname`."""
-    suite = ElementTree.Element(
-        "testsuite",
-        name="polycnc",
-        tests=str(len(outcomes)),
-        failures=str(sum(o.status == "failed" for o in outcomes)),
-        skipped=str(sum(o.status == "skipped" for o in outcomes)),
-    )
-    for outcome in outcomes:
-        name = _xml_text(outcome.id)
-        case = ElementTree.SubElement(
-            suite, "testcase", name=name, classname=_xml_text(outcome.feature or "polycnc")
-        )
-        if outcome.status != "passed":
-            tag = {"failed": "failure", "skipped": "skipped"}[outcome.status]
-            ElementTree.SubElement(case, tag, message=_xml_text(outcome.message))
-    ElementTree.indent(suite)
-    return '<?xml version="1.0" encoding="utf-8"?>\n' + ElementTree.tostring(suite, encoding="unicode") + "\n"
+    """JUnit XML; the feature stands in `classname`."""
+    return as_xml("polycnc", [_entry(outcome) for outcome in outcomes])
 
 
-def _xml_text(value: str) -> str:
-    """Without the control characters that XML cannot hold."""
-    return "".join(char if char >= " " or char in "\t\n" else "�" for char in value)
+def _entry(outcome: Outcome) -> Entry:
+    failures = (outcome.message,) if outcome.status == "failed" else ()
+    skipped = outcome.message if outcome.status == "skipped" else ""
+    return Entry(outcome.id, outcome.feature or "polycnc", failures, skipped)

@@ -78,15 +78,16 @@ def check(
 def _write(
     found: list[diagnostics.Diagnostic], names: list[str], form: Format, status: int, output: Path | None
 ) -> None:
+    from polycnc.cli import formats
     from polycnc.cli.output import write_whole
     from polycnc.cli.sarif import as_sarif
 
     content = {
-        Format.TEXT: lambda: diagnostics.as_text(found),
-        Format.JSON: lambda: diagnostics.as_json(found),
+        Format.TEXT: lambda: formats.as_text(found),
+        Format.JSON: lambda: formats.as_json(found),
         Format.SARIF: lambda: as_sarif(found, status),
-        Format.GITHUB: lambda: diagnostics.as_github(found),
-        Format.JUNIT: lambda: diagnostics.as_junit(found, names),
+        Format.GITHUB: lambda: formats.as_github(found),
+        Format.JUNIT: lambda: formats.as_junit(found, names),
     }[form]()
     if output is not None:
         write_whole(output, content)

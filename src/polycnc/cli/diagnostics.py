@@ -1,17 +1,15 @@
-"""What `polycnc check` found, as values, and the formats in which people and programs read it."""
+"""What a run found, as values: alarms with their places, and what is odd about the files."""
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
-from xml.etree import ElementTree
 
 from polycnc.messages import text
 from polycnc.messages.catalogue import language
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Mapping
 
     from polycnc.messages import Alarm
     from polycnc.session import Result
@@ -107,76 +105,3 @@ def _of_files(result: Result, main: str) -> Iterable[Diagnostic]:
         message = text("check.shadowed", program=hidden.name)
         place = Place(_shown_file(hidden.path, result, main), hidden.first_line)
         yield Diagnostic(place, "shadowed", message, "polycnc/shadowed", "warning")
-
-
-def as_text(found: Sequence[Diagnostic]) -> str:
-    """One finding a line: `file:line:col: code message`."""
-    return "".join(f"{diagnostic}\n" for diagnostic in found)
-
-
-def as_json(found: Sequence[Diagnostic]) -> str:
-    """A list of objects with `file`, `line`, `column`, `code`, `message`, `rule`, `severity`, `calls`."""
-    entries = [
-        {
-            "file": d.place.file,
-            "line": d.place.line,
-            "column": d.place.column,
-            "code": d.code,
-            "message": d.message,
-            "rule": d.rule,
-            "severity": d.severity,
-            "calls": [{"file": call.file, "line": call.line} for call in d.calls],
-        }
-        for d in found
-    ]
-    return json.dumps(entries, ensure_ascii=False, indent=1) + "\n"
-
-
-def as_github(found: Sequence[Diagnostic]) -> str:
-    """Workflow commands of GitHub: `::error file=…,line=…,col=…,title=…::message`."""
-    return "".join(_github_line(diagnostic) for diagnostic in found)
-
-
-def _github_line(d: Diagnostic) -> str:
-    values = {"file": d.place.file, "line": d.place.line, "col": d.place.column, "title": d.code}
-    properties = ",".join(
-        f"{key}={_github_escaped(str(value), ':,')}" for key, value in values.items() if value
-    )
-    return f"::{d.severity} {properties}::{_github_escaped(d.message)}\n"
-
-
-def _github_escaped(value: str, more: str = "") -> str:
-    for char in "%\r\n" + more:
-        value = value.replace(char, f"%{ord(char):02X}")
-    return value
-
-
-def as_junit(found: Sequence[Diagnostic], files: Sequence[str]) -> str:
-    """JUnit XML: one test case a file, failed where something was found."""
-    suite = ElementTree.Element("testsuite", name="polycnc check", tests=str(len(files)))
-    failures = 0
-    for file in files:
-        case = ElementTree.SubElement(suite, "testcase", name=file, classname="polycnc.check")
-        own = [
-            diagnostic
-            for diagnostic in found
-            if diagnostic.place.file == file or _calls_from(diagnostic, file)
-        ]
-        failures += bool(own)
-        for diagnostic in own:
-            failure = ElementTree.SubElement(
-                case, "failure", type=diagnostic.rule, message=_xml(diagnostic.message)
-            )
-            failure.text = _xml(str(diagnostic))
-    suite.set("failures", str(failures))
-    ElementTree.indent(suite)
-    return '<?xml version="1.0" encoding="utf-8"?>\n' + ElementTree.tostring(suite, encoding="unicode") + "\n"
-
-
-def _calls_from(diagnostic: Diagnostic, file: str) -> bool:
-    return bool(diagnostic.calls) and diagnostic.calls[0].file == file
-
-
-def _xml(value: str) -> str:
-    """Without the control characters that XML cannot hold."""
-    return "".join(char if char >= " " or char in "\t\n" else "�" for char in value)

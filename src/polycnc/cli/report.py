@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
 
 from polycnc.cli.console import coloured
@@ -99,6 +98,8 @@ def clock(seconds: float) -> str:
 
 def as_state(result: Result) -> str:
     """The state at the end of the run as JSON: positions, modal codes, variables, alarms, times."""
+    import json
+
     state = {
         **result.metadata,
         "alarms": [

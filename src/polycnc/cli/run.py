@@ -18,13 +18,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
-    from polycnc.session import Session
+    from polycnc.session import Result, Session
     from polycnc.toolpath.table import Chunk
     from polycnc.toolpath.trace import Display
 
 app = typer.Typer(add_completion=False, rich_markup_mode=None)
 #: A run that takes longer than this shows how far it is, seconds.
 PATIENCE_S = 0.7
+#: Suffixes of trace files; `toolpath.export` has a writer for each.
+TRACES = (".jsonl", ".csv", ".parquet")
 
 
 @app.command(help=text("help.run"))
@@ -46,13 +48,11 @@ def run(
     _lang: options.Lang = None,
 ) -> int:
     """Run a program once, as the control would."""
-    from polycnc.cli.output import write_whole
-    from polycnc.cli.report import Happenings, as_state, as_text
+    from polycnc.cli.report import Happenings, as_text
     from polycnc.session import open_session
-    from polycnc.toolpath.export import WRITERS
 
-    if trace is not None and trace.suffix.lower() not in WRITERS:
-        return fail(text("run.suffix", file=trace, known=", ".join(WRITERS)), 2)
+    if trace is not None and trace.suffix.lower() not in TRACES:
+        return fail(text("run.suffix", file=trace, known=", ".join(TRACES)), 2)
     is_stdin = file == "-"
     session = open_session(
         sys.stdin.buffer.read() if is_stdin else Path(file), control=control, machine=machine, setup=setup,
@@ -68,7 +68,7 @@ def run(
         progress = files.enter_context(_Progress(session))
         result = session.run(progress)
     if state is not None:
-        write_whole(state, as_state(result))
+        _write_state(state, result)
     show(as_text(result, happenings, "<stdin>" if is_stdin else file))
     return 0 if result.ok else 1
 
@@ -88,6 +88,13 @@ def _trace_to(path: Path, session: Session, files: ExitStack) -> None:
     writer = writer_of(_whole(files, path, mode), result.display, result.metadata)
     files.callback(writer.close)
     session.consumers.append(writer.take)
+
+
+def _write_state(path: Path, result: Result) -> None:
+    from polycnc.cli.output import write_whole
+    from polycnc.cli.report import as_state
+
+    write_whole(path, as_state(result))
 
 
 class _Prints:
