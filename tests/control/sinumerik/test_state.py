@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from polycnc.control.sinumerik.gcodes import START_CODES
+from polycnc.control.sinumerik.gcodes import INTERNAL_CODES, START_CODES
 from polycnc.session import open_session
 from tests.control.sinumerik.support import moves, run
 
 
 def test_a_program_starts_with_the_delivered_functions() -> None:
     channel = run("R1=1").channel
-    assert channel.mode.codes == START_CODES
+    assert channel.mode.codes == {**START_CODES, **INTERNAL_CODES}
 
 
 def test_a_lathe_without_y_starts_in_its_own_plane() -> None:

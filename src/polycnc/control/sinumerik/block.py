@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.positions import AxisTerm, axis_term
-from polycnc.language.sinumerik.words import WordShape
+from polycnc.language.sinumerik.words import WordAlarm, WordShape
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -34,7 +34,7 @@ class Draft:
         mode: Modal state while the block runs: its own modal functions included.
         codes: Function of the block by group name, modal or not.
         steps: What the block does, in order.
-        moves: Whether path motion is among it.
+        opens_line: The block begins a straight line whose end the next one tells (ANG).
     """
 
     def __init__(self, channel: Channel, block: Block, mode: Mode, codes: dict[str, str]) -> None:
@@ -44,21 +44,25 @@ class Draft:
         self.mode = mode
         self.codes = codes
         self.steps: list[Step] = []
-        self.moves = False
+        self.opens_line = False
         self._open = {i: _with_spindle(word) for i, word in enumerate(block.words)}
 
     def take(self, address: str) -> int | None:
         """Take the word of an address without index; its place, or None if the block does not have it."""
         for position, word in self._open.items():
             if word.address == address and word.index is None:
+                if word.modifier:
+                    raise WordAlarm("12020", position, text=word.modifier)
                 del self._open[position]
                 return position
         return None
 
-    def take_shape(self, address: str) -> tuple[int, WordShape] | None:
-        """Take the first word of an address, with whatever index."""
+    def take_shape(self, address: str, *modifiers: str) -> tuple[int, WordShape] | None:
+        """Take the first word of an address, with whatever index; `modifiers` may stand round its value."""
         for position, word in self._open.items():
             if word.address == address:
+                if word.modifier and word.modifier not in modifiers:
+                    raise WordAlarm("12020", position, text=word.modifier)
                 del self._open[position]
                 return position, word
         return None
@@ -90,6 +94,10 @@ class Draft:
     def open_words(self) -> list[tuple[int, WordShape]]:
         """The words that nobody has taken yet."""
         return list(self._open.items())
+
+    def is_open(self, position: int) -> bool:
+        """Whether nobody has taken the word at a place."""
+        return position in self._open
 
     def close(self, position: int) -> None:
         """Take the word at a place."""

@@ -40,7 +40,7 @@ class Arc:
         self.factor = length_factor(draft.mode)
         self.feed = draft.take("FB")
         self.feed_factor = motion.feed_factor(draft)
-        self.polar = draft.take_shape("AP"), draft.take_shape("RP")
+        self.polar = draft.take_shape("AP", "AC", "IC"), draft.take_shape("RP", "AC", "IC")
         self.radius, self.angle, self.turn = draft.take("CR"), draft.take("AR"), draft.take("TURN")
         self.centre = centre_words(draft, LETTERS)
         self.terms = draft.take_axes()
@@ -145,10 +145,10 @@ def centre_words(draft: Draft, letters: str) -> list[tuple[int, int, str]]:
     """I, J, K (or IP[axis]): geometry axis, place and modifier of each."""
     found = []
     for index, letter in enumerate(letters):
-        taken = draft.take_shape(letter)
+        taken = draft.take_shape(letter, "AC", "IC")
         if taken is not None:
             found.append((index, taken[0], taken[1].modifier))
-    while (taken := draft.take_shape("IP")) is not None:
+    while (taken := draft.take_shape("IP", "AC", "IC")) is not None:
         axis = taken[1].index
         column = draft.memory.column(axis.name if isinstance(axis, Axis) else str(axis))
         geometry = draft.channel.coordinates.geometry
@@ -161,7 +161,7 @@ def centre_words(draft: Draft, letters: str) -> list[tuple[int, int, str]]:
 def absolute_factor(channel: Channel, draft: Draft, column: int) -> float:
     """From an absolute coordinate to mm: diameters of the transverse axis included."""
     factor = length_factor(draft.mode)
-    if column == channel.memory.transverse and is_diameter(draft.mode, Way.ABSOLUTE):
+    if is_diameter(draft.mode, Way.ABSOLUTE, column, channel.memory.transverse):
         factor *= 0.5
     return factor
 
@@ -221,7 +221,7 @@ def curve(
 def through_point(draft: Draft) -> Step | None:
     """CIP: the arc from here over I1, J1, K1 to the end point, in any plane."""
     middle = centre_words(draft, "")
-    words = [(i, draft.take_shape(f"{letter}1")) for i, letter in enumerate(LETTERS)]
+    words = [(i, draft.take_shape(f"{letter}1", "AC", "IC")) for i, letter in enumerate(LETTERS)]
     middle += [(i, word[0], word[1].modifier) for i, word in words if word is not None]
     terms = draft.take_axes()
     if not terms and not middle:

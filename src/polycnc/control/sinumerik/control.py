@@ -12,6 +12,7 @@ from polycnc.control.sinumerik import (
     functions,
     gcodes,
     limits,
+    positions,
     procedures,
     stages,
     tables,
@@ -26,7 +27,7 @@ from polycnc.control.sinumerik.system_variables import SystemVariables
 from polycnc.control.sinumerik.tools import tools_of_setup
 from polycnc.language.sinumerik.executable import SinumerikProgram
 from polycnc.language.sinumerik.interface import LanguageMemory
-from polycnc.language.sinumerik.nc_frame import GEOMETRY_AXES, NEUTRAL
+from polycnc.language.sinumerik.nc_frame import GEOMETRY_AXES, NEUTRAL, ctrans
 from polycnc.language.sinumerik.sections import end_of_subprogram
 from polycnc.language.sinumerik.values import Axis
 from polycnc.messages import AlarmError, Catalogue
@@ -45,7 +46,8 @@ if TYPE_CHECKING:
 
 #: R parameters of a channel whose machine data say nothing.
 R_PARAMETERS = 1000
-SKIP_LEVELS = 10
+#: Number of every settable zero offset in its group.
+ZERO_OFFSETS = {word: gcodes.number_of(word) for word in gcodes.BY_NAME["zero_offset"].words}
 
 
 class Sinumerik:
@@ -95,6 +97,11 @@ class Sinumerik:
         if numbers and master not in numbers:
             master = numbers[0]
         count = data.integer("$MC_MM_NUM_R_PARAM") if data.is_set("$MC_MM_NUM_R_PARAM") else R_PARAMETERS
+        offsets = dict(channel.setup.work_offsets)
+        external, base = offsets.pop("EXT", {}), offsets.pop("BASE", {})
+        unknown = next((name for name in offsets if name not in ZERO_OFFSETS), None)
+        if unknown is not None:
+            raise AlarmError("12550", text=unknown)
         global_bases = data.integer("$MN_MM_NUM_GLOBAL_BASE_FRAMES")
         return Memory(
             language=LanguageMemory(
@@ -105,13 +112,10 @@ class Sinumerik:
             ),
             data=data,
             frames=Frames(
-                settable=stored_frames(
-                    channel.setup.work_offsets,
-                    data.integer("$MC_MM_NUM_USER_FRAMES"),
-                    {word: gcodes.number_of(word) for word in gcodes.BY_NAME["zero_offset"].words},
-                ),
-                base=[NEUTRAL] * data.integer("$MC_MM_NUM_BASE_FRAMES"),
+                settable=stored_frames(offsets, data.integer("$MC_MM_NUM_USER_FRAMES"), ZERO_OFFSETS),
+                base=[ctrans(base), *[NEUTRAL] * (data.integer("$MC_MM_NUM_BASE_FRAMES") - 1)],
                 global_base=[NEUTRAL] * global_bases,
+                system={**dict.fromkeys(frames.SYSTEM_FRAMES, NEUTRAL), "$P_EXTFRAME": ctrans(external)},
             ),
             tools=tools_of_setup(channel.setup.tools),
             spindles=Spindles({n: Spindle(n) for n in numbers}, master, master),
@@ -207,7 +211,8 @@ class Sinumerik:
         memory: Memory = channel.memory
         feed = tables.FEED_TYPES[mode["feed"]]
         spindle = memory.spindles.all.get(memory.spindles.master)
-        diameter = mode["diameter"] in ("DIAMON", "DIAM90") and memory.transverse >= 0
+        shown = (positions.diameter_function(mode, i, memory.transverse) for i in range(len(channel.axes)))
+        diameters = sum(1 << i for i, function in enumerate(shown) if function in positions.SHOWS_DIAMETERS)
         side = stages.SIDES.get(mode["side"], 0)
         return Context(
             plane=mode["plane"],
@@ -226,7 +231,7 @@ class Sinumerik:
             spindle_limit_rpm=spindle.limit if spindle and spindle.limit < inf else 0.0,
             path_mode="G9" if memory.exact_stop_block else mode["path_mode"],
             tolerance_mm=memory.rounding_mm if mode["path_mode"] == "G641" else 0.0,
-            diameter_axes=1 << memory.transverse if diameter else 0,
+            diameter_axes=diameters,
             wcs=mode["zero_offset"],
         )
 
@@ -262,7 +267,7 @@ def _speed(spindle: Spindle | None, surface_speed: bool) -> float:
 
 def _start_codes(channel: Channel, data: MachineData) -> dict[str, str]:
     """Modal state at program start: delivered values, MD20150, and G18 where the channel has no Y axis."""
-    codes = dict(gcodes.START_CODES)
+    codes = {**gcodes.START_CODES, **gcodes.INTERNAL_CODES}
     definition = next(c for c in channel.machine.channels if c.number == channel.number)
     if "X" in definition.geometry and not {"Y"} & {*definition.geometry, *definition.virtual}:
         codes["plane"] = "G18"

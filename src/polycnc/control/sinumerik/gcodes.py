@@ -133,6 +133,10 @@ GROUP_OF = {word: group for group in GROUPS for word in group.words}
 #: Modal state at power-on and program start in the delivered state (marks 4 of the statement list).
 START_CODES = {group.name: group.start for group in GROUPS if group.is_modal}
 
+#: Further modal state that decides how a block acts, beside the groups: a straight line whose end the next block
+#: tells (ANG), and axes with diameter programming of their own (DIAMONA), as `column:function` joined with blanks.
+INTERNAL_CODES = {"open_line": "", "axis_diameters": ""}
+
 #: Known functions that polycnc does not execute: the path would differ, so they raise an alarm.
 _NOT_EXECUTED = """
     ASPLINE BSPLINE CSPLINE POLY OEMIPO1 OEMIPO2 INVCW INVCCW

@@ -42,16 +42,24 @@ def refresh(channel: Channel) -> None:
     data = memory.data
     limits = []
     for column, name in enumerate(channel.axes):
-        low = data.number("$MA_POS_LIMIT_MINUS", name) if data.is_set("$MA_POS_LIMIT_MINUS", name) else -inf
-        high = data.number("$MA_POS_LIMIT_PLUS", name) if data.is_set("$MA_POS_LIMIT_PLUS", name) else inf
+        minus, plus = (f"$MA_POS_LIMIT_{side}{_pair(channel, column, side)}" for side in ("MINUS", "PLUS"))
+        low = data.number(minus, name) if data.is_set(minus, name) else -inf
+        high = data.number(plus, name) if data.is_set(plus, name) else inf
         limits.append(Limit(column, low, high, SWITCH))
         if channel.mode["working_area"] == "WALIMON":
-            plus = bool(data.number("$SA_WORKAREA_PLUS_ENABLE", name))
-            minus = bool(data.number("$SA_WORKAREA_MINUS_ENABLE", name))
-            low = data.number("$SA_WORKAREA_LIMIT_MINUS", name) if minus else -inf
-            high = data.number("$SA_WORKAREA_LIMIT_PLUS", name) if plus else inf
+            below, above = (
+                bool(data.number(f"$SA_WORKAREA_{side}_ENABLE", name)) for side in ("MINUS", "PLUS")
+            )
+            low = data.number("$SA_WORKAREA_LIMIT_MINUS", name) if below else -inf
+            high = data.number("$SA_WORKAREA_LIMIT_PLUS", name) if above else inf
             limits.append(Limit(column, low, high, WORKING_AREA))
     memory.limits = tuple(limit for limit in limits if limit.low > -inf or limit.high < inf)
+
+
+def _pair(channel: Channel, column: int, side: str) -> str:
+    """Which of the two limit switches the PLC has chosen: nothing for the first, `2` for the second."""
+    bit = {"MINUS": 2, "PLUS": 3}[side]
+    return "2" if channel.setup.switches.plc.get(f"DB{31 + column}.DBX12.{bit}") else ""
 
 
 def check(channel: Channel, end: list[float]) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from polycnc.control.sinumerik.frames import Frames
     from polycnc.control.sinumerik.limits import Limit
@@ -56,6 +56,8 @@ class Memory:
         feed_mode: How F is meant, as the toolpath's feed modes.
         modal_corner_feed: FRCM in internal units, NaN for the path feed.
         limits: Ranges that targets must stay in.
+        open_line: Angle of a line whose end the next block tells (ANG), degrees.
+        open_corners: Chamfers and roundings at the end of that line.
         exact_stop_block: G9 holds for the running block.
         feeds: Feed of positioning axes (FA), mm/s or degrees/s, by column.
         allowance_mm: OFFN.
@@ -81,6 +83,8 @@ class Memory:
     modal_corner_feed: float = nan
     exact_stop_block: bool = False
     limits: tuple[Limit, ...] = ()
+    open_line: float = 0.0
+    open_corners: list[Callable[[], None]] = field(default_factory=list)
     feeds: dict[int, float] = field(default_factory=dict)
     allowance_mm: float = 0.0
     disc: float = 0.0

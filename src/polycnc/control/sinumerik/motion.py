@@ -127,7 +127,7 @@ def goal_of(draft: Draft) -> Goal | None:
 
     None if the block names no end point.
     """
-    angle, radius = draft.take_shape("AP"), draft.take_shape("RP")
+    angle, radius = draft.take_shape("AP", "AC", "IC"), draft.take_shape("RP", "AC", "IC")
     contour_angle = draft.take("ANG")
     terms = draft.take_axes()
     if contour_angle is not None:
@@ -224,11 +224,19 @@ def plane_columns(draft: Draft) -> tuple[int, int, int]:
 
 
 def _contour_angle(draft: Draft, terms: list[AxisTerm], position: int) -> Goal:
-    """ANG with one coordinate of the plane: the other one follows from the angle to the first axis."""
+    """ANG: the angle of a straight line to the first axis of the plane.
+
+    With one coordinate the other one follows. Without any, the line ends where that of the next block begins, which
+    tells its end point and its own angle.
+    """
     columns = plane_columns(draft)
     given = [term.column for term in terms if term.column in columns[:2]]
+    if not given and not draft.mode["open_line"]:
+        return _open_line(draft, position)
+    if len(given) == 2 and draft.mode["open_line"]:
+        return _meeting_lines(draft, terms, position, columns)
     if len(given) != 1:
-        raise AlarmError("PC0001", hint="hint.not-supported", code="ANG")
+        raise WordAlarm("12080", position, text="ANG")
 
     def goal(channel: Channel, values: Values) -> list[float]:
         start = channel.coordinates.position
@@ -244,6 +252,46 @@ def _contour_angle(draft: Draft, terms: list[AxisTerm], position: int) -> Goal:
         return end
 
     return goal
+
+
+def _open_line(draft: Draft, position: int) -> Goal:
+    """A line of which only the angle is known yet."""
+    draft.opens_line = True
+
+    def goal(channel: Channel, values: Values) -> list[float]:
+        channel.memory.open_line = number(values, position)
+        channel.mode = channel.mode.with_code("open_line", "ANG")
+        return channel.coordinates.position
+
+    return goal
+
+
+def _meeting_lines(draft: Draft, terms: list[AxisTerm], position: int, columns: tuple[int, int, int]) -> Goal:
+    """The second of two lines: the first one is moved to where both meet, before this block does anything else."""
+    kind = Kind.RAPID if draft.mode["motion"] == "G0" else Kind.FEED
+    u, v = columns[:2]
+
+    def first_line(channel: Channel, values: Values) -> None:
+        memory: Memory = channel.memory
+        start = channel.coordinates.position
+        end = target(channel, terms, values)
+        a, b = radians(memory.open_line), radians(number(values, position))
+        across = sin(b - a)
+        if abs(across) < SAME_MM:
+            raise WordAlarm("14040", position)
+        # From start along a and from the end back along b to one point: cross products with direction b.
+        way = ((end[u] - start[u]) * sin(b) - (end[v] - start[v]) * cos(b)) / across
+        corner = start.copy()
+        corner[u], corner[v] = start[u] + way * cos(a), start[v] + way * sin(a)
+        channel.mode = channel.mode.with_code("open_line", "")
+        for insert in memory.open_corners:
+            insert()
+        memory.open_corners = []
+        feed = channel.feed if kind is Kind.RAPID else checked_feed(channel.feed)
+        line(channel, kind, corner, nan if kind is Kind.RAPID else feed)
+
+    draft.steps.append(first_line)
+    return lambda channel, values: target(channel, terms, values)
 
 
 # ---- threads and tapping

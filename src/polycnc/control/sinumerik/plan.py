@@ -24,6 +24,7 @@ from polycnc.control.sinumerik import (
 )
 from polycnc.control.sinumerik.block import Draft, Step
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.positions import axis_diameters
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -83,9 +84,9 @@ def make_plan(channel: Channel, block: Block) -> Plan:
     """
     codes = _codes(block)
     modal = [(name, code) for name, code in codes.items() if gcodes.BY_NAME[name].is_modal]
-    mode = channel.mode.with_codes(modal)
+    mode = _axis_diameters(channel, block, channel.mode.with_codes(modal), codes)
     draft = Draft(channel, block, mode, codes)
-    if modal:
+    if mode is not channel.mode or modal:
         draft.steps.append(_enter(mode, modal))
     draft.steps += [EFFECTS[name] for name, _ in modal if name in EFFECTS]
     own = _own_function(draft)
@@ -97,10 +98,38 @@ def make_plan(channel: Channel, block: Block) -> Plan:
         if step is not None:
             draft.steps += _around(draft, step)
     for position, word in draft.open_words():
+        if word.address in AXIS_DIAMETERS:
+            continue
         raise words.misplaced(word, position)
     draft.steps += [_stop(position) for position in ends]
     calls = moving is not None or (mode["motion"] in LINEAR and _is_bare_motion(block, codes))
     return Plan(tuple(draft.steps), calls and own is None, tuple(ends))
+
+
+#: Words that choose a diameter function for one axis; empty: that of the channel again.
+AXIS_DIAMETERS = {
+    "DIAMONA": "DIAMON",
+    "DIAMOFA": "DIAMOF",
+    "DIAM90A": "DIAM90",
+    "DIACYCOFA": "DIAMOF",
+    "DIAMCHANA": "",
+}
+
+
+def _axis_diameters(channel: Channel, block: Block, mode: Mode, codes: dict[str, str]) -> Mode:
+    """The mode after DIAMONA[axis] and the like; a function of the channel takes the transverse axis back."""
+    memory: Memory = channel.memory
+    chosen = axis_diameters(mode)
+    if "diameter" in codes:
+        chosen.pop(memory.transverse, None)
+    for word in block.words:
+        if word.address in AXIS_DIAMETERS:
+            column = memory.column(str(word.index))
+            chosen.pop(column, None)
+            if AXIS_DIAMETERS[word.address]:
+                chosen[column] = AXIS_DIAMETERS[word.address]
+    text = " ".join(f"{column}:{function}" for column, function in sorted(chosen.items()))
+    return mode.with_code("axis_diameters", text) if text != mode["axis_diameters"] else mode
 
 
 def _codes(block: Block) -> dict[str, str]:
@@ -125,7 +154,7 @@ def _is_bare_motion(block: Block, codes: dict[str, str]) -> bool:
 
 def _enter(mode: Mode, modal: list[tuple[str, str]]) -> Step:
     """A step that brings the modal state about."""
-    matters = any(name in IN_CONTEXT for name, _ in modal)
+    matters = not modal or any(name in IN_CONTEXT for name, _ in modal)
 
     def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
         channel.mode = mode
@@ -151,6 +180,8 @@ def _motion(draft: Draft) -> Step | None:
     if maker is None:
         raise not_supported(draft.mode["motion"])
     _check_side(draft)
+    if draft.mode["open_line"] and _may_move(draft) and not draft.has("ANG"):
+        raise AlarmError("12080", text="ANG")
     if draft.mode["motion"] not in LINEAR and not _may_move(draft):
         return None
     return maker(draft)
@@ -180,10 +211,9 @@ def _words(draft: Draft) -> list[int]:
     """Make steps of the words beside motion; gives the places of the M words."""
     ends = []
     for position, word in draft.open_words():
-        maker = words.WORDS.get(word.address)
-        if maker is not None and any(p == position for p, _ in draft.open_words()):
+        if word.address in words.WORDS and draft.is_open(position):
             draft.close(position)
-            draft.steps.append(maker(draft, position, word))
+            draft.steps.append(words.make(draft, position, word))
             if word.address == "M" and word.index is None:
                 ends.append(position)
     return ends

@@ -72,10 +72,25 @@ def length_factor(mode: Mode) -> float:
     return MM_PER_INCH if mode["units"] in ("G70", "G700") else 1.0
 
 
-def is_diameter(mode: Mode, way: Way) -> bool:
-    """Whether a value of the transverse axis is a diameter."""
-    diameter = mode["diameter"]
-    return diameter == "DIAMON" or (diameter == "DIAM90" and way is not Way.INCREMENTAL)
+SHOWS_DIAMETERS = ("DIAMON", "DIAM90")
+
+
+def axis_diameters(mode: Mode) -> dict[int, str]:
+    """Diameter functions of single axes (DIAMONA …) by column."""
+    pairs = (entry.split(":") for entry in mode["axis_diameters"].split())
+    return {int(column): function for column, function in pairs}
+
+
+def diameter_function(mode: Mode, column: int, transverse: int) -> str:
+    """DIAMON, DIAM90 or DIAMOF as it holds for an axis: its own, or that of the channel on the transverse axis."""
+    own = axis_diameters(mode).get(column)
+    return own if own is not None else mode["diameter"] if column == transverse else "DIAMOF"
+
+
+def is_diameter(mode: Mode, way: Way, column: int, transverse: int) -> bool:
+    """Whether a value of an axis is a diameter."""
+    function = diameter_function(mode, column, transverse)
+    return function == "DIAMON" or (function == "DIAM90" and way is not Way.INCREMENTAL)
 
 
 def axis_term(
@@ -105,7 +120,9 @@ def axis_term(
             way = Way.MODULO
         return AxisTerm(position, column, way, 1.0)
     factor = length_factor(mode)
-    if path and column == memory.transverse and (is_diameter(mode, way) if diameter is None else diameter):
+    if diameter is None:
+        diameter = is_diameter(mode, way, column, memory.transverse)
+    if path and diameter:
         factor *= 0.5
     return AxisTerm(position, column, way, factor)
 

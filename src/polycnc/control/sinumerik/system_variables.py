@@ -169,7 +169,7 @@ def _shown(channel: Channel, column: int, value: float, *, work: bool = True) ->
     axis = channel.axis_data[column]
     if axis.rotary:
         return value % 360.0 if axis.modulo else value
-    if work and column == memory.transverse and is_diameter(channel.mode, Way.ABSOLUTE):
+    if work and is_diameter(channel.mode, Way.ABSOLUTE, column, memory.transverse):
         value *= 2.0
     return value / MM_PER_INCH if channel.mode["units"] == "G700" else value
 

@@ -81,6 +81,7 @@ class Tools:
         active: T number in the spindle, 0 for none.
         selected: T number that the next M6 loads (MD22550 = 1).
         edge_number: D number, 0 for no offsets.
+        next_edge: D number programmed for the selected tool before it is loaded, or None.
         lengths: Offsets along X, Y, Z of the active edge, mm.
         added_lengths: TOFFL for L1, L2, L3, mm.
         added_on_axes: TOFF along X, Y, Z, mm.
@@ -91,6 +92,7 @@ class Tools:
     active: int = 0
     selected: int = 0
     edge_number: int = 0
+    next_edge: int | None = None
     lengths: Vector = (0.0, 0.0, 0.0)
     added_lengths: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     added_on_axes: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
@@ -137,8 +139,11 @@ class Tools:
         self._forget_additions()
         if number == 0:
             self.edge_number = 0
+        elif self.next_edge is not None:
+            self.select_edge(self.next_edge)
         elif default >= 0:
             self.edge_number = default if default in self.tools[number].edges else 0
+        self.next_edge = None
 
     def select_edge(self, number: int) -> None:
         """D: the edge of the active tool.

@@ -6,7 +6,7 @@ A maker takes one word of a draft and gives the step that it is. `WORDS` says wh
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import inf, nan
+from math import inf, nan, pi
 from typing import TYPE_CHECKING
 
 from polycnc.compensation.corner import Shape
@@ -15,13 +15,13 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.positions import length_factor, number
 from polycnc.language.sinumerik.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
+from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.block import Draft, Step, Values
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.language.sinumerik.words import WordShape
-    from polycnc.messages import AlarmError
 
 Maker = Callable[["Draft", int, "WordShape"], "Step"]
 
@@ -170,7 +170,11 @@ def edge(_draft: Draft, position: int, _shape: WordShape) -> Step:
         value = number(values, position)
         if value != int(value) or not 0 <= value <= 32000:
             raise WordAlarm("14090", position)
-        channel.memory.tools.select_edge(int(value))
+        memory: Memory = channel.memory
+        if memory.data.integer("$MC_TOOL_CHANGE_MODE") and memory.tools.selected != memory.tools.active:
+            memory.tools.next_edge = int(value)
+            return
+        memory.tools.select_edge(int(value))
         auxiliary.tool_changed(channel)
 
     return run
@@ -249,6 +253,7 @@ def corner(shape_of_corner: Shape) -> Maker:
 
     def make(draft: Draft, position: int, _shape: WordShape) -> Step:
         own_feed = draft.take("FRC")
+        opens_line = draft.opens_line
         factor = length_factor(draft.mode)
         feed_factor = motion.feed_factor(draft)
 
@@ -257,7 +262,11 @@ def corner(shape_of_corner: Shape) -> Maker:
             inserted = (
                 memory.modal_corner_feed if own_feed is None else number(values, own_feed) * feed_factor
             )
-            stages.insert(channel, shape_of_corner, number(values, position) * factor, inserted)
+            size = number(values, position) * factor
+            if opens_line:
+                memory.open_corners.append(lambda: stages.insert(channel, shape_of_corner, size, inserted))
+            else:
+                stages.insert(channel, shape_of_corner, size, inserted)
 
         return run
 
@@ -311,6 +320,31 @@ def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
         if not 0.0 < value <= 200.0:
             raise WordAlarm("12560", position, text=shape.address)
         channel.memory.percent[shape.address, name] = value
+
+    return run
+
+
+def cutting_rate(_draft: Draft, position: int, _shape: WordShape) -> Step:
+    """SVC: cutting rate of the tool, m/min; the speed follows from its radius. Alarm 10750 without one."""
+
+    def run(channel: Channel, values: Values) -> None:
+        memory: Memory = channel.memory
+        radius = memory.tools.radius
+        if radius <= 0.0:
+            raise AlarmError("10750")
+        spindle = memory.spindles.get()
+        spindle.speed = number(values, position) * tables.MM_PER_M / (2.0 * pi * radius)
+        channel.context_changed()
+        channel.event("s", speed=spindle.speed, spindle=spindle.number)
+
+    return run
+
+
+def kept(_draft: Draft, position: int, shape: WordShape) -> Step:
+    """DITS, DITE, DILF, ALF: paths of acceleration and of retraction on an interruption; no effect on the path."""
+
+    def run(channel: Channel, values: Values) -> None:
+        channel.memory.values[shape.address, ()] = number(values, position)
 
     return run
 
@@ -378,12 +412,32 @@ WORDS: dict[str, Maker] = {
     "ADIS": rounding_distance,
     "ADISPOS": rounding_distance,
     "TCARR": tool_carrier,
+    "SVC": cutting_rate,
+    **dict.fromkeys(("DITS", "DITE", "DILF", "ALF"), kept),
     **dict.fromkeys(_PERCENT, percentage),
+}
+#: Addresses that take an extension or an index, and those that take something round their value.
+_EXTENDED = """
+S M H T D F FA LIMS SPOS SPOSA TOFFL TOFF OVRA ACC ACCLIMA VELOLIM VELOLIMA JERKLIM JERKLIMA
+"""
+EXTENDED = frozenset(_EXTENDED.split())
+MODIFIED = {
+    **dict.fromkeys(("SPOS", "SPOSA"), frozenset(("AC", "IC", "DC", "ACP", "ACN"))),
+    **dict.fromkeys(("M", "H"), frozenset(("QU",))),
 }
 #: Words that only mean something together with others; alone they are a mistake of the block.
 COMPANIONS = frozenset(
-    "I J K I1 J1 K1 IP CR AR TURN AP RP RPL ANG SF FB FRC FP DITS DITE".split()  # noqa: SIM905 - a table
+    "I J K I1 J1 K1 IP CR AR TURN AP RP RPL ANG SF FB FRC FP".split()  # noqa: SIM905 - a table
 )
+
+
+def make(draft: Draft, position: int, shape: WordShape) -> Step:
+    """The step of a word; 12400 for an index that its address does not take, 12020 for what stands round its value."""
+    if shape.index is not None and shape.address not in EXTENDED:
+        raise WordAlarm("12400", position, text=shape.address)
+    if shape.modifier and shape.modifier not in MODIFIED.get(shape.address, ()):
+        raise WordAlarm("12020", position, text=shape.modifier)
+    return WORDS[shape.address](draft, position, shape)
 
 
 def misplaced(shape: WordShape, position: int) -> AlarmError:
