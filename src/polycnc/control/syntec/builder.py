@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 FIRST_MACRO, LAST_MACRO = 200, 999
 #: One-shot codes that take the axis words of their block and move with them.
 MOVING_CODES = frozenset({"G28", "G29", "G30", "G31", "G53"})
+CALLS = frozenset({"G65", "G66", "G66.1"})
+TEXT = '"'
 _ARC_CODES = frozenset({"G2", "G3"})
 
 
@@ -41,6 +43,15 @@ class SyntecBuilder(Builder):
         self.plain = plain
         self._plain_plan: Plan | None = None
         super().__init__(channel, control, signature)
+        self._refuse_texts()
+
+    def _refuse_texts(self) -> None:
+        """Only the arguments of a macro may be texts."""
+        if self.g_macros or any(row.code in CALLS for row in self.codes):
+            return
+        for address, _, form in self.typed:
+            if form == TEXT:
+                raise self.control.fail("argument", address=address, word=address)
 
     def _row(self, code: str) -> GCode:
         """A code of the table, or one of a macro: G200 to G999, and G123.4 where its file exists."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.syntec.builder import CALLS
 from polycnc.control.syntec.variables import INDEXED_LETTERS, Locals
 from polycnc.language.syntec.blocks import FORMS
 from polycnc.language.syntec.values import Text, Value
@@ -90,7 +91,7 @@ def _count(words: dict[str, Value], builder: SyntecBuilder) -> int:
 
 def plan_call(builder: SyntecBuilder, plan: Plan) -> Step | None:
     """The step of a block that calls a macro; None for any other block."""
-    if any(row.code in ("G65", "G66", "G66.1") for row in builder.codes):
+    if any(row.code in CALLS for row in builder.codes):
         return _plan_g65(builder, plan)
     macro = _code_macro(builder)
     return None if macro is None else _plan_code_macro(builder, plan, macro)
@@ -98,7 +99,7 @@ def plan_call(builder: SyntecBuilder, plan: Plan) -> Step | None:
 
 def _plan_g65(builder: SyntecBuilder, plan: Plan) -> Step:
     """G65 P L arguments, G66 and G66.1: the modal codes of the block act first."""
-    code = next(row.code for row in builder.codes if row.code in ("G65", "G66", "G66.1"))
+    code = next(row.code for row in builder.codes if row.code in CALLS)
     settings = _settings(builder, plan)
     mode = builder.mode
 

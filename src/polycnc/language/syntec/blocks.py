@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 WRONG_SUFFIX = "COR-034"
 #: Letters that may follow a comma: chamfer, rounding, angle.
 SUFFIXES = "CRA"
+NEVER_INDEXED = "GMNO"
 MAX_DIGITS = 18
 _WORD = re.compile(r"([A-Z])([-+]?)([\d.]+)")
 #: How a word counts as written when its value is of a type; see `language.word_address.words`.
@@ -137,10 +138,12 @@ class BlockReader(Reader):
         if self.next.kind == "number" and self.next.text.isdigit():
             equals = self.tokens[self.at + 1]
             if equals.kind == "symbol" and equals.text == "=":
+                if token.text in NEVER_INDEXED:
+                    raise fault(equals)
                 index = self.take().text
                 self.take()
                 return token.text + index
-        elif self.next.kind == "symbol" and self.next.text == "=":
+        elif self.next.text == "=" and token.text not in NEVER_INDEXED:
             self.take()
         return token.text
 
