@@ -3,8 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 from polycnc.geometry.frames import IDENTITY, Frame
+
+
+class Transformation(Protocol):
+    """How real axes follow the Cartesian positions of a mode in which the control makes axes of others."""
+
+    def real(self, end: list[float]) -> list[float]:
+        """Positions of the real axes (work coordinates) at a position of the toolpath."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +33,7 @@ class Context:
         tolerance_mm: Contour tolerance for the planner where a code names one, else 0.
         diameter_axes: Bit mask of channel axes that show diameters.
         wcs: Name of the active work coordinate system.
+        transformation: From the positions of the toolpath to those of the real axes, where they differ.
     """
 
     plane: str = "G17"
@@ -45,3 +54,4 @@ class Context:
     tolerance_mm: float = 0.0
     diameter_axes: int = 0
     wcs: str = "G54"
+    transformation: Transformation | None = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.fanuc import (
@@ -11,6 +12,7 @@ from polycnc.control.fanuc import (
     turning_shape,
     turning_single,
     turning_tools,
+    turning_transform,
 )
 from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.fanuc.turning_codes import ADDRESSES, M_CODES, POWER_ON, g_table, written_codes
@@ -19,6 +21,7 @@ from polycnc.control.fanuc.turning_variables import TURNING_VARIABLES
 from polycnc.control.word_address import path
 from polycnc.control.word_address.codes import MCode
 from polycnc.control.word_address.custom_macro import CustomMacroControl
+from polycnc.control.word_address.numbers import length_converter
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -27,8 +30,10 @@ if TYPE_CHECKING:
     from polycnc.compensation.policies import Policy
     from polycnc.control.word_address.codes import GCode, Planner, Step
     from polycnc.control.word_address.drilling import Drilling
+    from polycnc.control.word_address.numbers import Convert
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.geometry.arcs import Point
+    from polycnc.toolpath import Context
 
 #: M codes that cannot be passed over in a shape.
 _CALLS = frozenset({2, 30, 98, 99, 198})
@@ -110,7 +115,32 @@ class FanucTurning(CustomMacroControl):
         """Whether words of an axis are diameters (1006#3 DIA; delivered: X)."""
         data = channel.axis_data[axis]
         delivered = int(data.diameter)
+        polar = channel.memory.polar if channel.memory is not None else None
+        if polar is not None and axis == polar.linear and not channel.setup.parameters.bit(5450, 0):
+            return False
         return bool(channel.setup.parameters.bit(1006, 3, channel.axes[axis], delivered)) and not data.rotary
+
+    def axis_converter(self, builder: Builder, axis: int, form: str) -> Convert | None:
+        """Words of C are lengths in polar coordinate interpolation, and angles of a surface on a cylinder."""
+        channel = builder.channel
+        memory = channel.memory
+        if memory.polar is not None and axis == memory.polar.rotary:
+            return length_converter(form, builder.rules, inch=builder.inch)
+        convert = super().axis_converter(builder, axis, form)
+        if memory.cylinder is None or axis != memory.cylinder.axis:
+            return convert
+        return lambda value: turning_transform.unroll(channel, axis, convert(value) if convert else value)
+
+    def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
+        """Programs called by codes; codes that a transformation refuses."""
+        turning_transform.check_block(builder)
+        return super().call_by_code(builder, plan)
+
+    def context(self, channel: Channel) -> Context:
+        """The context that holds now, with the transformation that is on."""
+        context = super().context(channel)
+        polar = channel.memory.polar
+        return context if polar is None else replace(context, transformation=polar)
 
     def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
         """X/U, Z/W, Y/V, C/H in system A; G90/G91 in B and C."""

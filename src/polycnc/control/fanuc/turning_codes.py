@@ -20,6 +20,7 @@ from polycnc.control.fanuc import (
     turning_single,
     turning_threads,
     turning_tools,
+    turning_transform,
 )
 from polycnc.control.fanuc.turning_drilling import NORMAL_CYCLES, SERIES_15_CYCLES
 from polycnc.control.word_address import auxiliary, coordinates, extended, frames, macro_calls, path, subprograms
@@ -76,7 +77,9 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G9", handler=extended.exact_stop_block)),
     *same(_point("G10", turning_data.input_data, "L P R Q C E F")),
     *same(GCode("G11", handler=turning_data.end_parameter_input)),
-    *same(GCode("G13.1", "polar_interpolation"), "G113"),
+    *same(GCode("G7.1", handler=turning_transform.cylinder, axis_words=True, order=Order.MOTION), "G107"),
+    *same(GCode("G12.1", "polar_interpolation", turning_transform.start_polar), "G112"),
+    *same(GCode("G13.1", "polar_interpolation", turning_transform.end_polar), "G113"),
     *same(GCode("G17", "plane", turning_coordinates.select_plane)),
     *same(GCode("G18", "plane", turning_coordinates.select_plane)),
     *same(GCode("G19", "plane", turning_coordinates.select_plane)),
@@ -143,7 +146,7 @@ ROWS: tuple[Row, ...] = (
     *by_system("", "G98", "G98", GCode("G98", "return")),
     *by_system("", "G99", "G99", GCode("G99", "return")),
     *not_yet(
-        "G4.1", "G7.1", "G107", "G10.6", "G12.1", "G112", "G31.8", "G35", "G41.1", "G42.1", "G50.4", "G50.5", "G50.6",
+        "G4.1", "G10.6", "G31.8", "G35", "G41.1", "G42.1", "G50.4", "G50.5", "G50.6",
         "G51.2", "G251", "G51.4", "G51.5", "G51.6", "G53.1", "G53.6", "G68.2", "G68.3", "G68.4", "G80.4", "G80.5",
         "G81.1", "G81.4", "G81.5", "G96.1", "G96.2", "G96.3", "G96.4",
     ),
@@ -216,6 +219,7 @@ ADDRESSES = {
 POWER_ON = {
     "motion": "G0",
     "polar_interpolation": "G13.1",
+    "cylinder": "",
     "plane": "G18",
     "distance": "G90",
     "stroke": "G22",

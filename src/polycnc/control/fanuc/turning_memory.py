@@ -12,6 +12,7 @@ from polycnc.geometry.frames import IDENTITY, Frame, scaling, translation
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.fanuc.turning_shape import Shape
+    from polycnc.control.fanuc.turning_transform import Cylinder, PolarAxes
     from polycnc.control.word_address.variables import Registry
     from polycnc.machine.setup import Offsets, Tool
 
@@ -81,6 +82,9 @@ class TurningMemory(MacroMemory):
         cycle_values: Parameters of turning cycles that a program has overwritten.
         clamp: M code that clamps the C axis in drilling cycles, 0 for none.
         rigid_tapping: M29 was given.
+        polar: Axes of polar coordinate interpolation while it is on, and `plane_before` it.
+        cylinder: The cylinder of cylindrical interpolation while it is on.
+        table: The last stage of the path when nothing is unrolled.
         rotation_angle: Angle of the last G68.1, degrees.
         parameter_input: Between G10 L52 and G11.
         increment_limits: Largest increment of axes (G91.1).
@@ -110,6 +114,10 @@ class TurningMemory(MacroMemory):
         self.rigid_tapping = False
         self.parameter_input = False
         self.rotation_angle = 0.0
+        self.polar: PolarAxes | None = None
+        self.cylinder: Cylinder | None = None
+        self.plane_before = ""
+        self.table = channel.table
         self.increment_limits: dict[int, float] = {}
         self.basic_geometry = channel.coordinates.geometry
         self.reading_shape = False

@@ -10,7 +10,7 @@ from polycnc.control.word_address import coordinates, frames, path
 from polycnc.control.word_address.codes import GCode, MCode
 from polycnc.control.word_address.drilling import Drilling, give_way, plan_drilling
 from polycnc.control.word_address.memory import Memory
-from polycnc.control.word_address.numbers import NumberRules
+from polycnc.control.word_address.numbers import Convert, NumberRules, angle_converter, length_converter
 from polycnc.control.word_address.plan import Builder, Plan
 from polycnc.geometry.arcs import radius_mismatch
 from polycnc.language.word_address import Grammar, WordAddressProgram
@@ -84,6 +84,10 @@ class WordAddressControl:
     def over_travel(self, axis: str, direction: int) -> AlarmError:
         """The alarm for a target beyond a limit."""
         return self.fail("over_travel_plus" if direction > 0 else "over_travel_minus", address=axis, axis=axis)
+
+    def forbidden_zone(self, axis: str, direction: int) -> AlarmError:
+        """The alarm for a way into a zone that the program has forbidden."""
+        return self.over_travel(axis, direction)
 
     def block_limit(self) -> AlarmError:
         """The alarm for a program that does not end."""
@@ -235,6 +239,13 @@ class WordAddressControl:
     def from_display(self, channel: Channel, axis: int, value: float) -> float:
         """A position as the displays show it (millimetres, diameter where the axis has one), in internal units."""
         return value / 2.0 if self.is_diameter(channel, axis) else value
+
+    def axis_converter(self, builder: Builder, axis: int, form: str) -> Convert | None:
+        """What turns a word of an axis into internal units."""
+        channel = builder.channel
+        if channel.axis_data[axis].rotary:
+            return angle_converter(form, builder.rules)
+        return length_converter(form, builder.rules, inch=builder.inch, diameter=self.is_diameter(channel, axis))
 
     def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
         """The axis that an address names and whether the word is an increment; None for another address."""

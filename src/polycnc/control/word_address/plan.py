@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.codes import GCode, MCode, Order, Step
-from polycnc.control.word_address.numbers import Convert, NumberRules, angle_converter, length_converter
+from polycnc.control.word_address.numbers import Convert, NumberRules, length_converter
 from polycnc.control.word_address.words import Words
 from polycnc.language.word_address.words import FORMS, is_fixed_code
 from polycnc.messages import AlarmError
@@ -172,11 +172,7 @@ class Builder:
             if target is None:
                 continue
             index, incremental = target
-            if channel.axis_data[index].rotary:
-                convert = angle_converter(form, self.rules)
-            else:
-                diameter = control.is_diameter(channel, index)
-                convert = length_converter(form, self.rules, inch=self.inch, diameter=diameter)
+            convert = control.axis_converter(self, index, form)
             words.append(AxisWord(address, index, position, convert, incremental))
             self.take(address)
         return tuple(words)
