@@ -64,8 +64,8 @@ class Control(Protocol):
 class Zone(Protocol):
     """A part of the machine's travel that a program has forbidden."""
 
-    def violated(self, machine: list[float]) -> int:
-        """Index of the axis to blame for a machine position, or -1."""
+    def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:
+        """Raise the control's alarm where the way to a machine position (or its end, if not straight) is forbidden."""
 
 
 class Channel:
@@ -104,7 +104,8 @@ class Channel:
         self.axis_index = {name: i for i, name in enumerate(self.axes)}
         self.axis_data: tuple[Axis, ...] = tuple(machine.axis[name] for name in definition.axes)
         x, y, z = (
-            definition.axes.index(definition.geometry[name]) if name in definition.geometry else -1 for name in "XYZ"
+            definition.axes.index(definition.geometry[name]) if name in definition.geometry else -1
+            for name in "XYZ"
         )
         geometry = (x, y, z)
         start = [setup.start.get(name, 0.0) for name in self.axes]
@@ -192,7 +193,9 @@ class Channel:
         """Every program of this run, in the order of their first use."""
         return [executable.program for executable in self._executables.values()]
 
-    def push(self, program: Program, *, kind: str, repeats: int = 0, index: int = 0, local: Any = None) -> Level:
+    def push(
+        self, program: Program, *, kind: str, repeats: int = 0, index: int = 0, local: Any = None
+    ) -> Level:
         """Call a program: it runs next, `repeats` more times after the first pass."""
         name = self.toolpath.program_number(program.name)
         code = self.executable(program)
@@ -362,7 +365,9 @@ class Channel:
             self._context_changed = False
         return self._context
 
-    def straight(self, kind: Kind, end: list[float], feed: float, programmed: list[float] | None = None) -> None:
+    def straight(
+        self, kind: Kind, end: list[float], feed: float, programmed: list[float] | None = None
+    ) -> None:
         """Move to `end` (absolute display, all axes) in a straight line. No way, no row."""
         coordinates = self.coordinates
         start = coordinates.position
@@ -370,7 +375,7 @@ class Channel:
             level = self._level
             context = self._context if not self._context_changed else self.context_number()
             if self._limits or self.stroke_zone is not None:
-                self._check_limits(end)
+                self._check_limits(end, straight=True)
             line = level.line_of(level.current)
             if self._head is None:
                 self.toolpath.chunk.add(kind, level.program_number, line, context, feed, end, NO_CURVE)
@@ -398,7 +403,16 @@ class Channel:
         line = level.code.line(level.current)
         start = self.coordinates.position
         move = Move(
-            kind, start, end, feed, level.program_number, line, self.context_number(), center, normal, turns,
+            kind,
+            start,
+            end,
+            feed,
+            level.program_number,
+            line,
+            self.context_number(),
+            center,
+            normal,
+            turns,
             tuple(parameters),
         )
         if self._limits or self.stroke_zone is not None:
@@ -444,7 +458,7 @@ class Channel:
             position = self.coordinates.position
             self.curve(Kind.DWELL, position, nan, parameters=(seconds, revolutions))
 
-    def _check_limits(self, end: list[float]) -> None:
+    def _check_limits(self, end: list[float], *, straight: bool = False) -> None:
         """Refuse a target outside the machine's travel before anything moves."""
         machine = self.coordinates.to_machine(end)
         for i, (low, high) in enumerate(self._limits):
@@ -453,9 +467,7 @@ class Channel:
             if machine[i] > high + 1e-9:
                 raise self._control.over_travel(self.axes[i], 1)
         if self.stroke_zone is not None:
-            axis = self.stroke_zone.violated(machine)
-            if axis >= 0:
-                raise self._control.over_travel(self.axes[axis], 1)
+            self.stroke_zone.check(self, machine, straight=straight)
 
 
 class TableStage:

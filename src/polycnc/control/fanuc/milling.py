@@ -43,6 +43,10 @@ class FanucMilling(MillingControl):
         """Codes registered by 6050 to 6089 and 6001#5."""
         return registered_codes(channel)
 
+    def several_m_codes(self, channel: Channel) -> bool:
+        """3404#7: up to three M codes in a block."""
+        return bool(channel.setup.parameters.bit(3404, 7))
+
     def compensation_policy(self, channel: Channel) -> Policy:
         """Start-up types A, B, C (5003#0, #1), blocks read ahead (19625), interference (5008)."""
         parameters = channel.setup.parameters

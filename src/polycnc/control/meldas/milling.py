@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from polycnc.control.fanuc.milling_codes import ADDRESSES, M_CODES, POWER_ON
+from polycnc.control.fanuc.milling_codes import ADDRESSES, POWER_ON
 from polycnc.control.fanuc.system_variables import MILLING_VARIABLES
 from polycnc.control.meldas.alarm_codes import ALARMS
 from polycnc.control.meldas.code_calls import registered_codes
 from polycnc.control.meldas.cycles import DRILLING
+from polycnc.control.meldas.hartford import INTERLOCKS, M_CODES
 from polycnc.control.meldas.milling_codes import G_CODES
 from polycnc.control.word_address.milling import MillingControl
 from polycnc.control.word_address.variables import MacroMemory
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.code_calls import CodeCalls
     from polycnc.control.word_address.codes import GCode, MCode, Planner
     from polycnc.control.word_address.drilling import Drilling
+    from polycnc.control.word_address.interlocks import Interlock
     from polycnc.control.word_address.words import Words
 
 
@@ -34,6 +36,7 @@ class MeldasMilling(MillingControl):
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     drilling: ClassVar[Drilling] = DRILLING
+    interlocks: ClassVar[tuple[Interlock, ...]] = INTERLOCKS
     REFERENCE_PARAMETERS: ClassVar[dict[int, int]] = {1: 2037, 2: 2038, 3: 2039, 4: 2040}
     ARC_TOLERANCE_PARAMETER: ClassVar[tuple[int, float]] = (1084, 0.1)
     OVERRUN_PARAMETER: ClassVar[int] = 8209

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.memory import RigidTapping
 from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.control.word_address.path import FEED_MODES
 
@@ -94,6 +95,15 @@ def spindle_stop(channel: Channel, _words: Words) -> None:
     """M05."""
     channel.memory.spindle_direction = 0
     channel.context_changed()
+
+
+def arm_rigid_tapping(channel: Channel, words: Words) -> None:
+    """M29 S: the next tapping cycle is rigid; nothing may move in between."""
+    speed = words.typed("S")
+    memory = channel.memory
+    memory.rigid_tapping = RigidTapping(
+        tuple(channel.coordinates.machine), memory.spindle_speed if speed is None else speed
+    )
 
 
 def stop(channel: Channel, _words: Words) -> None:

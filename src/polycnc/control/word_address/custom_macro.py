@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.code_calls import CodeCalls
     from polycnc.control.word_address.codes import GCode, MCode, Step
     from polycnc.control.word_address.plan import Builder, Plan
+    from polycnc.messages import AlarmError
     from polycnc.program import Program
 
 _MACRO_KINDS = ("macro", "modal", "g-macro", "m-macro")
@@ -49,6 +50,10 @@ class CustomMacroControl(WordAddressControl):
         if form == "" and mode == "G95" and not self.number_rules(_builder.channel).calculator:
             return 0.0001 if _builder.inch else 0.01
         return 1.0
+
+    def forbidden_zone(self, axis: str, direction: int) -> AlarmError:
+        """Stored stroke check 2."""
+        return self.fail("zone_plus" if direction > 0 else "zone_minus", address=axis, axis=axis)
 
     # ---- motion --------------------------------------------------------------------------------------
 

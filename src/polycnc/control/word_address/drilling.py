@@ -86,6 +86,10 @@ def no_relief(_channel: Channel, _code: str) -> float:
     return 0.0
 
 
+def nothing_to_check(_channel: Channel, _code: str) -> None:
+    """The control has no conditions of its own."""
+
+
 def shift_by_center_words(_channel: Channel, data: CycleData, plane: tuple[int, int]) -> tuple[float, float]:
     """I, J, K are the shift along X, Y, Z."""
     return data.amount("IJK"[plane[0]]), data.amount("IJK"[plane[1]])
@@ -109,6 +113,7 @@ class Drilling:
         relief: Retract or clearance between pecks of a cycle, mm.
         shift: Shift off the wall along two geometry axes, the first and second of the hole's plane.
         lead: Lead of a tap, mm.
+        check: Alarms for what must not be when a cycle begins to drill.
         turn: What a reversal or stop of the spindle within a cycle does.
         dress: What the machine adds to the strokes of a hole (clamping an axis), by cycle code.
     """
@@ -127,6 +132,7 @@ class Drilling:
     shift: Callable[[Channel, CycleData, tuple[int, int]], tuple[float, float]] = shift_by_center_words
     lead: Callable[[Channel], float] = lead_from_feed
     turn: Callable[[Channel, int], None] = turn_spindle
+    check: Callable[[Channel, str], None] = nothing_to_check
     dress: Callable[[Channel, str, Hole, Iterator[Stroke]], Iterator[Stroke]] = as_it_is
 
     @property
@@ -195,6 +201,8 @@ def plan_drilling(builder: Builder, plan: Plan) -> Step:
         count = words.count(values)
         if count and any(not data.amount(address) for address in cycle.needs):
             raise control.fail("cycle_word", address=cycle.needs, word=cycle.needs, code=code)
+        if count:
+            rules.check(channel, code)
         for _ in range(count):
             words.position(channel, values)
             _perform(channel, _strokes(channel, code, data), data)
@@ -340,7 +348,9 @@ def _shift(channel: Channel, center: list[float], data: CycleData, part: float) 
     w = c.geometry.index(data.axis)
     plane = ((w + 1) % 3, (w + 2) % 3)
     end = c.programmed[:]
-    for i, amount in zip(plane, channel.control.drilling_rules(channel).shift(channel, data, plane), strict=True):
+    for i, amount in zip(
+        plane, channel.control.drilling_rules(channel).shift(channel, data, plane), strict=True
+    ):
         axis = c.geometry[i]
         if axis >= 0:
             end[axis] = center[axis] + part * amount

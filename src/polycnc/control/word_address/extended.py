@@ -84,12 +84,33 @@ class StrokeZone:
     axes: tuple[int, ...]
     inside: bool
 
-    def violated(self, machine: list[float]) -> int:
-        """Index of the axis to blame, or -1."""
-        within = [lo <= machine[a] <= hi for a, lo, hi in zip(self.axes, self.low, self.high, strict=True)]
-        if self.inside:
-            return self.axes[0] if all(within) else -1
-        return next((a for a, ok in zip(self.axes, within, strict=True) if not ok), -1)
+    def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:
+        """The control's alarm for a way into the zone, or out of it; of a curve only the end is looked at."""
+        start = channel.coordinates.machine if straight else machine
+        axis = self._entered(start, machine) if self.inside else self._left(machine)
+        if axis >= 0:
+            direction = 1 if machine[axis] >= channel.coordinates.machine[axis] else -1
+            raise channel.control.forbidden_zone(channel.axes[axis], direction)
+
+    def _left(self, end: list[float]) -> int:
+        """The first axis that stands outside, or -1."""
+        within = zip(self.axes, self.low, self.high, strict=True)
+        return next((axis for axis, low, high in within if not low <= end[axis] <= high), -1)
+
+    def _entered(self, start: list[float], end: list[float]) -> int:
+        """The axis by which a straight way comes into the box last, or -1 where it stays outside."""
+        first, last, blamed = 0.0, 1.0, self.axes[0]
+        for axis, low, high in zip(self.axes, self.low, self.high, strict=True):
+            way = end[axis] - start[axis]
+            if way == 0.0:
+                if not low <= start[axis] <= high:
+                    return -1
+                continue
+            enter, leave = sorted(((low - start[axis]) / way, (high - start[axis]) / way))
+            if enter > first:
+                first, blamed = enter, axis
+            last = min(last, leave)
+        return blamed if first <= last else -1
 
 
 def stroke_check_on(channel: Channel, words: Words) -> None:

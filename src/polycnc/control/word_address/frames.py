@@ -95,6 +95,29 @@ def end_mirror(channel: Channel, words: Words) -> None:
     _set_mirror(channel)
 
 
+def mirror_first_axis(channel: Channel, _words: Words) -> None:
+    """M70: the first axis is mirrored about the place where it stands."""
+    _mirror_here(channel, 0)
+
+
+def mirror_second_axis(channel: Channel, _words: Words) -> None:
+    """M71: the second axis is mirrored about the place where it stands."""
+    _mirror_here(channel, 1)
+
+
+def _mirror_here(channel: Channel, i: int) -> None:
+    c = channel.coordinates
+    channel.memory.frames.mirrored.setdefault(i, c.programmed[c.geometry[i]])
+    _set_mirror(channel)
+
+
+def end_mirror_by_m(channel: Channel, _words: Words) -> None:
+    """M72: ends the mirror of the first and second axis."""
+    for i in (0, 1):
+        channel.memory.frames.mirrored.pop(i, None)
+    _set_mirror(channel)
+
+
 def _set_mirror(channel: Channel) -> None:
     frames = channel.memory.frames
     center: Vector = tuple(frames.mirrored.get(i, 0.0) for i in range(3))
@@ -120,7 +143,9 @@ def polar_target(channel: Channel, plan: Plan, values: list[float]) -> list[floa
         value = word.convert(values[word.slot]) if word.convert else values[word.slot]
         if word.axis == first:
             memory.polar_radius = value
-            memory.polar_pole = (c.programmed[first], c.programmed[second]) if word.incremental else (0.0, 0.0)
+            memory.polar_pole = (
+                (c.programmed[first], c.programmed[second]) if word.incremental else (0.0, 0.0)
+            )
         else:
             angle = value
             memory.polar_angle = memory.polar_angle + angle if word.incremental else angle

@@ -39,6 +39,14 @@ class ToolOffset:
         return self.radius + self.radius_wear
 
 
+@dataclass(frozen=True, slots=True)
+class RigidTapping:
+    """Where the axes stood and how fast the spindle was to turn when rigid tapping was commanded."""
+
+    machine: tuple[float, ...]
+    speed: float
+
+
 class ProgrammingFrames:
     """The parts of a channel's programming frame: scaling or mirror, then rotation."""
 
@@ -71,6 +79,8 @@ class Memory:
         length_offset: Shift of each axis by the active tool length.
         tool: Tool in the spindle; `next_tool` is selected.
         last_m: The last M code sent to the machine.
+        tool_unclamped: The program has released the tool.
+        rigid_tapping: What M29 found, until the tapping cycle that it is meant for.
         h: Number of the active length offset; `d` of the radius offset.
         side: Side that G41/G42 ask for: 1, -1, 0 off.
         compensation: The stage that compensates, once it was needed.
@@ -100,6 +110,8 @@ class Memory:
         self.tool = 0
         self.next_tool = 0
         self.last_m = 0
+        self.tool_unclamped = False
+        self.rigid_tapping: RigidTapping | None = None
         self.h = 0
         self.d = 0
         self.side = 0

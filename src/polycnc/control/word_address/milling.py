@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policies import HARTFORD, Policy
 from polycnc.control.word_address import corners
+from polycnc.control.word_address.codes import MCode
 from polycnc.control.word_address.custom_macro import CustomMacroControl
+from polycnc.control.word_address.interlocks import Interlock, guarded
 from polycnc.control.word_address.length import renew_length
 
 if TYPE_CHECKING:
@@ -21,10 +23,12 @@ class MillingControl(CustomMacroControl):
     """A machining centre of the FANUC kind.
 
     Attributes:
+        interlocks: Words that the machine refuses in some states.
         OVERRUN_PARAMETER: Parameter of each axis with the overrun of G60.
         LENGTH_TRAVELS_ALONE: G43 H without a Z word moves Z by the offset at once.
     """
 
+    interlocks: ClassVar[tuple[Interlock, ...]] = ()
     OVERRUN_PARAMETER: ClassVar[int] = 5440
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
 
@@ -49,6 +53,18 @@ class MillingControl(CustomMacroControl):
         if factor == 0.0 or abs(factor) >= 10_000:
             raise self.fail("scale", address=letter)
         return factor
+
+    # ---- machine -------------------------------------------------------------------------------------
+
+    def m_row(self, builder: Builder, number: int) -> MCode:
+        """The row of an M code behind the machine's interlocks; of several in a block only the last acts."""
+        if number != builder.m_codes[-1] and not self.several_m_codes(builder.channel):
+            return MCode(number, silent=True)
+        return guarded(super().m_row(builder, number), self.interlocks)
+
+    def several_m_codes(self, _channel: Channel) -> bool:
+        """Whether a block may hold several M codes (Hartford manual 2.3.3: the last one counts)."""
+        return False
 
     # ---- offsets -------------------------------------------------------------------------------------
 
