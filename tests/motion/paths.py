@@ -45,6 +45,7 @@ class Build:
 
     def __post_init__(self) -> None:
         self.toolpath = Toolpath(self.axes, chunk_rows=self.chunk_rows)
+        self.toolpath.program_number("O0001")
         self.end = [0.0] * len(self.axes)
         self.line = 0
 
@@ -99,7 +100,7 @@ class Piece:
     vectors: list[list[float]]
 
     def samples(self, limits: list[float]) -> list[tuple[float, list[float], list[float]]]:
-        """At places on the piece: x, velocities and accelerations of the axes (tangent and curvature interpolated)."""
+        """At places on the piece: x, velocities and accelerations of the axes, by interpolation."""
         t0, t1, c0, c1 = self.vectors
         result = []
         steps = 8
@@ -115,14 +116,14 @@ class Piece:
     def _at(self, s: float, limits: list[float]) -> tuple[float, float]:
         if self.form == CURVED:
             u = (self.end2 - self.start2) / (2.0 * self.length)
-            return self.start2 + 2.0 * u * s, u
+            return max(self.start2 + 2.0 * u * s, 0.0), u
         peak2 = min(self.cap2, 0.5 * (self.start2 + self.end2) + self.pull * self.length)
         up = (peak2 - self.start2) / (2.0 * self.pull)
         down = self.length - (peak2 - self.end2) / (2.0 * self.pull)
         if s < up:
             return self.start2 + 2.0 * self.pull * s, self.pull
         if s > down:
-            return self.end2 + 2.0 * self.pull * (self.length - s), -self.pull
+            return max(self.end2 + 2.0 * self.pull * (self.length - s), 0.0), -self.pull
         return peak2, 0.0
 
 
@@ -137,7 +138,15 @@ def pieces_of(toolpath: Toolpath, machine: Machine, **options: Any) -> list[Piec
             vectors = [r[VECTORS + k * n : VECTORS + (k + 1) * n] for k in range(4)]
             found.append(
                 Piece(
-                    r[LENGTH], r[CAP2], r[PULL], r[SPEED2], r[END2], r[TIME], int(r[FORM]), int(r[ROW]), vectors
+                    r[LENGTH],
+                    r[CAP2],
+                    r[PULL],
+                    r[SPEED2],
+                    r[END2],
+                    r[TIME],
+                    int(r[FORM]),
+                    int(r[ROW]),
+                    vectors,
                 )
             )
 

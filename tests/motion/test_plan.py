@@ -190,7 +190,9 @@ def test_a_thread_runs_its_lead_every_turn() -> None:
     rows = Build(axes=("X", "Z"), context=context)
     rows.row(Kind.THREAD, 0.0, -40.0, feed=0.1, curve=(2.0, 0.0))
     result = rows.plan(LATHE)
-    assert result.times.cutting_s == pytest.approx(trapezoid(40.0, 10.0, LATHE.axis["Z"].acceleration), rel=1e-12)
+    assert result.times.cutting_s == pytest.approx(
+        trapezoid(40.0, 10.0, LATHE.axis["Z"].acceleration), rel=1e-12
+    )
 
 
 def test_a_tap_ramps_with_the_spindle() -> None:
@@ -207,7 +209,9 @@ def test_a_cut_without_feed_is_counted() -> None:
 
 
 def test_rotary_axes_alone_move_in_degrees() -> None:
-    axes = tuple(replace(a, rapid=90.0, max_feed=90.0, acceleration=180.0) if a.rotary else a for a in MILL4.axes)
+    axes = tuple(
+        replace(a, rapid=90.0, max_feed=90.0, acceleration=180.0) if a.rotary else a for a in MILL4.axes
+    )
     result = Build(axes=("X", "Y", "Z", "A")).rapid(0.0, 0.0, 0.0, 360.0).plan(replace(MILL4, axes=axes))
     assert result.total_s == pytest.approx(trapezoid(360.0, 90.0, 180.0), rel=1e-12)
 

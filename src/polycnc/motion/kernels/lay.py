@@ -254,9 +254,9 @@ def lay_chord(
 ) -> None:
     """Give a spline's chord the tangents and the curvature of the curve through its points.
 
-    At a point between two chords the tangent is their mean direction, the curvature the change of direction
-    over the mean length: central differences, the curve's own values to second order. UNIT is the chord,
-    TANGENT the one before.
+    At a point between two chords the tangent is their mean direction, the shorter one counting more, the
+    curvature the change of direction over the mean length: the derivatives of the parabola through the three
+    points. UNIT is the chord, TANGENT the one before.
     """
     unit, tangent, bend = STATE_BLOCKS + UNIT * n, STATE_BLOCKS + TANGENT * n, STATE_BLOCKS + BEND * n
     here = at + VECTORS
@@ -268,7 +268,7 @@ def lay_chord(
     if state[SMOOTH] != 2.0:
         return
     for i in range(n):
-        state[bend + i] = state[unit + i] + state[tangent + i]
+        state[bend + i] = state[unit + i] * state[ROW_LENGTH] + state[tangent + i] * length
     size, mean = norm(state, bend, n, limits, weight), 0.5 * (length + state[ROW_LENGTH])
     cap2 = pieces[at + ENTRY2]
     for i in range(n):

@@ -1,0 +1,183 @@
+"""No plan exceeds what an axis can do, and none is quicker than possible."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+from math import cos, pi, sin
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from polycnc.machine import load_machine
+from polycnc.motion import Settings
+from polycnc.motion.limits import axis_limits
+from polycnc.toolpath import Context, Kind
+from tests.motion.paths import MILL, MILL4, Build, Piece, pieces_of
+
+coordinate = st.floats(-50.0, 50.0).map(lambda x: round(x, 3))
+speed = st.sampled_from([5.0, 40.0, 200.0, 5000.0])
+line = st.tuples(st.just("line"), coordinate, coordinate, coordinate, speed)
+arc = st.tuples(st.just("arc"), st.floats(0.5, 30.0), st.floats(0.0, 6.2), st.floats(0.05, 12.0), speed)
+spiral = st.tuples(st.just("spiral"), st.floats(2.0, 30.0), st.floats(0.0, 6.2), st.floats(0.5, 12.0), speed)
+spline = st.tuples(st.just("spline"), st.floats(2.0, 30.0), st.floats(0.0, 6.2), st.floats(0.5, 6.0), speed)
+UNEVEN = replace(
+    MILL,
+    axes=tuple(
+        replace(axis, acceleration=a, max_feed=v)
+        for axis, a, v in zip(MILL.axes, (3000.0, 1500.0, 600.0), (400.0, 250.0, 150.0), strict=True)
+    ),
+)
+
+
+def build(steps: list[tuple[str, float, float, float, float]], context: Context) -> Build:
+    """Lines, arcs that start tangentially anywhere, spirals and splines, one behind the other."""
+    rows = Build(context=context)
+    for name, a, b, c, feed in steps:
+        x, y, z = rows.end
+        if name == "line":
+            rows.feed(a, b, c, feed=feed)
+            continue
+        cx, cy = x - a * cos(b), y - a * sin(b)
+        if name == "spline":
+            points = 60
+            for k in range(1, points + 1):
+                angle, radius = b + c * k / points, a * (1.0 + 0.3 * sin(3.0 * k / points))
+                rows.row(Kind.SPLINE, cx + radius * cos(angle), cy + radius * sin(angle), z, feed=feed)
+            continue
+        radius = a * (1.0 if name == "arc" else 1.5)
+        end = (cx + radius * cos(b + c), cy + radius * sin(b + c), z)
+        rows.arc(*end, center=(cx, cy), feed=feed, turns=float(int(c / (2.0 * pi))))
+    return rows
+
+
+def check_limits(pieces: list[Piece], numbers: list[float], n: int, slack: float) -> None:
+    tops, pulls = numbers[n : 2 * n], numbers[2 * n : 3 * n]
+    for piece in pieces:
+        for x, velocity, acceleration in piece.samples(pulls):
+            assert x <= piece.cap2 * (1.0 + 1e-9)
+            for i in range(n):
+                assert abs(velocity[i]) <= tops[i] * slack
+                assert abs(acceleration[i]) <= pulls[i] * slack
+
+
+contexts = st.sampled_from(
+    [Context(path_mode="G64"), Context(path_mode="G642", tolerance_mm=0.02), Context(path_mode="G61")]
+)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.one_of(line, arc, spiral), min_size=1, max_size=8), contexts)
+def test_axes_keep_their_velocity_and_acceleration(
+    steps: list[tuple[str, float, float, float, float]], context: Context
+) -> None:
+    # Arcs carry a margin for what happens between their points; another test looks at the true circle.
+    pieces = pieces_of(build(steps, context).toolpath, UNEVEN)
+    check_limits(pieces, list(axis_limits(UNEVEN, 1, ("X", "Y", "Z"), Settings())), 3, 1.0107)
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.lists(st.one_of(line, spline), min_size=1, max_size=4), contexts)
+def test_axes_keep_their_limits_on_splines(
+    steps: list[tuple[str, float, float, float, float]], context: Context
+) -> None:
+    # Between two points of a spline tangent and curvature are interpolated, which is exact to second order.
+    pieces = pieces_of(build(steps, context).toolpath, UNEVEN)
+    check_limits(pieces, list(axis_limits(UNEVEN, 1, ("X", "Y", "Z"), Settings())), 3, 1.03)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.floats(0.2, 30.0), st.floats(0.0, 6.2), st.floats(0.05, 6.2), speed)
+def test_on_the_true_circle_axes_keep_their_acceleration(
+    radius: float, start: float, angle: float, feed: float
+) -> None:
+    """The pieces interpolate tangent and curvature; here the arc itself is differentiated."""
+    pieces = pieces_of(build([("arc", radius, start, angle, feed)], Context()).toolpath, UNEVEN)
+    way = 0.0
+    for piece in pieces:
+        u = (piece.end2 - piece.start2) / (2.0 * piece.length)
+        constant = 2.0 * piece.length / max(piece.start2**0.5 + piece.end2**0.5, 1e-12)
+        for k in range(21):
+            s = piece.length * k / 20
+            x = max(piece.start2 + 2.0 * u * s, 0.0)
+            phi = start + (way + s) / radius
+            if piece.time < constant * (1.0 - 1e-9):
+                continue  # this piece runs over a peak, not under constant acceleration
+            for i, (t, c) in enumerate(((-sin(phi), -cos(phi)), (cos(phi), -sin(phi)))):
+                limit = UNEVEN.axes[i].acceleration
+                assert abs(t * u + c * x / radius) <= limit * (1.0 + 1e-6)
+                assert abs(t) * x**0.5 <= UNEVEN.axes[i].max_feed * (1.0 + 1e-6)
+        way += piece.length
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.one_of(line, arc, spiral, spline), min_size=1, max_size=8), contexts)
+def test_no_plan_is_quicker_than_the_feed_and_the_slowest_axis(
+    steps: list[tuple[str, float, float, float, float]], context: Context
+) -> None:
+    rows = build(steps, context)
+    planned = rows.plan(UNEVEN)
+    assert planned.total_s >= 0.0
+    before = [0.0, 0.0, 0.0]
+    for row, seconds in zip(rows.toolpath.rows(), planned.row_s, strict=True):
+        for i, axis in enumerate(UNEVEN.axes):
+            assert seconds >= abs(row.end[i] - before[i]) / axis.max_feed * (1.0 - 1e-9)
+        before = list(row.end)
+    assert planned.times.cutting_s >= planned.times.cutting_mm / 5000.0
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(st.one_of(line, arc), min_size=2, max_size=6), st.floats(1.1, 3.0))
+def test_a_stronger_machine_is_never_slower(
+    steps: list[tuple[str, float, float, float, float]], factor: float
+) -> None:
+    strong = replace(
+        UNEVEN, axes=tuple(replace(a, acceleration=a.acceleration * factor) for a in UNEVEN.axes)
+    )
+    rows = build(steps, Context(path_mode="G642", tolerance_mm=0.01))
+    assert rows.plan(strong).total_s <= rows.plan(UNEVEN).total_s * (1.0 + 1e-9)
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(st.tuples(coordinate, coordinate, coordinate, st.floats(-90.0, 90.0)), min_size=2, max_size=8),
+    st.floats(0.001, 1.0),
+)
+def test_rotary_axes_keep_their_limits_in_mixed_moves(
+    ends: list[tuple[float, float, float, float]], tolerance: float
+) -> None:
+    rows = Build(axes=("X", "Y", "Z", "A"), context=Context(tolerance_mm=tolerance))
+    for end in ends:
+        rows.feed(*end, feed=200.0)
+    pieces = pieces_of(rows.toolpath, MILL4)
+    check_limits(pieces, list(axis_limits(MILL4, 1, ("X", "Y", "Z", "A"), Settings())), 4, 1.0 + 1e-9)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(line, min_size=2, max_size=10))
+def test_no_axis_jumps_further_than_allowed_at_a_corner(
+    steps: list[tuple[str, float, float, float, float]],
+) -> None:
+    pieces = pieces_of(build(steps, Context(path_mode="G64")).toolpath, UNEVEN)
+    jumps = list(axis_limits(UNEVEN, 1, ("X", "Y", "Z"), Settings()))[9:12]
+    for before, after in pairwise(pieces):
+        for i in range(3):
+            step = after.vectors[0][i] - before.vectors[1][i]
+            assert abs(step) * after.start2**0.5 <= jumps[i] * (1.0 + 1e-6)
+
+
+def test_every_built_in_machine_has_limits() -> None:
+    for name in ("mill3", "lathe-c-transmit", "mill5-ac-table", "lathe2-2path", "grinder-mu-mz"):
+        machine = load_machine(name)
+        for channel in machine.channels:
+            n = len(channel.names)
+            numbers = axis_limits(machine, channel.number, channel.names, Settings())
+            assert all(0.0 < value < 1e9 for value in numbers[: 4 * n])
+
+
+def test_an_axis_of_a_transformation_is_as_slow_as_the_slowest_linear_one() -> None:
+    machine = load_machine("lathe-c-transmit")
+    numbers = axis_limits(machine, 1, ("X", "Y", "Z", "C"), Settings())
+    linear = [axis.rapid for axis in machine.axes if not axis.rotary]
+    assert numbers[1] == pytest.approx(min(linear))

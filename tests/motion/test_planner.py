@@ -1,0 +1,144 @@
+"""Planning chunk by chunk, plain and compiled."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from math import cos, nan, sin
+from typing import TYPE_CHECKING
+
+import pytest
+
+from polycnc.motion import Plan
+from polycnc.motion import planner as planner_module
+from polycnc.motion.planner import Planner
+from polycnc.toolpath import Context, Kind, Toolpath
+from tests.motion.paths import MILL, Build
+
+if TYPE_CHECKING:
+    from polycnc.toolpath.table import Chunk
+
+
+def varied(rows: int, chunk_rows: int = 65_536) -> Build:
+    """Lines, arcs, splines, rapids, dwells, events and changing contexts."""
+    build = Build(chunk_rows=chunk_rows)
+    k = 0
+    while len(build.toolpath) < rows:
+        k += 1
+        x, y = round(30.0 * sin(0.7 * k), 3), round(20.0 * cos(1.1 * k), 3)
+        build.set(tolerance_mm=0.01 * (k % 3), path_mode=("G64", "G61", "G642")[k // 5 % 3], tool=1 + k // 40)
+        build.feed(x, y, 0.01 * k, feed=60.0 + k % 50)
+        if k % 3 == 0:
+            build.arc(x, y + 4.0, 0.01 * k, center=(x, y + 2.0), feed=150.0, turns=float(k % 2))
+        if k % 4 == 0:
+            for j in range(1, 12):
+                build.row(Kind.SPLINE, x + 0.3 * j, y + sin(0.3 * j), 0.01 * k, feed=200.0)
+        if k % 7 == 0:
+            build.rapid(x, y, 10.0).rapid(0.0, 0.0, 10.0)
+        if k % 11 == 0:
+            build.set(spindle_rpm=1000.0 + k, spindle_direction=1).event("m", code=3).dwell(seconds=0.1)
+        if k % 13 == 0:
+            build.event("m", code=8).feed(x, y, 0.01 * k + 1.0)
+    return build
+
+
+def bits(plan: Plan) -> tuple[object, ...]:
+    """Everything of a plan that must not depend on how it was made."""
+    return plan.row_s.tobytes(), plan.times, plan.tools, plan.rows_without_feed
+
+
+@pytest.mark.parametrize("chunk_rows", [1, 7, 1000])
+def test_chunks_do_not_change_the_result(chunk_rows: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(planner_module, "FULL_ROOM", 256)
+    whole = varied(1500).plan()
+    parts = varied(1500, chunk_rows)
+    assert len(parts.toolpath.chunks) > 1
+    assert bits(parts.plan()) == bits(whole)
+
+
+def test_the_room_for_pieces_does_not_change_the_result(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = varied(1500).plan(compiled=False)
+    monkeypatch.setattr(planner_module, "FULL_ROOM", 256)
+    assert bits(varied(1500).plan(compiled=False)) == bits(whole)
+
+
+def test_compiled_kernels_give_the_same_bits(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("numba")
+    monkeypatch.setattr(planner_module, "FULL_ROOM", 256)
+    build = varied(1500)
+    assert bits(build.plan(compiled=True)) == bits(build.plan(compiled=False))
+
+
+def test_a_toolpath_is_planned_while_it_grows() -> None:
+    """The chunks are dropped as they are planned; the result is that of the whole."""
+    taken: list[int] = []
+
+    def take(chunk: Chunk) -> bool:
+        taken.append(len(chunk))
+        return planner.take(chunk)
+
+    toolpath = Toolpath(("X", "Y", "Z"), chunk_rows=100, on_full=take)
+    planner = Planner(toolpath, MILL)
+    for row in varied(1500).toolpath.rows():
+        context = toolpath.context_number(row.context)
+        if row.event is not None:
+            toolpath.append_event(row.event, 0, row.line, context, list(row.end))
+        else:
+            number = toolpath.add_curve(*row.curve) if row.curve else -1
+            toolpath.append(row.kind, 0, row.line, context, row.feed, list(row.end), number)
+        toolpath.block_boundary()
+    assert len(toolpath.chunks) == 1
+    result = planner.finish()
+    assert sum(taken) >= 1500
+    assert bits(result)[1:] == bits(varied(1500).plan())[1:]
+
+
+def test_rows_need_not_be_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(planner_module, "FULL_ROOM", 256)
+    build = varied(1500, 100)
+    kept, dropped = build.plan(), build.plan(keep_rows=False)
+    assert len(dropped.row_s) == 0
+    assert dropped.times == kept.times
+
+
+def test_a_run_up_over_the_whole_buffer_grows_the_buffer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing becomes final while every joint hangs on the end: the room doubles until it does."""
+    monkeypatch.setattr(planner_module, "FULL_ROOM", 256)
+    parts = Build(context=Context(path_mode="G64"))
+    for k in range(1, 4001):
+        parts.feed(0.001 * k, 0.0, 0.0, feed=400.0)
+    whole = Build().feed(4.0, 0.0, 0.0, feed=400.0)
+    assert parts.plan().total_s == pytest.approx(whole.plan().total_s, rel=1e-9)
+
+
+def test_rows_without_a_way_take_no_time_and_stop_nothing() -> None:
+    plain = Build().feed(50.0, 0.0, 0.0).feed(100.0, 0.0, 0.0)
+    dotted = Build().feed(50.0, 0.0, 0.0).feed(50.0, 0.0, 0.0).feed(100.0, 0.0, 0.0)
+    assert dotted.plan().total_s == plain.plan().total_s
+
+
+def test_an_arc_whose_start_is_its_centre_is_a_line() -> None:
+    build = Build().arc(10.0, 0.0, 0.0, center=(0.0, 0.0))
+    assert build.plan().times.cutting_mm == pytest.approx(10.0)
+
+
+def test_numbers_that_are_not_finite_never_end_in_a_traceback() -> None:
+    build = (
+        Build().feed(10.0, 0.0, 0.0, feed=nan).feed(10.0, 5.0, 0.0, feed=0.0).feed(0.0, 5.0, 0.0, feed=-3.0)
+    )
+    assert build.plan().rows_without_feed == 3
+
+
+def test_a_short_program_loads_no_array_library() -> None:
+    program = (
+        "import sys\n"
+        "from polycnc.machine import load_machine\n"
+        "from polycnc.motion import plan\n"
+        "from polycnc.toolpath import Context, Kind, Toolpath\n"
+        "t = Toolpath(('X', 'Y', 'Z'))\n"
+        "t.append(Kind.FEED, 0, 1, t.context_number(Context()), 10.0, [5.0, 0.0, 0.0])\n"
+        "assert plan(t, load_machine('mill3')).total_s > 0.5\n"
+        "print([name for name in ('numpy', 'numba', 'pyarrow') if name in sys.modules])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

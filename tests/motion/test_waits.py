@@ -1,0 +1,125 @@
+"""Time that passes while the axes stand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from polycnc.machine import MFunction
+from polycnc.machine.model import Text
+from polycnc.toolpath import Context, Kind
+from tests.motion.paths import LATHE, MILL, Build
+
+CHANGE_S = MILL.magazine.change_time_s
+RAMP = MILL.spindles[0].acceleration_rpm_s
+
+
+def m_function(code: int, seconds: float, timing: str) -> MFunction:
+    return MFunction(code, Text("test"), seconds, timing)  # type: ignore[arg-type]
+
+
+def test_each_tool_change_takes_the_magazines_time_and_belongs_to_the_new_tool() -> None:
+    rows = Build().set(tool=1).event("t", tool=1).feed(10.0, 0.0, 0.0)
+    rows.set(tool=2).event("t", tool=2).feed(20.0, 0.0, 0.0).set(tool=1).feed(30.0, 0.0, 0.0)
+    result = rows.plan()
+    assert result.times.tool_change_s == 3.0 * CHANGE_S
+    assert [(tool.tool, tool.times.tool_change_s) for tool in result.tools] == [
+        (1, 2 * CHANGE_S),
+        (2, CHANGE_S),
+    ]
+
+
+def test_the_tool_that_is_in_the_spindle_needs_no_change() -> None:
+    assert Build().set(tool=7).feed(10.0, 0.0, 0.0).plan(tool=7).times.tool_change_s == 0.0
+
+
+def test_tools_are_told_apart_by_name() -> None:
+    rows = Build().set(tool_name="MILL_10").feed(10.0, 0.0, 0.0).set(tool_name="DRILL_5").feed(20.0, 0.0, 0.0)
+    result = rows.plan()
+    assert [tool.name for tool in result.tools] == ["MILL_10", "DRILL_5"]
+    assert result.times.tool_change_s == 2.0 * CHANGE_S
+
+
+def test_the_axes_stop_for_a_tool_change() -> None:
+    flying = Build().set(tool=1).feed(50.0, 0.0, 0.0).feed(100.0, 0.0, 0.0)
+    stopping = Build().set(tool=1).feed(50.0, 0.0, 0.0).set(tool=2).feed(100.0, 0.0, 0.0)
+    ramp = 100.0 / MILL.axes[0].acceleration
+    assert stopping.plan().times.cutting_s == pytest.approx(flying.plan().times.cutting_s + ramp, rel=1e-9)
+
+
+def test_the_spindle_ramps_up_reverses_and_stops() -> None:
+    rows = Build().set(spindle_rpm=3000.0, spindle_direction=1).event("m", code=3).feed(10.0, 0.0, 0.0)
+    rows.set(spindle_direction=-1).event("m", code=4).feed(20.0, 0.0, 0.0)
+    rows.set(spindle_direction=0).event("m", code=5)
+    result = rows.plan()
+    assert result.times.spindle_s == pytest.approx((3000.0 + 6000.0 + 3000.0) / RAMP)
+    assert result.row_s[0] == pytest.approx(3000.0 / RAMP)
+
+
+def test_a_spindle_speed_above_the_machines_is_the_machines() -> None:
+    rows = Build().set(spindle_rpm=1e6, spindle_direction=1).feed(10.0, 0.0, 0.0)
+    assert rows.plan().times.spindle_s == pytest.approx(MILL.spindles[0].max_rpm / RAMP)
+
+
+def test_constant_surface_speed_ramps_to_the_speed_at_the_radius() -> None:
+    rows = Build(axes=("X", "Z")).rapid(30.0, 0.0)
+    rows.set(surface_speed=True, spindle_rpm=188.49555921538757, spindle_direction=1).feed(30.0, -1.0)
+    # 188.5 m/min at 30 mm radius are 1000 rpm.
+    assert rows.plan(LATHE).times.spindle_s == pytest.approx(1000.0 / LATHE.spindles[0].acceleration_rpm_s)
+
+
+def test_orienting_the_spindle_takes_its_time() -> None:
+    assert Build().event("m", code=19).plan().times.spindle_s == MILL.spindles[0].orient_s
+
+
+@pytest.mark.parametrize(("timing", "expected"), [("before", 0.7), ("after", 0.7)])
+def test_an_auxiliary_function_takes_its_seconds(timing: str, expected: float) -> None:
+    machine = replace(MILL, m_functions={50: m_function(50, 0.7, timing)})
+    rows = Build().feed(50.0, 0.0, 0.0).event("m", code=50).feed(100.0, 0.0, 0.0)
+    still = Build().feed(50.0, 0.0, 0.0).dwell(seconds=1.0).feed(100.0, 0.0, 0.0)
+    result = rows.plan(machine)
+    assert result.times.auxiliary_s == pytest.approx(expected)
+    assert result.times.cutting_s == still.plan().times.cutting_s
+
+
+def test_a_function_beside_the_motion_takes_only_what_is_longer() -> None:
+    machine = replace(MILL, m_functions={8: m_function(8, 3.0, "with")})
+    rows = Build().event("m", code=8)
+    rows.line -= 1
+    rows.feed(100.0, 0.0, 0.0)
+    motion = rows.plan(replace(MILL, m_functions={})).times.cutting_s
+    result = rows.plan(machine)
+    assert result.times.auxiliary_s == pytest.approx(3.0 - motion)
+    assert result.total_s == pytest.approx(3.0)
+    assert sum(result.row_s) == pytest.approx(3.0)
+
+
+def test_a_function_beside_a_long_motion_takes_nothing_and_stops_nothing() -> None:
+    machine = replace(MILL, m_functions={8: m_function(8, 0.2, "with")})
+    rows = Build().feed(100.0, 0.0, 0.0).event("m", code=8)
+    rows.line -= 1
+    rows.feed(200.0, 0.0, 0.0)
+    plain = Build().feed(100.0, 0.0, 0.0).feed(200.0, 0.0, 0.0)
+    assert rows.plan(machine).total_s == plain.plan(machine).total_s
+
+
+def test_messages_do_not_stop_the_axes() -> None:
+    rows = Build().feed(50.0, 0.0, 0.0).event("message", text="HALF").feed(100.0, 0.0, 0.0)
+    plain = Build().feed(50.0, 0.0, 0.0).feed(100.0, 0.0, 0.0)
+    assert rows.plan().total_s == plain.plan().total_s
+
+
+def test_a_dwell_in_revolutions_follows_the_spindle() -> None:
+    rows = Build().set(spindle_rpm=120.0, spindle_direction=1).dwell(revolutions=3.0)
+    assert rows.plan().times.dwell_s == pytest.approx(1.5)
+
+
+def test_each_thread_waits_half_a_turn_for_the_zero_mark() -> None:
+    context = Context(feed_mode="G95", spindle_rpm=300.0, spindle_direction=1)
+    rows = Build(axes=("X", "Z"), context=context)
+    for _ in range(2):
+        rows.rapid(20.0, 5.0)
+        rows.row(Kind.THREAD, 20.0, -10.0, curve=(1.0, 0.0)).row(Kind.THREAD, 21.0, -15.0, curve=(1.0, 0.0))
+    ramp = 300.0 / LATHE.spindles[0].acceleration_rpm_s
+    assert rows.plan(LATHE).times.spindle_s == pytest.approx(ramp + 2.0 * 0.1)
