@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from polycnc.cli.diagnostics import Diagnostic, Place
 
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
-HOME = "https://github.com/polycnc/polycnc"
 _ROOT = "%SRCROOT%"
 
 
@@ -30,7 +29,6 @@ def as_sarif(found: Sequence[Diagnostic], exit_code: int) -> str:
             "driver": {
                 "name": "polycnc",
                 "semanticVersion": __version__,
-                "informationUri": HOME,
                 "rules": [_rule(diagnostic) for diagnostic in rules],
             }
         },
