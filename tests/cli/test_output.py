@@ -19,12 +19,17 @@ def test_a_file_appears_only_when_it_is_complete(tmp_path: Path) -> None:
     assert path.read_bytes() == b"one\n"
 
 
+def interrupted(path: Path) -> None:
+    with whole_file(path) as stream:
+        stream.write("new")
+        raise KeyboardInterrupt
+
+
 def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:
     path = tmp_path / "out.txt"
     path.write_text("old", encoding="utf-8")
-    with pytest.raises(KeyboardInterrupt), whole_file(path) as stream:
-        stream.write("new")
-        raise KeyboardInterrupt
+    with pytest.raises(KeyboardInterrupt):
+        interrupted(path)
     assert path.read_text(encoding="utf-8") == "old"
     assert list(tmp_path.iterdir()) == [path]
 
