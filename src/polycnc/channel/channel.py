@@ -7,6 +7,7 @@ language compiled, and what differs between controls lies behind `Control`.
 
 from __future__ import annotations
 
+import re
 from contextlib import suppress
 from math import inf, nan
 from typing import TYPE_CHECKING, Any, Protocol
@@ -23,12 +24,14 @@ from polycnc.toolpath.table import CHUNK_ROWS
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from polycnc.channel.stack import Step
     from polycnc.geometry.frames import Vector
     from polycnc.machine.model import Axis, Machine
     from polycnc.machine.setup import Setup
     from polycnc.program import Program
     from polycnc.program.store import ProgramStore
 
+_SEQUENCE = re.compile(r"\s*(?:/\d*\s*)?([N:]\d+)", re.IGNORECASE)
 DEFAULT_BLOCK_LIMIT = 100_000_000
 #: Blocks that run between two looks at the block limit.
 BURST = range(4096)
@@ -53,6 +56,9 @@ class Control(Protocol):
 
     def over_travel(self, axis: str, direction: int) -> AlarmError:
         """The alarm for a target beyond a limit of an axis; direction is 1 or -1."""
+
+    def halts(self, channel: Channel, level: Level, step: Step) -> bool:
+        """Whether single block operation halts behind the block that `step` of `level` was."""
 
     def block_limit(self) -> AlarmError:
         """The alarm for a program that has run more blocks than allowed."""
@@ -129,6 +135,7 @@ class Channel:
         self._wait: Wait | None = None
         self.skip_levels = 0
         self.stroke_zone: Zone | None = None
+        self.single_block = bool(setup.switches.single_block)
         self.optional_stop = setup.switches.optional_stop
         self.variables_at_end: dict[str, Any] | None = None
         self._context = 0
@@ -247,7 +254,7 @@ class Channel:
             while not self._finished:
                 level = self._level
                 steps, kinds = level.steps, toolpath.chunk.kind
-                self.attention = self._head is not None
+                self.attention = self._head is not None or self.single_block
                 for _ in BURST:
                     index = level.index
                     step = steps[index] if index < len(steps) else None
@@ -266,6 +273,8 @@ class Channel:
                         break
                 if self._head is not None:
                     self._head.block()
+                if self.single_block and step is not None and self._control.halts(self, level, step):
+                    self._wait = self._wait or Wait("single-block", self.sequence_of(level))
                 if self.blocks >= self.block_limit:
                     raise self._control.block_limit()
                 self.mark = toolpath.mark()
@@ -285,6 +294,13 @@ class Channel:
         except RecursionError:
             self._take_back()
             self._alarm(AlarmError("PC0003"))
+
+    def sequence_of(self, level: Level) -> str:
+        """The block that a level runs, as its sequence number or else its line."""
+        line = level.line_of(level.current)
+        program = level.code.program
+        match = _SEQUENCE.match(program.lines[line - program.first_line])
+        return match[1].upper() if match else str(line)
 
     def _take_back(self, *, found_ahead: bool = False) -> None:
         """The block that alarms does nothing: its rows vanish, the channel stands where it stood before.

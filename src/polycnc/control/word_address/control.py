@@ -14,6 +14,7 @@ from polycnc.control.word_address.numbers import Convert, NumberRules, angle_con
 from polycnc.control.word_address.plan import Builder, Plan
 from polycnc.geometry.arcs import radius_mismatch
 from polycnc.language.word_address import Grammar, WordAddressProgram
+from polycnc.language.word_address.words import ExpressionBlock, WordBlock
 from polycnc.messages import AlarmError, Catalogue
 from polycnc.program import Form
 from polycnc.toolpath import Context
@@ -23,7 +24,8 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
-    from polycnc.channel.stack import Executable
+    from polycnc.channel.stack import Executable, Level
+    from polycnc.channel.stack import Step as ProgramStep
     from polycnc.control.word_address.codes import Planner, Step
     from polycnc.geometry.arcs import Point
     from polycnc.program import Program
@@ -96,6 +98,11 @@ class WordAddressControl:
     def arithmetic_alarm(self, error: ArithmeticError) -> AlarmError:
         """The alarm for a division by zero or an overflow in an expression."""
         return self.fail("zero_divide" if isinstance(error, ZeroDivisionError) else "overflow")
+
+    def halts(self, channel: Channel, level: Level, step: ProgramStep) -> bool:
+        """Single block halts behind a block of words; macro statements, calls and returns do not count."""
+        words = step.signature if isinstance(step, WordBlock) else step.keys if isinstance(step, ExpressionBlock) else ()
+        return bool(words) and channel.level is level and not channel.finished
 
     def untaken(self, address: str, _builder: Builder) -> AlarmError:
         """The alarm for a word that nothing in its block takes."""
