@@ -14,6 +14,7 @@ from polycnc.control.sinumerik import (
     limits,
     positions,
     procedures,
+    sections,
     stages,
     tables,
     variables_by_name,
@@ -230,7 +231,7 @@ class Sinumerik:
             surface_speed=feed.surface_speed,
             spindle_limit_rpm=spindle.limit if spindle and spindle.limit < inf else 0.0,
             path_mode="G9" if memory.exact_stop_block else mode["path_mode"],
-            tolerance_mm=memory.rounding_mm if mode["path_mode"] == "G641" else 0.0,
+            tolerance_mm=_tolerance(memory, mode["path_mode"]),
             diameter_axes=diameters,
             wcs=mode["zero_offset"],
         )
@@ -257,6 +258,13 @@ class Sinumerik:
         """Names of all variables that hold something."""
         memory: Memory = channel.memory
         return [f"R{n}" for n, value in enumerate(memory.language.r) if value]
+
+
+def _tolerance(memory: Memory, path_mode: str) -> float:
+    """ADIS for G641, CTOL for the kinds of rounding that keep a tolerance."""
+    if path_mode in ("G642", "G643", "G645"):
+        return sections.contour_tolerance(memory)
+    return memory.rounding_mm if path_mode == "G641" else 0.0
 
 
 def _speed(spindle: Spindle | None, surface_speed: bool) -> float:

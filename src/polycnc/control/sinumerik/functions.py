@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik import frame_codes
+from polycnc.control.sinumerik import d_numbers, frame_codes
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frame_variables import frame_axis
 from polycnc.language.sinumerik.nc_frame import GEOMETRY_AXES, NcFrame, crpl
@@ -103,4 +103,8 @@ FUNCTIONS: dict[str, Callable[[Channel, Arguments], Any]] = {
     "CRPL": rotation_in_plane,
     "CROTS": solid_rotation,
     "POSRANGE": in_window,
+    "CHKDNO": d_numbers.check_numbers,
+    "GETDNO": d_numbers.get_number,
+    "SETDNO": d_numbers.set_number,
+    "GETACTTD": d_numbers.tool_of_number,
 }

@@ -11,6 +11,7 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from polycnc.channel.stack import Level
     from polycnc.control.sinumerik.frames import Frames
     from polycnc.control.sinumerik.limits import Limit
     from polycnc.control.sinumerik.machine_data import MachineData
@@ -55,6 +56,7 @@ class Memory:
             for counter-clockwise; None before the first.
         feed_mode: How F is meant, as the toolpath's feed modes.
         modal_corner_feed: FRCM in internal units, NaN for the path feed.
+        sections: Program level that began an open section (DELAYFSTON, IPTRLOCK).
         limits: Ranges that targets must stay in.
         open_line: Angle of a line whose end the next block tells (ANG), degrees.
         open_corners: Chamfers and roundings at the end of that line.
@@ -82,6 +84,7 @@ class Memory:
     feed_mode: str = "G94"
     modal_corner_feed: float = nan
     exact_stop_block: bool = False
+    sections: dict[str, Level] = field(default_factory=dict)
     limits: tuple[Limit, ...] = ()
     open_line: float = 0.0
     open_corners: list[Callable[[], None]] = field(default_factory=list)

@@ -61,7 +61,7 @@ def _plain_linear(terms: list[AxisTerm]) -> Step | None:
     """G1 with axis words alone; where all are absolute, in one function: most blocks of most programs."""
     if not terms:
         return None
-    if any(term.way is not Way.ABSOLUTE for term in terms):
+    if any(term.way is not Way.ABSOLUTE or term.coded for term in terms):
         return lambda channel, values: line(
             channel, Kind.FEED, target(channel, terms, values), checked_feed(channel.feed)
         )
@@ -136,7 +136,7 @@ def goal_of(draft: Draft) -> Goal | None:
         return _polar(draft, terms, angle, radius)
     if not terms:
         return None
-    if all(term.way is Way.ABSOLUTE for term in terms):
+    if all(term.way is Way.ABSOLUTE and not term.coded for term in terms):
         plain = [(term.position, term.column, term.factor) for term in terms]
         return _absolute(plain)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from enum import Enum
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik import indexing
 from polycnc.language.sinumerik.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
 
@@ -42,12 +42,14 @@ class AxisTerm(NamedTuple):
         column: Which axis of the channel.
         way: How the value is meant.
         factor: From the programmed value to mm (radius) or degrees.
+        coded: CAC, CIC … for a coded position, else empty.
     """
 
     position: int
     column: int
     way: Way
     factor: float
+    coded: str = ""
 
 
 #: For each modifier: the way it asks for, and whether the value is a diameter (None: as the modal state
@@ -100,7 +102,7 @@ def axis_term(
 
     Raises:
         WordAlarm: 12020 for a modifier that axis words do not have, 16800 to 16820 for the way of a rotary
-            axis on a linear one, 12140 for coded positions (PC0001).
+            axis on a linear one.
     """
     memory: Memory = channel.memory
     axis = channel.axis_data[column]
@@ -109,8 +111,8 @@ def axis_term(
         way = Way.INCREMENTAL if mode["dimensions"] == "G91" else Way.ABSOLUTE
     elif modifier in _MODIFIERS:
         way, diameter = _MODIFIERS[modifier]
-    elif modifier.startswith("C"):
-        raise not_supported(modifier)
+    elif modifier in indexing.WAYS:
+        return axis_term(channel, mode, position, column, indexing.WAYS[modifier])._replace(coded=modifier)
     else:
         raise WordAlarm("12020", position, text=modifier)
     if modifier in _ROTARY_ONLY and not axis.rotary:
@@ -145,6 +147,8 @@ def target(channel: Channel, terms: Sequence[AxisTerm], values: tuple[Any, ...])
     for term in terms:
         value = number(values, term.position) * term.factor
         column = term.column
+        if term.coded:
+            value = indexing.position(channel, column, term.coded, number(values, term.position))
         if term.way is Way.ABSOLUTE:
             end[column] = value
         elif term.way is Way.INCREMENTAL:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik import limits
+from polycnc.control.sinumerik import d_numbers, limits, sections
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.language.sinumerik.nc_frame import NEUTRAL
 from polycnc.language.sinumerik.values import Axis
@@ -131,6 +131,11 @@ def path_group(channel: Channel, args: Arguments) -> None:
     memory.values["FGROUP", ()] = tuple(memory.column(axis.name) for axis in args)
 
 
+def renumber(channel: Channel, args: Arguments) -> None:
+    """SETDNO(t, ce, d) without use of its status."""
+    d_numbers.set_number(channel, args)
+
+
 def new_configuration(channel: Channel, _args: Arguments) -> None:
     """NEWCONF: machine data that the program has written act."""
     limits.refresh(channel)
@@ -160,6 +165,14 @@ PROCEDURES: dict[str, Callable[[Channel, Arguments], None]] = {
     "DRIVEA": dynamics("DRIVE"),
     "JERKA": dynamics("JERK"),
     "FGROUP": path_group,
+    "DELAYFSTON": sections.begin(sections.STOP_DELAY),
+    "DELAYFSTOF": sections.end(sections.STOP_DELAY),
+    "IPTRLOCK": sections.begin(sections.POINTER_LOCK),
+    "IPTRUNLOCK": sections.end(sections.POINTER_LOCK),
+    **{name: sections.motion_end(name) for name in sections.MOTION_ENDS},
+    "SETDNO": renumber,
+    "DZERO": d_numbers.invalidate,
+    "DELDL": d_numbers.delete_additive,
     "NEWCONF": new_configuration,
     "TRAFOOF": transformation_off,
     "DRFOF": no_overlay,

@@ -57,6 +57,46 @@ def _parameter(number: int) -> Row:
     return (Type.INT if number == DP_TYPE else Type.REAL), read, write
 
 
+def _additive(kind: str, number: int) -> Row:
+    """`$TC_SCPn[t,d]`, `$TC_ECPn[t,d]`: additive offset; acts when DL or D is programmed again."""
+    name = f"$TC_{kind}{number}"
+
+    def read(channel: Channel, indices: Indices) -> float:
+        tool, edge = _numbers(indices, name, 2)
+        return _edge(channel, tool, edge).additive.get((kind, number), 0.0)
+
+    def write(channel: Channel, indices: Indices, value: float) -> None:
+        tool, edge = _numbers(indices, name, 2)
+        _edge(channel, tool, edge).additive[kind, number] = float(value)
+
+    return Type.REAL, read, write
+
+
+def _cutting_edge(channel: Channel, indices: Indices) -> int:
+    tool, edge = _numbers(indices, "$TC_DPCE", 2)
+    return _edge(channel, tool, edge).cutting_edge or edge
+
+
+def _set_cutting_edge(channel: Channel, indices: Indices, value: int) -> None:
+    tool, edge = _numbers(indices, "$TC_DPCE", 2)
+    _edge(channel, tool, edge).cutting_edge = int(value)
+
+
+def _carrier(number: int) -> Row:
+    """`$TC_CARRn[m]`: data of a tool carrier, kept."""
+    type_ = {21: Type.AXIS, 22: Type.AXIS, 23: Type.STRING}.get(number, Type.REAL)
+    name = f"$TC_CARR{number}"
+    empty: Any = {Type.AXIS: Axis("X"), Type.STRING: ""}.get(type_, 0.0)
+
+    def read(channel: Channel, indices: Indices) -> Any:
+        return channel.memory.values.get((name, tuple(_numbers(indices, name, 1))), empty)
+
+    def write(channel: Channel, indices: Indices, value: Any) -> None:
+        channel.memory.values[name, tuple(_numbers(indices, name, 1))] = value
+
+    return type_, read, write
+
+
 def _tool(channel: Channel, indices: Indices, name: str) -> Tool:
     (number,) = _numbers(indices, name, 1)
     tools: Tools = channel.memory.tools
@@ -107,7 +147,12 @@ def _of_tools(attribute: str) -> Callable[[Channel, Indices], Any]:
     return lambda channel, _indices: getattr(channel.memory.tools, attribute)
 
 
+#: Numbers of additive offsets: 10 * DL + parameter, DL 1 to 6, parameters 3 to 11.
+_ADDITIVE = [10 * dl + parameter for dl in range(1, 7) for parameter in range(3, 12)]
 TOOL_VARIABLES: dict[str, Row] = {
+    **{f"$TC_{kind}{n}": _additive(kind, n) for kind in ("SCP", "ECP") for n in _ADDITIVE},
+    **{f"$TC_CARR{n}": _carrier(n) for n in range(1, 66)},
+    "$TC_DPCE": (Type.INT, _cutting_edge, _set_cutting_edge),
     **{f"$TC_DP{n}": _parameter(n) for n in range(1, PARAMETERS + 1)},
     **{f"$TC_TP{n}": _tool_value(f"$TC_TP{n}") for n in (1, 3, 4, 5, 6, 7, 8, 9, 10, 11)},
     "$TC_TP2": (Type.STRING, _name, _set_name),

@@ -40,9 +40,19 @@ OTHER_LENGTHS = {17: (2, 1, 0), 18: (1, 0, 2), 19: (0, 2, 1), -17: (2, 0, 1), -1
 
 @dataclass(slots=True)
 class Edge:
-    """One cutting edge; `values[n]` is `$TC_DPn`."""
+    """One cutting edge.
+
+    Attributes:
+        values: `values[n]` is `$TC_DPn`.
+        cutting_edge: `$TC_DPCE`, 0 while it equals the D number.
+        is_valid: False after DZERO.
+        additive: Additive offsets, wear (`$TC_SCPn`) and setup (`$TC_ECPn`) added up, by kind and number n.
+    """
 
     values: list[float] = field(default_factory=lambda: [0.0] * (PARAMETERS + 1))
+    cutting_edge: int = 0
+    is_valid: bool = True
+    additive: dict[tuple[str, int], float] = field(default_factory=dict)
 
     @property
     def is_turning(self) -> bool:
@@ -86,6 +96,7 @@ class Tools:
         added_lengths: TOFFL for L1, L2, L3, mm.
         added_on_axes: TOFF along X, Y, Z, mm.
         added_radius: TOFFR, mm.
+        additive: DL, 0 for none.
     """
 
     tools: dict[int, Tool] = field(default_factory=dict)
@@ -97,6 +108,7 @@ class Tools:
     added_lengths: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     added_on_axes: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     added_radius: float = 0.0
+    additive: int = 0
 
     @property
     def edge(self) -> Edge | None:
@@ -108,7 +120,7 @@ class Tools:
     def radius(self) -> float:
         """Radius that compensation applies, mm."""
         edge = self.edge
-        return (edge.radius if edge else 0.0) + self.added_radius
+        return (edge.radius + self._additive(edge, DP_RADIUS) if edge else 0.0) + self.added_radius
 
     @property
     def name(self) -> str:
@@ -153,7 +165,8 @@ class Tools:
         """
         if number != 0 and self.active == 0:
             raise AlarmError("17180", edge=number)
-        if number != 0 and number not in self.tools[self.active].edges:
+        edges = self.tools[self.active].edges if self.active else {}
+        if number != 0 and (number not in edges or not edges[number].is_valid):
             raise AlarmError("17181", tool=self.active, edge=number)
         self.edge_number = number
         self._forget_additions()
@@ -162,6 +175,7 @@ class Tools:
         self.added_lengths = [0.0, 0.0, 0.0]
         self.added_on_axes = [0.0, 0.0, 0.0]
         self.added_radius = 0.0
+        self.additive = 0
 
     def assign_lengths(self, plane: str, data: MachineData) -> None:
         """Work out the offsets along X, Y, Z for the plane and the setting data."""
@@ -175,7 +189,16 @@ class Tools:
             axes = table.get(key, table[18 if turning else 17])
             for axis, length, added in zip(axes, edge.lengths, self.added_lengths, strict=True):
                 offsets[axis] += length + added
+            for i, axis in enumerate(axes):
+                offsets[axis] += self._additive(edge, DP_LENGTH + i)
         self.lengths = (offsets[0], offsets[1], offsets[2])
+
+    def _additive(self, edge: Edge, parameter: int) -> float:
+        """What DL adds to a parameter: offset x, parameter y have the number 10x + y in their names."""
+        if not self.additive:
+            return 0.0
+        number = 10 * self.additive + parameter
+        return sum(edge.additive.get((kind, number), 0.0) for kind in ("SCP", "ECP"))
 
     def new_tool(self, number: int) -> Tool:
         """The tool of a number, made if it is not there."""

@@ -10,7 +10,7 @@ from math import inf, nan, pi
 from typing import TYPE_CHECKING
 
 from polycnc.compensation.corner import Shape
-from polycnc.control.sinumerik import auxiliary, motion, stages, tables
+from polycnc.control.sinumerik import auxiliary, motion, sections, stages, tables
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.positions import length_factor, number
 from polycnc.language.sinumerik.values import Axis
@@ -36,12 +36,14 @@ def feed(draft: Draft, position: int, shape: WordShape) -> Step:
     if draft.mode["feed"] == "G931":
         return _travel_time(position)
     factor = motion.feed_factor(draft)
+    polynomial = shape.modifier == "FPO"
 
     def run(channel: Channel, values: Values) -> None:
-        value = number(values, position) * factor
+        # FPO(end, quadratic, cubic): the feed at the end of the block is the modal one.
+        value = number(values[position], 0) if polynomial else number(values, position)
         if value < 0.0:
             raise WordAlarm("14800", position)
-        channel.feed = value or nan
+        channel.feed = value * factor or nan
 
     return run
 
@@ -175,6 +177,19 @@ def edge(_draft: Draft, position: int, _shape: WordShape) -> Step:
             memory.tools.next_edge = int(value)
             return
         memory.tools.select_edge(int(value))
+        auxiliary.tool_changed(channel)
+
+    return run
+
+
+def additive_offset(_draft: Draft, position: int, _shape: WordShape) -> Step:
+    """DL: additive offset of the active edge, 1 to 6; 0 and a new D take it away."""
+
+    def run(channel: Channel, values: Values) -> None:
+        value = number(values, position)
+        if value not in range(7):
+            raise WordAlarm("12560", position, text="DL")
+        channel.memory.tools.additive = int(value)
         auxiliary.tool_changed(channel)
 
     return run
@@ -413,17 +428,23 @@ WORDS: dict[str, Maker] = {
     "ADISPOS": rounding_distance,
     "TCARR": tool_carrier,
     "SVC": cutting_rate,
+    "DL": additive_offset,
+    "SCPARA": sections.parameter_set,
+    "CTOL": sections.tolerance,
+    "OTOL": sections.tolerance,
+    "ATOL": sections.tolerance,
     **dict.fromkeys(("DITS", "DITE", "DILF", "ALF"), kept),
     **dict.fromkeys(_PERCENT, percentage),
 }
 #: Addresses that take an extension or an index, and those that take something round their value.
 _EXTENDED = """
-S M H T D F FA LIMS SPOS SPOSA TOFFL TOFF OVRA ACC ACCLIMA VELOLIM VELOLIMA JERKLIM JERKLIMA
+S M H T D F FA LIMS SPOS SPOSA TOFFL TOFF OVRA ACC ACCLIMA VELOLIM VELOLIMA JERKLIM JERKLIMA SCPARA ATOL
 """
 EXTENDED = frozenset(_EXTENDED.split())
 MODIFIED = {
     **dict.fromkeys(("SPOS", "SPOSA"), frozenset(("AC", "IC", "DC", "ACP", "ACN"))),
     **dict.fromkeys(("M", "H"), frozenset(("QU",))),
+    "F": frozenset(("FPO",)),
 }
 #: Words that only mean something together with others; alone they are a mistake of the block.
 COMPANIONS = frozenset(

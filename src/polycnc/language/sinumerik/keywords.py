@@ -182,6 +182,7 @@ PROCEDURES: dict[str, str] = {
     "GETSELT": "Vi",
     "GETEXET": "Vi",
     "GETACTT": "VS",
+    "SETDNO": "III",
 }
 
 #: Machining cycles of the control; a program of the same name in a cycle directory comes first.
