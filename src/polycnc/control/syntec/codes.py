@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from polycnc.control.syntec import arcs, calls, cycles, length, motion, smoothing, spindles
+from polycnc.control.syntec import arcs, calls, cycles, length, motion, operation, skips, smoothing, spindles
 from polycnc.control.syntec import coordinates as frames
 from polycnc.control.word_address import auxiliary, coordinates, path, radius
 from polycnc.control.word_address import extended as base_extended
@@ -21,11 +21,23 @@ G_CODES = table(
     GCode("G3.4", "motion", planner=arcs.plan_three_point_arc, ends="cycle"),
     GCode("G33", "motion", planner=motion.plan_thread, ends="cycle"),
     GCode("G4", handler=frames.dwell, takes="X P Q", axis_words=True, order=MOTION),
+    GCode("G4.1", handler=operation.meet_axis_groups, takes="P Q", axis_words=True, order=MOTION),
+    GCode("G10.6", handler=operation.arm_retract, takes="R F", axis_words=True),
+    GCode("G28.1", handler=skips.position_at_sensor, takes="Q R F1 F2", axis_words=True, order=MOTION),
+    GCode("G31.10", handler=skips.define_group, takes="Q P", axis_words=True, order=MOTION),
+    GCode("G31.11", handler=skips.move_groups, axis_words=True, order=MOTION),
+    GCode("G51.2", handler=spindles.polygon_on, takes="P Q R K"),
+    GCode("G50.2", handler=spindles.release, takes="K"),
+    GCode("G114.1", handler=spindles.synchronise, takes="R K"),
+    GCode("G114.3", handler=spindles.superimpose, takes="K"),
+    GCode("G113", handler=spindles.release, takes="K"),
+    GCode("G120.1", handler=operation.select_conditions, takes="P Q"),
+    GCode("G121", handler=operation.default_conditions),
     GCode("G5", handler=smoothing.high_precision, takes="P E", axis_words=True),
     GCode("G5.1", handler=smoothing.smooth_path, takes="Q E R"),
     GCode("G10.9", handler=frames.switch_diameter, axis_words=True),
     GCode("G9", handler=base_extended.exact_stop_block),
-    GCode("G10", handler=frames.input_data, takes="L P R", axis_words=True, order=MOTION),
+    GCode("G10", handler=frames.input_data, takes="L P R Q I J K", axis_words=True, order=MOTION),
     GCode("G15", "polar"),
     GCode("G16", "polar", base_frames.start_polar),
     GCode("G17", "plane", coordinates.note_context),
@@ -86,10 +98,10 @@ G_CODES = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G4.1", "G6.2", "G10.6", "G12.1", "G13.1", "G28.1", "G31.10", "G31.11", "G37",
+        "G6.2", "G12.1", "G13.1", "G37",
         "G37.2", "G37.3", "G40.1", "G41.1", "G42.1", "G41.2", "G42.2", "G41.6", "G42.6", "G43.4", "G43.5",
-        "G50.2", "G51.2", "G52.1", "G52.2", "G53.1", "G53.3", "G53.6", "G54.4", "G68.2", "G68.3",
-        "G80.2", "G81.1", "G81.2", "G84.48", "G113", "G114.1", "G114.3", "G120.1", "G121",
+        "G52.1", "G52.2", "G53.1", "G53.3", "G53.6", "G54.4", "G68.2", "G68.3",
+        "G80.2", "G81.1", "G81.2", "G84.48",
     ),
 )  # fmt: skip
 
@@ -111,8 +123,8 @@ M_CODES = m_table(
 
 ADDRESSES = {
     "F": motion.plan_feed,
-    "S": auxiliary.plan_spindle_speed,
-    **{f"S{number}": motion.plan_named_spindle(number) for number in range(1, 11)},
+    "S": spindles.plan_speed,
+    **{f"S{number}": spindles.plan_named_speed(number) for number in range(1, 11)},
     "T": auxiliary.plan_tool,
     "B": auxiliary.plan_second_auxiliary,
     "H": base_length.plan_length_number,

@@ -12,6 +12,7 @@ from polycnc.control.word_address.extended import StrokeZone
 from polycnc.control.word_address.length import renew_length
 from polycnc.control.word_address.path import PLANES
 from polycnc.geometry.frames import IDENTITY, Frame, about, cos_sin_deg, rotation, scaling
+from polycnc.language.syntec.values import to_long
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 REFERENCE_POINTS = (1, 2, 3, 4)
 MACHINING_CONDITIONS = frozenset({*range(10), 21, 22, 23})
 REGISTER_INPUT = 1000
+LAST_REGISTER = 65535
 
 
 # ---- work systems ----------------------------------------------------------------------------------------
@@ -250,8 +252,9 @@ def input_data(channel: Channel, words: Words) -> None:
         value = words.typed("R")
         if number is None or value is None or number != int(number):
             raise words.fail("argument", "G10")
-        long = words.form("R") == ""
-        channel.memory.globals.write_register(int(number), int(value) if long else value)
+        if not 0 <= number <= LAST_REGISTER:
+            raise words.fail("argument", "P")
+        channel.memory.globals.registers[int(number)] = to_long(value)
         return
     if kind not in TOOL_FIELDS or kind == 1:
         raise channel.control.not_yet("G10" if kind is None else f"G10 L{kind:g}", "G10")

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.skips import SkipGroup
+    from polycnc.control.syntec.spindles import SpindlePair
 
 #: Names of single bits of the PLC interface that setups may give, and the functions that read them.
 BIT_FAMILIES = "IOAC"
@@ -39,6 +41,9 @@ class SyntecMemory(Memory):
         lead: F of G33, mm.
         feeds: The last feed of each feed mode that was left.
         surface_axis: Reference axis of G96.
+        speeds: Own S of each spindle; `reported` the speed last recorded.
+        pairs: Spindles in step, by group K.
+        skip_groups: Groups of G31.10 that G31.11 will move; the step behind the last one.
         diameters: Axes switched by G10.9: programmed in diameter or not.
     """
 
@@ -69,6 +74,11 @@ class SyntecMemory(Memory):
         self.feeds: dict[str, float] = {}
         self.feed_mode = "G94"
         self.surface_axis = 0
+        self.speeds: dict[int, float] = {}
+        self.reported: dict[int, float] = {}
+        self.pairs: dict[int, SpindlePair] = {}
+        self.skip_groups: list[SkipGroup] = []
+        self.skip_groups_end = 0
         self.diameters: dict[int, bool] = {}
         self.colour = 0
         self.print_file = ""

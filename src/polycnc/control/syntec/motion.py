@@ -14,7 +14,7 @@ from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.codes import Handler, Planner, Step
+    from polycnc.control.word_address.codes import Handler, Step
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
 
@@ -141,7 +141,7 @@ def skip_move(channel: Channel, words: Words) -> None:
         raise words.fail("number", "P")
     c = channel.coordinates
     end = c.to_position(path.target(channel, words.plan.axis_words, words.values))
-    stopped = skip.signal_position(channel, c.position, end, _skip_source(channel, words))
+    stopped = skip.signal_position(channel, c.position, end, skip_source(channel, words))
     memory = channel.memory
     memory.skip_flags = int(stopped is not None)
     channel.straight(Kind.SKIP, end if stopped is None else stopped, channel.feed)
@@ -149,7 +149,7 @@ def skip_move(channel: Channel, words: Words) -> None:
     memory.skip_machine = c.machine
 
 
-def _skip_source(channel: Channel, words: Words) -> object:
+def skip_source(channel: Channel, words: Words) -> object:
     """Where the signal comes: Q none is the skip input, 101 to 132 C bits, 201 to 218 inputs of drives."""
     switches = channel.setup.switches
     source = words.typed("Q")
@@ -243,24 +243,3 @@ lengthened: Handler = partial(_lengthened_move, 1.0)
 shortened: Handler = partial(_lengthened_move, -1.0)
 lengthened_twice: Handler = partial(_lengthened_move, 2.0)
 shortened_twice: Handler = partial(_lengthened_move, -2.0)
-
-
-# ---- spindle ---------------------------------------------------------------------------------------------
-
-
-def plan_named_spindle(spindle: int) -> Planner:
-    """`S1=150`, `S2=2000`: the speed of a spindle by its number."""
-
-    def plan_speed(builder: Builder) -> Step:
-        slot = builder.slots[f"S{spindle}"][0]
-
-        def set_speed(channel: Channel, values: list[float]) -> None:
-            value = values[slot]
-            if spindle == 1:
-                channel.memory.spindle_speed = value
-                channel.context_changed()
-            channel.event("s", speed=int(value) if value == int(value) else value, spindle=spindle)
-
-        return set_speed
-
-    return plan_speed

@@ -1,16 +1,165 @@
-"""G96 and G97 of SYNTEC: constant surface speed (manual 2.66, chapter 6)."""
+"""Spindles of SYNTEC: S words, G96 and G97, polygon turning G51.2, synchronisation G114.1 and G114.3.
+
+Sources: manual 2.66, 2.84 to 2.86, chapter 6. A pair of spindles is in step as soon as it is commanded; the phase
+(R) moves nothing that a path shows.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.memory import SyntecMemory
+    from polycnc.control.word_address.codes import Planner, Step
+    from polycnc.control.word_address.plan import Builder
     from polycnc.control.word_address.words import Words
 
 GEOMETRY_AXES = 3
 #: Axis name codes (Pr321): the hundreds are the letter, the last two digits the index, 0 for none.
 AXIS_LETTERS = "XYZABCUVW"
+#: R register with the number of the active spindle.
+ACTIVE_SPINDLE = 791
+SPINDLES = range(1, 7)
+#: Pr of base and sync spindle of each group K.
+PAIR_PARAMETERS = {1: (4021, 4022), 2: (4023, 4024), 3: (4025, 4026)}
+LARGEST_RATIO = 999
+
+
+# ---- S --------------------------------------------------------------------------------------------------------
+
+
+def plan_speed(builder: Builder) -> Step:
+    """S: speed of the active spindle (R791, else 1); surface speed under G96."""
+    slot = builder.slots["S"][0]
+
+    def set_speed(channel: Channel, values: list[float]) -> None:
+        active = channel.memory.globals.registers.get(ACTIVE_SPINDLE, 0) or 1
+        command_speed(channel, active, values[slot], active=True)
+
+    return set_speed
+
+
+def plan_named_speed(spindle: int) -> Planner:
+    """`S1=150`, `S2=2000`: the speed of a spindle by its number."""
+
+    def plan(builder: Builder) -> Step:
+        slot = builder.slots[f"S{spindle}"][0]
+
+        def set_speed(channel: Channel, values: list[float]) -> None:
+            active = channel.memory.globals.registers.get(ACTIVE_SPINDLE, 0) or 1
+            command_speed(channel, spindle, values[slot], active=spindle == active)
+
+        return set_speed
+
+    return plan
+
+
+def command_speed(channel: Channel, spindle: int, speed: float, *, active: bool) -> None:
+    """A spindle's own S, and what follows from it for spindles in step with it."""
+    memory: SyntecMemory = channel.memory
+    memory.speeds[spindle] = speed
+    if active:
+        memory.spindle_speed = speed
+        channel.context_changed()
+    _report(channel, spindle)
+    for pair in memory.pairs.values():
+        if pair.base == spindle:
+            _report(channel, pair.sync)
+
+
+def speed_of(memory: SyntecMemory, spindle: int) -> float:
+    """The speed at which a spindle turns: its own, or what its pair makes of the base spindle's."""
+    own = memory.speeds.get(spindle, 0.0)
+    for pair in memory.pairs.values():
+        if pair.sync == spindle:
+            return speed_of(memory, pair.base) * pair.ratio + (own if pair.adds else 0.0)
+    return own
+
+
+def _report(channel: Channel, spindle: int) -> None:
+    """Record a spindle's speed if it is another than before."""
+    memory: SyntecMemory = channel.memory
+    speed = speed_of(memory, spindle)
+    pair_speed = any(pair.sync == spindle for pair in memory.pairs.values())
+    if pair_speed and memory.reported.get(spindle) == speed:
+        return
+    memory.reported[spindle] = speed
+    channel.event("s", speed=int(speed) if speed == int(speed) else speed, spindle=spindle)
+
+
+# ---- pairs ----------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class SpindlePair:
+    """Two spindles in step: the sync spindle turns at the base's speed times `ratio`, plus its own if it `adds`."""
+
+    base: int
+    sync: int
+    ratio: float = 1.0
+    adds: bool = False
+
+
+def polygon_on(channel: Channel, words: Words) -> None:
+    """G51.2 P Q R K: the sync spindle turns Q/P times as fast as the base spindle (2.84)."""
+    p, q = _ratio_part(words, "P"), _ratio_part(words, "Q")
+    _couple(channel, words, q / p)
+
+
+def synchronise(channel: Channel, words: Words) -> None:
+    """G114.1 R K: the sync spindle follows the base spindle 1:1 (2.85)."""
+    _couple(channel, words, 1.0)
+
+
+def superimpose(channel: Channel, words: Words) -> None:
+    """G114.3 K: the sync spindle's own speed is added to that of the base spindle (2.86)."""
+    _couple(channel, words, 1.0, adds=True)
+
+
+def release(channel: Channel, words: Words) -> None:
+    """G50.2, G113 [K]: a pair, or without K every pair, is no longer in step."""
+    memory: SyntecMemory = channel.memory
+    groups = [_group(words)] if "K" in words else list(memory.pairs)
+    for group in groups:
+        memory.pairs.pop(group, None)
+
+
+def _ratio_part(words: Words, address: str) -> int:
+    value = words.typed(address)
+    value = 1 if value is None else value
+    if value != int(value) or not 1 <= value <= LARGEST_RATIO:
+        raise words.fail("argument", address)
+    return int(value)
+
+
+def _group(words: Words) -> int:
+    group = words.typed("K")
+    group = 1 if group is None else group
+    if group not in PAIR_PARAMETERS:
+        raise words.fail("spindle_group", "K")
+    return int(group)
+
+
+def _couple(channel: Channel, words: Words, ratio: float, *, adds: bool = False) -> None:
+    memory: SyntecMemory = channel.memory
+    group = _group(words)
+    base, sync = (memory.parameter(number) for number in PAIR_PARAMETERS[group])
+    if base not in SPINDLES:
+        raise words.fail("base_spindle")
+    if sync not in SPINDLES or sync == base:
+        raise words.fail("sync_spindle")
+    used_as_sync = {pair.sync for pair in memory.pairs.values()}
+    used_as_base = {pair.base for pair in memory.pairs.values()}
+    if group in memory.pairs or sync in used_as_sync | used_as_base or base in used_as_sync:
+        raise words.fail("spindle_repeated")
+    memory.pairs[group] = SpindlePair(base, sync, ratio, adds)
+    if memory.speeds.get(base):
+        _report(channel, sync)
+
+
+# ---- G96, G97 -------------------------------------------------------------------------------------------------
 
 
 def axis_name(code: int) -> str:
