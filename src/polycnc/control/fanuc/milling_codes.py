@@ -100,7 +100,7 @@ G_CODES = table(
     GCode("G50.1", "mirror", frames.end_mirror, axis_words=True),
     GCode("G51.1", "mirror", frames.mirror, axis_words=True),
     GCode("G52", handler=coordinates.set_local_system, axis_words=True),
-    moves("G53", coordinates.move_in_machine_system),
+    moves("G53", coordinates.move_in_machine_system_absolute),
     GCode("G54", "wcs", extended.select_work_offset, takes="P"),
     GCode("G54.1", "wcs", extended.select_work_offset, takes="P"),
     *(GCode(f"G{number}", "wcs", extended.select_work_offset) for number in range(55, 60)),
@@ -133,7 +133,6 @@ G_CODES = table(
         "G43.5", "G53.1", "G53.6", "G54.2", "G54.4", "G68.2", "G68.3", "G68.4", "G10.9",
     ),
 )  # fmt: skip
-
 
 
 def plan_guarded_speed(builder: Builder) -> Step:

@@ -39,6 +39,7 @@ G_CODES = table(
     moves("G36", hole_patterns.arc_of_holes, "I J P K"),
     moves("G37", tool_measuring.measure_length, "R D"),
     moves("G37.1", hole_patterns.grid_of_holes, "I J P K"),
+    moves("G53", coordinates.move_in_machine_system),
     GCode("G61.1", "path", coordinates.note_context),
     not_yet("G7", "G70", "G71", "G72", "G75", "G77", "G78", "G79"),
 )

@@ -124,6 +124,9 @@ def end_program(channel: Channel, _words: Words) -> None:
 
 def dwell(channel: Channel, words: Words) -> None:
     """G04 X or U (seconds; without a point least increments of time) or P (milliseconds)."""
+    for word in words.plan.axis_words:
+        if word.address not in "XU":
+            raise words.fail("address", word.address)
     milliseconds = words.integer("P")
     if milliseconds is not None:
         channel.dwell(seconds=milliseconds / 1000.0)

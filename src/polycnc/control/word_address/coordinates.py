@@ -6,6 +6,7 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.memory import EXTERNAL
+from polycnc.control.word_address.radius import suspended
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -63,7 +64,14 @@ def move_in_machine_system(channel: Channel, words: Words) -> None:
     machine = c.machine
     for axis, value, incremental in words.axes():
         machine[axis] = machine[axis] + value if incremental else value
-    channel.straight(Kind.RAPID, c.from_machine(machine), nan)
+    with suspended(channel):
+        channel.straight(Kind.RAPID, c.from_machine(machine), nan)
+
+
+def move_in_machine_system_absolute(channel: Channel, words: Words) -> None:
+    """G53 of FANUC: as above, but an increment is ignored by the control."""
+    if channel.mode["distance"] == "G90":
+        move_in_machine_system(channel, words)
 
 
 def intermediate_point(channel: Channel, words: Words) -> list[float]:
@@ -84,7 +92,8 @@ def go_to_reference(channel: Channel, words: Words, number: int) -> None:
     machine = c.machine
     for axis, _, _ in words.axes():
         machine[axis] = channel.control.reference_point(channel, axis, number)
-    channel.straight(Kind.REF, c.from_machine(machine), nan)
+    with suspended(channel):
+        channel.straight(Kind.REF, c.from_machine(machine), nan)
 
 
 def return_to_reference(channel: Channel, words: Words) -> None:

@@ -21,6 +21,8 @@ def input_data(channel: Channel, words: Words) -> None:
     """G10 L2, L20 work offsets; L10 to L13 tool offsets; G90 sets, G91 adds."""
     kind = words.integer("L")
     number = words.integer("P")
+    if kind is not None and kind not in TOOL_FIELDS and kind not in (2, 20):
+        raise words.fail("g10_format", "L")
     if number is None:
         raise words.fail("g10_number", "G10")
     if kind == 2:
@@ -31,10 +33,8 @@ def input_data(channel: Channel, words: Words) -> None:
         if not 1 <= number <= channel.control.EXTENDED_WORK_SYSTEMS:
             raise words.fail("g10_number", "P")
         _set_work_offset(channel, words, f"G54.1 P{number}")
-    elif kind is None or kind in TOOL_FIELDS:
-        _set_tool_offset(channel, words, number, TOOL_FIELDS[10 if kind is None else kind])
     else:
-        raise words.fail("g10_format", "L")
+        _set_tool_offset(channel, words, number, TOOL_FIELDS[10 if kind is None else kind])
 
 
 def _set_work_offset(channel: Channel, words: Words, name: str) -> None:

@@ -41,8 +41,16 @@ def exact_stop_block(channel: Channel, _words: Words) -> None:
     channel.context_changed()
 
 
+def _refuse_company(words: Words, *own: str) -> None:
+    """Alarm for any other word in the block."""
+    for key in words.plan.order:
+        if key not in own:
+            raise words.fail("address", key)
+
+
 def high_speed_machining(channel: Channel, words: Words) -> None:
-    """G05 P10000 / P0: the path is unchanged; the planner looks further ahead."""
+    """G05 P10000 / P0, alone in its block: the path is unchanged; the planner looks further ahead."""
+    _refuse_company(words, "G5", "P")
     if words.integer("P") not in (0, 10000):
         raise words.fail("address", "P")
     channel.memory.contour_control = words.integer("P") == 10000
@@ -59,7 +67,8 @@ def high_speed_mode(channel: Channel, words: Words) -> None:
 
 
 def contour_control(channel: Channel, words: Words) -> None:
-    """G05.1 Q1 [R1 … R10] / Q0: AI contour control; R chooses a level of precision."""
+    """G05.1 Q1 [R1 … R10] / Q0, alone in its block: AI contour control; R chooses a level of precision."""
+    _refuse_company(words, "G5.1", "Q", "R")
     level = words.integer("R") if "R" in words else None
     if words.integer("Q") not in (0, 1) or (level is not None and not 1 <= level <= 10):
         raise words.fail("address", "Q")

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.words import Words
 
 
+CUTTING = frozenset({"G1", "G2", "G3"})
+
+
 class MillingControl(CustomMacroControl):
     """A machining centre of the FANUC kind.
 
@@ -33,6 +36,13 @@ class MillingControl(CustomMacroControl):
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
 
     # ---- motion --------------------------------------------------------------------------------------
+
+    def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
+        """The step of the active motion or cycle; under G93 every cutting block needs its own F."""
+        mode = builder.mode
+        if mode["feed"] == "G93" and mode["motion"] in CUTTING and plan.axis_words and not builder.has("F"):
+            raise self.fail("inverse_time_feed", address=mode["motion"])
+        return super().plan_motion(builder, plan)
 
     def plan_corner(self, builder: Builder) -> Step | None:
         """What ,R and ,C ask for."""

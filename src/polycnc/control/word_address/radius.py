@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from polycnc.channel.path import Move
@@ -11,7 +12,7 @@ from polycnc.control.word_address.path import PLANES
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import Step
@@ -99,6 +100,23 @@ def plan_radius_number(builder: Builder) -> Step:
             stage.change_radius(channel.control.radius_value(channel, memory.d))
 
     return change
+
+
+@contextmanager
+def suspended(channel: Channel) -> Iterator[None]:
+    """Motion without compensation in between: the vector vanishes, and the next plane motion starts up again."""
+    memory = channel.memory
+    stage: CutterCompensation | None = memory.compensation
+    if stage is None or not stage.active:
+        yield
+        return
+    stage.drop_vector()
+    stage.discard()
+    yield
+    if memory.side:
+        control = channel.control
+        tip = control.nose_tip(channel)
+        stage.engage(side_on_display(channel), control.radius_value(channel, memory.d), tip)
 
 
 def side_on_display(channel: Channel) -> int:

@@ -5,17 +5,27 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.path import target
+from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.words import Words
 
+#: P of G31: which skip input ends the move. All inputs come at the same place here.
+SKIP_INPUTS = range(1, 9)
+TORQUE_LIMIT_SKIP = (98, 99)
+
 
 def skip_move(channel: Channel, words: Words) -> None:
     """G31: straight at F to the target or to where the skip signal comes; the rest of the way is dropped."""
     if channel.mode["compensation"] != "G40":
         raise words.fail("comp_skip", "G31")
+    number = words.integer("P") if "P" in words else 1
+    if number in TORQUE_LIMIT_SKIP:
+        raise AlarmError("PC0001", address="P", hint="hint.not-supported", code=f"G31 P{number}")
+    if number not in SKIP_INPUTS:
+        raise words.fail("address", "P")
     if not channel.feed > 0.0:
         raise words.fail("no_feed")
     c = channel.coordinates

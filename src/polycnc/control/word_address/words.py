@@ -71,10 +71,14 @@ class Words:
     def axes(self) -> list[tuple[int, float, bool]]:
         """The axis words as (axis index, value in mm radius or degrees, whether it is an increment)."""
         return [
-            (word.axis, word.convert(self.values[word.slot]) if word.convert else self.values[word.slot], word.incremental)
+            (
+                word.axis,
+                word.convert(self.values[word.slot]) if word.convert else self.values[word.slot],
+                word.incremental,
+            )
             for word in self.plan.axis_words
         ]
 
     def fail(self, mistake: str, address: str = "") -> AlarmError:
         """The control's alarm for a mistake in this block."""
-        return self.plan.control.fail(mistake, address=address)
+        return self.plan.control.fail(mistake, address=address, word=address)

@@ -32,6 +32,7 @@ _LOOP = re.compile(r"(?<![A-Z])(DO|END)[ \t]*(\d)")
 _HEAD = re.compile(r"[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?")
 _SKIP = re.compile(r"[ \t]*/[ \t]*(\d?)")
 _NUMBER_TEXT = re.compile(r"[ \t]*([-+]?)[ \t]*(\d+\.?\d*|\.\d+)")
+_VALUE = re.compile(r"[ \t]*[-+]?[ \t]*[#\[]")
 _NAME = re.compile(r"[ \t]*P?[ \t]*(<[^<>]+>)")
 
 
@@ -269,8 +270,8 @@ class WordAddressProgram:
             if reader.pos < len(reader.text) and reader.text[reader.pos] == ".":
                 raise reader.fail("point", reader.pos)
             return
-        if reader.peek() not in ("#", "[", "-", "+"):
-            raise reader.fail("no_data", start)
+        if not _VALUE.match(reader.text, reader.pos):
+            raise reader.fail("minus" if reader.peek() in ("-", "+") else "no_data", start)
         reader.in_word = True
         source = reader.factor()
         reader.in_word = False
@@ -339,9 +340,9 @@ class BlockReader(Reader):
             self.pos = match.end()
         return levels
 
-    def program_text_comment(self) -> str:
+    def comment_behind(self, begin: int) -> str:
         """The text in brackets behind a statement (`#3000=1(TEXT)`), as the program's author wrote it."""
-        match = _COMMENT.search(self._line, self.pos)
+        match = _COMMENT.search(self._line, begin)
         return match.group().strip("() ") if match else ""
 
 

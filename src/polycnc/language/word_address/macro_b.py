@@ -232,8 +232,8 @@ class Reader:
         self.expect("]", "close_bracket")
         return left
 
-    def program_text_comment(self) -> str:
-        """The comment behind a statement; a plain reader has none."""
+    def comment_behind(self, _begin: int) -> str:
+        """The comment behind a place of the block; a plain reader has none."""
         return ""
 
     # ---- results ----------------------------------------------------------------------------------------------------

@@ -52,8 +52,9 @@ def parse_assignment(reader: Reader, _program: WordAddressProgram, _index: int) 
         target = int(digits)
     if not reader.accept("="):
         raise reader.fail("missing_equals")
+    begin = reader.pos
     source = reader.sum()
-    text = reader.program_text_comment()
+    text = reader.comment_behind(begin)
     if callable(target):
         index_of, value = target, reader.evaluator(source)
         return lambda channel: channel.memory.write_indirect(index_of(channel), value(channel), text)
