@@ -83,6 +83,7 @@ class BlockCompiler(ExpressionReader):
         """Assignments, or functions, words and procedures; the two do not mix (12080, 1.25.2.6)."""
         assigned: Token | None = None
         worded = False
+        self.emitter.can_join = True
         while self.token.kind != "end":
             token = self.token
             if self.scope.is_place(token):
@@ -175,7 +176,7 @@ class BlockCompiler(ExpressionReader):
     def procedure(self, token: Token, letters: str) -> None:
         """A predefined procedure; its name has been read."""
         arguments = self.scope.arguments(self, token, letters)
-        self.emitter.knows_place = True
+        self.emitter.knows_place = self.emitter.has_text = True
         self.emitter.line(f"channel.control.procedure(channel, {token.text!r}, {arguments}, {token.column})")
 
     def text(self) -> str:

@@ -34,8 +34,34 @@ class Number(NamedTuple):
     end: int
 
 
+class Branch(NamedTuple):
+    """How a block of a control structure goes on.
+
+    Attributes:
+        kind: Its word: IF, ELSE, LOOP, …
+        condition: Code of what must hold for the program to go on at `target`; empty for always.
+        target: Step, or -1 for a block that only marks a place.
+    """
+
+    kind: str
+    condition: str = ""
+    target: int = -1
+
+
 class Emitter:
-    """Collects the code of one block."""
+    """Collects the code of one block.
+
+    Attributes:
+        lines: Statements.
+        numbers: Numbers of the block that the code has as parameters.
+        objects: Objects that the code uses.
+        branch: How the block goes on, if it belongs to a control structure.
+        knows_place: The code holds step numbers or columns: it is good for this block only.
+        can_join: The block is of a kind that may run in one function with others.
+        acts: The control acts in it: the channel may have to look after something behind it.
+        has_text: A text stands in the code.
+        temporaries: How many temporary names the code uses.
+    """
 
     def __init__(self) -> None:
         self.lines: list[str] = []
@@ -44,8 +70,12 @@ class Emitter:
         self.uses_locals = False
         self.uses_main = False
         self.uses_stop = False
-        self.knows_place = False  # the code holds step numbers or columns: it is good for this block only
-        self._temporaries = 0
+        self.branch: Branch | None = None
+        self.knows_place = False
+        self.can_join = False
+        self.acts = False
+        self.has_text = False
+        self.temporaries = 0
         self.indent = 0
 
     def line(self, text: str) -> None:
@@ -83,12 +113,17 @@ class Emitter:
         self.uses_main = True
         return "M"
 
+    @property
+    def joins(self) -> bool:
+        """Whether the block may run in one function with its neighbours."""
+        return self.can_join and not (self.has_text or self.uses_stop or self.uses_main)
+
     def twice(self, code: str) -> tuple[str, str]:
         """Code to use first and code to use afterwards for a value that is needed twice."""
         if _SIMPLE.fullmatch(code):
             return code, code
-        name = f"t{self._temporaries}"
-        self._temporaries += 1
+        name = f"t{self.temporaries}"
+        self.temporaries += 1
         return f"({name} := {code})", name
 
     def source(self) -> str:
@@ -106,7 +141,12 @@ class Emitter:
             body.append("L = channel.level.locals")
         if self.uses_main:
             body.append("M = channel.stack[0].locals")
-        body += self.lines or ["pass"]
+        body += self.lines
+        if self.branch is not None and self.branch.target >= 0:
+            when = f"if {self.branch.condition}: " if self.branch.condition else ""
+            body.append(f"{when}channel.level.index = {self.branch.target}")
+        if not body:
+            body.append("pass")
         head += ["            " + line for line in body]
         head += ["        except (AlarmError, ZeroDivisionError, OverflowError) as error:"]
         head += ["            fail(error, channel)", "    return step"]
@@ -117,8 +157,7 @@ class Emitter:
         source = self.source()
         factory = _factories.get(source)
         if factory is None:
-            exec(compile(source, "<block>", "exec"), _NAMESPACE)
-            factory = _factories[source] = _NAMESPACE.pop("make")
+            factory = _factories[source] = compiled(source, "make")
         return factory
 
     def step(self) -> Step:
@@ -132,6 +171,12 @@ _NAMESPACE: dict[str, Any] = {
     "WordAlarm": WordAlarm,
     "fail": fail,
 }
+
+
+def compiled(source: str, name: str) -> Any:
+    """A function of generated code, which may use what `provide` has made known."""
+    exec(compile(source, "<block>", "exec"), _NAMESPACE)
+    return _NAMESPACE.pop(name)
 
 
 def provide(**names: Any) -> None:

@@ -15,6 +15,7 @@ from polycnc.language.sinumerik.definitions import NO_HEADER, Header, read_heade
 from polycnc.language.sinumerik.emitter import Emitter
 from polycnc.language.sinumerik.errors import NcSyntaxError
 from polycnc.language.sinumerik.expressions import ExpressionReader
+from polycnc.language.sinumerik.joining import Joiner
 from polycnc.language.sinumerik.labels import Labels
 from polycnc.language.sinumerik.lexer import Token, prefix_of, tokenize
 from polycnc.language.sinumerik.place import fail
@@ -48,6 +49,9 @@ class SinumerikProgram:
         self.is_definition_file = definitions
         self.declared: dict[str, int] = {}
         self._lines = [i for i, line in enumerate(program.lines) if not _EMPTY.match(line)]
+        numbers = [program.first_line + i for i in self._lines]
+        #: The line in the file of a step. Asked for every row, so it is the list's own method.
+        self.line = [*numbers, numbers[-1] if numbers else program.first_line].__getitem__
         self.steps: list[Step | None] = [None] * len(self._lines)
         self._reached = bytearray(len(self._lines))
         self._scope: Scope | None = None
@@ -56,6 +60,8 @@ class SinumerikProgram:
         self._structures: dict[int, Structure] | None = None
         self._first_statement: int | None = None
         self._texts: dict[str, Step] = {}
+        self._singles: dict[int, Step] = {}
+        self._joins: dict[int, set[int]] = {}
         self._shapes = Shapes()
 
     # ---- steps ---------------------------------------------------------------------------------------------
@@ -67,9 +73,9 @@ class SinumerikProgram:
         """The step of a block; None behind the last one."""
         return self._first_reach if index < len(self.steps) else None
 
-    def line(self, index: int) -> int:
-        """The line of the file, from 1."""
-        return self.program.first_line + self._lines[index] if index < len(self._lines) else 0
+    def single_step(self, index: int) -> Step | None:
+        """The step of one block alone, never joined with others; None behind the last one."""
+        return self._singles.get(index) or self.step(index)
 
     def text(self, index: int) -> str:
         """The line of a step."""
@@ -97,6 +103,8 @@ class SinumerikProgram:
         """Compile every block anew: names may mean other programs now."""
         self.steps[:] = [None] * len(self._lines)
         self._texts.clear()
+        self._singles.clear()
+        self._joins.clear()
         self.forget_shapes()
 
     def forget_shapes(self) -> None:
@@ -110,7 +118,8 @@ class SinumerikProgram:
         except AlarmError as error:
             fail(error, channel)
         if self._reached[index] and step is not _skipped:
-            self.steps[index] = step
+            self._singles[index] = step
+            self.steps[index] = self._joined(index, channel) or step
         self._reached[index] = 1
         step(channel)
 
@@ -129,6 +138,30 @@ class SinumerikProgram:
     def compiled(self, index: int, channel: Channel) -> CompiledBlock:
         """Compile the block of a step."""
         return compile_block(self, index, channel)
+
+    def _joined(self, index: int, channel: Channel) -> Step | None:
+        """A step for the blocks from here on that have been run before; None if there is nothing to join."""
+        for join in [join for join, exits in self._joins.items() if index in exits]:
+            # A branch that had never been run when blocks were joined has become alive: join anew.
+            del self._joins[join]
+            self.steps[join] = None
+        if channel.setup.switches.single_block:
+            return None
+
+        def source(at: int) -> Emitter | None:
+            if at >= len(self._lines) or not self._reached[at] or prefix_of(self.text(at)).skip >= 0:
+                return None
+            try:
+                emitter = self.compiled(at, channel).emitter
+            except AlarmError:
+                return None
+            return emitter if emitter.joins else None
+
+        joiner = Joiner(source, self.structures, index)
+        step = joiner.step()
+        if step is not None:
+            self._joins[index] = joiner.exits
+        return step
 
     def execute_text(self, channel: Channel, text: str) -> None:
         """Run a text as a block of this program (EXECSTRING)."""
@@ -233,11 +266,16 @@ class SinumerikProgram:
         """The steps behind which a pass of a section ends (1.11); empty if the end label is missing."""
         return self.labels.section_ends(start, last, here)
 
-    def structure(self, index: int, token: Token) -> Structure:
-        """The control structure that a word belongs to; 12640 or 12641 for one that does not fit."""
+    @property
+    def structures(self) -> dict[int, Structure]:
+        """The control structure of every step that belongs to one."""
         if self._structures is None:
             self._structures = structures_of([self.text(i) for i in range(len(self))])
-        structure = self._structures.get(index)
+        return self._structures
+
+    def structure(self, index: int, token: Token) -> Structure:
+        """The control structure that a word belongs to; 12640 or 12641 for one that does not fit."""
+        structure = self.structures.get(index)
         if structure is None:
             raise NcSyntaxError("12640", token.column, token.text)
         if structure.error:

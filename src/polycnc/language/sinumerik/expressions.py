@@ -242,6 +242,7 @@ class ExpressionReader(TokenReader):
             type_ = Type.INT if isinstance(token.value, int) else Type.REAL
             return Expr(self.emitter.number(token.value, token), type_)
         if token.kind == "string":
+            self.emitter.has_text = True
             return Expr(repr(token.text), Type.STRING)
         if token.kind == "op" and token.text == "(":
             inner = self.expression()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import Level
-from polycnc.language.sinumerik.emitter import provide
+from polycnc.language.sinumerik.emitter import Branch, provide
 from polycnc.language.sinumerik.errors import NcSyntaxError
 from polycnc.language.sinumerik.expressions import Expr
 from polycnc.language.sinumerik.sections import Section, count_levels
@@ -96,8 +96,9 @@ def branch(compiler: BlockCompiler) -> None:
     condition = compiler.condition()
     if compiler.token.kind == "end":
         structure = _structure(compiler, start)
-        compiler.emitter.line(f"if not {condition}: channel.level.index = {structure.otherwise}")
+        compiler.emitter.branch = Branch("IF", f"not {condition}", structure.otherwise)
         return
+    compiler.emitter.can_join = True
     while True:
         compiler.emitter.line(f"if {condition}:")
         compiler.emitter.indent += 1
@@ -113,58 +114,55 @@ def branch(compiler: BlockCompiler) -> None:
 
 def _structure(compiler: BlockCompiler, word: Token) -> Structure:
     """The structure of the block; 12630 if the block has a label or can be skipped."""
-    compiler.emitter.knows_place = True
+    compiler.emitter.knows_place = compiler.emitter.can_join = True
     if compiler.marked:
         raise NcSyntaxError("12630", word.column, word.text)
     return compiler.program.structure(compiler.index, word)
 
 
-def _go(compiler: BlockCompiler, index: int) -> None:
-    compiler.emitter.line(f"channel.level.index = {index}")
-
-
 def otherwise(compiler: BlockCompiler) -> None:
     """ELSE, reached from above: the branch is over."""
-    _go(compiler, _structure(compiler, compiler.take()).end + 1)
+    compiler.emitter.branch = Branch("ELSE", "", _structure(compiler, compiler.take()).end + 1)
 
 
 def end_if(compiler: BlockCompiler) -> None:
     """ENDIF."""
     _structure(compiler, compiler.take())
+    compiler.emitter.branch = Branch("ENDIF")
 
 
 def loop(compiler: BlockCompiler) -> None:
     """LOOP."""
     _structure(compiler, compiler.take())
+    compiler.emitter.branch = Branch("LOOP")
 
 
 def end_loop(compiler: BlockCompiler) -> None:
     """ENDLOOP."""
-    _go(compiler, _structure(compiler, compiler.take()).start + 1)
+    compiler.emitter.branch = Branch("ENDLOOP", "", _structure(compiler, compiler.take()).start + 1)
 
 
 def while_(compiler: BlockCompiler) -> None:
     """WHILE condition."""
     end = _structure(compiler, compiler.take()).end
-    compiler.emitter.line(f"if not {compiler.condition()}: channel.level.index = {end + 1}")
+    compiler.emitter.branch = Branch("WHILE", f"not {compiler.condition()}", end + 1)
 
 
 def end_while(compiler: BlockCompiler) -> None:
     """ENDWHILE: the condition decides at the beginning."""
-    _go(compiler, _structure(compiler, compiler.take()).start)
+    compiler.emitter.branch = Branch("ENDWHILE", "", _structure(compiler, compiler.take()).start)
 
 
 def until(compiler: BlockCompiler) -> None:
     """UNTIL condition: the loop ends when it becomes true."""
     start = _structure(compiler, compiler.take()).start
-    compiler.emitter.line(f"if not {compiler.condition()}: channel.level.index = {start + 1}")
+    compiler.emitter.branch = Branch("UNTIL", f"not {compiler.condition()}", start + 1)
 
 
 def for_(compiler: BlockCompiler) -> None:
     """FOR variable=start TO end: no pass if the start is beyond the end."""
     end = _structure(compiler, compiler.take()).end
-    condition = _count(compiler, first=True)
-    compiler.emitter.line(f"if not {condition}: channel.level.index = {end + 1}")
+    compiler.emitter.branch = Branch("FOR", f"not {_count(compiler, first=True)}", end + 1)
 
 
 def end_for(compiler: BlockCompiler) -> None:
@@ -174,8 +172,7 @@ def end_for(compiler: BlockCompiler) -> None:
         raise compiler.error()
     compiler.tokens = compiler.program.tokens(start, compiler.channel)
     compiler.place = 1
-    condition = _count(compiler, first=False)
-    compiler.emitter.line(f"if {condition}: channel.level.index = {start + 1}")
+    compiler.emitter.branch = Branch("ENDFOR", _count(compiler, first=False), start + 1)
 
 
 def _count(compiler: BlockCompiler, *, first: bool) -> str:
@@ -205,6 +202,7 @@ def repeat(compiler: BlockCompiler) -> None:
     word = compiler.take()
     if compiler.token.kind == "end":
         _structure(compiler, word)
+        compiler.emitter.branch = Branch("REPEAT")
         return
     first = compiler.take()
     last = compiler.take().text if compiler.token.kind == "name" and compiler.token.text != "P" else ""

@@ -53,6 +53,7 @@ class WordReader:
         if not self.codes and not self.shapes:
             return
         emitter = self.compiler.emitter
+        emitter.acts = True
         execute = emitter.object(self.compiler.scope.execute)
         if self.dynamic:
             codes = "".join(code + ", " for code in self.codes)
@@ -134,6 +135,7 @@ class WordReader:
     def _other(self, token: Token) -> None:
         """Words that are handled by the language itself, or that do not exist."""
         compiler, name = self.compiler, token.text
+        compiler.emitter.has_text = True
         if name in keywords.FILE_PROCEDURES:
             arguments = compiler.scope.arguments(compiler, token, keywords.FILE_PROCEDURES[name])
             compiler.emitter.line(f"file_procedure(channel, {name!r}, {arguments})")

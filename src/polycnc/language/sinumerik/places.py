@@ -299,6 +299,7 @@ class SystemPlace:
 
     def write(self, reader: ExpressionReader, code: str) -> None:
         """Code that tells the control."""
+        reader.emitter.acts = True
         reader.emitter.line(f"{self.code}.write(channel, {self.indices}, {code})")
 
     def reference(self, reader: ExpressionReader) -> str:

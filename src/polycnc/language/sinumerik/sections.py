@@ -45,8 +45,7 @@ class Section:
             return None
         self._last = index
         self.is_through = False
-        steps = self.whole.steps
-        return (steps[index] if index < len(steps) else None) or self.whole.step(index)
+        return self.whole.single_step(index)
 
     def line(self, index: int) -> int:
         """The line of a step, from 1."""
