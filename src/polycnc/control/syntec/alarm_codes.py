@@ -69,6 +69,8 @@ ALARMS: dict[str, str] = {
     "repeat_count": "COR-045",
     "nesting": "COR-013",
     "registered_m": "OP-020",
+    "interrupt_format": "COR-330",
+    "interrupt_left_on": "COR-117",
 }
 
 #: Codes of other makers that arrive in SYNTEC programs: message ids of hints.

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.syntec import interrupts
 from polycnc.control.syntec.builder import CALLS
 from polycnc.control.syntec.variables import INDEXED_LETTERS, Locals
 from polycnc.language.syntec.blocks import FORMS
@@ -337,6 +338,8 @@ def leave_program(channel: Channel, *, jumps: bool = False) -> None:
             level.locals.fill()
     else:
         channel.control.leave(channel)
+        if not jumps:
+            interrupts.go_back(channel, level)
 
 
 def end_program(channel: Channel, _words: Words) -> None:
@@ -345,8 +348,3 @@ def end_program(channel: Channel, _words: Words) -> None:
         leave_program(channel)
     else:
         channel.control.finish(channel)
-
-
-def interrupts_not_yet(channel: Channel, _words: Words) -> None:
-    """M96, M97: interrupt subprograms are known, not executed."""
-    raise channel.control.not_yet("M96/M97")

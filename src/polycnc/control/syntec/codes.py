@@ -2,7 +2,18 @@
 
 from __future__ import annotations
 
-from polycnc.control.syntec import arcs, calls, cycles, length, motion, operation, skips, smoothing, spindles
+from polycnc.control.syntec import (
+    arcs,
+    calls,
+    cycles,
+    interrupts,
+    length,
+    motion,
+    operation,
+    skips,
+    smoothing,
+    spindles,
+)
 from polycnc.control.syntec import coordinates as frames
 from polycnc.control.word_address import auxiliary, coordinates, path, radius
 from polycnc.control.word_address import extended as base_extended
@@ -114,8 +125,8 @@ M_CODES = m_table(
     MCode(5, handler=auxiliary.spindle_stop),
     MCode(6, handler=auxiliary.change_tool),
     MCode(30, after=True, handler=calls.end_program),
-    MCode(96, handler=calls.interrupts_not_yet, takes="P I Q R L", silent=True),
-    MCode(97, handler=calls.interrupts_not_yet, silent=True),
+    MCode(96, handler=interrupts.interrupts_on, takes="P I Q R L", silent=True),
+    MCode(97, handler=interrupts.interrupts_off, silent=True),
     MCode(98, after=True, handler=calls.call_subprogram, takes="P H L", silent=True),
     MCode(99, after=True, handler=calls.return_from_program, takes="P Q", silent=True),
     MCode(198, after=True, handler=calls.call_external_subprogram, takes="P H L", silent=True),

@@ -7,7 +7,7 @@ from math import hypot
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.compensation.policies import SYNTEC, Policy
-from polycnc.control.syntec import arcs, calls, coordinates, cycles, motion
+from polycnc.control.syntec import arcs, calls, coordinates, cycles, interrupts, motion
 from polycnc.control.syntec.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
@@ -109,6 +109,7 @@ class SyntecMill(WordAddressControl):
     def finish(self, channel: Channel) -> None:
         """The main program is over."""
         arcs.check_pair_complete(channel)
+        interrupts.check_off(channel)
         channel.end()
 
     def leave(self, channel: Channel) -> None:
@@ -159,6 +160,8 @@ class SyntecMill(WordAddressControl):
         before, after = builder.before["motion"], builder.mode["motion"]
         if step is not None and builder.mode["feed"] == "G93" and after in ("G1", "G2", "G3"):
             step = motion.with_inverse_time(builder, plan, step)
+        if step is not None and interrupts.is_on(builder):
+            step = interrupts.with_interrupt(builder, plan, step)
         if before in arcs.THREE_POINT_CODES and after not in arcs.THREE_POINT_CODES:
             return _after_check(step)
         return step

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.interrupts import Interrupt
     from polycnc.control.syntec.skips import SkipGroup
     from polycnc.control.syntec.spindles import SpindlePair
 
@@ -43,6 +44,7 @@ class SyntecMemory(Memory):
         surface_axis: Reference axis of G96.
         speeds: Own S of each spindle; `reported` the speed last recorded.
         pairs: Spindles in step, by group K.
+        interrupt: What M96 has prepared.
         skip_groups: Groups of G31.10 that G31.11 will move; the step behind the last one.
         diameters: Axes switched by G10.9: programmed in diameter or not.
     """
@@ -77,6 +79,7 @@ class SyntecMemory(Memory):
         self.speeds: dict[int, float] = {}
         self.reported: dict[int, float] = {}
         self.pairs: dict[int, SpindlePair] = {}
+        self.interrupt: Interrupt | None = None
         self.skip_groups: list[SkipGroup] = []
         self.skip_groups_end = 0
         self.diameters: dict[int, bool] = {}
