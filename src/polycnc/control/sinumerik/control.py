@@ -15,6 +15,7 @@ from polycnc.control.sinumerik import (
     positions,
     procedures,
     sections,
+    single_block,
     stages,
     tables,
     variables_by_name,
@@ -39,7 +40,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
-    from polycnc.channel.stack import Executable
+    from polycnc.channel.stack import Executable, Level
+    from polycnc.channel.stack import Step as ProgramStep
     from polycnc.control.sinumerik.block import Values
     from polycnc.control.sinumerik.system_variables import SystemVariable
     from polycnc.language.sinumerik.words import Block
@@ -144,6 +146,8 @@ class Sinumerik:
             step(channel, values)
         if channel.head is not None:
             stages.relax(channel)
+        if channel.single_block:
+            channel.memory.acted = plan.acts
         for position in plan.ends:
             if values[position] in (2, 30, 17):
                 self.end_of_program(channel)
@@ -235,6 +239,10 @@ class Sinumerik:
             diameter_axes=diameters,
             wcs=mode["zero_offset"],
         )
+
+    def halts(self, channel: Channel, level: Level, step: ProgramStep) -> bool:  # noqa: ARG002 - levels decide
+        """Whether single block operation halts behind the block that a level has run."""
+        return single_block.halts(channel, level)
 
     def over_travel(self, axis: str, direction: int) -> AlarmError:
         """10720: the target lies beyond a software limit switch."""

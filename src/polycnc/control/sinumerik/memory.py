@@ -56,6 +56,7 @@ class Memory:
             for counter-clockwise; None before the first.
         feed_mode: How F is meant, as the toolpath's feed modes.
         modal_corner_feed: FRCM in internal units, NaN for the path feed.
+        acted: The running block has done something on the machine (for single block).
         sections: Program level that began an open section (DELAYFSTON, IPTRLOCK).
         limits: Ranges that targets must stay in.
         open_line: Angle of a line whose end the next block tells (ANG), degrees.
@@ -84,6 +85,7 @@ class Memory:
     feed_mode: str = "G94"
     modal_corner_feed: float = nan
     exact_stop_block: bool = False
+    acted: bool = False
     sections: dict[str, Level] = field(default_factory=dict)
     limits: tuple[Limit, ...] = ()
     open_line: float = 0.0

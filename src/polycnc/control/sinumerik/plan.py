@@ -66,11 +66,13 @@ class Plan(NamedTuple):
 
     Attributes:
         steps: In order.
+        acts: Something happens on the machine: motion, dwell, auxiliary functions.
         calls: A modal subprogram (MCALL) follows the block.
         end: Place of an M word that may end the program, or None.
     """
 
     steps: tuple[Step, ...]
+    acts: bool
     calls: bool
     ends: tuple[int, ...]
 
@@ -103,7 +105,8 @@ def make_plan(channel: Channel, block: Block) -> Plan:
         raise words.misplaced(word, position)
     draft.steps += [_stop(position) for position in ends]
     calls = moving is not None or (mode["motion"] in LINEAR and _is_bare_motion(block, codes))
-    return Plan(tuple(draft.steps), calls and own is None, tuple(ends))
+    acts = bool(block.words) and "frame" not in codes
+    return Plan(tuple(draft.steps), acts, calls and own is None, tuple(ends))
 
 
 #: Words that choose a diameter function for one axis; empty: that of the channel again.

@@ -1,0 +1,36 @@
+"""Where single block operation halts.
+
+SBL1 halts behind blocks that do something on the machine, SBL2 behind every block, SBL3 too, whatever SBLOF says.
+A level with SBLOF in its PROC halts at its M17; RET and calls never do. Source: job planning 1.25.2.5 (SBLOF, SBLON).
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Level
+    from polycnc.control.sinumerik.memory import Memory
+
+#: MD10702 bit 12: no halt in the block of SBLON under SBL2.
+IGNORE_SBLON = 1 << 12
+_SBLON = re.compile(r"\bSBLON\b", re.IGNORECASE)
+
+
+def halts(channel: Channel, level: Level) -> bool:
+    """Whether single block halts behind the block that a level has just run."""
+    memory: Memory = channel.memory
+    acted, memory.acted = memory.acted, False
+    kind = channel.setup.switches.single_block
+    is_on = level.data.get("single_block", True) or kind == "SBL3"
+    if not any(level is each for each in channel.stack):
+        return acted and (is_on or bool(level.data.get("sblof_in_proc")))
+    if not is_on or channel.level is not level:
+        return False
+    if kind not in ("SBL2", "SBL3"):
+        return acted
+    code: Any = getattr(level.code, "whole", level.code)
+    ignores = memory.data.integer("$MN_IGNORE_SINGLEBLOCK_MASK") & IGNORE_SBLON
+    return not (ignores and _SBLON.search(code.text(level.current)))
