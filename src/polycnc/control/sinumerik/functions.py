@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 from polycnc.control.sinumerik import d_numbers, frame_codes
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frame_variables import frame_axis
-from polycnc.language.sinumerik.nc_frame import GEOMETRY_AXES, NcFrame, crpl
+from polycnc.geometry import fit
+from polycnc.language.sinumerik.nc_frame import GEOMETRY_AXES, NEUTRAL, NcFrame, crpl
 from polycnc.language.sinumerik.values import Axis
 from polycnc.messages import AlarmError
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.memory import Memory
+    from polycnc.geometry.frames import Vector
 
 Arguments = tuple[Any, ...]
 
@@ -95,8 +97,29 @@ def in_window(channel: Channel, args: Arguments) -> bool:
     return bool(abs(position[column] - args[1]) <= args[2])
 
 
+def measured_frame(_channel: Channel, args: Arguments) -> NcFrame:
+    """MEAFRAME(ideal, measured, VAR quality): best fit; quality -1 or -2 where points lie on a line."""
+    ideal, measured = (_points(array) for array in args[:2])
+    for points, mistake in ((ideal, -1.0), (measured, -2.0)):
+        if fit.is_collinear(*points):
+            args[2].value = mistake
+            return NEUTRAL
+    frame = fit.rigid_fit(ideal, measured)
+    args[2].value = sum(fit.distances(frame, ideal, measured))
+    return NcFrame(matrix=frame.m, coarse=frame.t)
+
+
+def _points(array: Any) -> list[Vector]:
+    """The three points of a REAL array [3,3]: a row is a point."""
+    if tuple(array.dims) != (3, 3):
+        raise AlarmError("12360", text="MEAFRAME")
+    rows = (array.items[i : i + 3] for i in (0, 3, 6))
+    return [(float(x), float(y), float(z)) for x, y, z in rows]
+
+
 FUNCTIONS: dict[str, Callable[[Channel, Arguments], Any]] = {
     "ISAXIS": is_axis,
+    "MEAFRAME": measured_frame,
     "MODAXVAL": modulo_position,
     "AXTOSPI": spindle_of,
     "SPI": axis_of_spindle,
