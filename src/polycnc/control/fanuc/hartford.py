@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address import auxiliary, frames, interlocks, subprograms
+from polycnc.control.word_address import auxiliary, frames, interlocks, interruption, subprograms
 from polycnc.control.word_address.codes import MCode, m_table
 from polycnc.control.word_address.interlocks import Interlock, words
 
@@ -50,6 +50,11 @@ FANUC_M_CODES = m_table(
     MCode(29, handler=auxiliary.arm_rigid_tapping),
     *after(60, 65),
 )
+#: The interruption macro in place of the magazine codes M96 and M97 (6003#7).
+INTERRUPTION = {
+    96: MCode(96, handler=interruption.enable, takes="P", silent=True),
+    97: MCode(97, handler=interruption.disable, silent=True),
+}
 FANUC_INTERLOCKS = (
     Interlock(words("M6"), interlocks.away_from_tool_change, "1046"),
     Interlock(words("M19"), interlocks.tool_unclamped, "1094"),

@@ -6,12 +6,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policies import HARTFORD, Approach, Policy
+from polycnc.control.fanuc import hartford
 from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.fanuc.code_calls import registered_codes
-from polycnc.control.fanuc.hartford import FANUC_INTERLOCKS, FANUC_M_CODES
 from polycnc.control.fanuc.milling_codes import ADDRESSES, G_CODES, POWER_ON
 from polycnc.control.fanuc.milling_cycles import MILLING_DRILLING
 from polycnc.control.fanuc.system_variables import MILLING_VARIABLES
+from polycnc.control.word_address.interruption import interruptible
 from polycnc.control.word_address.milling import MillingControl
 from polycnc.control.word_address.variables import MacroMemory
 
@@ -20,9 +21,10 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.code_calls import CodeCalls
-    from polycnc.control.word_address.codes import GCode, MCode, Planner
+    from polycnc.control.word_address.codes import GCode, MCode, Planner, Step
     from polycnc.control.word_address.drilling import Drilling
     from polycnc.control.word_address.interlocks import Interlock
+    from polycnc.control.word_address.plan import Builder, Plan
 
 
 class FanucMilling(MillingControl):
@@ -31,17 +33,28 @@ class FanucMilling(MillingControl):
     id: ClassVar[str] = "fanuc-m"
     alarm_files: ClassVar[tuple[str, ...]] = ("fanuc/alarms.toml", "fanuc/milling_alarms.toml")
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
-    m_codes: ClassVar[Mapping[int, MCode]] = FANUC_M_CODES
+    m_codes: ClassVar[Mapping[int, MCode]] = hartford.FANUC_M_CODES
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
     drilling: ClassVar[Drilling] = MILLING_DRILLING
-    interlocks: ClassVar[tuple[Interlock, ...]] = FANUC_INTERLOCKS
+    interlocks: ClassVar[tuple[Interlock, ...]] = hartford.FANUC_INTERLOCKS
 
     def code_calls(self, channel: Channel) -> CodeCalls:
         """Codes registered by 6050 to 6089 and 6001#5."""
         return registered_codes(channel)
+
+    def m_row(self, builder: Builder, number: int) -> MCode:
+        """The row of an M code; M96 P and M97 are those of the interruption macro where 6003#7 enables it."""
+        if number in hartford.INTERRUPTION and _interruptible(builder.channel):
+            return hartford.INTERRUPTION[number]
+        return super().m_row(builder, number)
+
+    def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
+        """The step of the active motion or cycle, which an interruption may cut."""
+        step = super().plan_motion(builder, plan)
+        return step and interruptible(builder, step)
 
     def several_m_codes(self, channel: Channel) -> bool:
         """3404#7: up to three M codes in a block."""
@@ -62,3 +75,9 @@ class FanucMilling(MillingControl):
     def make_memory(self, channel: Channel) -> MacroMemory:
         """Offsets, tools and variables."""
         return MacroMemory(channel, MILLING_VARIABLES)
+
+
+def _interruptible(channel: Channel) -> bool:
+    """6003#7 MUS; a setup that names interrupt inputs means them."""
+    setup = channel.setup
+    return bool(setup.parameters.bit(6003, 7, default=int(bool(setup.switches.interrupts))))

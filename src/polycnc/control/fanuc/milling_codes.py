@@ -15,6 +15,7 @@ from polycnc.control.word_address import (
     frames,
     length,
     macro_calls,
+    parameter_input,
     path,
     position_offset,
     radius,
@@ -68,7 +69,7 @@ G_CODES = table(
     GCode("G8", handler=extended.advance_preview, takes="P"),
     GCode("G9", handler=extended.exact_stop_block),
     moves("G10", data_input.input_data, "L P R"),
-    GCode("G11"),
+    GCode("G11", handler=parameter_input.end),
     GCode("G15", "polar"),
     GCode("G16", "polar", frames.start_polar),
     GCode("G17", "plane", coordinates.note_context),
@@ -137,7 +138,8 @@ G_CODES = table(
 
 def plan_guarded_speed(builder: Builder) -> Step:
     """S, unless the machine refuses it now."""
-    return guarded_speed(auxiliary.plan_spindle_speed(builder), builder.control.interlocks)
+    control: Any = builder.control
+    return guarded_speed(auxiliary.plan_spindle_speed(builder), control.interlocks)
 
 
 ADDRESSES = {
@@ -170,4 +172,6 @@ POWER_ON = {
     "polar": "G15",
     "mirror": "G50.1",
     "calls": code_calls.ALL,
+    "interruption": "M97",
+    "data_input": "G11",
 }

@@ -70,10 +70,10 @@ def shift_off_wall(channel: Channel, data: CycleData, plane: tuple[int, int]) ->
 
 def check_rigid_tapping(channel: Channel, code: str) -> None:
     """Between M29 and its tapping cycle nothing may move and S may not change; the spindle needs a speed."""
-    armed = channel.memory.rigid_tapping
+    armed = channel.memory.armed_tapping
     if code not in RIGID or armed is None:
         return
-    channel.memory.rigid_tapping = None
+    channel.memory.armed_tapping = None
     c = channel.coordinates
     if any(abs(a - b) > WINDOW_MM for a, b in zip(c.machine, armed.machine, strict=True)):
         raise channel.control.fail("rigid_position", address=code)

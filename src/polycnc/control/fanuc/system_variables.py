@@ -17,7 +17,7 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from polycnc.control.word_address.variables import MacroMemory
 
-# ---- interface signals ------------------------------------------------------------------------------------------------
+# ---- interface signals ------------------------------------------------------------
 
 
 def _signal(prefix: str) -> Read:
@@ -38,7 +38,7 @@ def _set_signal_word(m: MacroMemory, _i: int, value: float | None, _text: str) -
         m.signals[f"UO{bit:03d}"] = word >> bit & 1
 
 
-# ---- messages and control ----------------------------------------------------------------------------------------------
+# ---- messages and control ------------------------------------------------------------
 
 
 def _raise_user_alarm(m: MacroMemory, _i: int, value: float | None, text: str) -> None:
@@ -67,7 +67,7 @@ def _switch(name: str) -> tuple[Read, Write]:
     return read, write
 
 
-# ---- tool offsets ------------------------------------------------------------------------------------------------------
+# ---- tool offsets ------------------------------------------------------------
 
 
 def _tool_field(field: str) -> tuple[Read, Write]:
@@ -81,7 +81,7 @@ def _tool_field(field: str) -> tuple[Read, Write]:
     return read, write
 
 
-# ---- work offsets ------------------------------------------------------------------------------------------------------
+# ---- work offsets ------------------------------------------------------------
 
 
 def _work_offset(name: str) -> tuple[Read, Write]:
@@ -101,11 +101,21 @@ def _axis(m: MacroMemory, i: int) -> int:
     return i
 
 
-# ---- modal information and positions -------------------------------------------------------------------------------------
+# ---- modal information and positions ------------------------------------------------------------
 
 
 def _modal(group: str) -> Read:
     return lambda m, _i: float(m.channel.mode[group][1:])
+
+
+def _interrupted(group: str) -> Read:
+    """A modal code of the block that an interruption macro has cut."""
+
+    def read(m: MacroMemory, _i: int) -> float | None:
+        running = m.interruptions.running if m.interruptions is not None else []
+        return float(running[-1].mode[group][1:]) if running else None
+
+    return read
 
 
 def _feed(m: MacroMemory, _i: int) -> float:
@@ -204,7 +214,11 @@ def _rows_work_offsets() -> list[SystemRange]:
     rows: list[SystemRange] = []
     names = [EXTERNAL, "G54", "G55", "G56", "G57", "G58", "G59"]
     for i, name in enumerate(names):
-        rows.append(SystemRange(5201 + 20 * i, 5220 + 20 * i, *_work_offset(name), name="_WZCMN" if not i else f"_WZ{name}"))
+        rows.append(
+            SystemRange(
+                5201 + 20 * i, 5220 + 20 * i, *_work_offset(name), name="_WZCMN" if not i else f"_WZ{name}"
+            )
+        )
     for axis in range(4):
         for i, name in enumerate(names):
             read, write = _work_offset(name)
@@ -266,6 +280,7 @@ MILLING_VARIABLES = Registry(
     COMMON_VARIABLES
     + _rows_modal(4000, MILLING_GROUPS)
     + _rows_modal(4200, MILLING_GROUPS)
+    + [SystemRange(4400 + n, 4400 + n, _interrupted(group)) for n, group in MILLING_GROUPS.items()]
     + _rows_positions()
     + _rows_work_offsets()
     + _rows_tools()

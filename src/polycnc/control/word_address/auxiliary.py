@@ -101,7 +101,7 @@ def arm_rigid_tapping(channel: Channel, words: Words) -> None:
     """M29 S: the next tapping cycle is rigid; nothing may move in between."""
     speed = words.typed("S")
     memory = channel.memory
-    memory.rigid_tapping = RigidTapping(
+    memory.armed_tapping = RigidTapping(
         tuple(channel.coordinates.machine), memory.spindle_speed if speed is None else speed
     )
 

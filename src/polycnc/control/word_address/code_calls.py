@@ -8,7 +8,7 @@ of blocks differ inside and outside.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from polycnc.control.word_address import auxiliary, macro_calls, subprograms
 from polycnc.control.word_address.codes import GCode, MCode, Order
@@ -77,6 +77,12 @@ def _g_row(code: str, call: CodeCall) -> GCode:
     return GCode(code, handler=act, takes="*", axis_words=True, order=Order.CALL)
 
 
+def _calls(builder: Builder) -> CodeCalls:
+    control: Any = builder.control
+    calls: CodeCalls = control.code_calls(builder.channel)
+    return calls
+
+
 def may_call(builder: Builder, letter: str) -> bool:
     """Whether codes of a letter call programs here."""
     return letter in builder.before.codes.get("calls", "")
@@ -84,7 +90,7 @@ def may_call(builder: Builder, letter: str) -> bool:
 
 def m_row(builder: Builder, number: int) -> MCode | None:
     """The row of an M code that is registered as a subprogram call; its block's other words act as usual."""
-    call = builder.control.code_calls(builder.channel).m.get(number) if may_call(builder, "M") else None
+    call = _calls(builder).m.get(number) if may_call(builder, "M") else None
     if call is None or call.kind != "sub":
         return None
 
@@ -102,7 +108,7 @@ def plan_m_macro(builder: Builder, plan: Plan) -> Step | None:
     if first[:1] != "M" or not first[1:].isdigit() or not may_call(builder, "M"):
         return None
     number = int(first[1:])
-    call = builder.control.code_calls(builder.channel).m.get(number)
+    call = _calls(builder).m.get(number)
     if call is None or call.kind == "sub":
         return None
 
@@ -128,7 +134,7 @@ def plan_tool_call(builder: Builder) -> Step | None:
     if not builder.has("T") or not _calls_by_tool(builder):
         return None
     slot = builder.slots["T"][0]
-    call = builder.control.code_calls(builder.channel).t
+    call = _calls(builder).t
 
     def act(channel: Channel, values: list[float]) -> None:
         assert call is not None
@@ -141,7 +147,7 @@ def plan_tool_call(builder: Builder) -> Step | None:
 
 
 def _calls_by_tool(builder: Builder) -> bool:
-    return builder.control.code_calls(builder.channel).t is not None and may_call(builder, "T")
+    return _calls(builder).t is not None and may_call(builder, "T")
 
 
 def note_level(channel: Channel) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from polycnc.control.word_address import code_calls, macro_calls
+from polycnc.control.word_address import code_calls, interruption, macro_calls
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.numbers import NumberRules
 from polycnc.program import ProgramFileError
@@ -93,11 +93,13 @@ class CustomMacroControl(WordAddressControl):
         if (kind not in _MACRO_KINDS and others >= SUBPROGRAM_LEVELS) or macros + others >= LEVELS:
             raise self.fail("nesting_sub")
 
-    def leave(self, channel: Channel) -> None:
-        """End of a subprogram or macro: the caller's local variables return."""
-        channel.pop()
+    def leave(self, channel: Channel, *, jumps: bool = False) -> None:
+        """End of a subprogram or macro: the caller's local variables return; `jumps` for M99 P."""
+        ended = channel.pop()
         channel.memory.locals = channel.level.locals
         code_calls.note_level(channel)
+        if ended.kind == interruption.LEVEL:
+            interruption.finish(channel, jumps=jumps)
 
     def start(self, channel: Channel) -> None:
         """Power-on state; the main program has local variables of its own."""

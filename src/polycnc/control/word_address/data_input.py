@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address import parameter_input
 from polycnc.control.word_address.coordinates import refresh_zero
 from polycnc.control.word_address.length import renew_length
 from polycnc.control.word_address.memory import EXTERNAL
@@ -21,6 +22,9 @@ def input_data(channel: Channel, words: Words) -> None:
     """G10 L2, L20 work offsets; L10 to L13 tool offsets; G90 sets, G91 adds."""
     kind = words.integer("L")
     number = words.integer("P")
+    if kind in parameter_input.LEVELS:
+        parameter_input.begin(channel)
+        return
     if kind is not None and kind not in TOOL_FIELDS and kind not in (2, 20):
         raise words.fail("g10_format", "L")
     if number is None:

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from polycnc.compensation import CutterCompensation
     from polycnc.compensation.corner import CornerStage
     from polycnc.control.word_address.drilling import CycleData
+    from polycnc.control.word_address.interruption import Interruptions
     from polycnc.control.word_address.macro_calls import ModalCall
 
 #: Name of the offset that is added to every work coordinate system.
@@ -79,8 +80,9 @@ class Memory:
         length_offset: Shift of each axis by the active tool length.
         tool: Tool in the spindle; `next_tool` is selected.
         last_m: The last M code sent to the machine.
+        interruptions: The interruption program, once M96 has named it.
         tool_unclamped: The program has released the tool.
-        rigid_tapping: What M29 found, until the tapping cycle that it is meant for.
+        armed_tapping: What M29 found, until the tapping cycle that it is meant for.
         h: Number of the active length offset; `d` of the radius offset.
         side: Side that G41/G42 ask for: 1, -1, 0 off.
         compensation: The stage that compensates, once it was needed.
@@ -110,8 +112,9 @@ class Memory:
         self.tool = 0
         self.next_tool = 0
         self.last_m = 0
+        self.interruptions: Interruptions | None = None
         self.tool_unclamped = False
-        self.rigid_tapping: RigidTapping | None = None
+        self.armed_tapping: RigidTapping | None = None
         self.h = 0
         self.d = 0
         self.side = 0

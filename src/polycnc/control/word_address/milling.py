@@ -10,12 +10,13 @@ from polycnc.control.word_address.codes import MCode
 from polycnc.control.word_address.custom_macro import CustomMacroControl
 from polycnc.control.word_address.interlocks import Interlock, guarded
 from polycnc.control.word_address.length import renew_length
+from polycnc.control.word_address.parameter_input import plan_parameter_block
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.memory import Memory, ToolOffset
-    from polycnc.control.word_address.plan import Builder
+    from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
 
 
@@ -36,6 +37,10 @@ class MillingControl(CustomMacroControl):
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
 
     # ---- motion --------------------------------------------------------------------------------------
+
+    def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
+        """Parameter blocks of G10 L50; macro calls."""
+        return plan_parameter_block(builder, plan) or super().call_by_code(builder, plan)
 
     def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
         """The step of the active motion or cycle; under G93 every cutting block needs its own F."""

@@ -95,7 +95,9 @@ def return_from_subprogram(channel: Channel, words: Words) -> None:
     sequence = words.integer("P") if "P" in words else None
     if len(channel.stack) == 1:
         level.index = (
-            0 if sequence is None else sequences_of(level).find_sequence(sequence, level.current, "no_return_sequence")
+            0
+            if sequence is None
+            else sequences_of(level).find_sequence(sequence, level.current, "no_return_sequence")
         )
         level.data.clear()
         return
@@ -107,7 +109,7 @@ def return_from_subprogram(channel: Channel, words: Words) -> None:
         level.index = level.entry
         level.data.clear()
         return
-    channel.control.leave(channel)
+    channel.control.leave(channel, jumps=sequence is not None)
     if sequence is not None:
         caller = channel.level
         caller.index = sequences_of(caller).find_sequence(sequence, caller.current, "no_return_sequence")

@@ -154,6 +154,16 @@ class MacroMemory(Memory):
             raise self.fail("variable_number")
         return index
 
+    def parameter(self, number: float, bit: float | None, axis: float | None) -> float:
+        """`PRM[…]`: a machine parameter, 0 where the setup does not name it."""
+        names = self.channel.axes
+        if axis is not None and not 1 <= axis <= len(names):
+            raise self.fail("argument_range")
+        name = names[int(axis) - 1] if axis is not None else None
+        if bit is None:
+            return self.parameters.number(int(number), name)
+        return float(self.parameters.bit(int(number), int(bit), name))
+
     def read_named(self, name: str, index: float | None) -> float | None:
         """`[#NAME]`, `[#_ABSIO[n]]`: names of SETVN, then system names."""
         offset = 0 if index is None else self._index(index)
@@ -188,7 +198,9 @@ class MacroMemory(Memory):
 
     def variable_names(self) -> list[str]:
         """Local and common variables that are not vacant."""
-        numbers = [n for values in (self.locals, self.common) for n, value in enumerate(values) if value is not None]
+        numbers = [
+            n for values in (self.locals, self.common) for n, value in enumerate(values) if value is not None
+        ]
         return [f"#{n}" for n in numbers + [n for n, value in self.more.items() if value is not None]]
 
     def write_text(self, name: str, value: object) -> None:

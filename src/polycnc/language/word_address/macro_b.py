@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 MAX_NESTING = 5
 
 FUNCTIONS = (
-    "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "SQRT", "ABS", "BIN", "BCD", "ROUND", "FIX", "FUP", "LN", "EXP", "POW",
+    "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "SQRT", "ABS", "BIN", "BCD", "ROUND", "FIX", "FUP", "LN",
+    "EXP", "POW", "PRM",
 )  # fmt: skip
 #: Functions may be written with their first two letters; three where two are not enough.
 _ABBREVIATIONS = {"SI": "SIN", "CO": "COS", "TA": "TAN", "AS": "ASIN", "AC": "ACOS", "AT": "ATAN", "SQ": "SQRT",
@@ -104,7 +105,9 @@ class Reader:
         while operator := self.match(_SUM_OPERATOR):
             right = _value(self.term())
             left = _value(left)
-            left = f"({left}{operator}{right})" if operator in "+-" else f"{operator.lower()}_({left},{right})"
+            left = (
+                f"({left}{operator}{right})" if operator in "+-" else f"{operator.lower()}_({left},{right})"
+            )
         return left
 
     def term(self) -> str:
@@ -113,7 +116,9 @@ class Reader:
         while operator := self.match(_TERM_OPERATOR):
             right = _value(self.factor())
             left = _value(left)
-            left = f"({left}{operator}{right})" if operator in "*/" else f"{operator.lower()}_({left},{right})"
+            left = (
+                f"({left}{operator}{right})" if operator in "*/" else f"{operator.lower()}_({left},{right})"
+            )
         return left
 
     def factor(self) -> str:
@@ -188,6 +193,8 @@ class Reader:
             arguments.append(_value(self.sum()))
         self.expect("]", "close_bracket")
         self.depth -= 1
+        if full == "PRM":
+            return self._parameter(arguments)
         if full == "ATAN" and len(arguments) == 1:
             before = self.pos
             if self.accept("/") and self.peek() == "[":
@@ -200,6 +207,19 @@ class Reader:
         if full == "ROUND" and self.in_word:
             call = "round_increment"
         return f"{call}_(m,{','.join(arguments)})"
+
+    def _parameter(self, arguments: list[str]) -> str:
+        """`PRM[number]`, `PRM[number,bit]`, each with `/[axis number]`: a machine parameter."""
+        if len(arguments) > 2:
+            raise self.fail("argument")
+        bit = arguments[1] if len(arguments) == 2 else "None"
+        before = self.pos
+        axis = "None"
+        if self.accept("/") and self.peek() == "[":
+            axis = _value(self.bracket())
+        else:
+            self.pos = before
+        return f"m.parameter({arguments[0]},{bit},{axis})"
 
     def condition(self) -> str:
         """`[a EQ b]`, and with the parameter for it `[[a EQ b] AND [c GT d]]`."""

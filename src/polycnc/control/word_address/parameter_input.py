@@ -1,0 +1,68 @@
+"""G10 L50 and L52 … G11: blocks that set parameters (FANUC macro B §10.2)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.subprograms import sequences_of
+from polycnc.control.word_address.words import Words
+from polycnc.machine.setup import ParameterKey, Parameters
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.plan import Builder, Plan
+
+#: L numbers that begin the input of parameters.
+LEVELS = (50, 52)
+
+
+def begin(channel: Channel) -> None:
+    """G10 L50, L52: the blocks from here to G11 name parameters."""
+    channel.mode = channel.mode.with_code("data_input", "G10")
+
+
+def end(channel: Channel, _words: Words) -> None:
+    """G11."""
+    channel.mode = channel.mode.with_code("data_input", "G11")
+
+
+def plan_parameter_block(builder: Builder, plan: Plan) -> Step | None:
+    """`N number [P axis] [Q bit] R value` while the input of parameters is on."""
+    if (
+        builder.before.codes.get("data_input") != "G10"
+        or builder.codes
+        or builder.m_codes
+        or not builder.slots
+    ):
+        return None
+    for address in builder.slots:
+        if address not in "PQR":
+            raise builder.control.fail("g10_format", address=address)
+
+    def act(channel: Channel, values: list[float]) -> None:
+        words = Words(plan, values)
+        level = channel.level
+        number, value = sequences_of(level).sequence(level.current), words.typed("R")
+        axis = words.integer("P") if "P" in words else None
+        bit = words.integer("Q") if "Q" in words else None
+        if not number or value is None:
+            raise words.fail("g10_format", "N")
+        if axis is not None and not 0 <= axis <= len(channel.axes):
+            raise words.fail("g10_number", "P")
+        if bit is not None and not 0 <= bit <= 7:
+            raise words.fail("g10_number", "Q")
+        name = channel.axes[axis - 1] if axis else None
+        set_parameter(channel, ParameterKey(number, bit, None, name), value)
+
+    return act
+
+
+def set_parameter(channel: Channel, key: ParameterKey, value: float) -> None:
+    """Give a parameter another value; whatever rests on the old one is worked out anew."""
+    setup = channel.setup
+    parameters = Parameters({**dict(setup.parameters.items()), key: value})
+    channel.setup = replace(setup, parameters=parameters)
+    channel.memory.parameters = parameters
+    channel.modes.forget_plans()
