@@ -17,6 +17,7 @@ from polycnc.control.word_address import frames
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.numbers import NumberRules
 from polycnc.language.syntec import executable
+from polycnc.language.syntec.blocks import TypedBlock
 from polycnc.messages import AlarmError
 from polycnc.program import Form
 from polycnc.program.split import split_channels
@@ -25,7 +26,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from polycnc.channel.channel import Channel
-    from polycnc.channel.stack import Executable
+    from polycnc.channel.stack import Executable, Level
+    from polycnc.channel.stack import Step as ProgramStep
     from polycnc.control.word_address.codes import GCode, MCode, Planner, Step
     from polycnc.control.word_address.drilling import Drilling
     from polycnc.control.word_address.memory import ToolOffset
@@ -122,6 +124,15 @@ class SyntecMill(WordAddressControl):
         """Alarm for one level of calls too many."""
         if len(channel.stack) >= calls.MAX_LEVELS:
             raise self.fail("nesting", hint="hint.syntec.levels")
+
+    def halts(self, channel: Channel, level: Level, step: ProgramStep) -> bool:
+        """Single block halts behind a block of words, but not at the mid point of an arc nor while #1502 forbids it."""
+        memory = channel.memory
+        if memory.words.get(1502, 0) & 1 or memory.mid_point is not None:
+            return False
+        if isinstance(step, TypedBlock):
+            return channel.level is level and not channel.finished
+        return super().halts(channel, level, step)
 
     # ---- alarms ------------------------------------------------------------------------------------------
 
