@@ -146,6 +146,15 @@ def transformation_off(channel: Channel, _args: Arguments) -> None:
     channel.memory.frames.system["$P_TRAFRAME"] = NEUTRAL
 
 
+def workpiece(channel: Channel, args: Arguments) -> None:
+    """WORKPIECE(…): the blank that pictures show; WORKPIECE() takes it away. No motion."""
+    channel.memory.values["WORKPIECE", ()] = args or None
+
+
+def editor_mark(_channel: Channel, _args: Arguments) -> None:
+    """GROUP_BEGIN, GROUP_END: marks of the editor."""
+
+
 def no_overlay(_channel: Channel, _args: Arguments) -> None:
     """DRFOF, CORROF: there is no overlaid motion to take away."""
 
@@ -176,5 +185,8 @@ PROCEDURES: dict[str, Callable[[Channel, Arguments], None]] = {
     "NEWCONF": new_configuration,
     "TRAFOOF": transformation_off,
     "DRFOF": no_overlay,
+    "WORKPIECE": workpiece,
+    "GROUP_BEGIN": editor_mark,
+    "GROUP_END": editor_mark,
     "CORROF": no_overlay,
 }

@@ -60,7 +60,7 @@ def _travel_time(position: int) -> Step:
 
 def axis_feed(draft: Draft, position: int, shape: WordShape) -> Step:
     """FA[axis]: feed of a positioning axis, modal; alarm 10861 for zero, 14810 below."""
-    column = _axis_column(draft, position, shape)
+    column = sections.axis_column(draft, position, shape)
     factor = (tables.MM_PER_INCH if draft.mode["units"] == "G700" else 1.0) / tables.MINUTE
 
     def run(channel: Channel, values: Values) -> None:
@@ -70,12 +70,6 @@ def axis_feed(draft: Draft, position: int, shape: WordShape) -> Step:
         channel.memory.feeds[column] = value
 
     return run
-
-
-def _axis_column(draft: Draft, position: int, shape: WordShape) -> int:
-    if not isinstance(shape.index, Axis):
-        raise WordAlarm("12040", position, text=str(shape.index or ""))
-    return draft.memory.column(shape.index.name)
 
 
 # ---- spindle
@@ -212,7 +206,7 @@ def added_length(draft: Draft, position: int, shape: WordShape) -> Step:
 
 def added_on_axis(draft: Draft, position: int, shape: WordShape) -> Step:
     """TOFF[axis]: addition along a geometry axis."""
-    column = _axis_column(draft, position, shape)
+    column = sections.axis_column(draft, position, shape)
     geometry = draft.channel.coordinates.geometry
     if column not in geometry:
         raise WordAlarm("16410", position, axis=draft.channel.axes[column])
@@ -364,6 +358,19 @@ def kept(_draft: Draft, position: int, shape: WordShape) -> Step:
     return run
 
 
+def kept_of_axis(draft: Draft, position: int, shape: WordShape) -> Step:
+    """FGREF, FL: reference radius of a rotary axis, limit of a synchronous axis; for the motion planner."""
+    column = sections.axis_column(draft, position, shape)
+
+    def run(channel: Channel, values: Values) -> None:
+        value = number(values, position)
+        if value <= 0.0:
+            raise WordAlarm("12560", position, text=shape.address)
+        channel.memory.values[shape.address, (column,)] = value
+
+    return run
+
+
 def auxiliary_h(_draft: Draft, position: int, _shape: WordShape) -> Step:
     """H: auxiliary function to the PLC."""
 
@@ -428,6 +435,8 @@ WORDS: dict[str, Maker] = {
     "ADISPOS": rounding_distance,
     "TCARR": tool_carrier,
     "SVC": cutting_rate,
+    "FGREF": kept_of_axis,
+    "FL": kept_of_axis,
     "DL": additive_offset,
     "SCPARA": sections.parameter_set,
     "CTOL": sections.tolerance,
@@ -439,6 +448,7 @@ WORDS: dict[str, Maker] = {
 #: Addresses that take an extension or an index, and those that take something round their value.
 _EXTENDED = """
 S M H T D F FA LIMS SPOS SPOSA TOFFL TOFF OVRA ACC ACCLIMA VELOLIM VELOLIMA JERKLIM JERKLIMA SCPARA ATOL
+FGREF FL
 """
 EXTENDED = frozenset(_EXTENDED.split())
 MODIFIED = {
