@@ -176,5 +176,30 @@ def test_an_alarm_under_displof_stands_at_the_call() -> None:
     assert (shown.program, shown.line) == ("_N_SUBB_SPF", 2)
 
 
-def test_an_iso_program_is_refused() -> None:
-    assert alarm('ISOCALL "0122"')[0] == "PC0001"
+def test_an_iso_program_runs_as_it_is_unless_a_dialect_is_set_up() -> None:
+    program = 'DEF STRING[5] NAME="SUBB"\nISOCALL NAME'
+    assert value(program, files=COUNT) == 1
+    assert alarm(program, files=COUNT, setup={"parameters": {"18800": 1}})[0] == "PC0001"
+
+
+def test_a_declaration_must_fit_the_program() -> None:
+    files = {"SUBB.SPF": "PROC SUBB(REAL AA, VAR INT BB[2])\nRET"}
+    program = "EXTERN SUBB({})\nDEF INT BB[2]\nSUBB(1,BB)"
+    assert run(program.format("REAL, VAR INT[,]"), files).alarms == []
+    assert alarm(program.format("REAL, INT"), files=files)[:2] == ("12330", 3)
+    assert alarm(program.format("REAL"), files=files)[:2] == ("12330", 3)
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["GOTOF AA", "IF R1 GOTOB AA", "LOOP", "WHILE R1", "FOR R1=1 TO 2", "REPEAT AA", "CASE R1 OF 1 GOTOF AA"],
+)
+def test_an_external_program_cannot_jump(line: str) -> None:
+    files = {"external:/_N_WKS_DIR/_N_OUT_SPF": f"AA: R1=0\n{line}\nENDLOOP\nENDWHILE\nENDFOR\nM17"}
+    found = run('EXTCALL("/_N_WKS_DIR/_N_OUT_SPF")', files).alarms[0]
+    assert (found.code, found.line) == ("12500", 2)
+
+
+def test_an_external_program_may_branch_and_call() -> None:
+    files = {**COUNT, "external:/_N_WKS_DIR/_N_OUT_SPF": "IF TRUE\nSUBB\nELSE\nR1=9\nENDIF\nR2=1\nM17"}
+    assert values('EXTCALL("/_N_WKS_DIR/_N_OUT_SPF")', "R1", "R2", files=files) == [1, 1]

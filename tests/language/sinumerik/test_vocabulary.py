@@ -40,6 +40,11 @@ def test_words_of_the_statement_list_are_known(word: str) -> None:
     assert is_known(word, control("sinumerik-840d"))  # type: ignore[arg-type]
 
 
-def test_no_word_is_a_function_and_a_procedure() -> None:
-    functions = {*keywords.FUNCTIONS, *keywords.CONTROL_FUNCTIONS, *keywords.FILE_FUNCTIONS}
+def test_functions_of_the_language_itself_are_no_procedures() -> None:
+    functions = {
+        *keywords.FUNCTIONS,
+        *keywords.SAME_TYPE_FUNCTIONS,
+        *keywords.NAME_FUNCTIONS,
+        *keywords.FILE_FUNCTIONS,
+    }
     assert functions.isdisjoint(keywords.PROCEDURES)

@@ -11,6 +11,7 @@ from polycnc.language.sinumerik.places import ElementPlace
 from polycnc.language.sinumerik.sections import Section, count_levels, leave
 from polycnc.language.sinumerik.values import Type
 from polycnc.messages import AlarmError
+from polycnc.program.store import EXTERNAL
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -35,6 +36,8 @@ def find_program(channel: Channel, name: str) -> Program | None:
     """The program that a call finds from where the channel stands (search order 1.25.1.4)."""
     memory: LanguageMemory = channel.memory.language
     directory = channel.level.code.program.directory
+    if directory.startswith(EXTERNAL):  # a program from outside calls as the selected program does
+        directory = channel.stack[0].code.program.directory
     return channel.store.find_sinumerik(name, directory, (memory.call_path,) if memory.call_path else ())
 
 
@@ -124,6 +127,7 @@ def _passes(compiler: BlockCompiler) -> str:
 def _arguments(compiler: BlockCompiler, name: Token, program: Program) -> tuple[str, tuple[bool, ...]]:
     """Code of the arguments by the PROC line of the program, and which of them were written (1.25.1.6)."""
     header = _header(compiler.channel, program)
+    _check_declaration(compiler, name, header)
     codes: list[str] = []
     given: list[bool] = []
     if compiler.accept("("):
@@ -145,6 +149,18 @@ def _arguments(compiler: BlockCompiler, name: Token, program: Program) -> tuple[
         codes.append(_left_out(compiler, header, place, name))
         given.append(False)
     return f"({''.join(code + ', ' for code in codes)})", tuple(given)
+
+
+def _check_declaration(compiler: BlockCompiler, name: Token, header: Header) -> None:
+    """12330: EXTERN has told other parameters than PROC has (1.25.3.2)."""
+    declared = compiler.scope.externals.get(name.text)
+    if declared is None:
+        return
+    actual = tuple(
+        (parameter.by_reference or bool(parameter.dims), parameter.type) for parameter in header.parameters
+    )
+    if declared != actual:
+        raise NcSyntaxError("12330", name.column, name.text)
 
 
 def _left_out(compiler: BlockCompiler, header: Header, place: int, name: Token) -> str:
@@ -286,15 +302,20 @@ def call_external(channel: Channel, name: str) -> None:
     """Run a program of the external memory, else of the user memory; alarm 14011 for neither."""
     control = channel.control
     setting = control.system_variable("$SC_EXT_PROG_PATH").read(channel, ())
-    program = channel.store.find_external(name, str(setting)) or find_program(channel, name)
-    if program is None:
-        raise AlarmError("14011", text=name)
-    call_program(channel, program, (), (), 1)
+    program = channel.store.find_external(name, str(setting))
+    if program is not None:
+        call_program(channel, program, (), (), 1, "external")
+    else:
+        call_program(channel, named_program(channel, name), (), (), 1)
 
 
 def iso_call(compiler: BlockCompiler) -> None:
-    """ISOCALL runs a program in the ISO dialect, which polycnc's SINUMERIK does not speak."""
-    raise not_supported(compiler.token.column, "ISOCALL")
+    """ISOCALL text: with no ISO dialect set up (MD18800) the program runs as it is (1.25.3.7)."""
+    token = compiler.take()
+    parameters = compiler.channel.setup.parameters
+    if any(parameters.get(name) for name in (18800, "$MN_MM_EXTERN_LANGUAGE")):
+        raise not_supported(token.column, "ISOCALL")
+    compiler.emitter.line(f"call_named(channel, {compiler.text()})")
 
 
 def search_path(compiler: BlockCompiler) -> None:

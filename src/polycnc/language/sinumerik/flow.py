@@ -21,7 +21,14 @@ if TYPE_CHECKING:
     from polycnc.language.sinumerik.lexer import Token
     from polycnc.language.sinumerik.structures import Structure
 
+_LOOPS = frozenset({"LOOP", "WHILE", "FOR", "REPEAT"})
 JUMPS = ("GOTO", "GOTOF", "GOTOB", "GOTOC")
+
+
+def _refuse_external(compiler: BlockCompiler, word: Token) -> None:
+    """12500: a program that EXTCALL runs from outside can only be read once, from start to end (1.25.3.10)."""
+    if compiler.channel.level.kind == "external":
+        raise NcSyntaxError("12500", word.column, word.text)
 
 
 # ---- jumps (1.10) ------------------------------------------------------------------------------------------
@@ -53,6 +60,7 @@ def emit_jump(compiler: BlockCompiler) -> None:
     word = compiler.take()
     if word.text not in JUMPS:
         raise compiler.error(word)
+    _refuse_external(compiler, word)
     program = compiler.emitter.object(compiler.program)
     compiler.emitter.line(f"return jump(channel, {program}, {word.text!r}, {_target(compiler)})")
 
@@ -77,7 +85,7 @@ def restart(compiler: BlockCompiler) -> None:
 
 def case(compiler: BlockCompiler) -> None:
     """CASE (expression) OF constant GOTOF target … DEFAULT GOTOF target (1.10.3)."""
-    compiler.take()
+    _refuse_external(compiler, compiler.take())
     compiler.emitter.line(f"case = {compiler.value(Type.INT)}")
     compiler.expect("OF")
     while compiler.token.kind != "end":
@@ -115,6 +123,8 @@ def branch(compiler: BlockCompiler) -> None:
 def _structure(compiler: BlockCompiler, word: Token) -> Structure:
     """The structure of the block; 12630 if the block has a label or can be skipped."""
     compiler.emitter.knows_place = compiler.emitter.can_join = True
+    if word.text in _LOOPS:
+        _refuse_external(compiler, word)
     if compiler.marked:
         raise NcSyntaxError("12630", word.column, word.text)
     return compiler.program.structure(compiler.index, word)
@@ -204,6 +214,7 @@ def repeat(compiler: BlockCompiler) -> None:
         _structure(compiler, word)
         compiler.emitter.branch = Branch("REPEAT")
         return
+    _refuse_external(compiler, word)
     first = compiler.take()
     last = compiler.take().text if compiler.token.kind == "name" and compiler.token.text != "P" else ""
     count = _passes(compiler)
@@ -213,7 +224,7 @@ def repeat(compiler: BlockCompiler) -> None:
 
 def repeat_block(compiler: BlockCompiler) -> None:
     """REPEATB label P=n: the line of the label."""
-    compiler.take()
+    _refuse_external(compiler, compiler.take())
     label = compiler.take()
     program = compiler.emitter.object(compiler.program)
     compiler.emitter.line(
