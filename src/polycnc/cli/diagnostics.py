@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from polycnc.messages import text
+from polycnc.messages import Alarm, text
 from polycnc.messages.catalogue import language
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from polycnc.messages import Alarm
     from polycnc.session import Result
 
 Severity = Literal["error", "warning"]
@@ -62,6 +61,7 @@ class Diagnostic:
 def diagnostics_of(result: Result, main: str) -> list[Diagnostic]:
     """The findings of a run, each place and cause once; `main` is the main file as the user named it."""
     found = [_of_alarm(result, alarm, main) for alarm in result.alarms]
+    found += _of_texts(result, main)
     found += _of_files(result, main)
     return list({(d.place, d.code, d.message): d for d in found}.values())
 
@@ -93,6 +93,27 @@ def _shown_file(file: str, result: Result, main: str) -> str:
 def remedy_of(entry: Mapping[str, str]) -> str:
     """What to do about an alarm, in the language of the run; empty where the catalogue does not tell."""
     return entry.get("remedy" if language() == "en" else f"remedy-{language()}", "")
+
+
+def _of_texts(result: Result, main: str) -> Iterable[Diagnostic]:
+    """What cannot be read in texts that are read as a whole, whether the run came there or not."""
+    for program in result.channel.programs:
+        code = result.channel.executable(program)
+        for error in getattr(code, "mistakes", ()):
+            alarm = Alarm(
+                control=result.control.id,
+                code=error.code,
+                program=program.name,
+                line=error.line,
+                column=error.column,
+                args=dict(error.args_by_name),
+                hint=error.hint,
+                file=program.path,
+            )
+            yield _of_alarm(result, alarm, main)
+        for line in getattr(code, "unclosed", ()):
+            place = Place(_shown_file(program.path, result, main), line)
+            yield Diagnostic(place, "unclosed", text("check.unclosed"), "polycnc/unclosed", "warning")
 
 
 def _of_files(result: Result, main: str) -> Iterable[Diagnostic]:
