@@ -99,21 +99,20 @@ class Piece:
     row: int
     vectors: list[list[float]]
 
-    def samples(self, limits: list[float]) -> list[tuple[float, list[float], list[float]]]:
+    def samples(self, steps: int) -> list[tuple[float, list[float], list[float]]]:
         """At places on the piece: x, velocities and accelerations of the axes, by interpolation."""
         t0, t1, c0, c1 = self.vectors
         result = []
-        steps = 8
         for k in range(steps + 1):
             f = k / steps
-            x, u = self._at(f * self.length, limits)
+            x, u = self._at(f * self.length)
             t = [a + f * (b - a) for a, b in zip(t0, t1, strict=True)]
             c = [a + f * (b - a) for a, b in zip(c0, c1, strict=True)]
             velocity = [q * sqrt(x) for q in t]
             result.append((x, velocity, [q2 * x + q1 * u for q1, q2 in zip(t, c, strict=True)]))
         return result
 
-    def _at(self, s: float, limits: list[float]) -> tuple[float, float]:
+    def _at(self, s: float) -> tuple[float, float]:
         if self.form == CURVED:
             u = (self.end2 - self.start2) / (2.0 * self.length)
             return max(self.start2 + 2.0 * u * s, 0.0), u

@@ -272,9 +272,12 @@ def lay_chord(
     size, mean = norm(state, bend, n, limits, weight), 0.5 * (length + state[ROW_LENGTH])
     cap2 = pieces[at + ENTRY2]
     for i in range(n):
-        curvature = (state[unit + i] - state[tangent + i]) / mean
-        pieces[before + n + i] = pieces[here + i] = state[bend + i] / size
+        direction, curvature = state[bend + i] / size, (state[unit + i] - state[tangent + i]) / mean
+        pieces[before + n + i] = pieces[here + i] = direction
         pieces[before + 3 * n + i] = pieces[here + 2 * n + i] = curvature
+        if direction != 0.0:
+            top = limits[TOP_FEED * n + i] / direction
+            cap2 = min(cap2, top * top)
         if curvature != 0.0:
             cap2 = min(cap2, limits[ACCELERATION * n + i] / abs(curvature))
     pieces[at + ENTRY2] = cap2
