@@ -136,6 +136,10 @@ class SyntecMill(WordAddressControl):
 
     # ---- alarms ------------------------------------------------------------------------------------------
 
+    def fail(self, mistake: str, **where: Any) -> AlarmError:
+        """The control's alarm for a named mistake; its text names the word."""
+        return super().fail(mistake, **{"word": where.get("address", ""), **where})
+
     def arithmetic_alarm(self, _error: ArithmeticError) -> AlarmError:
         """The alarm for a calculation whose result no variable can hold."""
         return AlarmError("COR-004", hint="hint.syntec.overflow")

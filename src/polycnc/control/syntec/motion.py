@@ -6,7 +6,7 @@ from functools import partial
 from math import copysign, hypot, nan, sqrt
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address import auxiliary, path, skip
+from polycnc.control.word_address import auxiliary, path, radius, skip
 from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.control.word_address.path import CENTER_WORDS, PLANES
 from polycnc.geometry import arcs
@@ -60,7 +60,8 @@ def move_in_machine_system(channel: Channel, words: Words) -> None:
     feed = nan
     if speed is not None and words.typed("P") == 1:
         feed = speed * (INCH_MM if words.plan.inch else 1.0) / 60.0
-    channel.straight(Kind.RAPID, c.from_machine(machine), feed)
+    with radius.suspended(channel):
+        channel.straight(Kind.RAPID, c.from_machine(machine), feed)
 
 
 # ---- feed ------------------------------------------------------------------------------------------------
@@ -94,17 +95,17 @@ def with_inverse_time(builder: Builder, plan: Plan, step: Step) -> Step:
     """G93: F times the block length, on arcs F times the radius; F stands in every block (2.64)."""
     arc = builder.mode["motion"] in ("G2", "G3")
     u, v, _ = PLANES[builder.mode["plane"]]
-    radius, centers = builder.slot("R"), [builder.slot(CENTER_WORDS[axis]) for axis in (u, v)]
+    radius_slot, centers = builder.slot("R"), [builder.slot(CENTER_WORDS[axis]) for axis in (u, v)]
     if not builder.has("F"):
         raise builder.control.fail("inverse_time_feed", address="F")
 
     def move(channel: Channel, values: list[float]) -> None:
         rate = channel.feed
-        if not arc or (radius is None and not any(slot is not None for slot in centers)):
+        if not arc or (radius_slot is None and not any(slot is not None for slot in centers)):
             channel.feed = rate * _length(channel, plan, values)
-        elif radius is not None:
+        elif radius_slot is not None:
             convert = builder.length("R")
-            channel.feed = rate * abs(convert(values[radius]) if convert else values[radius])
+            channel.feed = rate * abs(convert(values[radius_slot]) if convert else values[radius_slot])
         else:
             shift = [0.0, 0.0]
             for i, slot in enumerate(centers):
@@ -222,15 +223,15 @@ def _lengthened_arc(channel: Channel, words: Words, growth: float, *, ccw: bool)
     begin = (c.programmed[first], c.programmed[second])
     end = (programmed[first], programmed[second])
     shift = (words.length(CENTER_WORDS[u]) or 0.0, words.length(CENTER_WORDS[v]) or 0.0)
-    radius = hypot(*shift)
-    if radius == 0.0:
+    radius_mm = hypot(*shift)
+    if radius_mm == 0.0:
         raise control.fail("offset_arc")
     center = (begin[0] + shift[0], begin[1] + shift[1])
     control.check_arc(channel, begin, end, center)
     quarters = abs(arcs.sweep_angle(begin, end, center, ccw)) / (arcs.TAU / 4.0)
     if min(abs(quarters - 1.0), abs(quarters - 3.0)) > ANGLE_TOLERANCE:
         raise control.fail("offset_arc")
-    ratio = (radius + growth) / radius
+    ratio = (radius_mm + growth) / radius_mm
     if ratio <= 0.0:
         raise control.fail("comp_interference")
     programmed[first] = begin[0] + (end[0] - begin[0]) * ratio
