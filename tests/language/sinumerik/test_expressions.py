@@ -130,6 +130,11 @@ def test_a_wrong_expression_alarms_at_its_column(line: str, code: str, column: i
     assert alarm(line) == (code, 1, column)
 
 
+@pytest.mark.parametrize("expression", ["+".join(["1"] * 400), "(" * 120 + "1" + ")" * 120, "-" * 2000 + "1"])
+def test_an_expression_beyond_all_measure_is_refused(expression: str) -> None:
+    assert alarm(f"R1={expression}")[0] in ("12540", "PC0003")
+
+
 def test_the_alarm_of_a_wrong_block_comes_before_any_of_it_acts() -> None:
     assert run("R1=5 R2=FOO").variables["R1"] == 0
 

@@ -174,8 +174,16 @@ _NAMESPACE: dict[str, Any] = {
 
 
 def compiled(source: str, name: str) -> Any:
-    """A function of generated code, which may use what `provide` has made known."""
-    exec(compile(source, "<block>", "exec"), _NAMESPACE)
+    """A function of generated code, which may use what `provide` has made known.
+
+    Raises:
+        NcSyntaxError: 12540 if the code is nested too deeply for Python: the block is too complex.
+    """
+    try:
+        code = compile(source, "<block>", "exec")
+    except (SyntaxError, RecursionError, MemoryError):
+        raise NcSyntaxError("12540", 1) from None
+    exec(code, _NAMESPACE)
     return _NAMESPACE.pop(name)
 
 

@@ -13,6 +13,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from polycnc.language.sinumerik.emitter import compiled
+from polycnc.language.sinumerik.errors import NcSyntaxError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -68,7 +69,10 @@ class Joiner:
         head = ["def make(numbers, objects):"]
         head += [f"    {name}{i} = {values}[{i}]" for i, (name, values) in self._parameters()]
         source = "\n".join([*head, *("    " + line for line in self._lines), "    return run"])
-        run: Step = compiled(source, "make")(self._numbers, self._objects)
+        try:
+            run: Step = compiled(source, "make")(self._numbers, self._objects)
+        except NcSyntaxError:
+            return None  # loops nested deeper than Python nests them
         return run
 
     def _parameters(self) -> list[tuple[int, tuple[str, str]]]:
