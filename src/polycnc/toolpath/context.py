@@ -33,6 +33,8 @@ class Context:
         tolerance_mm: Contour tolerance for the planner where a code names one, else 0.
         diameter_axes: Bit mask of channel axes that show diameters.
         wcs: Name of the active work coordinate system.
+        part: From the display to the system of the work offset, where programmed frames lie behind the display: in
+            that system the path of a whole program is one picture.
         transformation: From the positions of the toolpath to those of the real axes, where they differ.
     """
 
@@ -54,4 +56,5 @@ class Context:
     tolerance_mm: float = 0.0
     diameter_axes: int = 0
     wcs: str = "G54"
+    part: Frame = IDENTITY
     transformation: Transformation | None = None

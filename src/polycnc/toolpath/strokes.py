@@ -22,7 +22,7 @@ _RAPID = frozenset((Kind.RAPID, Kind.REF))
 
 @dataclass(slots=True)
 class Stroke:
-    """A run of connected points (work coordinates, mm, radius) under one tool, in rapid or in feed."""
+    """A run of connected points (system of the work offset, mm, radius) under one tool, in rapid or in feed."""
 
     tool: str
     rapid: bool
@@ -45,11 +45,15 @@ def strokes(
         if row.kind not in _STANDING:
             start = _start(toolpath, before, row, geometry)
             tool, rapid = tool_label(row.context), row.kind in _RAPID
-            if stroke is None or stroke.tool != tool or stroke.rapid != rapid or stroke.points[-1] != start:
+            points = [start, *_points(row, start, _point(row.end, geometry), chord_error)]
+            part = row.context.part
+            if not part.is_identity:
+                points = [part.apply(*point) for point in points]
+            if stroke is None or stroke.tool != tool or stroke.rapid != rapid or stroke.points[-1] != points[0]:
                 if stroke is not None:
                     yield stroke
-                stroke = Stroke(tool, rapid, [start])
-            stroke.points += _points(row, start, _point(row.end, geometry), chord_error)
+                stroke = Stroke(tool, rapid, points[:1])
+            stroke.points += points[1:]
         before = row
     if stroke is not None:
         yield stroke

@@ -20,7 +20,7 @@ from polycnc.control.sinumerik import (
     tables,
     variables_by_name,
 )
-from polycnc.control.sinumerik.frames import Frames, stored_frames
+from polycnc.control.sinumerik.frames import Frames, chain, stored_frames
 from polycnc.control.sinumerik.machine_data import MachineData
 from polycnc.control.sinumerik.memory import Memory
 from polycnc.control.sinumerik.plan import make_plan
@@ -238,6 +238,7 @@ class Sinumerik:
             tolerance_mm=_tolerance(memory, mode["path_mode"]),
             diameter_axes=diameters,
             wcs=mode["zero_offset"],
+            part=chain(memory.frames.inner()).frame,
         )
 
     def halts(self, channel: Channel, level: Level, step: ProgramStep) -> bool:  # noqa: ARG002 - levels decide
