@@ -10,6 +10,7 @@ import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.language.sinumerik import runtime
+from polycnc.language.sinumerik.errors import NcSyntaxError
 from polycnc.language.sinumerik.place import fail
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
