@@ -203,3 +203,14 @@ def test_an_external_program_cannot_jump(line: str) -> None:
 def test_an_external_program_may_branch_and_call() -> None:
     files = {**COUNT, "external:/_N_WKS_DIR/_N_OUT_SPF": "IF TRUE\nSUBB\nELSE\nR1=9\nENDIF\nR2=1\nM17"}
     assert values('EXTCALL("/_N_WKS_DIR/_N_OUT_SPF")', "R1", "R2", files=files) == [1, 1]
+
+
+def test_a_part_of_a_program_has_the_variables_and_parameters_of_the_whole() -> None:
+    files = {"SUBB.SPF": "PROC SUBB(INT PP)\nDEF INT AA=5\nR1=1\nAA1: R2=AA R3=PP\nAA2: R4=1\nM17"}
+    assert values('SUBB(7)\nCALL "SUBB" BLOCK AA1 TO AA2', "R2", "R3", files=files) == [5, 0]
+    assert alarm('CALL "SUBB"', files={"SUBB.SPF": "PROC SUBB(VAR INT PP)\nPP=1\nRET"})[0] == "14010"
+
+
+def test_the_main_program_may_have_parameters_that_nobody_writes() -> None:
+    assert value("PROC MAIN(REAL AA, STRING[5] BB)\nR1=AA+STRLEN(BB)+1") == 1
+    assert alarm("PROC MAIN(VAR REAL AA)\nR1=AA")[0] == "14010"

@@ -209,12 +209,14 @@ def _label_text(compiler: BlockCompiler) -> str:
 
 
 def call_named(channel: Channel, name: str) -> None:
-    """CALL: parameters of the program are left out."""
-    program = named_program(channel, name)
+    """CALL of a program by its name."""
+    call_without_arguments(channel, named_program(channel, name))
+
+
+def call_without_arguments(channel: Channel, program: Program, kind: str = "sub") -> None:
+    """Call a program with all its parameters left out; alarm 14010 if it has one that must be written."""
     header = _header(channel, program)
-    if any(value is None for value in header.first_values):
-        raise AlarmError("14010", text=name)
-    call_program(channel, program, header.first_values, (False,) * len(header.parameters), 1)
+    call_program(channel, program, header.arguments_left_out(), (False,) * len(header.parameters), 1, kind)
 
 
 def call_section(channel: Channel, name: str, start: str, end: str) -> None:
@@ -227,8 +229,9 @@ def call_section(channel: Channel, name: str, start: str, end: str) -> None:
         raise AlarmError("14082", text=start if first < 0 else end)
     caller = channel.level
     local = caller.locals
-    call_program(channel, program, (), (), 1)
+    call_without_arguments(channel, program)
     level = channel.level
+    code.run_definitions(channel)
     level.code = Section(code, ends)
     level.steps = ()
     level.index = level.current = level.entry = first
@@ -304,9 +307,9 @@ def call_external(channel: Channel, name: str) -> None:
     setting = control.system_variable("$SC_EXT_PROG_PATH").read(channel, ())
     program = channel.store.find_external(name, str(setting))
     if program is not None:
-        call_program(channel, program, (), (), 1, "external")
+        call_without_arguments(channel, program, "external")
     else:
-        call_program(channel, named_program(channel, name), (), (), 1)
+        call_named(channel, name)
 
 
 def iso_call(compiler: BlockCompiler) -> None:

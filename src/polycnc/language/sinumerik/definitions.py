@@ -11,6 +11,7 @@ from polycnc.language.sinumerik.errors import NcSyntaxError
 from polycnc.language.sinumerik.runtime import default_value
 from polycnc.language.sinumerik.values import MAX_STRING, Type
 from polycnc.language.sinumerik.variables import Variable, element_count
+from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -317,6 +318,13 @@ class Header:
     parameters: tuple[Variable, ...]
     attributes: frozenset[str]
     first_values: tuple[Any, ...]
+
+    def arguments_left_out(self) -> tuple[Any, ...]:
+        """The values of a call that writes no parameter; alarm 14010 for one that must be written."""
+        for parameter, value in zip(self.parameters, self.first_values, strict=True):
+            if value is None:
+                raise AlarmError("14010", text=parameter.name)
+        return self.first_values
 
 
 NO_HEADER = Header("", (), frozenset(), ())

@@ -7,6 +7,7 @@ million lines would fill the memory with steps that never run again.
 from __future__ import annotations
 
 import re
+from array import array
 from typing import TYPE_CHECKING, Any
 
 from polycnc.language.sinumerik.blocks import CompiledBlock, compile_block, compile_text, expanded
@@ -48,10 +49,11 @@ class SinumerikProgram:
         self.control = control
         self.is_definition_file = definitions
         self.declared: dict[str, int] = {}
-        self._lines = [i for i, line in enumerate(program.lines) if not _EMPTY.match(line)]
-        numbers = [program.first_line + i for i in self._lines]
-        #: The line in the file of a step. Asked for every row, so it is the list's own method.
-        self.line = [*numbers, numbers[-1] if numbers else program.first_line].__getitem__
+        self._lines = array("I", (i for i, line in enumerate(program.lines) if not _EMPTY.match(line)))
+        numbers = array("I", (program.first_line + i for i in self._lines))
+        numbers.append(numbers[-1] if numbers else program.first_line)
+        #: The line in the file of a step. Asked for every row, so it is the array's own method.
+        self.line = numbers.__getitem__
         self.steps: list[Step | None] = [None] * len(self._lines)
         self._reached = bytearray(len(self._lines))
         self._scope: Scope | None = None
@@ -163,6 +165,11 @@ class SinumerikProgram:
             self._joins[index] = joiner.exits
         return step
 
+    def run_definitions(self, channel: Channel) -> None:
+        """Run the blocks of the definition section for the running level, whose first block is another one."""
+        for index in range(self.first_statement):
+            self.compiled(index, channel).step(channel)
+
     def execute_text(self, channel: Channel, text: str) -> None:
         """Run a text as a block of this program (EXECSTRING)."""
         step = self._texts.get(text)
@@ -204,6 +211,9 @@ class SinumerikProgram:
             scope = self.scope_of(channel)
             if self._header is None:
                 self._header = self._read_header(scope, channel)
+                main = channel.stack[0]
+                if main.code is self and self._header.parameters:
+                    main.locals = list(self._header.arguments_left_out())
         return self._header
 
     def _read_header(self, scope: Scope, channel: Channel) -> Header:
