@@ -37,6 +37,8 @@ ALARMS: dict[str, str] = {
     "smoothing_stops": "COR-106",
     "diameter_switch": "COR-326",
     "surface_axis": "COR-383",
+    "tool_plane_format": "COR-130",
+    "tool_plane": "COR-381",
     "skip_groups": "COR-362",
     "meeting_mark": "COR-137",
     "meeting_groups": "COR-144",

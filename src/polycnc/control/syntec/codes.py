@@ -13,6 +13,7 @@ from polycnc.control.syntec import (
     skips,
     smoothing,
     spindles,
+    tilted,
 )
 from polycnc.control.syntec import coordinates as frames
 from polycnc.control.word_address import auxiliary, coordinates, path, radius
@@ -88,7 +89,10 @@ G_CODES = table(
     GCode("G66.1", "macro", axis_words=True, order=Order.CALL),
     GCode("G67", "macro", calls.end_modal_call),
     GCode("G68", "rotation", frames.rotate, takes="R", axis_words=True),
-    GCode("G69", "rotation", base_frames.end_rotation),
+    GCode("G69", "rotation", tilted.end_tilt),
+    GCode("G68.2", "rotation", tilted.tilt_by_angles, takes="I J K", axis_words=True, order=MOTION),
+    GCode("G68.3", "rotation", tilted.tilt_by_tool, takes="P R", axis_words=True, order=MOTION),
+    GCode("G54.4", handler=tilted.switch_work_rotation, takes="P"),
     GCode("G70", "unit", coordinates.note_context),
     GCode("G71", "unit", coordinates.note_context),
     GCode("G80", "cycle"),
@@ -111,7 +115,7 @@ G_CODES = table(
     not_yet(
         "G6.2", "G12.1", "G13.1", "G37",
         "G37.2", "G37.3", "G40.1", "G41.1", "G42.1", "G41.2", "G42.2", "G41.6", "G42.6", "G43.4", "G43.5",
-        "G52.1", "G52.2", "G53.1", "G53.3", "G53.6", "G54.4", "G68.2", "G68.3",
+        "G52.1", "G52.2", "G53.1", "G53.3", "G53.6",
         "G80.2", "G81.1", "G81.2", "G84.48",
     ),
 )  # fmt: skip

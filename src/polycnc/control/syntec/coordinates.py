@@ -92,13 +92,14 @@ def preset_system(channel: Channel, words: Words) -> None:
 
 
 def renew_preset_frame(memory: SyntecMemory) -> None:
-    """The zero frame follows #1930 to #1933."""
+    """The zero frame follows #1930 to #1933 and the tilted plane."""
     x, y, z = memory.preset_axis
     length = (x * x + y * y + z * z) ** 0.5
-    if memory.preset_angle == 0.0 or length == 0.0:
-        memory.zero_frame = IDENTITY
-        return
-    memory.zero_frame = rotation_about((x / length, y / length, z / length), memory.preset_angle)
+    turn = IDENTITY
+    if memory.preset_angle != 0.0 and length != 0.0:
+        turn = rotation_about((x / length, y / length, z / length), memory.preset_angle)
+    frame = turn @ memory.tilt
+    memory.zero_frame = IDENTITY if frame.is_identity else frame
 
 
 def rotation_about(axis: Vector, angle_deg: float) -> Frame:

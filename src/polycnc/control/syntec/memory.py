@@ -10,6 +10,7 @@ from polycnc.control.syntec.parameters import decimals, is_diameter, parameter
 from polycnc.control.syntec.system_variables import SYSTEM_VARIABLES
 from polycnc.control.syntec.variables import Globals, Locals, is_local, put
 from polycnc.control.word_address.memory import Memory
+from polycnc.geometry.frames import IDENTITY
 from polycnc.language.syntec.expressions import NO_SUCH_VARIABLE
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, whole
 from polycnc.messages import AlarmError
@@ -44,6 +45,8 @@ class SyntecMemory(Memory):
         surface_axis: Reference axis of G96.
         speeds: Own S of each spindle; `reported` the speed last recorded.
         pairs: Spindles in step, by group K.
+        tilt: Frame of the tilted plane in the work system.
+        rotates_work: G54.4 P1 is active (#1849).
         interrupt: What M96 has prepared.
         skip_groups: Groups of G31.10 that G31.11 will move; the step behind the last one.
         diameters: Axes switched by G10.9: programmed in diameter or not.
@@ -79,6 +82,8 @@ class SyntecMemory(Memory):
         self.speeds: dict[int, float] = {}
         self.reported: dict[int, float] = {}
         self.pairs: dict[int, SpindlePair] = {}
+        self.tilt = IDENTITY
+        self.rotates_work: bool = False
         self.interrupt: Interrupt | None = None
         self.skip_groups: list[SkipGroup] = []
         self.skip_groups_end = 0

@@ -10,6 +10,7 @@ from polycnc.control.word_address import auxiliary, path, radius, skip
 from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.control.word_address.path import CENTER_WORDS, PLANES
 from polycnc.geometry import arcs
+from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -98,6 +99,8 @@ def with_inverse_time(builder: Builder, plan: Plan, step: Step) -> Step:
     radius_slot, centers = builder.slot("R"), [builder.slot(CENTER_WORDS[axis]) for axis in (u, v)]
     if not builder.has("F"):
         raise builder.control.fail("inverse_time_feed", address="F")
+    if builder.mode["polar"] == "G16":
+        raise AlarmError("PC0001", hint="hint.not-supported", address="G93", code="G93 G16")
 
     def move(channel: Channel, values: list[float]) -> None:
         rate = channel.feed
