@@ -56,6 +56,7 @@ class Memory:
             for counter-clockwise; None before the first.
         feed_mode: How F is meant, as the toolpath's feed modes.
         modal_corner_feed: FRCM in internal units, NaN for the path feed.
+        feed_before: Feed before the words of the running block (smooth approach).
         acted: The running block has done something on the machine (for single block).
         sections: Program level that began an open section (DELAYFSTON, IPTRLOCK).
         limits: Ranges that targets must stay in.
@@ -86,6 +87,7 @@ class Memory:
     modal_corner_feed: float = nan
     exact_stop_block: bool = False
     acted: bool = False
+    feed_before: float = nan
     sections: dict[str, Level] = field(default_factory=dict)
     limits: tuple[Limit, ...] = ()
     open_line: float = 0.0

@@ -17,6 +17,7 @@ from polycnc.control.sinumerik import (
     gcodes,
     limits,
     motion,
+    smooth_approach,
     spindle_speed,
     stages,
     tables,
@@ -57,6 +58,8 @@ BLOCK_MOTIONS: dict[str, Callable[[Draft], Step | None]] = {
     "G74": motion.reference_point,
     "G75": motion.fixed_point,
     "G751": motion.fixed_point,
+    **dict.fromkeys(smooth_approach.APPROACHES, smooth_approach.approach),
+    **dict.fromkeys(smooth_approach.RETRACTIONS, smooth_approach.retract),
 }
 LINEAR = frozenset(("G0", "G1"))
 
@@ -94,7 +97,10 @@ def make_plan(channel: Channel, block: Block) -> Plan:
     own = _own_function(draft)
     moving = _motion(draft) if own is None and "frame" not in codes and "block_motion" not in codes else None
     ends = _words(draft)
-    draft.steps += [LATE_EFFECTS[name] for name, _ in modal if name in LATE_EFFECTS]
+    # A retraction ends compensation itself, behind its line or arc.
+    leaves = codes.get("block_motion") in smooth_approach.RETRACTIONS and codes.get("side") == "G40"
+    late = [name for name, _ in modal if name in LATE_EFFECTS and not (leaves and name == "side")]
+    draft.steps += [LATE_EFFECTS[name] for name in late]
     draft.steps += motion.positioning(draft)
     for step in (own, moving):
         if step is not None:

@@ -21,6 +21,7 @@ from polycnc.compensation.policies import (
     Policy,
     Violation,
 )
+from polycnc.control.sinumerik.smooth_stage import SmoothApproach
 from polycnc.control.sinumerik.tables import PLANES
 from polycnc.control.sinumerik.tools import DP_TIP
 from polycnc.messages import AlarmError
@@ -64,15 +65,19 @@ class Stages:
         self.plane = Plane(*PLANES[plane], channel.coordinates.geometry)
         self.cutter = CutterCompensation(self.plane, SINUMERIK_NORM_G450, VIOLATIONS, channel.table)
         self.corner = CornerStage(self.plane, SINUMERIK_CORNERS, CORNER_VIOLATIONS, self.cutter)
+        self.approach = SmoothApproach(self.plane, self.corner)
+        self.side = 0
 
     @property
     def active(self) -> bool:
         """Whether moves are held back or changed."""
-        return self.corner.active or self.cutter.active
+        return self.approach.active or self.corner.active or self.cutter.active
 
     def into_path(self, channel: Channel) -> None:
         """Put the stages that have something to do in front of the path, and no others."""
-        channel.head = self.corner if self.corner.active else self.cutter if self.cutter.active else None
+        chain: tuple[SmoothApproach | CornerStage | CutterCompensation, ...]
+        chain = (self.approach, self.corner, self.cutter)
+        channel.head = next((stage for stage in chain if stage.active), None)
 
 
 def stages(channel: Channel) -> Stages:
@@ -143,6 +148,7 @@ def select_side(channel: Channel) -> None:
         raise AlarmError("10750")
     chain = stages(channel)
     side = SIDES[channel.mode["side"]]
+    chain.side = side
     chain.cutter.policy = policy(channel)
     chain.cutter.engage(side, radius(memory), tip(channel))
     chain.into_path(channel)
