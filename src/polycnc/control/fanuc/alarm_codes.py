@@ -47,6 +47,10 @@ ALARMS: dict[str, str] = {
     "corner_words": "PS0053",
     "corner_taper": "PS0054",
     "corner_axis": "PS0306",
+    "drawing_next": "PS0056",
+    "drawing_end": "PS0057",
+    "drawing_parallel": "PS0058",
+    "drawing_increment": "PS0312",
     # turning
     "shape_ends_in_corner": "PS0069",
     "tool_with_one_shot": "PS0245",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.fanuc import (
     turning_comp,
+    turning_drawing,
     turning_drilling,
     turning_repetitive,
     turning_shape,
@@ -181,6 +182,7 @@ class FanucTurning(CustomMacroControl):
             turning_shape.plan_note(builder, plan),
             turning_single.plan_clearing(builder),
             turning_drilling.plan_leaving(builder),
+            turning_drawing.plan_check(builder, plan),
         )
         return [*super().after_motion(builder, plan), *(step for step in further if step is not None)]
 
@@ -214,7 +216,10 @@ class FanucTurning(CustomMacroControl):
 
     def spindle_slot(self, builder: Builder) -> int | None:
         """P beside S or M names the spindle (3703#3 MPP, or the builder's), where no code takes it."""
-        if not builder.has("P") or any("P" in row.takes or row.takes == "*" for row in builder.codes):
+        if not builder.has("P"):
+            return None
+        names_spindle = builder.m_codes or builder.channel.setup.parameters.bit(3703, 3)
+        if any(("P" in row.takes and not (row.code == "G96" and names_spindle)) or row.takes == "*" for row in builder.codes):
             return None
         if any("P" in self.m_code(number).takes for number in builder.m_codes):
             return None

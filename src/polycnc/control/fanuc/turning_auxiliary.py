@@ -28,8 +28,12 @@ def dwell(channel: Channel, words: Words) -> None:
 
 
 def surface_speed(channel: Channel, words: Words) -> None:
-    """G96 S [P]: P is the controlled axis whose work coordinate is the diameter, 0 for that of 3770."""
-    if "P" in words:
+    """G96 S [P]: P is the controlled axis whose work coordinate is the diameter, 0 for that of 3770.
+
+    Beside an M code, or with 3703#3 MPP, P names the spindle instead.
+    """
+    names_spindle = words.plan.m_codes or channel.memory.parameters.bit(3703, 3)
+    if "P" in words and not names_spindle:
         axis = words.integer("P") or 0
         if not 0 <= axis <= len(channel.axes):
             raise words.fail("surface_axis", "P")

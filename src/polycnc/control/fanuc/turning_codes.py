@@ -15,6 +15,7 @@ from polycnc.control.fanuc import (
     turning_comp,
     turning_coordinates,
     turning_data,
+    turning_drawing,
     turning_measuring,
     turning_repetitive,
     turning_single,
@@ -66,7 +67,7 @@ def _point(code: str, handler: object, takes: str = "") -> GCode:
 
 ROWS: tuple[Row, ...] = (
     *same(_motion("G0", path.plan_rapid)),
-    *same(_motion("G1", path.plan_line)),
+    *same(_motion("G1", turning_drawing.plan_line)),
     *same(_motion("G2", path.plan_arc_cw)),
     *same(_motion("G3", path.plan_arc_ccw)),
     *same(_point("G4", turning_auxiliary.dwell, "X P U")),

@@ -11,6 +11,7 @@ from polycnc.geometry.frames import IDENTITY, Frame, scaling, translation
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.turning_drawing import OpenLine
     from polycnc.control.fanuc.turning_shape import Shape
     from polycnc.control.fanuc.turning_transform import Cylinder, PolarAxes
     from polycnc.control.word_address.variables import Registry
@@ -85,6 +86,7 @@ class TurningMemory(MacroMemory):
         polar: Axes of polar coordinate interpolation while it is on, and `plane_before` it.
         cylinder: The cylinder of cylindrical interpolation while it is on.
         table: The last stage of the path when nothing is unrolled.
+        open_line: Line of drawing dimensions that waits for the next block.
         rotation_angle: Angle of the last G68.1, degrees.
         parameter_input: Between G10 L52 and G11.
         increment_limits: Largest increment of axes (G91.1).
@@ -114,6 +116,7 @@ class TurningMemory(MacroMemory):
         self.rigid_tapping = False
         self.parameter_input = False
         self.rotation_angle = 0.0
+        self.open_line: OpenLine | None = None
         self.polar: PolarAxes | None = None
         self.cylinder: Cylinder | None = None
         self.plane_before = ""
