@@ -92,7 +92,7 @@ class Planner:
         self._contexts = array("d")
         self._slots = array("d")
         self._stations: dict[tuple[object, ...], int] = {}
-        self._waited: dict[tuple[int, str], float] = {}
+        self._waited: dict[int, dict[str, float]] = {}
         self._row_s = array("d")
         self._first_row = 0
         self._next_row = 0
@@ -202,7 +202,8 @@ class Planner:
     def _wait(self, row: int, share: str, context: int, seconds: float) -> None:
         """A row waits: called before its motion is planned."""
         self._row_s[row - self._first_row] += seconds
-        self._waited[context, share] = self._waited.get((context, share), 0.0) + seconds
+        shares = self._waited.setdefault(context, {})
+        shares[share] = shares.get(share, 0.0) + seconds
 
     def _settle_parallel(self, planned_rows: int) -> None:
         """Let planned blocks wait for the auxiliary functions that run beside them and take longer."""
@@ -221,9 +222,8 @@ class Planner:
         for number, context in enumerate(self._toolpath.contexts[: len(self._slots) // 4]):
             rapid_s, rapid_mm, cutting_s, cutting_mm = self._slots[4 * number : 4 * number + 4]
             times = Times(cutting_s=cutting_s, rapid_s=rapid_s, cutting_mm=cutting_mm, rapid_mm=rapid_mm)
-            for (of_context, share), seconds in self._waited.items():
-                if of_context == number:
-                    setattr(times, share, getattr(times, share) + seconds)
+            for share, seconds in self._waited.get(number, {}).items():
+                setattr(times, share, seconds)
             key = (context.tool, context.tool_name)
             tools.setdefault(key, ToolTimes(*key)).times += times
             total += times
