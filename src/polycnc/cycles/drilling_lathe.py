@@ -36,6 +36,21 @@ def with_extraction(strokes: Iterator[Stroke], hole: Hole, factor: float) -> Ite
             yield stroke
 
 
+def tap_clearing_chips(hole: Hole) -> Iterator[Stroke]:
+    """As `tap`; after each peck out to R and back to `relief` above the depth reached (5200#5)."""
+    yield Stroke(Action.RAPID, hole.r)
+    for depth in depths(hole):
+        yield Stroke(Action.TAP, depth)
+        if depth != hole.bottom:
+            yield Stroke(Action.TAP, hole.r)
+            yield Stroke(Action.TAP, above(hole, depth))
+    yield Stroke(Action.DWELL, hole.dwell_s)
+    yield Stroke(Action.SPINDLE, -1.0)
+    yield Stroke(Action.TAP, hole.r)
+    yield Stroke(Action.SPINDLE, 1.0)
+    yield Stroke(Action.RAPID, hole.back)
+
+
 def tap(hole: Hole) -> Iterator[Stroke]:
     """In with the spindle in step, dwell, reverse, out; pecks retract by `relief` (II.4.5)."""
     yield Stroke(Action.RAPID, hole.r)

@@ -171,7 +171,7 @@ POWER_ON = {
     "rotation": "G69",
     "polar": "G15",
     "mirror": "G50.1",
-    "calls": code_calls.ALL,
+    "calls": macro_calls.ALL_CALLS,
     "interruption": "M97",
     "data_input": "G11",
 }

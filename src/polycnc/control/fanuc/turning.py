@@ -70,7 +70,7 @@ class FanucTurning(CustomMacroControl):
             self.system(channel),
             circular_thread=bool(bit(3405, 3)),
             grinding=bool(bit(5106, 0)),
-            series_15=turning_drilling.is_series_15(channel),
+            series_15=turning_drilling.drills_in_series_15(channel),
         )
 
     def written_code(self, channel: Channel, group: str) -> str:
@@ -88,7 +88,7 @@ class FanucTurning(CustomMacroControl):
         machine = channel.coordinates.machine
         shown = [channel.memory.radius_of(i, value) for i, value in enumerate(machine)]
         channel.coordinates.arrive_machine(shown)
-        channel.memory.feed_code = channel.mode["feed"]
+        channel.memory.feed_code, channel.memory.plane = channel.mode["feed"], channel.mode["plane"]
 
     def start_codes(self, channel: Channel) -> dict[str, str]:
         """Code of every modal group at power-on (3402)."""
@@ -171,6 +171,7 @@ class FanucTurning(CustomMacroControl):
         """The step of the active motion code, or of the active drilling cycle."""
         if builder.mode["cycle"] != "G80":
             return turning_drilling.plan(builder, plan)
+        turning_drilling.plan_waiting(builder, plan)
         turning_drilling.give_way(builder)
         motion = builder.mode["motion"]
         row = next(code for code in self.g_table(builder.channel).values() if _is_motion(code, motion))

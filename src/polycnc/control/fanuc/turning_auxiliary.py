@@ -50,11 +50,6 @@ def note_fluctuation(_channel: Channel, _words: Words) -> None:
     """G26 P Q R I: the spindle's speed is watched; an ideal spindle never leaves the window."""
 
 
-def rigid_tapping(channel: Channel, _words: Words) -> None:
-    """M29: the next tapping cycle locks spindle and axis."""
-    channel.memory.rigid_tapping = True
-
-
 def limit_increment(channel: Channel, words: Words) -> None:
     """G91.1: largest increment of each named axis in one block; 0 ends the check."""
     limits = channel.memory.increment_limits

@@ -16,6 +16,7 @@ from polycnc.control.fanuc import (
     turning_coordinates,
     turning_data,
     turning_drawing,
+    turning_grinding,
     turning_measuring,
     turning_repetitive,
     turning_single,
@@ -23,7 +24,7 @@ from polycnc.control.fanuc import (
     turning_tools,
     turning_transform,
 )
-from polycnc.control.fanuc.turning_drilling import NORMAL_CYCLES, SERIES_15_CYCLES
+from polycnc.control.fanuc.turning_drilling import NORMAL_CYCLES, RIGID, RIGID_OFF, SERIES_15_CYCLES, rigid_tapping
 from polycnc.control.word_address import auxiliary, coordinates, extended, frames, macro_calls, path, subprograms
 from polycnc.control.word_address.codes import GCode, MCode, Order, m_table
 
@@ -167,7 +168,7 @@ MEASURING_37 = (
 GRINDING = tuple(
     row
     for a, c in (("G71", "G72"), ("G72", "G73"), ("G73", "G74"), ("G74", "G75"))
-    for row in by_system(a, a, c, GCode(a, not_yet=True))
+    for row in by_system(a, a, c, _motion(f"{a} grinding", turning_grinding.plan_grinding))
 )
 
 
@@ -203,7 +204,7 @@ M_CODES = m_table(
     MCode(13, handler=auxiliary.spindle_clockwise),
     MCode(14, handler=auxiliary.spindle_counter_clockwise),
     MCode(19, after=True, handler=auxiliary.spindle_stop),
-    MCode(29, handler=turning_auxiliary.rigid_tapping),
+    MCode(29, handler=rigid_tapping),
     MCode(30, after=True, handler=auxiliary.end_program),
     MCode(98, after=True, handler=subprograms.call_subprogram, takes="P L Q", silent=True),
     MCode(99, after=True, handler=subprograms.return_from_subprogram, takes="P L", silent=True),
@@ -237,6 +238,7 @@ POWER_ON = {
     "macro": "G67",
     "turret_mirror": "G69",
     "rotation": "G69.1",
+    RIGID: RIGID_OFF,
     "cycle": "G80",
     "surface_speed": "G97",
     "return": "G98",

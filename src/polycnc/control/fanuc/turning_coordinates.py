@@ -134,8 +134,12 @@ def feed_number(channel: Channel) -> float:
 
 def select_plane(channel: Channel, words: Words) -> None:
     """G17 to G19: the plane; an axis word names a parallel axis (1022) in place of the basic one."""
-    if channel.memory.side:
-        raise words.fail("comp_plane", channel.mode["plane"])
+    memory, code = channel.memory, channel.mode["plane"]
+    if memory.side and memory.plane != code:
+        raise words.fail("comp_plane", code)
+    if memory.plane != code:
+        memory.single_cycle.clear()
+    memory.plane = code
     c, control = channel.coordinates, channel.control
     basic = list(channel.memory.basic_geometry)
     for axis, _, _ in words.axes():
@@ -143,7 +147,6 @@ def select_plane(channel: Channel, words: Words) -> None:
         if role in (5, 6, 7):
             basic[role - 5] = axis
     c.geometry = (basic[0], basic[1], basic[2])
-    channel.memory.single_cycle.clear()
     channel.context_changed()
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address import drilling as base
 from polycnc.control.word_address.drilling import DrillCycle, Drilling, third_axis
+from polycnc.control.word_address.path import PLANES
 from polycnc.cycles import drilling, drilling_lathe
 
 if TYPE_CHECKING:
@@ -24,6 +25,8 @@ BORE = partial(drilling.bore, out=2.0)
 NORMAL_CYCLES = ("G83", "G83.5", "G83.6", "G84", "G85", "G87", "G87.5", "G87.6", "G88", "G89")
 #: Series 15 format (II.6.5).
 SERIES_15_CYCLES = ("G81", "G82", "G83", "G83.1", "G84", "G84.2", "G85", "G89")
+#: Modal group of M29.
+RIGID, RIGID_ON, RIGID_OFF = "rigid", "M29", "off"
 TAPS = frozenset({"G84", "G88", "G84.2"})
 _RELIEF = {"G83.1": 5114, "G83.5": 5114, "G87.5": 5114, "G83.6": 5115, "G87.6": 5115, "G84": 5213, "G88": 5213, "G84.2": 5213}
 
@@ -33,8 +36,8 @@ def is_series_15(channel: Channel) -> bool:
     return bool(channel.setup.parameters.bit(1, 1))
 
 
-def _drills_in_series_15(channel: Channel) -> bool:
-    """5102#3 F16: drilling stays in the normal format, with repeats by L."""
+def drills_in_series_15(channel: Channel) -> bool:
+    """Whether drilling is in that format too. 5102#3 F16: drilling stays in the normal format, with repeats by L."""
     return is_series_15(channel) and not channel.setup.parameters.bit(5102, 3)
 
 
@@ -45,15 +48,16 @@ class _Choice:
     series_15: bool
     repeats_by_l: bool
     clears_chips: bool
+    taps_clear: bool
     absolute_r: bool
 
 
 def rules(channel: Channel) -> Drilling:
     """The drilling cycles by the channel's parameters."""
     bit = channel.setup.parameters.bit
-    series_15 = _drills_in_series_15(channel)
-    absolute = series_15 and bit(5102, 6) and channel.mode["distance"] == "G90"
-    return _rules(_Choice(series_15, is_series_15(channel), bool(bit(5101, 2)), bool(absolute)))
+    series_15 = drills_in_series_15(channel)
+    absolute = series_15 and bit(5102, 6)
+    return _rules(_Choice(series_15, is_series_15(channel), bool(bit(5101, 2)), bool(bit(5200, 5)), bool(absolute)))
 
 
 @cache
@@ -70,32 +74,43 @@ def _rules(choice: _Choice) -> Drilling:
         dress=_dress,
     )
     peck: Cycle = drilling.peck_clearing_chips if choice.clears_chips else drilling.peck_breaking_chips
+    tap: Cycle = drilling_lathe.tap_clearing_chips if choice.taps_clear else drilling_lathe.tap
     if choice.series_15:
         cycles = {
             "G81": DrillCycle(drilling.drill),
             "G82": DrillCycle(drilling.drill, dwells=True),
-            "G83": DrillCycle(drilling.peck_clearing_chips, pecks=True, dwells=True),
-            "G83.1": DrillCycle(drilling.peck_breaking_chips, pecks=True, dwells=True),
-            "G84": DrillCycle(drilling.tap, dwells=True),
-            "G84.2": DrillCycle(drilling_lathe.tap, dwells=True, pecks=True),
+            "G83": DrillCycle(drilling.peck_clearing_chips, pecks=True, dwells=True, once="P"),
+            "G83.1": DrillCycle(drilling.peck_breaking_chips, pecks=True, dwells=True, once="P"),
+            "G84": DrillCycle(tap, dwells=True, once="P"),
+            "G84.2": DrillCycle(tap, dwells=True, pecks=True, once="P"),
             "G85": DrillCycle(BORE),
             "G89": DrillCycle(BORE, dwells=True),
         }
-        return replace(common, cycles=cycles, kept=("R", "P", "Q", ",D"), once=("J",))
+        return replace(common, cycles=cycles, kept=("R", "P", "Q", ",D", "J"))
     face = {
         "G83": DrillCycle(peck, dwells=True, pecks=True, axis="Z"),
         "G83.5": DrillCycle(drilling.peck_breaking_chips, dwells=True, pecks=True, axis="Z"),
         "G83.6": DrillCycle(drilling.peck_clearing_chips, dwells=True, pecks=True, axis="Z"),
-        "G84": DrillCycle(drilling_lathe.tap, dwells=True, pecks=True, axis="Z"),
         "G85": DrillCycle(BORE, dwells=True, axis="Z"),
     }
-    side = {"G87": "G83", "G87.5": "G83.5", "G87.6": "G83.6", "G88": "G84", "G89": "G85"}
-    cycles = {**face, **{code: replace(face[like], axis="X") for code, like in side.items()}}
-    return replace(common, cycles=cycles, kept=("R", "P", ",D", "J"), once=("Q",))
+    side = {"G87": "G83", "G87.5": "G83.5", "G87.6": "G83.6", "G89": "G85"}
+    taps = dict.fromkeys(("G84", "G88"), DrillCycle(tap, dwells=True, pecks=True))
+    cycles = {**face, **{code: replace(face[like], axis="X") for code, like in side.items()}, **taps}
+    pecks = ("G83", "G83.5", "G83.6", "G87", "G87.5", "G87.6")
+    cycles.update({code: replace(cycles[code], once="Q") for code in pecks})
+    return replace(common, cycles=cycles, kept=("R", "P", "Q", ",D", "J"))
 
 
 def _axis(builder: Builder) -> int:
-    """Series 15: Z, or the axis on the plane by 5101#0 FXY."""
+    """Taps: the plane's first (G84) or second (G88) axis, by 5209#0 RTX always Z or X (II.4.5.1).
+
+    Series 15: Z, or the axis on the plane by 5101#0 FXY.
+    """
+    channel, code = builder.channel, builder.mode["cycle"]
+    if not drills_in_series_15(channel):
+        if channel.setup.parameters.bit(5209, 0):
+            return channel.coordinates.geometry[2 if code == "G84" else 0]
+        return channel.coordinates.geometry[PLANES[builder.mode["plane"]][0 if code == "G84" else 1]]
     if builder.channel.setup.parameters.bit(5101, 0):
         return third_axis(builder)
     return builder.channel.coordinates.geometry[2]
@@ -108,13 +123,18 @@ def _relief(channel: Channel, code: str) -> float:
         return float(data.amount(",D"))
     number = _RELIEF.get(code)
     if number is None:
-        clears = channel.memory.parameters.bit(5101, 2) or _drills_in_series_15(channel)
+        clears = channel.memory.parameters.bit(5101, 2) or drills_in_series_15(channel)
         number = 5115 if clears else 5114
     return channel.memory.parameters.number(number)
 
 
 def plan(builder: Builder, plan: Plan) -> Step:
     """A block while a drilling cycle is active."""
+    if builder.before["cycle"] in TAPS and builder.before[RIGID] == RIGID_ON:
+        if 29 in builder.m_codes:
+            raise builder.control.fail("rigid_m29", address="M29")
+        if builder.mode["plane"] != builder.before["plane"]:
+            raise builder.control.fail("rigid_plane", address=builder.mode["plane"])
     return base.plan_drilling(builder, plan)
 
 
@@ -141,7 +161,7 @@ def _turn(channel: Channel, direction: int) -> None:
 def is_rigid(channel: Channel) -> bool:
     """Whether a tap is cut in step with a servo spindle: M29, 5200#0, or G84.2."""
     memory = channel.memory
-    return bool(memory.rigid_tapping or memory.parameters.bit(5200, 0) or channel.mode["cycle"] == "G84.2")
+    return bool(channel.mode[RIGID] == RIGID_ON or memory.parameters.bit(5200, 0) or channel.mode["cycle"] == "G84.2")
 
 
 # ---- what the machine adds ---------------------------------------------------------------------------------------
@@ -162,7 +182,7 @@ def _dress(channel: Channel, code: str, hole: Hole, strokes: Iterator[Stroke]) -
 def is_clamp(channel: Channel, number: int) -> bool:
     """Whether an M code clamps the C axis in a drilling block (5110; with 5161#4 also 13544)."""
     parameters = channel.setup.parameters
-    if _drills_in_series_15(channel) or not number:
+    if drills_in_series_15(channel) or not number:
         return False
     codes = [int(parameters.number(5110))]
     if parameters.bit(5161, 4):
@@ -211,13 +231,29 @@ def extraction(channel: Channel) -> float:
     return percent / 100.0 if percent > 0.0 else 1.0
 
 
+def plan_waiting(builder: Builder, plan: Plan) -> None:
+    """Between M29 and its tapping cycle neither S nor a move of axes is allowed."""
+    if builder.before[RIGID] != RIGID_ON or builder.before["cycle"] != "G80" or builder.mode["cycle"] in TAPS:
+        return
+    if builder.has("S") or plan.axis_words:
+        raise builder.control.fail("rigid_between", address="S" if builder.has("S") else plan.axis_words[0].address)
+
+
+def rigid_tapping(channel: Channel, _words: Words) -> None:
+    """M29: the next tapping cycle locks spindle and axis."""
+    channel.mode = channel.mode.with_code(RIGID, RIGID_ON)
+
+
 def plan_leaving(builder: Builder) -> Step | None:
-    """The end of a drilling cycle: clamp code and rigid tapping are forgotten."""
+    """The end of a drilling cycle: clamp code, rigid tapping and its S are forgotten."""
     if builder.before["cycle"] == "G80" or builder.mode["cycle"] != "G80":
         return None
 
     def leave(channel: Channel, _values: list[float]) -> None:
         channel.memory.clamp = 0
-        channel.memory.rigid_tapping = False
+        if channel.mode[RIGID] == RIGID_ON:
+            channel.mode = channel.mode.with_code(RIGID, RIGID_OFF)
+            channel.memory.spindle_speed = 0.0
+            channel.context_changed()
 
     return leave

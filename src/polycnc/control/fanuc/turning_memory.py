@@ -80,9 +80,10 @@ class TurningMemory(MacroMemory):
         work_shift: Shift of all work coordinate systems (G10 P0, work shift screen).
         feed_code: G98 or G99 under which F was given.
         single_cycle: Modal words of G90, G92, G94.
+        grinding: Modal words of grinding cycles.
         cycle_values: Parameters of turning cycles that a program has overwritten.
         clamp: M code that clamps the C axis in drilling cycles, 0 for none.
-        rigid_tapping: M29 was given.
+        plane: Plane code given last.
         polar: Axes of polar coordinate interpolation while it is on, and `plane_before` it.
         cylinder: The cylinder of cylindrical interpolation while it is on.
         table: The last stage of the path when nothing is unrolled.
@@ -110,15 +111,16 @@ class TurningMemory(MacroMemory):
         self.offset_active = 0
         self.geometry_active = 0
         self.feed_code = ""
+        self.grinding: dict[str, float] = {}
         self.single_cycle: dict[str, Any] = {}
         self.cycle_values: dict[int, float] = {}
         self.clamp = 0
-        self.rigid_tapping = False
         self.parameter_input = False
         self.rotation_angle = 0.0
         self.open_line: OpenLine | None = None
         self.polar: PolarAxes | None = None
         self.cylinder: Cylinder | None = None
+        self.plane = ""
         self.plane_before = ""
         self.table = channel.table
         self.increment_limits: dict[int, float] = {}

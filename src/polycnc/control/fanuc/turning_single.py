@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.fanuc import turning_grinding
 from polycnc.control.fanuc.turning_coordinates import feed_number, plane_axes
 from polycnc.control.fanuc.turning_drilling import is_series_15
 from polycnc.control.fanuc.turning_strokes import compensated_cycle, emit
@@ -99,11 +100,12 @@ def _taper_letters(builder: Builder, code: str) -> tuple[str, ...]:
 
 def plan_clearing(builder: Builder) -> Step | None:
     """Another one-shot code than G04, or another motion code, makes the control forget the cycle's words."""
-    if builder.before["motion"] not in CYCLES:
-        return None
-    leaves = builder.mode["motion"] not in CYCLES
-    if leaves or any(not row.group and row.code != "G4" for row in builder.codes):
-        return lambda channel, _values: channel.memory.single_cycle.clear()
+    for codes, field in ((CYCLES, "single_cycle"), (turning_grinding.CODES, "grinding")):
+        if builder.before["motion"] not in codes:
+            continue
+        leaves = builder.mode["motion"] not in codes
+        if leaves or any(not row.group and row.code != "G4" for row in builder.codes):
+            return lambda channel, _values: getattr(channel.memory, field).clear()
     return None
 
 

@@ -190,7 +190,7 @@ def _rows_positions() -> list[SystemRange]:
 def _modal(group: str) -> Read:
     def read(m: MacroMemory, _i: int) -> float:
         code: str = m.channel.control.written_code(m.channel, group)  # type: ignore[attr-defined]
-        return float(code[1:])
+        return float(code[1:].split()[0])
 
     return read
 

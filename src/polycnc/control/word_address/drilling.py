@@ -41,6 +41,7 @@ class DrillCycle:
         needs: Words without which the cycle is the alarm `cycle_word`.
         bottom_from_initial: An incremental bottom counts from the initial level instead of from R.
         axis: Drilling axis by name; empty for what `Drilling.axis` says.
+        once: Words that hold in their block only in this cycle.
     """
 
     strokes: Cycle
@@ -50,6 +51,7 @@ class DrillCycle:
     needs: str = ""
     bottom_from_initial: bool = False
     axis: str = ""
+    once: Sequence[str] = ""
 
 
 def third_axis(builder: Builder) -> int:
@@ -252,7 +254,8 @@ class _Words:
             data.kept[BOTTOM] = (value, self.bottom.incremental)
         for address, slot, _form, convert in self.stored:
             datum = (convert(values[slot]), self.incremental)
-            (data.now if address in self.rules.once else data.kept)[address] = datum
+            holds_once = address in self.rules.once or address in self.rules.cycles[self.code].once
+            (data.now if holds_once else data.kept)[address] = datum
 
     def count(self, values: list[float]) -> int:
         """How often the block drills."""
