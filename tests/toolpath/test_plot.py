@@ -3,7 +3,7 @@ from __future__ import annotations
 import re
 from xml.etree import ElementTree
 
-from polycnc.toolpath.plot import RAPID_COLOUR, TOOL_COLOURS, VIEWS, svg
+from polycnc.toolpath.plot import RAPID_COLOUR, TOOL_COLOURS, VIEWS, AxisLabel, svg
 from polycnc.toolpath.strokes import Stroke
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -52,7 +52,7 @@ def test_each_tool_has_a_colour_and_a_line_in_the_legend() -> None:
 
 def test_three_views_share_one_scale() -> None:
     root = drawing(CUT, FAST, view="three")
-    groups = {group.get("id"): group for group in root.iter(f"{SVG}g")}
+    groups = {group.get("id"): group for group in root.iter(f"{SVG}g") if group.get("id")}
     assert set(groups) == {"view-xy", "view-xz", "view-yz"}
     widths = {}
     for name in ("view-xy", "view-xz"):
@@ -68,6 +68,22 @@ def test_axes_are_named_with_their_unit() -> None:
     texts = [text.text for text in drawing(CUT, view="zx").iter(f"{SVG}text")]
     assert "Z (mm)" in texts
     assert "X (mm)" in texts
+
+
+def test_diameter_axes_are_labelled_and_numbered_in_diameters() -> None:
+    labels = (AxisLabel("X", 2.0), AxisLabel("Y"), AxisLabel("Z"))
+    stroke = Stroke("T1", rapid=False, points=[(0, 0, 0), (50, 0, 100)])
+    root = ElementTree.fromstring(svg([stroke], VIEWS["zx"], "shaft", labels))
+    texts = [text.text for text in root.iter(f"{SVG}text")]
+    assert "X ⌀ (mm)" in texts
+    assert texts.count("100") == 2  # Z 100, and the diameter of 100 that is drawn 50 high
+
+
+def test_the_drawing_is_fitted_around_the_cutting() -> None:
+    home = Stroke("T1", rapid=True, points=[(100, 50, 0), (9000, 9000, 9000)])
+    (near,) = [p for p in paths(drawing(CUT), TOOL_COLOURS[0]) if len(ends(p)) == 2]
+    (far,) = [p for p in paths(drawing(CUT, home), TOOL_COLOURS[0]) if len(ends(p)) == 2]
+    assert near == far
 
 
 def test_a_title_with_special_characters_stays_readable_xml() -> None:

@@ -67,14 +67,19 @@ def plot(
 
 
 def _drawing(result: Result, view: ViewName | None, title: str) -> str:
-    from polycnc.toolpath.plot import VIEWS, svg
+    from polycnc.toolpath.plot import VIEWS, AxisLabel, svg
     from polycnc.toolpath.strokes import strokes
 
     geometry = result.machine.geometry_indices(1)
     is_lathe = geometry[1] < 0
-    names = [result.toolpath.axes[i] if i >= 0 else "" for i in geometry]
+    contexts = result.toolpath.contexts
+    diameters = contexts[0].diameter_axes if contexts else 0
+    labels = [
+        AxisLabel(result.toolpath.axes[i], 1.0 + (diameters >> i & 1)) if i >= 0 else AxisLabel("")
+        for i in geometry
+    ]
     views = VIEWS[view or ("zx" if is_lathe else "three")]
-    return svg(list(strokes(result.toolpath, geometry)), views, title, names)
+    return svg(list(strokes(result.toolpath, geometry)), views, title, labels)
 
 
 def _write_png(output: Path, drawing: str) -> bool:

@@ -1,6 +1,7 @@
 """Draws the path as SVG: projections side by side at one scale, rapids dashed, each tool in its colour.
 
-What is drawn are work coordinates in millimetres (a lathe's X as radius), as the program names them.
+What is drawn are work coordinates in millimetres, as the program names them. The drawing is fitted around the cutting;
+rapids from and to afar are cut off at its edge.
 """
 
 from __future__ import annotations
@@ -23,6 +24,20 @@ RAPID_COLOUR, GRID_COLOUR, TEXT_COLOUR = "#999999", "#e4e4e4", "#333333"
 VIEW, MARGIN, NEAR = 560.0, 54.0, 0.15
 _LEGEND_LINE = 18.0
 _TITLE = 34.0
+
+
+@dataclass(frozen=True, slots=True)
+class AxisLabel:
+    """What stands at an axis: its name, and the factor from what is drawn to what is written (2 for diameters)."""
+
+    name: str
+    factor: float = 1.0
+
+    def __str__(self) -> str:
+        return f"{self.name} ⌀ (mm)" if self.factor == 2.0 else f"{self.name} (mm)"
+
+
+XYZ = (AxisLabel("X"), AxisLabel("Y"), AxisLabel("Z"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,14 +85,16 @@ class _Frame:
         return (self.high[1] - self.low[1]) * self.scale
 
 
-def svg(strokes: Sequence[Stroke], views: Sequence[View], title: str, names: Sequence[str] = "XYZ") -> str:
+def svg(
+    strokes: Sequence[Stroke], views: Sequence[View], title: str, labels: Sequence[AxisLabel] = XYZ
+) -> str:
     """A drawing of the strokes.
 
     Args:
         strokes: What `strokes.strokes` gave.
         views: The projections, drawn from left to right.
         title: Written above the drawing.
-        names: What the control calls the geometry axes X, Y and Z.
+        labels: What the control calls the geometry axes X, Y and Z.
     """
     low, high = _box(strokes)
     span = max(max(high[v.right] - low[v.right], high[v.up] - low[v.up]) for v in views)
@@ -92,18 +109,19 @@ def svg(strokes: Sequence[Stroke], views: Sequence[View], title: str, names: Seq
     colours = {tool: TOOL_COLOURS[i % len(TOOL_COLOURS)] for i, tool in enumerate(tools)}
     bottom = _TITLE + 10.0 + max(frame.height for frame in frames) + MARGIN
     height = bottom + _LEGEND_LINE * (len(tools) + 1) + 10.0
-    body = [line for frame in frames for line in _view(frame, strokes, colours, names)]
+    body = [line for frame in frames for line in _view(frame, strokes, colours, labels)]
     body += _legend(bottom, colours)
     return "\n".join([*_head(max(left, 320.0), height, title), *body, "</svg>", ""])
 
 
 def _box(strokes: Sequence[Stroke]) -> tuple[list[float], list[float]]:
-    """The box around all points, never without extent, with a little air."""
+    """The box around the cutting (around everything where nothing is cut), never without extent, with some air."""
+    cutting = [stroke for stroke in strokes if not stroke.rapid] or strokes
     low, high = [0.0] * 3, [0.0] * 3
     for i in range(3):
-        values = [point[i] for stroke in strokes for point in stroke.points] or [0.0]
+        values = [point[i] for stroke in cutting for point in stroke.points] or [0.0]
         low[i], high[i] = min(values), max(values)
-    air = 0.04 * max(*(h - n for h, n in zip(high, low, strict=True)), 1.0)
+    air = 0.06 * max(*(h - n for h, n in zip(high, low, strict=True)), 1.0)
     return [value - air for value in low], [value + air for value in high]
 
 
@@ -117,16 +135,19 @@ def _head(width: float, height: float, title: str) -> Iterator[str]:
 
 
 def _view(
-    frame: _Frame, strokes: Sequence[Stroke], colours: dict[str, str], names: Sequence[str]
+    frame: _Frame, strokes: Sequence[Stroke], colours: dict[str, str], labels: Sequence[AxisLabel]
 ) -> Iterator[str]:
     """One projection: grid, axis texts, path."""
     view = frame.view
     yield f'<g id="view-{view.name.lower()}">'
-    yield from _grid(frame)
+    yield from _grid(frame, labels[view.right].factor, labels[view.up].factor)
     right, down = frame.left + frame.width, frame.top + frame.height
-    across, upward = (f"{escape(names[axis])} (mm)" for axis in (view.right, view.up))
+    across, upward = (escape(str(labels[axis])) for axis in (view.right, view.up))
     yield f'<text x="{right:.1f}" y="{down + 34:.1f}" text-anchor="end">{across}</text>'
     yield f'<text x="{frame.left - 40:.1f}" y="{frame.top - 6:.1f}">{upward}</text>'
+    name = view.name.lower()
+    edge = f'x="{frame.left:.1f}" y="{frame.top:.1f}" width="{frame.width:.1f}" height="{frame.height:.1f}"'
+    yield f'<clipPath id="edge-{name}"><rect {edge}/></clipPath><g clip-path="url(#edge-{name})">'
     for stroke in strokes:
         points = _drawn(frame, stroke)
         if len(points) < 2:
@@ -137,7 +158,7 @@ def _view(
         else:
             look = f'stroke="{colours[stroke.tool]}" stroke-width="1.2"'
         yield f'<path d="{path}" fill="none" {look}/>'
-    yield "</g>"
+    yield "</g></g>"
 
 
 def _drawn(frame: _Frame, stroke: Stroke) -> list[tuple[float, float]]:
@@ -153,15 +174,18 @@ def _drawn(frame: _Frame, stroke: Stroke) -> list[tuple[float, float]]:
     return drawn
 
 
-def _grid(frame: _Frame) -> Iterator[str]:
-    """Lines at round values with their numbers; the axes through zero are darker."""
+def _grid(frame: _Frame, across: float, upward: float) -> Iterator[str]:
+    """Lines at round values with their numbers; the axes through zero are darker.
+
+    `across` and `upward` are the factors from what is drawn to the numbers that are written.
+    """
     bottom, right = frame.top + frame.height, frame.left + frame.width
-    for value in _ticks(frame.low[0], frame.high[0]):
-        x, colour = frame.x(value), "#888888" if value == 0 else GRID_COLOUR
+    for value in _ticks(frame.low[0] * across, frame.high[0] * across):
+        x, colour = frame.x(value / across), "#888888" if value == 0 else GRID_COLOUR
         yield f'<path d="M{x:.2f},{frame.top:.2f} V{bottom:.2f}" stroke="{colour}" stroke-width="0.7"/>'
         yield f'<text x="{x:.2f}" y="{bottom + 15:.2f}" text-anchor="middle">{value:g}</text>'
-    for value in _ticks(frame.low[1], frame.high[1]):
-        y, colour = frame.y(value), "#888888" if value == 0 else GRID_COLOUR
+    for value in _ticks(frame.low[1] * upward, frame.high[1] * upward):
+        y, colour = frame.y(value / upward), "#888888" if value == 0 else GRID_COLOUR
         yield f'<path d="M{frame.left:.2f},{y:.2f} H{right:.2f}" stroke="{colour}" stroke-width="0.7"/>'
         yield f'<text x="{frame.left - 5:.2f}" y="{y + 4:.2f}" text-anchor="end">{value:g}</text>'
 
