@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.stack import Step
     from polycnc.geometry.frames import Vector
+    from polycnc.language.bulk.scanner import Bulk, Dialect, Scanner
     from polycnc.machine.model import Axis, Machine
     from polycnc.machine.setup import Setup
     from polycnc.program import Program
@@ -56,6 +57,9 @@ class Control(Protocol):
 
     def over_travel(self, axis: str, direction: int) -> AlarmError:
         """The alarm for a target beyond a limit of an axis; direction is 1 or -1."""
+
+    def plain_blocks(self, channel: Channel) -> Dialect | None:
+        """What a scanner must know of the control's plain blocks; None where every block is interpreted."""
 
     def halts(self, channel: Channel, level: Level, step: Step) -> bool:
         """Whether single block operation halts behind the block that `step` of `level` was."""
@@ -98,6 +102,7 @@ class Channel:
         number: int = 1,
         block_limit: int = DEFAULT_BLOCK_LIMIT,
         toolpath: Toolpath | None = None,
+        bulk: Bulk | None = None,
     ) -> None:
         self._control = control
         self.control: Any = control
@@ -143,6 +148,8 @@ class Channel:
         limits = tuple((axis.limit_minus, axis.limit_plus) for axis in self.axis_data)
         self._limits = limits if any(low > -inf or high < inf for low, high in limits) else ()
         self._executables: dict[int, Executable] = {}
+        self._bulk = bulk
+        self._scanner: Scanner | None = None
 
     # ---- what the inner loop must notice --------------------------------------------------------------------------
 
@@ -207,9 +214,20 @@ class Channel:
         name = self.toolpath.program_number(program.name)
         code = self.executable(program)
         level = Level(code, index, index, name, repeats, index, kind, local)
+        level.scanner = self._scanner_for(level)
         self.stack.append(level)
         self.level = level
         return level
+
+    def _scanner_for(self, level: Level) -> Scanner | None:
+        """What scans the plain blocks of a program; None where that does not pay."""
+        if self._bulk is None or not self._bulk.pays(len(level.steps)):
+            return None
+        if self._scanner is None:
+            dialect = self._control.plain_blocks(self)
+            if dialect is not None:
+                self._scanner = self._bulk.scanner(dialect, len(self.axes))
+        return self._scanner if hasattr(level.code, "step_of_line") else None
 
     def pop(self) -> Level:
         """End the running level; the level below becomes the running one."""
@@ -253,13 +271,15 @@ class Channel:
         try:
             while not self._finished:
                 level = self._level
-                steps, kinds = level.steps, toolpath.chunk.kind
+                burst = self._burst(level)
+                steps, kinds, step = level.steps, toolpath.chunk.kind, None
                 self.attention = self._head is not None or self.single_block
-                for _ in BURST:
+                for _ in burst:
                     index = level.index
                     step = steps[index] if index < len(steps) else None
                     if step is None:
                         level.current = index
+                        self.mark = len(kinds)
                         step = level.code.step(index)
                         if step is None:
                             self._control.end_of_program(self)
@@ -295,6 +315,11 @@ class Channel:
             self._take_back()
             self._alarm(AlarmError("PC0003"))
 
+    def _burst(self, level: Level) -> range:
+        """Scan plain blocks; gives as many numbers as blocks are to be interpreted now."""
+        burst = BURST if level.scanner is None else level.scanner.lead(self)
+        return burst[: self.block_limit - self.blocks]
+
     def sequence_of(self, level: Level) -> str:
         """The block that a level runs, as its sequence number or else its line."""
         line = level.line_of(level.current)
@@ -321,8 +346,7 @@ class Channel:
             self._stand_at_last_row()
 
     def _stand_at_last_row(self) -> None:
-        chunk = self.toolpath.chunk
-        self.coordinates.arrive(list(chunk.end[-chunk.axes :]) if len(chunk) else self._start)
+        self.coordinates.arrive(self.toolpath.last_end() or list(self._start))
 
     def flush(self) -> None:
         """Pass on every move that a stage still holds back."""
@@ -364,6 +388,16 @@ class Channel:
         self.finished = True
 
     # ---- writing -------------------------------------------------------------------------------------------------
+
+    @property
+    def limits(self) -> tuple[tuple[float, float], ...]:
+        """Lowest and highest machine position of every axis; nothing where no axis has a limit."""
+        return self._limits
+
+    @property
+    def context_is_new(self) -> bool:
+        """Whether the next row gets a context that is still to be worked out."""
+        return self._context_changed
 
     @property
     def line(self) -> int:

@@ -49,6 +49,8 @@ class ModeTable:
     """All modes of one channel."""
 
     def __init__(self) -> None:
+        #: Changes when plans made before no longer hold.
+        self.generation = 0
         self._modes: dict[tuple[tuple[str, str], ...], Mode] = {}
 
     def mode(self, codes: Mapping[str, str]) -> Mode:
@@ -61,5 +63,6 @@ class ModeTable:
 
     def forget_plans(self) -> None:
         """Called when something beside the modal state that plans rest on has changed (a parameter)."""
+        self.generation += 1
         for mode in self._modes.values():
             mode.plans.clear()

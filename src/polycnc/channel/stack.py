@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.channel.channel import Channel
+    from polycnc.language.bulk.scanner import Scanner
     from polycnc.program import Program
 
     Step = Callable[[Channel], None]
@@ -53,6 +54,7 @@ class Level:
         kind: `main`, or how the level came about: `sub`, `macro`, `modal`, `interrupt`.
         locals: Local variables, shared with the caller or its own, as the kind of call has it.
         data: What the control's language keeps for this level.
+        scanner: What scans the plain blocks of the program, if anything does.
     """
 
     code: Executable
@@ -64,6 +66,7 @@ class Level:
     kind: str = "main"
     locals: Any = None
     data: dict[Any, Any] = field(default_factory=dict)
+    scanner: Scanner | None = None
     steps: Sequence[Step | None] = field(init=False)
     line_of: Callable[[int], int] = field(init=False)
 

@@ -38,7 +38,7 @@ def center_from_radius(start: Point, end: Point, radius: float, ccw: bool, toler
             centre lies), or no circle of this radius reaches both points.
     """
     du, dv = end[0] - start[0], end[1] - start[1]
-    chord = hypot(du, dv)
+    chord = sqrt(du * du + dv * dv)  # not hypot: compiled code must find the same bits
     if radius == 0.0 or chord <= SAME_POINT_MM:
         raise ValueError("no circle")
     if chord > 2.0 * abs(radius) + tolerance:

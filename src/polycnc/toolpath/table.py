@@ -94,6 +94,23 @@ class Chunk:
     def __len__(self) -> int:
         return len(self.kind)
 
+    def extend(self, rows: int, program: int, context: int, curves: int, columns: Sequence[array[Any]]) -> None:
+        """Add rows of one program under one context.
+
+        Args:
+            rows: How many.
+            program: Number of their program.
+            context: Number of their context.
+            curves: How many curve rows belong to them.
+            columns: `kind`, `line`, `feed`, `end`, `curve`, `curves`; each may be longer than it is used.
+        """
+        used = (rows, rows, rows, rows * self.axes, rows, curves * CURVE_WIDTH)
+        own = (self.kind, self.line, self.feed, self.end, self.curve, self.curves)
+        for target, column, count in zip(own, columns, used, strict=True):
+            target.frombytes(memoryview(column).cast("B")[: count * column.itemsize])
+        self.program.extend(array("H", [program]) * rows)
+        self.context.extend(array("I", [context]) * rows)
+
     def numpy(self) -> dict[str, Any]:
         """The columns as NumPy views: `end` is (n, axes), `curves` (m, CURVE_WIDTH), the others (n,)."""
         import numpy as np
@@ -148,6 +165,7 @@ class Toolpath:
         self._chunk_rows = chunk_rows
         self._on_full = on_full
         self._rows_before = 0
+        self._last_end: list[float] = []
         self.chunk = Chunk(len(axes), 0)
         self.chunks.append(self.chunk)
 
@@ -204,10 +222,16 @@ class Toolpath:
     def _next_chunk(self) -> None:
         full = self.chunk
         self._rows_before += len(full.kind)
+        self._last_end = list(full.end[-len(self.axes) :])
         if self._on_full is not None and self._on_full(full):
             self.chunks.remove(full)
         self.chunk = Chunk(len(self.axes), self._rows_before)
         self.chunks.append(self.chunk)
+
+    def last_end(self) -> list[float]:
+        """The position in the last row; empty where there is none."""
+        chunk = self.chunk
+        return list(chunk.end[-len(self.axes) :]) if len(chunk) else list(self._last_end)
 
     def mark(self) -> int:
         """The number of rows now; `truncate` goes back to it as long as no block boundary lies between."""

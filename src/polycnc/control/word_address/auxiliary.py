@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.memory import RigidTapping
 from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.control.word_address.path import FEED_MODES
+from polycnc.language.bulk import Conversion, SetFeed, Way, Word, declare
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -26,12 +27,12 @@ def plan_feed(builder: Builder) -> Step:
         def set_feed_per_revolution(channel: Channel, values: list[float]) -> None:
             channel.feed = values[slot] * factor
 
-        return set_feed_per_revolution
+        return declare(set_feed_per_revolution, SetFeed(Word(slot, Conversion(Way.TIMES, 1.0, factor))))
 
     def set_feed(channel: Channel, values: list[float]) -> None:
         channel.feed = values[slot] * factor / 60.0
 
-    return set_feed
+    return declare(set_feed, SetFeed(Word(slot, Conversion(Way.RATIO, 60.0, factor))))
 
 
 def plan_spindle_speed(builder: Builder) -> Step:
@@ -138,7 +139,7 @@ def dwell(channel: Channel, words: Words) -> None:
 
 
 def _seconds(words: Words, address: str) -> float:
-    """The time of an X or U word. Written before G04 it has been read as an axis word, with the decimals of a length."""
+    """The time of an X or U word; written before G04 it has been read with the decimals of a length."""
     value = words.typed(address) or 0.0
     rules = words.plan.rules
     order = words.plan.order

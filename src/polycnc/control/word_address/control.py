@@ -11,8 +11,10 @@ from polycnc.control.word_address.codes import GCode, MCode
 from polycnc.control.word_address.drilling import Drilling, give_way, plan_drilling
 from polycnc.control.word_address.memory import Memory
 from polycnc.control.word_address.numbers import Convert, NumberRules, angle_converter, length_converter
+from polycnc.control.word_address.plain import PlainBlocks
 from polycnc.control.word_address.plan import Builder, Plan
 from polycnc.geometry.arcs import radius_mismatch
+from polycnc.language.bulk import Spelling
 from polycnc.language.word_address import Grammar, WordAddressProgram
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock
 from polycnc.messages import AlarmError, Catalogue
@@ -118,6 +120,11 @@ class WordAddressControl:
     def compile(self, program: Program) -> Executable:
         """Make a program ready to run."""
         return WordAddressProgram(program, self.grammar)
+
+    def plain_blocks(self, _channel: Channel) -> PlainBlocks | None:
+        """What a scanner must know of plain blocks."""
+        digits = self.grammar.max_digits
+        return PlainBlocks(Spelling(digits, round_comments=True, open_comments=True))
 
     def make_memory(self, channel: Channel) -> Memory:
         """The control's memory as the setup fills it."""

@@ -11,6 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import copysign, floor
 
+from polycnc.language.bulk import Conversion, Way, declare, declared
+
 #: Half an increment and a guard: halves go away from zero as they do in the control's decimal arithmetic.
 ROUNDING = 0.5 + 1e-7
 Convert = Callable[[float], float]
@@ -49,7 +51,7 @@ def angle_converter(form: str, rules: NumberRules) -> Convert | None:
 def _converter(form: str, rules: NumberRules, decimals: int, unit: float) -> Convert | None:
     scale = 10.0**decimals
     if form == "" and not rules.calculator:
-        return lambda value: value / scale * unit
+        return declare(lambda value: value / scale * unit, Conversion(Way.INCREMENTS, scale, unit))
     if form == "#":
         return lambda value: (
             floor(value * scale + ROUNDING) / scale * unit
@@ -58,5 +60,13 @@ def _converter(form: str, rules: NumberRules, decimals: int, unit: float) -> Con
         )
     written = {"": 0, ".": 3, ":": 4, ";": 99}[form]
     if written > decimals and rules.cuts_digits:
-        return lambda value: copysign(floor(abs(value) * scale + 1e-6), value) / scale * unit
-    return None if unit == 1.0 else lambda value: value * unit
+        return declare(
+            lambda value: copysign(floor(abs(value) * scale + 1e-6), value) / scale * unit,
+            Conversion(Way.CUT, scale, unit),
+        )
+    return None if unit == 1.0 else declare(lambda value: value * unit, Conversion(Way.TIMES, 1.0, unit))
+
+
+def conversion(convert: Convert | None) -> Conversion | None:
+    """What a converter does, told as data; None where that cannot be told."""
+    return Conversion() if convert is None else declared(convert)

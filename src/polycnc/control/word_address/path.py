@@ -9,8 +9,11 @@ from __future__ import annotations
 from math import hypot, nan
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.plain import targets as targets_as_data
+from polycnc.control.word_address.plain import word as word_as_data
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
+from polycnc.language.bulk import Arc, Straight, declare
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -87,7 +90,10 @@ def _plan_straight(builder: Builder, plan: Plan, kind: Kind) -> Step | None:
             corner(channel, values)
         channel.straight(kind, c.to_position(programmed), feed, programmed)
 
-    return move
+    told = targets_as_data(words)
+    if told is None or polar or corner is not None:
+        return move
+    return declare(move, Straight(rapid, told, names_feed=feed_named, absolute=absolute))
 
 
 def plan_arc_cw(builder: Builder, plan: Plan) -> Step | None:
@@ -156,7 +162,12 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
         else:
             channel.straight(Kind.FEED, c.to_position(programmed), feed, programmed)
 
-    return move
+    told = targets_as_data(words)
+    if told is None or polar or corner is not None:
+        return move
+    first, second = (word_as_data(slot, convert) for (_, slot), convert in zip(offsets, converts, strict=True))
+    radius_word = word_as_data(radius_slot, radius_of)
+    return declare(move, Arc(ccw, (u, v, w), told, (first, second), radius_word, line_without_way=True))
 
 
 def _center_by_radius(

@@ -102,6 +102,14 @@ class WordAddressProgram:
             stretch.append((i, following))
         return join(stretch) if len(stretch) > 1 else first
 
+    def line_of_step(self, index: int) -> int:
+        """Index of a step's line in the program's text."""
+        return index
+
+    def step_of_line(self, line: int) -> int:
+        """The step of a line of the text."""
+        return line
+
     def column(self, index: int, address: str) -> int:
         """Column, from 1, of an address (`X`, `,R`) or a code (`G41`) in a line; 0 when it is not there."""
         text = self.blank_comments(self.lines[index])

@@ -1,0 +1,125 @@
+"""Plain blocks of the word-address controls: their plans told as data, for the scanner.
+
+A plan is a tuple of steps. Where every step says what it does (`language.bulk.declare`), the block is plain; a step
+that anything has wrapped or added (a modal macro, a corner, an interruption) says nothing, and the block is not.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.numbers import conversion
+from polycnc.language.bulk import Arc, Recipe, SetFeed, Spelling, Straight, Target, Word, declared
+from polycnc.language.bulk.layout import FIRST_CODE, FORMS
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.mode import Mode
+    from polycnc.control.word_address.numbers import Convert
+    from polycnc.control.word_address.plan import AxisWord, Plan
+    from polycnc.language.bulk.scanner import LastMoves
+
+#: How a number was written, as the scanner counts it; see `language.word_address.words`.
+_FORMS = ("", ".", ":", ";")
+
+
+def targets(words: Sequence[AxisWord]) -> tuple[Target, ...] | None:
+    """Axis words as data; None where one has a conversion that cannot be told."""
+    found = []
+    for axis_word in words:
+        told = conversion(axis_word.convert)
+        if told is None:
+            return None
+        found.append(Target(axis_word.slot, told, axis_word.axis, axis_word.incremental))
+    return tuple(found)
+
+
+def word(slot: int | None, convert: Convert | None) -> Word | None:
+    """A word as data; None where the block does not have it."""
+    told = conversion(convert)
+    return None if slot is None or told is None else Word(slot, told)
+
+
+class PlainBlocks:
+    """What the scanner asks of a word-address control.
+
+    Attributes:
+        spelling: How the control's text looks.
+    """
+
+    def __init__(self, spelling: Spelling) -> None:
+        self.spelling = spelling
+
+    def ready(self, channel: Channel) -> bool:
+        """Single blocks are watched one by one, forbidden zones are the interpreter's, and so are held moves."""
+        if channel.single_block or channel.stroke_zone is not None:
+            return False
+        stage = channel.head
+        while stage is not None and stage is not channel.table:
+            if getattr(stage, "active", True):
+                return False
+            stage = stage.after
+        return True
+
+    def generation(self, channel: Channel) -> int:
+        """Changes when plans are forgotten."""
+        return channel.modes.generation
+
+    def state(self, channel: Channel) -> Mode:
+        """The modal state."""
+        return channel.mode
+
+    def enter(self, channel: Channel, state: Mode) -> None:
+        """Another modal state."""
+        channel.mode = state
+
+    def owes(self, channel: Channel) -> bool:
+        """Whether incremental words are owed a change of offsets."""
+        return channel.coordinates.owes
+
+    def tolerance(self, channel: Channel) -> float:
+        """The control's arc tolerance, mm."""
+        tolerance: float = channel.control.arc_tolerance(channel)
+        return tolerance
+
+    def moved(self, channel: Channel, last: LastMoves) -> None:
+        """Nothing is remembered of a move."""
+
+    def recipe(self, channel: Channel, keys: Sequence[int], _line: str) -> Recipe | None:
+        """What the plan of a shape does, if all of it can be told."""
+        signature = tuple(_key(key) for key in keys)
+        plan: Plan | None = channel.mode.plans.get(signature)
+        try:
+            plan = plan or channel.control.plan(channel, signature)
+        except AlarmError:
+            return None  # the interpreter comes to the same block and raises it
+        return recipe_of(channel, plan)
+
+
+def recipe_of(channel: Channel, plan: Plan) -> Recipe | None:
+    """A plan as data: a feed, then a move; None where it does anything else."""
+    feed: SetFeed | None = None
+    motion: Straight | Arc | None = None
+    for step in plan.steps:
+        told = declared(step)
+        if motion is None and isinstance(told, SetFeed):
+            feed = told
+        elif motion is None and isinstance(told, (Straight, Arc)):
+            motion = told
+        else:
+            return None
+    geometry = channel.coordinates.geometry
+    if isinstance(motion, Arc) and any(geometry[axis] < 0 for axis in motion.plane[:2]):
+        return None
+    return Recipe(plan.mode, feed, motion)
+
+
+def _key(key: int) -> str:
+    """The scanner's key as one of a signature."""
+    if key >= FIRST_CODE:
+        return f"G{key - FIRST_CODE}"
+    letter, form = divmod(key, FORMS)
+    return chr(ord("A") + letter) + _FORMS[form]

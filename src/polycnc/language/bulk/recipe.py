@@ -1,0 +1,176 @@
+"""How a control says that something is plain: what the interpreter's function does, told as data.
+
+A control makes functions out of the shape of a block: a step that moves, a step that sets the feed, a conversion of a
+number. Where such a function does no more than what is told here, it carries that as a declaration. A block is plain
+if every one of its steps carries one; the scanner then does the same without calling them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any, NamedTuple, TypeVar
+
+from polycnc.language.bulk import layout
+
+_F = TypeVar("_F", bound=Callable[..., Any])
+
+
+class Way(IntEnum):
+    """How a typed number becomes one in internal units."""
+
+    AS_IS = layout.AS_IS
+    #: `value * unit`
+    TIMES = layout.TIMES
+    #: `value / scale * unit`
+    INCREMENTS = layout.INCREMENTS
+    #: Digits below `1 / scale` are cut off, then `* unit`.
+    CUT = layout.CUT
+    #: `value * unit / scale`
+    RATIO = layout.RATIO
+
+
+class Conversion(NamedTuple):
+    """A conversion of a typed number; see `Way`."""
+
+    way: Way = Way.AS_IS
+    scale: float = 1.0
+    unit: float = 1.0
+
+
+AS_TYPED = Conversion()
+
+
+class Word(NamedTuple):
+    """A word with a number: index of its value, and its conversion."""
+
+    slot: int
+    conversion: Conversion = AS_TYPED
+
+
+class Target(NamedTuple):
+    """An axis word: index of its value, its conversion, the channel axis, whether it is an increment."""
+
+    slot: int
+    conversion: Conversion
+    axis: int
+    incremental: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class SetFeed:
+    """A step that sets the channel's feed."""
+
+    word: Word
+
+
+@dataclass(frozen=True, slots=True)
+class Straight:
+    """A step that moves in a straight line.
+
+    Attributes:
+        rapid: Rapid traverse; its row names the feed only with `names_feed`.
+        targets: Axis words in the order in which they act.
+        names_feed: The block has a feed of its own.
+        needs_feed: No feed above zero is an alarm.
+        absolute: No word is an increment: where programmed point and display are one, the end point is worked
+            out from the display.
+        skips_tiny: A way below rounding noise is none, and the position stays.
+    """
+
+    rapid: bool
+    targets: tuple[Target, ...]
+    names_feed: bool = False
+    needs_feed: bool = True
+    absolute: bool = True
+    skips_tiny: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """A step that moves along an arc or helix.
+
+    Attributes:
+        ccw: Sense, seen from the tip of the plane's third axis.
+        plane: The plane's first, second and third axis as geometry axes.
+        targets: Axis words in the order in which they act.
+        centers: Words of the way from start to centre along the first and second axis of the plane.
+        radius: Word of the radius; it wins over the centre.
+        needs_feed: No feed above zero is an alarm.
+        line_without_way: With a radius and without way in the plane the move is a straight line.
+        radius_tolerances: How often the control's arc tolerance is allowed between chord and diameter.
+    """
+
+    ccw: bool
+    plane: tuple[int, int, int]
+    targets: tuple[Target, ...]
+    centers: tuple[Word | None, Word | None] = (None, None)
+    radius: Word | None = None
+    needs_feed: bool = True
+    line_without_way: bool = False
+    radius_tolerances: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Recipe:
+    """What a block of some shape does in some modal state.
+
+    Attributes:
+        next_state: The modal state that it leaves, as the dialect names it; hashable.
+        feed: Sets the feed before it moves.
+        motion: Its move.
+    """
+
+    next_state: Any
+    feed: SetFeed | None = None
+    motion: Straight | Arc | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Spelling:
+    """What a control's text looks like, as far as plain blocks go.
+
+    Attributes:
+        max_digits: Digits that a number may have, zeros in front not counted.
+        round_comments: `( … )`.
+        open_comments: A `(` without its `)` makes the rest of the line a comment.
+        slash_comments: `//` to the end of the line.
+        semicolon_comments: `;` to the end of the line; else `;` ends the block.
+        equals: `X=1` is a word.
+        forms_count: How a number was written is part of a block's shape.
+        blank_lines_are_blocks: A line without a block counts as one.
+    """
+
+    max_digits: int
+    round_comments: bool = False
+    open_comments: bool = False
+    slash_comments: bool = False
+    semicolon_comments: bool = False
+    equals: bool = False
+    forms_count: bool = True
+    blank_lines_are_blocks: bool = True
+
+    @property
+    def flags(self) -> int:
+        """As the kernels read it."""
+        return (
+            self.round_comments * layout.ROUND_COMMENTS
+            | self.open_comments * layout.OPEN_COMMENTS
+            | self.slash_comments * layout.SLASH_COMMENTS
+            | self.semicolon_comments * layout.SEMICOLON_COMMENTS
+            | self.equals * layout.EQUALS
+            | self.forms_count * layout.FORMS_COUNT
+            | (not self.blank_lines_are_blocks) * layout.BLANK_LINES_ARE_NONE
+        )
+
+
+def declare(function: _F, what: object) -> _F:
+    """Let a function carry what it does."""
+    function.plain = what  # type: ignore[attr-defined]
+    return function
+
+
+def declared(function: Callable[..., Any] | None) -> Any:
+    """What a function does, if it carries it; else None."""
+    return getattr(function, "plain", None)

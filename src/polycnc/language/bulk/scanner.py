@@ -1,0 +1,271 @@
+"""Leads a channel through runs of plain blocks: gives the kernel its numbers, takes rows and state back."""
+
+from __future__ import annotations
+
+from array import array
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Protocol
+
+from polycnc.language.bulk import layout
+from polycnc.language.bulk.shapes import Shapes
+from polycnc.language.bulk.text import Window
+from polycnc.toolpath.table import CHUNK_ROWS, CURVE_WIDTH
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Hashable, Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.geometry.frames import Frame
+    from polycnc.language.bulk.recipe import Recipe, Spelling
+
+#: Limits are widened by this much, as the channel does it.
+LIMIT_SLACK = 1e-9
+#: A run of so many blocks is worth its beginning; blocks between two tries are never more than this.
+WORTHWHILE, MOST_PATIENCE = 16, 4096
+#: Programs shorter than this are left to the interpreter: with the kernel ready, and when it must be compiled.
+READY_LINES, COMPILE_LINES = 5_000, 200_000
+
+
+@dataclass(frozen=True, slots=True)
+class Bulk:
+    """Whether and how plain blocks are scanned.
+
+    Attributes:
+        fewest_lines: Shorter programs are left to the interpreter; None decides by whether the kernel is ready.
+        scan: The kernel; None for the compiled one.
+        rooms: Rows that one call of the kernel may give.
+    """
+
+    fewest_lines: int | None = None
+    scan: Callable[..., int] | None = None
+    rooms: int = CHUNK_ROWS
+
+    def pays(self, lines: int) -> bool:
+        """Whether a program is long enough."""
+        if self.fewest_lines is not None:
+            return lines >= self.fewest_lines
+        if lines < READY_LINES:
+            return False
+        from polycnc.language.bulk.compiled import NATIVE
+
+        return NATIVE.ready or lines >= COMPILE_LINES
+
+    def scanner(self, dialect: Dialect, axes: int) -> Scanner | None:
+        """A scanner; None where its kernel cannot be compiled."""
+        scan = self.scan
+        if scan is None:
+            from polycnc.language.bulk.compiled import NATIVE, compiled_scan
+
+            if NATIVE.function is None:
+                return None
+            scan = compiled_scan
+        return Scanner(dialect, scan, axes, self.rooms)
+
+
+class Scannable(Protocol):
+    """A program whose steps are lines of text."""
+
+    def line_of_step(self, index: int) -> int:
+        """Index of a step's line in the program's text."""
+
+    def step_of_line(self, line: int) -> int:
+        """The first step at or behind a line of the text."""
+
+
+class Dialect(Protocol):
+    """What a control tells of its plain blocks.
+
+    Attributes:
+        spelling: How its text looks.
+    """
+
+    spelling: Spelling
+
+    def ready(self, channel: Channel) -> bool:
+        """Whether plain blocks may be scanned now: nothing watches single blocks or holds moves back."""
+
+    def generation(self, channel: Channel) -> int:
+        """A number that changes when recipes given before no longer hold."""
+
+    def state(self, channel: Channel) -> Hashable:
+        """The modal state that holds."""
+
+    def enter(self, channel: Channel, state: Any) -> None:
+        """Bring the modal state about that blocks have left."""
+
+    def recipe(self, channel: Channel, keys: Sequence[int], line: str) -> Recipe | None:
+        """What a block of a shape does in the channel's modal state; None for one that is not plain."""
+
+    def owes(self, channel: Channel) -> bool:
+        """Whether incremental words are still owed something."""
+
+    def tolerance(self, channel: Channel) -> float:
+        """Allowed difference between the radii at an arc's start and end, mm."""
+
+    def moved(self, channel: Channel, last: LastMoves) -> None:
+        """Blocks have moved the channel; for controls that remember how."""
+
+
+class LastMoves:
+    """What the blocks of a run did last.
+
+    Attributes:
+        moves: Straight moves, and `arcs`, since the run began.
+        came_from: Position before the last move.
+        center: Centre of the last arc less its start, on the geometry axes.
+    """
+
+    __slots__ = ("arcs", "came_from", "center", "moves")
+
+    def __init__(self, moves: int, arcs: int, came_from: list[float], center: tuple[float, ...]) -> None:
+        self.moves = moves
+        self.arcs = arcs
+        self.came_from = came_from
+        self.center = center
+
+
+class Scanner:
+    """Scans the plain blocks of one channel.
+
+    Args:
+        dialect: The control's part.
+        scan: The kernel.
+        axes: Number of the channel's axes.
+        rooms: Rows that one call of the kernel may give.
+    """
+
+    def __init__(self, dialect: Dialect, scan: Callable[..., int], axes: int, rooms: int) -> None:
+        self._dialect = dialect
+        self._scan = scan
+        self._axes = axes
+        self._rooms = rooms
+        self._shapes = Shapes()
+        self._generation = 0
+        self._window = Window()
+        self._patience = 1
+        self._ints = array("q", bytes(8 * layout.INTS))
+        self._floats = array("d", bytes(8 * (layout.VECTORS + layout.VECTOR_COUNT * axes)))
+        self._columns = (
+            array("B", bytes(rooms)), array("I", bytes(4 * rooms)), array("d", bytes(8 * rooms)),
+            array("d", bytes(8 * rooms * axes)), array("i", bytes(4 * rooms)),
+            array("d", bytes(8 * rooms * CURVE_WIDTH)),
+        )  # fmt: skip
+
+    def lead(self, channel: Channel) -> range:
+        """Work off plain blocks; gives as many numbers as blocks are the interpreter's before the next try.
+
+        Where hardly any block is plain, tries become rare.
+        """
+        taken = self.run(channel)
+        self._patience = 1 if taken >= WORTHWHILE else min(2 * self._patience, MOST_PATIENCE)
+        return range(self._patience)
+
+    def run(self, channel: Channel) -> int:
+        """Work off plain blocks from where the channel stands; gives their number."""
+        blocks = channel.blocks
+        while self._dialect.ready(channel) and self._some(channel):
+            pass
+        return channel.blocks - blocks
+
+    def _some(self, channel: Channel) -> bool:
+        """One call of the kernel; true if it may be called again at once."""
+        level, window, ints = channel.level, self._window, self._ints
+        code: Any = level.code
+        lines = code.program.lines
+        if not window.stand_at(lines, code.line_of_step(level.index)):
+            return False
+        self._put_state(channel)
+        outcome = self._scan(
+            window.text, ints, self._floats, self._shapes.nexts, self._shapes.leaves, self._shapes.rules,
+            self._shapes.factors, *self._columns,
+        )  # fmt: skip
+        taken = ints[layout.LINE] - code.program.first_line - window.line
+        if taken:
+            window.place, window.line = ints[layout.PLACE], window.line + taken
+            level.index = code.step_of_line(window.line)
+            level.current = level.index - 1
+            self._take_state(channel)
+        if outcome == layout.UNKNOWN:
+            return self._learn(channel, lines[window.line])
+        room = len(channel.toolpath.chunk) < CHUNK_ROWS and channel.blocks < channel.block_limit
+        return outcome == layout.AT_END or (outcome == layout.FULL and room)
+
+    def _learn(self, channel: Channel, line: str) -> bool:
+        """Ask the control for the rule of a new shape; true if it has one."""
+        first, count = layout.FIRST_KEY, self._ints[layout.KEYS]
+        keys = tuple(self._ints[first : first + count])
+        recipe = self._dialect.recipe(channel, keys, line)
+        self._shapes.learn(self._ints[layout.STATE], keys, recipe)
+        return recipe is not None
+
+    # ---- state ---------------------------------------------------------------------------------------------
+
+    def _put_state(self, channel: Channel) -> None:
+        """Where the channel stands, as the kernel reads it."""
+        dialect, ints, floats = self._dialect, self._ints, self._floats
+        generation = dialect.generation(channel)
+        if generation != self._generation:
+            self._generation, self._shapes = generation, Shapes()
+        chunk, c = channel.toolpath.chunk, channel.coordinates
+        # A new context is that of the first row: it must be known before the modal state goes on.
+        rows = 1 if channel.context_is_new else min(self._rooms, max(CHUNK_ROWS - len(chunk), 0))
+        window, spelling = self._window, dialect.spelling
+        ints[layout.PLACE], ints[layout.END] = window.place, len(window.text)
+        ints[layout.LINE] = channel.level.code.program.first_line + window.line
+        ints[layout.BLOCKS], ints[layout.MOST_BLOCKS] = 0, channel.block_limit - channel.blocks
+        ints[layout.ROWS], ints[layout.MOST_ROWS] = 0, rows
+        ints[layout.CURVES], ints[layout.FIRST_CURVE] = 0, len(chunk.curves) // CURVE_WIDTH
+        ints[layout.STATE] = self._shapes.root(dialect.state(channel))
+        ints[layout.AXES] = self._axes
+        for i, axis in enumerate(c.geometry):
+            ints[layout.GEOMETRY + i] = axis
+        ints[layout.PROGRAMMING_FRAME] = self._put_frame(c.programming, layout.PROGRAMMING)
+        ints[layout.ZERO_FRAME] = self._put_frame(c.zero, layout.ZERO)
+        ints[layout.DIRECT], ints[layout.OWES] = c.direct, dialect.owes(channel)
+        ints[layout.SHIFTED], ints[layout.MIRRORS] = c.shift is not None, c.programming.mirrors
+        ints[layout.LIMITED] = bool(channel.limits)
+        ints[layout.GRAMMAR], ints[layout.MOST_DIGITS] = spelling.flags, spelling.max_digits
+        ints[layout.ARCS] = ints[layout.MOVES] = 0
+        floats[layout.FEED], floats[layout.TOLERANCE] = channel.feed, dialect.tolerance(channel)
+        self._put(layout.POSITION, c.position)
+        self._put(layout.PROGRAMMED, c.programmed)
+        self._put(layout.PENDING, c.pending)
+        self._put(layout.SHIFT, c.shift or ())
+        self._put(layout.OFFSETS, c.offsets)
+        self._put(layout.LOW, [low - LIMIT_SLACK for low, _ in channel.limits])
+        self._put(layout.HIGH, [high + LIMIT_SLACK for _, high in channel.limits])
+
+    def _put_frame(self, frame: Frame, place: int) -> int:
+        if frame.is_identity:
+            return -1
+        for i, value in enumerate((*frame.m[0], *frame.m[1], *frame.m[2], *frame.t)):
+            self._floats[place + i] = value
+        return place
+
+    def _put(self, which: int, values: Sequence[float]) -> None:
+        start = layout.VECTORS + which * self._axes
+        for i, value in enumerate(values):
+            self._floats[start + i] = value
+
+    def _get(self, which: int) -> list[float]:
+        start = layout.VECTORS + which * self._axes
+        return list(self._floats[start : start + self._axes])
+
+    def _take_state(self, channel: Channel) -> None:
+        """Rows into the chunk, and where the blocks have left the channel."""
+        ints, floats, c = self._ints, self._floats, channel.coordinates
+        channel.blocks += ints[layout.BLOCKS]
+        self._dialect.enter(channel, self._shapes.states[ints[layout.STATE]])
+        channel.feed = floats[layout.FEED]
+        rows = ints[layout.ROWS]
+        if rows:
+            program, context = channel.level.program_number, channel.context_number()
+            channel.toolpath.chunk.extend(rows, program, context, ints[layout.CURVES], self._columns)
+        c.position = self._get(layout.POSITION)
+        c.programmed = c.position if c.direct else self._get(layout.PROGRAMMED)
+        if ints[layout.OWES]:
+            c.pending = self._get(layout.PENDING)
+        moves, arcs = ints[layout.MOVES], ints[layout.ARCS]
+        if moves or arcs:
+            center = tuple(floats[layout.LAST_CENTER : layout.LAST_CENTER + 3])
+            self._dialect.moved(channel, LastMoves(moves, arcs, self._get(layout.CAME_FROM), center))

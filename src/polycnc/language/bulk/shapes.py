@@ -1,0 +1,107 @@
+"""What is known of the shapes of blocks, in the kernels' tables: the tree of shapes, and the rule of each."""
+
+from __future__ import annotations
+
+from array import array
+from typing import TYPE_CHECKING
+
+from polycnc.language.bulk import layout
+from polycnc.language.bulk.recipe import AS_TYPED, Arc, Recipe, Straight, Word
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable, Sequence
+
+_NO_WORD = Word(-1, AS_TYPED)
+#: More shapes than this are no longer learnt.
+MOST_NODES = 20_000
+
+
+class Shapes:
+    """The tree of shapes, with a root for every modal state.
+
+    Attributes:
+        nexts: Flat `(nodes, KEY_COUNT)`: the node behind a key, 0 for none.
+        leaves: For each node the number of its rule, or what is known instead.
+        rules: Flat `(rules, RULE_WIDTH)`.
+        factors: Flat `(rules, FACTOR_WIDTH)`.
+        states: Modal states by the number of their root.
+    """
+
+    def __init__(self) -> None:
+        self.nexts = array("i", bytes(4 * layout.KEY_COUNT))
+        self.leaves = array("i", [layout.LEAF_UNKNOWN])
+        self.rules = array("i", bytes(4 * layout.RULE_WIDTH * layout.FIRST_RULE))
+        self.factors = array("d", bytes(8 * layout.FACTOR_WIDTH * layout.FIRST_RULE))
+        self.states: dict[int, Hashable] = {}
+        self._roots: dict[Hashable, int] = {}
+
+    def root(self, state: Hashable) -> int:
+        """The node from which shapes start in a modal state."""
+        node = self._roots.get(state)
+        if node is None:
+            node = self._roots[state] = self._new_node()
+            self.states[node] = state
+        return node
+
+    def learn(self, root: int, keys: Sequence[int], recipe: Recipe | None) -> None:
+        """Keep what a shape does; None for one that is not plain."""
+        node = root
+        for key in keys:
+            place = node * layout.KEY_COUNT + key
+            if not self.nexts[place]:
+                self.nexts[place] = self._new_node()
+            node = self.nexts[place]
+        if recipe is None or len(self.leaves) > MOST_NODES:
+            self.leaves[node] = layout.LEAF_NOT_PLAIN
+        else:
+            self.leaves[node] = self._add_rule(recipe)
+
+    def _new_node(self) -> int:
+        self.leaves.append(layout.LEAF_UNKNOWN)
+        self.nexts.frombytes(bytes(self.nexts.itemsize * layout.KEY_COUNT))
+        return len(self.leaves) - 1
+
+    def _add_rule(self, recipe: Recipe) -> int:
+        rule = array("i", bytes(4 * layout.RULE_WIDTH))
+        factors = array("d", bytes(8 * layout.FACTOR_WIDTH))
+        rule[layout.NEXT_STATE] = self.root(recipe.next_state)
+        _put_word(rule, factors, layout.FEED_WORD, recipe.feed.word if recipe.feed else None)
+        if isinstance(recipe.motion, Straight):
+            _put_straight(rule, recipe.motion)
+        elif isinstance(recipe.motion, Arc):
+            _put_arc(rule, factors, recipe.motion)
+        for i, target in enumerate(recipe.motion.targets if recipe.motion else ()):
+            place = layout.FIRST_TARGET + layout.TARGET_WIDTH * i
+            _put_word(rule, factors, place, Word(target.slot, target.conversion))
+            rule[place + 2], rule[place + 3] = target.axis, target.incremental
+            rule[layout.TARGETS] = i + 1
+        self.rules.extend(rule)
+        self.factors.extend(factors)
+        return len(self.rules) // layout.RULE_WIDTH - 1
+
+
+def _put_word(rule: array[int], factors: array[float], place: int, word: Word | None) -> None:
+    slot, (way, scale, unit) = word or _NO_WORD
+    rule[place], rule[place + 1] = slot, way
+    factors[place], factors[place + 1] = scale, unit
+
+
+def _put_straight(rule: array[int], motion: Straight) -> None:
+    rule[layout.MOTION] = layout.RAPID_MOTION if motion.rapid else layout.FEED_MOTION
+    rule[layout.NEEDS_FEED] = motion.needs_feed and not motion.rapid
+    rule[layout.NAMES_FEED] = motion.names_feed
+    rule[layout.ABSOLUTE] = motion.absolute
+    rule[layout.SKIPS_TINY] = motion.skips_tiny
+
+
+def _put_arc(rule: array[int], factors: array[float], motion: Arc) -> None:
+    rule[layout.MOTION] = layout.ARC_MOTION
+    rule[layout.NEEDS_FEED] = motion.needs_feed
+    rule[layout.CCW] = motion.ccw
+    rule[layout.LINE_WITHOUT_WAY] = motion.line_without_way
+    for i, axis in enumerate(motion.plane):
+        rule[layout.PLANE + i] = axis
+    _put_word(rule, factors, layout.FIRST_CENTER, motion.centers[0])
+    _put_word(rule, factors, layout.SECOND_CENTER, motion.centers[1])
+    _put_word(rule, factors, layout.RADIUS, motion.radius)
+    factors[layout.RADIUS_TOLERANCES] = motion.radius_tolerances
