@@ -230,8 +230,6 @@ def compile_block(program: SinumerikProgram, index: int, channel: Channel) -> Co
     line = program.text(index)
     prefix = prefix_of(line)
     scope = program.scope_of(channel)
-    if program.is_header(line):
-        return CompiledBlock(_nothing, Emitter(), ())
     tokens = expanded(tokenize(line, prefix.end), scope)
     compiler = BlockCompiler(tokens, program, index, channel)
     compiler.marked = prefix.skip >= 0 or bool(prefix.label)
@@ -250,10 +248,6 @@ def compile_text(text: str, program: SinumerikProgram, index: int, channel: Chan
     compiler = BlockCompiler(tokens, program, index, channel)
     compiler.statement()
     return compiler.emitter.step()
-
-
-def _nothing(channel: Channel) -> None:
-    """A line without effect."""
 
 
 def _not_yet(compiler: BlockCompiler) -> None:

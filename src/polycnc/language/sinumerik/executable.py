@@ -225,10 +225,6 @@ class SinumerikProgram:
                 return read_header(reader, channel)
         return NO_HEADER
 
-    def is_header(self, line: str) -> bool:
-        """Whether a line is an archive mark (`%_N_NAME_MPF`)."""
-        return line.lstrip().startswith("%")
-
     def is_first_statement(self, index: int) -> bool:
         """Whether a step is the first block of the program."""
         return index == 0

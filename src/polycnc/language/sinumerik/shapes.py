@@ -26,7 +26,8 @@ _KEEP = 4096
 class _Shape(NamedTuple):
     factory: Factory
     objects: tuple[Any, ...]
-    kinds: tuple[type[int | float], ...]
+    #: Types of the numbers in order, None if all are REAL.
+    kinds: tuple[type[int | float], ...] | None
 
 
 class Shapes:
@@ -40,30 +41,31 @@ class Shapes:
         parts = _parts(line)
         if parts is None:
             return None
-        shape = self._known.get(_key(parts))
+        bare = parts[3::4]
+        shape = self._known.get(_key(parts, bare))
         if shape is None:
             return None
-        numbers = [a or b for a, b in zip(parts[2::4], parts[3::4], strict=True)]
-        return shape.factory(
-            tuple([kind(number) for kind, number in zip(shape.kinds, numbers, strict=True)]), shape.objects
-        )
+        numbers = [a or b for a, b in zip(parts[2::4], bare, strict=True)] if any(bare) else parts[2::4]
+        if shape.kinds is None:
+            return shape.factory(tuple(map(float, numbers)), shape.objects)
+        values = [kind(number) for kind, number in zip(shape.kinds, numbers, strict=True)]
+        return shape.factory(tuple(values), shape.objects)
 
     def learn(self, line: str, emitter: Emitter) -> None:
         """Remember the shape of a block that was compiled, if its numbers are those of the pattern."""
         parts = _parts(line)
         if parts is None or emitter.knows_place or len(self._known) >= _KEEP:
             return
-        start = _start(line)
+        key = _key(parts, parts[3::4])
         end = line.find(";")
-        spans = [
-            match.span(2) if match[1] else match.span(3)
-            for match in _NUMBER.finditer(line, start, len(line) if end < 0 else end)
-        ]
+        found = _NUMBER.finditer(line, _start(line), len(line) if end < 0 else end)
+        spans = [match.span(2) if match[1] else match.span(3) for match in found]
         if spans != [(number.start, number.end) for number in emitter.numbers]:
-            self._known[_key(parts)] = None
+            self._known[key] = None
             return
         kinds = tuple(type(number.value) for number in emitter.numbers)
-        self._known[_key(parts)] = _Shape(emitter.factory(), tuple(emitter.objects), kinds)
+        all_real = all(kind is float for kind in kinds)
+        self._known[key] = _Shape(emitter.factory(), tuple(emitter.objects), None if all_real else kinds)
 
 
 def _start(line: str) -> int:
@@ -72,14 +74,16 @@ def _start(line: str) -> int:
 
 
 def _parts(line: str) -> list[str] | None:
-    """The text between the numbers with addresses and numbers in turn; None for lines that have no shape."""
+    """Text, address, its number and number by itself in turn; None for lines that have no shape."""
     if '"' in line or "'" in line or "/" in line:
         return None
     end = line.find(";")
     return _NUMBER.split(line[_start(line) :] if end < 0 else line[_start(line) : end])
 
 
-def _key(parts: list[str]) -> tuple[str | None, ...]:
+def _key(parts: list[str], bare: list[str]) -> tuple[str | None, ...]:
     """Text and addresses, and whether a number by itself is whole: that decides types."""
-    kinds = ["." if number and "." in number else None for number in parts[3::4]]
-    return (*parts[0::4], *parts[1::4], *kinds)
+    if any(bare):
+        kinds = ["." if number and "." in number else None for number in bare]
+        return (*parts[0::4], *parts[1::4], *kinds)
+    return tuple(parts[0::4] + parts[1::4])
