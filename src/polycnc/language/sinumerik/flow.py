@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from polycnc.channel.stack import Level
 from polycnc.language.sinumerik.emitter import Branch, provide
 from polycnc.language.sinumerik.errors import NcSyntaxError
 from polycnc.language.sinumerik.expressions import Expr
@@ -256,17 +256,17 @@ def repeat_section(channel: Channel, program: SinumerikProgram, first: str, last
     if passes <= 0:
         return
     count_levels(channel)
+    section = Section(program, ends)
     channel.stack.append(
-        Level(
-            Section(program, ends),
+        replace(
+            level,
+            code=section,
+            steps=(),
             index=start,
             current=start,
-            program_number=level.program_number,
-            repeats=passes - 1,
             entry=start,
+            repeats=passes - 1,
             kind="repeat",
-            locals=level.locals,
-            data=level.data,
         )
     )
     channel.level = channel.stack[-1]
