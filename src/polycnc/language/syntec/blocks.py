@@ -8,11 +8,12 @@ decimal point, a Double as with one; a VACANT word counts as not written. See `l
 from __future__ import annotations
 
 import re
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from polycnc.language.syntec.expressions import ARITHMETIC_RANK, BINARY, Reader, evaluator
 from polycnc.language.syntec.tokens import Token, fault
-from polycnc.language.syntec.values import VACANT, Text, storable
+from polycnc.language.syntec.values import DOMAIN, VACANT, Text, storable
 from polycnc.language.word_address.words import WordBlock, code_key, word_key
 from polycnc.messages import AlarmError
 
@@ -42,22 +43,39 @@ class TypedBlock:
         values: Gives one value for each word that is not a fixed code.
     """
 
-    __slots__ = ("keys", "values")
+    __slots__ = ("_shapes", "keys", "values")
 
     def __init__(self, keys: Sequence[tuple[str, bool]], values: Evaluate) -> None:
         self.keys = tuple(keys)
         self.values = values
+        #: Types of the values to the signature that follows from them; blocks with computed codes have none.
+        self._shapes: dict[tuple[type, ...], tuple[str, ...]] = {}
 
     def __call__(self, channel: Channel) -> None:
         """Run the block with the values of this moment."""
+        values = self.values(channel)
+        signature = self._shapes.get(tuple(map(type, values)))
+        if signature is None:
+            signature, values = self._shape(values)
+        elif not isfinite(sum(values)):
+            raise AlarmError(DOMAIN, hint="hint.syntec.overflow")
+        plan = channel.mode.plans.get(signature)
+        if plan is None:
+            plan = channel.control.plan(channel, signature)
+        channel.mode = plan.mode
+        for step in plan.steps:
+            step(channel, values)
+
+    def _shape(self, values: Sequence[Any]) -> tuple[tuple[str, ...], Sequence[Any]]:
+        """Signature and numbers of this run: computed codes in their place, vacant words left out."""
         signature: list[str] = []
         numbers: list[Any] = []
-        values = iter(self.values(channel))
+        following = iter(values)
         for key, fixed in self.keys:
             if fixed:
                 signature.append(key)
                 continue
-            value = next(values)
+            value = next(following)
             if value is VACANT:
                 continue
             if key in ("G", "M"):
@@ -65,7 +83,10 @@ class TypedBlock:
             else:
                 signature.append(key + FORMS[type(value)])
                 numbers.append(storable(value))
-        WordBlock(tuple(signature), numbers)(channel)
+        shape = tuple(signature)
+        if len(numbers) == len(values) and not any(isinstance(number, Text) for number in numbers):
+            self._shapes[tuple(map(type, values))] = shape
+        return shape, numbers
 
 
 def code_of(letter: str, value: Any) -> str:

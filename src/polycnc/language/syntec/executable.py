@@ -38,6 +38,9 @@ class MacroProgram:
         tokens = tokenize(program.lines, macro=True, first_line=program.first_line)
         self._layout = StatementReader(tokens).read()
         self.steps: Sequence[Step | None] = self._layout.steps
+        lines = self._layout.lines
+        #: The line of the file at which a step's statement begins. Asked for every row, so it is the list's method.
+        self.line = [*lines, lines[-1] if lines else program.first_line].__getitem__
 
     @property
     def mistakes(self) -> Sequence[AlarmError]:
@@ -52,13 +55,6 @@ class MacroProgram:
     def step(self, index: int) -> Step | None:
         """A step; None behind the last one."""
         return self.steps[index] if index < len(self.steps) else None
-
-    def line(self, index: int) -> int:
-        """The line of the file at which a step's statement begins."""
-        lines = self._layout.lines
-        if not lines:
-            return self.program.first_line
-        return lines[min(index, len(lines) - 1)]
 
     def column(self, index: int, address: str) -> int:
         """Column, from 1, of an address or a code in the line of a step; 0 when it is not there."""
