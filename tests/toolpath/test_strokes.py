@@ -38,6 +38,20 @@ def test_a_new_work_offset_moves_the_coordinates_and_not_the_machine() -> None:
     assert last.points == [(-90, 0, 0), (5, 0, 0)]
 
 
+class Identity:
+    def real(self, end: list[float]) -> list[float]:
+        return end
+
+
+def test_a_transformation_begins_a_new_stroke_where_its_first_move_ends() -> None:
+    draft = (
+        Draft().move(Kind.FEED, 10, 0, 0).under(Context(transformation=Identity())).move(Kind.FEED, 5, 5, 0)
+    )
+    draft.move(Kind.FEED, 6, 6, 0)
+    last = list(strokes(draft.toolpath, XYZ))[-1]
+    assert last.points == [(5, 5, 0), (5, 5, 0), (6, 6, 0)]
+
+
 def test_an_axis_that_does_not_exist_counts_as_zero() -> None:
     draft = Draft(("X", "Z")).move(Kind.FEED, 10, 20)
     (stroke,) = strokes(draft.toolpath, (0, -1, 1))

@@ -126,3 +126,20 @@ def test_a_rotated_frame_leads_to_the_machine_display() -> None:
     draft = Draft().under(Context(frame=rotation(2, 90))).move(Kind.FEED, 10, 0, 0)
     (record,) = draft.display().records()
     assert record["machine"] == {"X": 0, "Y": 10, "Z": 0}
+
+
+class HalfRadius:
+    """Makes X of the toolpath half as far on the real axis."""
+
+    def real(self, end: list[float]) -> list[float]:
+        return [end[0] / 2, *end[1:]]
+
+
+def test_under_a_transformation_the_machine_display_shows_the_real_axes_shifted_by_the_frame() -> None:
+    context = Context(transformation=HalfRadius(), frame=translation(100, 0, 0), offsets=(0, 0, 5))
+    draft = Draft().under(context).move(Kind.FEED, 10, 0, 0)
+    display = draft.display()
+    (record,) = display.records()
+    assert record["to"]["X"] == 10
+    assert record["machine"] == {"X": 105, "Y": 0, "Z": 5}
+    assert list(display._records_by_column(draft.toolpath.chunks[0])) == [record]

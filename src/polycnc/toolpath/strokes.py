@@ -49,7 +49,12 @@ def strokes(
             part = row.context.part
             if not part.is_identity:
                 points = [part.apply(*point) for point in points]
-            if stroke is None or stroke.tool != tool or stroke.rapid != rapid or stroke.points[-1] != points[0]:
+            if (
+                stroke is None
+                or stroke.tool != tool
+                or stroke.rapid != rapid
+                or stroke.points[-1] != points[0]
+            ):
                 if stroke is not None:
                     yield stroke
                 stroke = Stroke(tool, rapid, points[:1])
@@ -75,6 +80,8 @@ def _start(toolpath: Toolpath, before: Row | None, row: Row, geometry: tuple[int
         return _point(row.end, geometry)
     if before.context is row.context:
         return _point(before.end, geometry)
+    if before.context.transformation is not row.context.transformation:
+        return _point(row.end, geometry)  # other axes: where the row begins in its own is not known
     machine = toolpath.to_machine(before.end, before.context, geometry)
     offsets = row.context.offsets or (0.0,) * len(machine)
     inner = _point([value - offset for value, offset in zip(machine, offsets, strict=True)], geometry)

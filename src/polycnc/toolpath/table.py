@@ -105,7 +105,7 @@ class Chunk:
             columns: `kind`, `line`, `feed`, `end`, `curve`, `curves`; each may be longer than it is used.
         """
         used = (rows, rows, rows, rows * self.axes, rows, curves * CURVE_WIDTH)
-        own = (self.kind, self.line, self.feed, self.end, self.curve, self.curves)
+        own: tuple[array[Any], ...] = (self.kind, self.line, self.feed, self.end, self.curve, self.curves)
         for target, column, count in zip(own, columns, used, strict=True):
             target.frombytes(memoryview(column).cast("B")[: count * column.itemsize])
         self.program.extend(array("H", [program]) * rows)
@@ -276,7 +276,7 @@ class Toolpath:
         if context.transformation is not None:
             machine = context.transformation.real(machine)
         if not context.frame.is_identity:
-            image = context.frame.apply(*(end[i] if i >= 0 else 0.0 for i in geometry))
+            image = context.frame.apply(*(machine[i] if i >= 0 else 0.0 for i in geometry))
             for i, value in zip(geometry, image, strict=True):
                 if i >= 0:
                     machine[i] = value

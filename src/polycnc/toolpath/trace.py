@@ -230,10 +230,16 @@ def _shown(value: float) -> float:
 
 def _machine_columns(end: Any, context: Context, geometry: tuple[int, int, int]) -> Any:
     """`Toolpath.to_machine` for whole columns (n, axes), in the same order of operations."""
+    import numpy as np
+
     machine = end.copy()
+    if context.transformation is not None:
+        machine = np.array([context.transformation.real(row) for row in end.tolist()])
     if not context.frame.is_identity:
-        x, y, z = (end[:, i] if i >= 0 else 0.0 for i in geometry)
+        x, y, z = (machine[:, i].copy() if i >= 0 else 0.0 for i in geometry)
         for i, (a, b, c), shift in zip(geometry, context.frame.m, context.frame.t, strict=True):
             if i >= 0:
                 machine[:, i] = a * x + b * y + c * z + shift
-    return machine + context.offsets if context.offsets else machine
+    if context.offsets:
+        machine += context.offsets
+    return machine
