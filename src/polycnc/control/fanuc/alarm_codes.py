@@ -59,6 +59,8 @@ ALARMS: dict[str, str] = {
     "rigid_m29": "PS0204",
     "rigid_plane": "PS0206",
     "parameter_words": "PS0231",
+    "zone_plus": "OT0502",
+    "zone_minus": "OT0503",
     # turning
     "shape_ends_in_corner": "PS0069",
     "tool_with_one_shot": "PS0245",

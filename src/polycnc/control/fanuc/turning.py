@@ -16,6 +16,7 @@ from polycnc.control.fanuc import (
     turning_transform,
 )
 from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
+from polycnc.control.fanuc.turning_barrier import barrier
 from polycnc.control.fanuc.turning_codes import ADDRESSES, M_CODES, POWER_ON, g_table, written_codes
 from polycnc.control.fanuc.turning_memory import TurningMemory
 from polycnc.control.fanuc.turning_variables import TURNING_VARIABLES
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.numbers import Convert
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.geometry.arcs import Point
+    from polycnc.messages import AlarmError
     from polycnc.toolpath import Context
 
 #: M codes that cannot be passed over in a shape.
@@ -88,6 +90,8 @@ class FanucTurning(CustomMacroControl):
         machine = channel.coordinates.machine
         shown = [channel.memory.radius_of(i, value) for i, value in enumerate(machine)]
         channel.coordinates.arrive_machine(shown)
+        if channel.mode["stroke"] == "G22":
+            channel.stroke_zone = barrier(channel)
         channel.memory.feed_code, channel.memory.plane = channel.mode["feed"], channel.mode["plane"]
 
     def start_codes(self, channel: Channel) -> dict[str, str]:
@@ -109,6 +113,10 @@ class FanucTurning(CustomMacroControl):
         if bit(0, 2):
             codes["unit"] = "G20"
         return codes
+
+    def forbidden_zone(self, axis: str, direction: int) -> AlarmError:
+        """The alarm for a way into the zone of G22 or into the barrier."""
+        return self.fail("zone_plus" if direction > 0 else "zone_minus", address=axis, axis=axis)
 
     # ---- axes and numbers ------------------------------------------------------------------------------------
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.fanuc import turning_grinding
 from polycnc.control.word_address import auxiliary
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.plan import Builder
     from polycnc.control.word_address.words import Words
 
 
@@ -25,6 +28,13 @@ def dwell(channel: Channel, words: Words) -> None:
             value = words.typed(address) or 0.0
             channel.dwell(revolutions=value / 1000.0 if words.form(address) == "" else value)
             return
+
+
+def plan_second_auxiliary(builder: Builder) -> Step | None:
+    """B: second auxiliary function; in a grinding cycle it is a word of the cycle."""
+    if builder.mode["motion"] in turning_grinding.CODES:
+        return None
+    return auxiliary.plan_second_auxiliary(builder)
 
 
 def surface_speed(channel: Channel, words: Words) -> None:

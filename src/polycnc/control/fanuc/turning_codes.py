@@ -78,7 +78,7 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G8", handler=extended.advance_preview, takes="P")),
     *same(GCode("G9", handler=extended.exact_stop_block)),
     *same(_point("G10", turning_data.input_data, "L P R Q C E F")),
-    *same(GCode("G11", handler=turning_data.end_parameter_input)),
+    *same(GCode("G11")),
     *same(GCode("G7.1", handler=turning_transform.cylinder, axis_words=True, order=Order.MOTION), "G107"),
     *same(GCode("G12.1", "polar_interpolation", turning_transform.start_polar), "G112"),
     *same(GCode("G13.1", "polar_interpolation", turning_transform.end_polar), "G113"),
@@ -215,7 +215,7 @@ ADDRESSES = {
     "F": auxiliary.plan_feed,
     "S": auxiliary.plan_spindle_speed,
     "T": turning_tools.plan_tool,
-    "B": auxiliary.plan_second_auxiliary,
+    "B": turning_auxiliary.plan_second_auxiliary,
 }
 
 POWER_ON = {

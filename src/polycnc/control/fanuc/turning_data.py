@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.fanuc.turning_barrier import barrier
 from polycnc.control.fanuc.turning_tools import MAX_OFFSETS, offset_changed, refresh
 from polycnc.control.word_address import extended
 from polycnc.control.word_address.data_input import WORK_SYSTEMS
+from polycnc.control.word_address.plan import NOT_YET
+from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -24,8 +27,7 @@ def input_data(channel: Channel, words: Words) -> None:
     kind = words.integer("L") if "L" in words else None
     number = words.integer("P") if "P" in words else None
     if kind in PARAMETER_INPUT:
-        channel.memory.parameter_input = True
-        return
+        raise AlarmError(NOT_YET, address="L", hint="hint.not-supported", code=f"G10 L{kind}")
     if number is None or number < 0:
         raise words.fail("g10_number", "P" if "P" in words else "G10")
     if kind == 2:
@@ -87,13 +89,13 @@ def _further_axis(channel: Channel, words: Words, address: str, parameter: int) 
     return channel.axes[number - 1]
 
 
-def end_parameter_input(channel: Channel, _words: Words) -> None:
-    """G11: the lines of G10 L52 are over."""
-    channel.memory.parameter_input = False
-
-
 def stroke_check_on(channel: Channel, words: Words) -> None:
     """G22 X Z I K: stored stroke check 2 in machine coordinates; values of a diameter axis are diameters."""
+    zone = barrier(channel)
+    if zone is not None:
+        # The barrier takes the place of stored stroke checks 2 and 3 (III.2.2).
+        channel.stroke_zone = zone
+        return
     upper = {axis: value for axis, value, _ in words.axes()}
     named: list[tuple[int, float, float]] = []
     for letter, axis in zip("IJK", channel.coordinates.geometry, strict=True):

@@ -89,7 +89,6 @@ class TurningMemory(MacroMemory):
         table: The last stage of the path when nothing is unrolled.
         open_line: Line of drawing dimensions that waits for the next block.
         rotation_angle: Angle of the last G68.1, degrees.
-        parameter_input: Between G10 L52 and G11.
         increment_limits: Largest increment of axes (G91.1).
         basic_geometry: Axes X, Y, Z, whatever parallel ones a plane has chosen.
         reading_shape: Blocks are read for their shape only: T, S, M do nothing.
@@ -115,7 +114,6 @@ class TurningMemory(MacroMemory):
         self.single_cycle: dict[str, Any] = {}
         self.cycle_values: dict[int, float] = {}
         self.clamp = 0
-        self.parameter_input = False
         self.rotation_angle = 0.0
         self.open_line: OpenLine | None = None
         self.polar: PolarAxes | None = None
