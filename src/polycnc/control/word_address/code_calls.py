@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.plan import Builder, Plan
 
-#: Letters of codes that may call programs, outside of any program that one of them called.
-ALL = "GMT"
 #: The common variable that hands a T code to its program.
 TOOL_VARIABLE = 149
 
@@ -72,7 +70,7 @@ def _g_row(code: str, call: CodeCall) -> GCode:
                 macro_calls.arguments_of(words, "LG"),
                 each=call.kind == "each",
             )
-        note_level(channel)
+        macro_calls.note_level(channel)
 
     return GCode(code, handler=act, takes="*", axis_words=True, order=Order.CALL)
 
@@ -97,7 +95,7 @@ def m_row(builder: Builder, number: int) -> MCode | None:
     def act(channel: Channel, _words: Words) -> None:
         program = channel.control.find_program(channel, call.program)
         subprograms.enter_subprogram(channel, program, 1, None, kind="m-sub")
-        note_level(channel)
+        macro_calls.note_level(channel)
 
     return MCode(number, after=True, handler=act, silent=True)
 
@@ -119,7 +117,7 @@ def plan_m_macro(builder: Builder, plan: Plan) -> Step | None:
         arguments = macro_calls.arguments_of(words, "LG", without_m=number)
         program = channel.control.find_program(channel, call.program)
         macro_calls.enter_macro(channel, program, arguments, repeats or 0, kind="m-macro")
-        note_level(channel)
+        macro_calls.note_level(channel)
 
     return act
 
@@ -141,24 +139,10 @@ def plan_tool_call(builder: Builder) -> Step | None:
         channel.memory.write(TOOL_VARIABLE, values[slot])
         program = channel.control.find_program(channel, call.program)
         subprograms.enter_subprogram(channel, program, 1, None, kind="t-sub")
-        note_level(channel)
+        macro_calls.note_level(channel)
 
     return act
 
 
 def _calls_by_tool(builder: Builder) -> bool:
     return _calls(builder).t is not None and may_call(builder, "T")
-
-
-def note_level(channel: Channel) -> None:
-    """Set the letters that may call on the level that runs now; with 6008#6 the other letters may."""
-    if "calls" not in channel.mode.codes:
-        return
-    callers = {level.kind[0].upper() for level in channel.stack if level.kind[1:2] == "-"}
-    if not callers:
-        letters = ALL
-    elif not channel.memory.parameters.bit(6008, 6):
-        letters = ""
-    else:
-        letters = "".join(a for a in ("G", "MT") if not callers & set(a))
-    channel.mode = channel.mode.with_code("calls", letters)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from polycnc.messages import AlarmError
     from polycnc.program import Program
 
-_MACRO_KINDS = ("macro", "modal", "g-macro", "m-macro")
+_MACRO_KINDS = ("macro", "modal", "g-macro", "m-macro", "b-macro")
 #: Levels of macros, of subprograms, and together (FANUC macro B reference §5.1).
 MACRO_LEVELS, SUBPROGRAM_LEVELS, LEVELS = 5, 10, 15
 
@@ -97,7 +97,7 @@ class CustomMacroControl(WordAddressControl):
         """End of a subprogram or macro: the caller's local variables return; `jumps` for M99 P."""
         ended = channel.pop()
         channel.memory.locals = channel.level.locals
-        code_calls.note_level(channel)
+        macro_calls.note_level(channel)
         if ended.kind == interruption.LEVEL:
             interruption.finish(channel, jumps=jumps)
 

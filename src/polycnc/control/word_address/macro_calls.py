@@ -25,6 +25,8 @@ ARGUMENTS = {
 FURTHER_ARGUMENTS = {"G": 10, "L": 12, "N": 14, "P": 16}
 _LENGTHS = frozenset("ABCIJKQRUVWXYZ")
 _SETS = 10
+#: Letters of codes that may call programs, outside of any program that was called so; B stands for blocks (G66.1).
+ALL_CALLS = "GMTB"
 
 
 @dataclass(slots=True)
@@ -160,11 +162,14 @@ def plan_argument_block(builder: Builder, plan: Plan) -> Step | None:
     """Under G66.1 every block is an argument list of the macro."""
     if builder.before["macro"] != "G66.1" or any(row.group == "macro" for row in builder.codes):
         return None
+    if "B" not in builder.before.codes.get("calls", "B"):
+        return None
 
     def call(channel: Channel, values: list[float]) -> None:
         modal = channel.memory.modal_calls[-1]
         arguments = _block_arguments(Words(plan, values), builder)
-        enter_macro(channel, modal.program, arguments, modal.repeats, kind="modal")
+        enter_macro(channel, modal.program, arguments, modal.repeats, kind="b-macro")
+        note_level(channel)
 
     return call
 
@@ -177,3 +182,22 @@ def _block_arguments(words: Words, builder: Builder) -> list[float | None]:
     if builder.codes:
         local[FURTHER_ARGUMENTS["G"]] = float(builder.codes[-1].code[1:])
     return local
+
+
+def note_level(channel: Channel) -> None:
+    """Set the letters that may call on the level that runs now.
+
+    Inside a program that a code called, codes call nothing; with 6008#6 those of the other kind do. Inside the
+    macro of G66.1, blocks call nothing.
+    """
+    if "calls" not in channel.mode.codes:
+        return
+    callers = {level.kind[0].upper() for level in channel.stack if level.kind[1:2] == "-"}
+    by_code = callers - {"B"}
+    if not by_code:
+        letters = "GMT"
+    elif not channel.memory.parameters.bit(6008, 6):
+        letters = ""
+    else:
+        letters = "".join(kind for kind in ("G", "MT") if not by_code & set(kind))
+    channel.mode = channel.mode.with_code("calls", letters if "B" in callers else letters + "B")
