@@ -234,6 +234,7 @@ def call_section(channel: Channel, name: str, start: str, end: str) -> None:
     code.run_definitions(channel)
     level.code = Section(code, ends)
     level.steps = ()
+    level.scanner = None
     level.index = level.current = level.entry = first
     if not name:
         level.locals = local

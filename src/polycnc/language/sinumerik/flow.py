@@ -261,12 +261,12 @@ def repeat_section(channel: Channel, program: SinumerikProgram, first: str, last
         replace(
             level,
             code=section,
-            steps=(),
             index=start,
             current=start,
             entry=start,
             repeats=passes - 1,
             kind="repeat",
+            scanner=None,
         )
     )
     channel.level = channel.stack[-1]
