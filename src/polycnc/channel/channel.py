@@ -129,7 +129,7 @@ class Channel:
         self.stack: list[Level] = []
         self._level: Level
         self._head: PathStage | None = None
-        self.table = TableStage(self)
+        self.table: PathStage = TableStage(self)
         self.memory: Any = None
         self.alarms: list[Alarm] = []
         self._finished = False

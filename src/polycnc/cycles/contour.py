@@ -103,16 +103,19 @@ def crossings(edge: Edge, level: float) -> list[Point]:
             return []
         part = min(max((level - b0) / (b1 - b0), 0.0), 1.0)
         return [(a0 + part * (a1 - a0), level)]
-    radius = arcs.radius_of(edge.center, edge.start)
-    height = level - edge.center[1]
+    center = edge.center
+    radius = arcs.radius_of(center, edge.start)
+    height = level - center[1]
     if abs(height) > radius + _SAME:
         return []
     half = sqrt(max(radius * radius - height * height, 0.0))
     points = [(edge.center[0] + sign * half, level) for sign in (1.0, -1.0)]
     inside = [
-        point for point in points if arcs.contains_direction(edge.start, edge.end, edge.center, edge.ccw, point, 1e-9)
+        point
+        for point in points
+        if arcs.contains_direction(edge.start, edge.end, edge.center, edge.ccw, point, 1e-9)
     ]
-    return sorted(inside, key=lambda p: abs(arcs.sweep_angle(edge.start, p, edge.center or p, edge.ccw)) % arcs.TAU)
+    return sorted(inside, key=lambda p: abs(arcs.sweep_angle(edge.start, p, center, edge.ccw)) % arcs.TAU)
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +134,7 @@ class Gap:
 
 
 def gaps(contour: Sequence[Piece], level: float, towards: float) -> list[Gap]:
-    """The gaps of a level; `towards` is the direction of infeed (1 or -1): the contour is deeper than the level there."""
+    """The gaps of a level: where the contour is deeper; `towards` is the direction of infeed, 1 or -1."""
     result: list[Gap] = []
     opened: float | None = None
     for number, piece in enumerate(contour):

@@ -1,8 +1,7 @@
-"""Threads as strokes: one pass with its run-out, and the passes of a whole thread (FANUC 0i-TF Plus II.4.1.2, 4.2.7)."""
+"""Threads as strokes: a pass with its run-out, the passes of a whole thread (FANUC 0i-TF Plus II.4.1.2, 4.2.7)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from math import copysign, radians, sqrt, tan
 from typing import TYPE_CHECKING
@@ -11,6 +10,8 @@ from polycnc.cycles.plane_stroke import PlaneStroke, rapid
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from polycnc.geometry.arcs import Point
 
 
@@ -73,7 +74,11 @@ def depths(cuts: ThreadCuts) -> Iterator[float]:
         if cuts.constant_depth:
             wanted = cuts.first * number
         else:
-            wanted = cuts.first * sqrt(number) if number == 1 else max(cuts.first * sqrt(number), depth + cuts.least)
+            wanted = (
+                cuts.first * sqrt(number)
+                if number == 1
+                else max(cuts.first * sqrt(number), depth + cuts.least)
+            )
         depth = min(wanted, rough)
         yield depth
     for _ in range(cuts.finishing):

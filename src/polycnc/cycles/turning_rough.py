@@ -138,7 +138,11 @@ def _clear(
     at_bottom = abs(level - bottom) <= _SAME
     # On the flat of a pocket's bottom the contour is not deeper than the stroke: look a hair above it.
     seen = level - towards * _HAIR if at_bottom else level
-    inside = [gap for gap in gaps(contour, seen, towards) if _within(gap, span) and abs(gap.end - gap.start) > _HAIR * 10]
+    inside = [
+        gap
+        for gap in gaps(contour, seen, towards)
+        if _within(gap, span) and abs(gap.end - gap.start) > _HAIR * 10
+    ]
     for number, gap in enumerate(inside):
         yield from _enter(gap, level, above, cuts, towards, is_pocket=is_pocket or number > 0)
         yield feed(gap.end, level)
@@ -162,8 +166,15 @@ def _enter(
 
 
 def _leave(
-    contour: Contour, gap: Gap, level: float, above: float, cuts: Roughing, towards: float, onwards: float,
-    *, at_bottom: bool,
+    contour: Contour,
+    gap: Gap,
+    level: float,
+    above: float,
+    cuts: Roughing,
+    towards: float,
+    onwards: float,
+    *,
+    at_bottom: bool,
 ) -> Iterator[PlaneStroke]:
     """Off after a stroke: up along the shape to the level above and straight off it; from a bottom at 45 degrees."""
     if at_bottom:
@@ -185,10 +196,5 @@ def _within(gap: Gap, span: Point) -> bool:
 def _deepest(contour: Contour, span: Point, towards: float) -> float:
     """The deepest `b` of the contour between two ends."""
     low, high = min(span) - _HAIR, max(span) + _HAIR
-    values = [
-        towards * b
-        for piece in contour
-        for a, b in (*points(piece.edge),)
-        if low <= a <= high
-    ]
+    values = [towards * b for piece in contour for a, b in (*points(piece.edge),) if low <= a <= high]
     return towards * max(values)

@@ -183,7 +183,7 @@ class FanucTurning(CustomMacroControl):
         turning_drilling.give_way(builder)
         motion = builder.mode["motion"]
         row = next(code for code in self.g_table(builder.channel).values() if _is_motion(code, motion))
-        return row.planner(builder, plan) if row.planner is not None else None  # type: ignore[call-arg]
+        return row.planner(builder, plan) if row.planner is not None else None
 
     def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
         """Modal macro calls; words of single cycles that a one-shot code clears."""
@@ -228,7 +228,10 @@ class FanucTurning(CustomMacroControl):
         if not builder.has("P"):
             return None
         names_spindle = builder.m_codes or builder.channel.setup.parameters.bit(3703, 3)
-        if any(("P" in row.takes and not (row.code == "G96" and names_spindle)) or row.takes == "*" for row in builder.codes):
+        if any(
+            ("P" in row.takes and not (row.code == "G96" and names_spindle)) or row.takes == "*"
+            for row in builder.codes
+        ):
             return None
         if any("P" in self.m_code(number).takes for number in builder.m_codes):
             return None

@@ -38,7 +38,7 @@ def _chuck(channel: Channel, parameters: Parameters) -> tuple[Polygon, ...]:
     kind, length, width, grip_length, step, x, z = (parameters.number(n) for n in CHUCK)
     if length <= grip_length or width <= step:
         return ()
-    surface = channel.control.from_display(channel, channel.axis_index["X"], x)  # type: ignore[attr-defined]
+    surface = channel.control.from_display(channel, channel.axis_index["X"], x)
     back = -1.0 if z <= parameters.number(TAILSTOCK[-1]) else 1.0
     outwards = 1.0 if kind else -1.0
     edge = surface + outwards * (width - step)
@@ -95,7 +95,7 @@ class Barrier:
                 if _enters(begin, last, body):
                     axis = self.x if end[self.x] != start[self.x] else self.z
                     direction = 1 if end[axis] >= start[axis] else -1
-                    raise channel.control.forbidden_zone(channel.axes[axis], direction)  # type: ignore[attr-defined]
+                    raise channel.control.forbidden_zone(channel.axes[axis], direction)
 
 
 def _enters(start: Point, end: Point, polygon: Polygon) -> bool:

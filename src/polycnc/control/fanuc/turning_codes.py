@@ -24,8 +24,22 @@ from polycnc.control.fanuc import (
     turning_tools,
     turning_transform,
 )
-from polycnc.control.fanuc.turning_drilling import NORMAL_CYCLES, RIGID, RIGID_OFF, SERIES_15_CYCLES, rigid_tapping
-from polycnc.control.word_address import auxiliary, coordinates, extended, frames, macro_calls, path, subprograms
+from polycnc.control.fanuc.turning_drilling import (
+    NORMAL_CYCLES,
+    RIGID,
+    RIGID_OFF,
+    SERIES_15_CYCLES,
+    rigid_tapping,
+)
+from polycnc.control.word_address import (
+    auxiliary,
+    coordinates,
+    extended,
+    frames,
+    macro_calls,
+    path,
+    subprograms,
+)
 from polycnc.control.word_address.codes import GCode, MCode, Order, m_table
 
 if TYPE_CHECKING:

@@ -82,7 +82,9 @@ def _move_in_machine_system(channel: Channel, words: Words, *, rapid: bool) -> N
     for axis, value, incremental in words.axes():
         if not incremental:
             machine[axis] = value
-    channel.straight(Kind.RAPID if rapid else Kind.FEED, c.from_machine(machine), nan if rapid else channel.feed)
+    channel.straight(
+        Kind.RAPID if rapid else Kind.FEED, c.from_machine(machine), nan if rapid else channel.feed
+    )
 
 
 def return_to_reference(channel: Channel, words: Words) -> None:

@@ -39,11 +39,11 @@ class TurningCorner(CornerStage):
         control = channel.control
         u, v, w = PLANES[channel.mode["plane"]]
         codes = {
-            CornerViolation.NO_NEXT_MOVE: control.alarms["corner_no_move"],  # type: ignore[attr-defined]
-            CornerViolation.TOO_SHORT: control.alarms["corner_too_short"],  # type: ignore[attr-defined]
+            CornerViolation.NO_NEXT_MOVE: control.alarms["corner_no_move"],
+            CornerViolation.TOO_SHORT: control.alarms["corner_too_short"],
         }
         super().__init__(Plane(u, v, w, channel.coordinates.geometry), FANUC_CORNERS, codes, after)
-        self._control: WordAddressControl = control  # type: ignore[assignment]
+        self._control: WordAddressControl = control
         self._expected: Expected | None = None
         self._first = False
 

@@ -167,7 +167,9 @@ def _close(
     between = radians(angle - line.angle_deg)
     if abs(sin(between)) < sin(radians(_LEAST_ANGLE_DEG)):
         raise control.fail("drawing_parallel")
-    meeting = offset.meet(offset.ray(start, cos_sin_deg(line.angle_deg)), offset.ray(last, cos_sin_deg(angle)), 0.0, 0.0)
+    meeting = offset.meet(
+        offset.ray(start, cos_sin_deg(line.angle_deg)), offset.ray(last, cos_sin_deg(angle)), 0.0, 0.0
+    )
     if meeting is None:
         raise control.fail("drawing_parallel")
     middle = c.programmed[:]
@@ -182,7 +184,7 @@ def _close(
 def _move(channel: Channel, programmed: list[float], corner: tuple[Shape, float] | None) -> None:
     """One line at the feed in force, with what stands at its end."""
     if not channel.feed > 0.0:
-        raise channel.control.fail("no_feed")  # type: ignore[attr-defined]
+        raise channel.control.fail("no_feed")
     if corner is not None:
         stage = corner_stage(channel)
         stage.policy = _CORNERS

@@ -1,4 +1,4 @@
-"""Drilling cycles of the lathe: G83 to G89 on face and side, Series 15 format, clamping of C (0i-TF Plus II.4.3, 6.5)."""
+"""Drilling cycles of the lathe: face and side, Series 15 format, clamping of C (0i-TF Plus II.4.3, 4.5, 6.5)."""
 
 from __future__ import annotations
 
@@ -28,7 +28,16 @@ SERIES_15_CYCLES = ("G81", "G82", "G83", "G83.1", "G84", "G84.2", "G85", "G89")
 #: Modal group of M29.
 RIGID, RIGID_ON, RIGID_OFF = "rigid", "M29", "off"
 TAPS = frozenset({"G84", "G88", "G84.2"})
-_RELIEF = {"G83.1": 5114, "G83.5": 5114, "G87.5": 5114, "G83.6": 5115, "G87.6": 5115, "G84": 5213, "G88": 5213, "G84.2": 5213}
+_RELIEF = {
+    "G83.1": 5114,
+    "G83.5": 5114,
+    "G87.5": 5114,
+    "G83.6": 5115,
+    "G87.6": 5115,
+    "G84": 5213,
+    "G88": 5213,
+    "G84.2": 5213,
+}
 
 
 def is_series_15(channel: Channel) -> bool:
@@ -57,7 +66,9 @@ def rules(channel: Channel) -> Drilling:
     bit = channel.setup.parameters.bit
     series_15 = drills_in_series_15(channel)
     absolute = series_15 and bit(5102, 6)
-    return _rules(_Choice(series_15, is_series_15(channel), bool(bit(5101, 2)), bool(bit(5200, 5)), bool(absolute)))
+    return _rules(
+        _Choice(series_15, is_series_15(channel), bool(bit(5101, 2)), bool(bit(5200, 5)), bool(absolute))
+    )
 
 
 @cache
@@ -120,12 +131,14 @@ def _relief(channel: Channel, code: str) -> float:
     """Retract or clearance between pecks: `,D`, else the cycle's parameter, mm."""
     data = channel.memory.cycle_data
     if ",D" in data:
-        return float(data.amount(",D"))
+        amount: float = data.amount(",D")
+        return amount
     number = _RELIEF.get(code)
     if number is None:
         clears = channel.memory.parameters.bit(5101, 2) or drills_in_series_15(channel)
         number = 5115 if clears else 5114
-    return channel.memory.parameters.number(number)
+    clearance: float = channel.memory.parameters.number(number)
+    return clearance
 
 
 def plan(builder: Builder, plan: Plan) -> Step:
@@ -161,7 +174,9 @@ def _turn(channel: Channel, direction: int) -> None:
 def is_rigid(channel: Channel) -> bool:
     """Whether a tap is cut in step with a servo spindle: M29, 5200#0, or G84.2."""
     memory = channel.memory
-    return bool(channel.mode[RIGID] == RIGID_ON or memory.parameters.bit(5200, 0) or channel.mode["cycle"] == "G84.2")
+    return bool(
+        channel.mode[RIGID] == RIGID_ON or memory.parameters.bit(5200, 0) or channel.mode["cycle"] == "G84.2"
+    )
 
 
 # ---- what the machine adds ---------------------------------------------------------------------------------------
@@ -236,7 +251,9 @@ def plan_waiting(builder: Builder, plan: Plan) -> None:
     if builder.before[RIGID] != RIGID_ON or builder.before["cycle"] != "G80" or builder.mode["cycle"] in TAPS:
         return
     if builder.has("S") or plan.axis_words:
-        raise builder.control.fail("rigid_between", address="S" if builder.has("S") else plan.axis_words[0].address)
+        raise builder.control.fail(
+            "rigid_between", address="S" if builder.has("S") else plan.axis_words[0].address
+        )
 
 
 def rigid_tapping(channel: Channel, _words: Words) -> None:

@@ -18,7 +18,12 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.plan import Builder, Plan
 
 #: Inner names of the codes: they share their written names with the turning cycles.
-TRAVERSE, TRAVERSE_GAUGED, OSCILLATE, OSCILLATE_GAUGED = "G71 grinding", "G72 grinding", "G73 grinding", "G74 grinding"
+TRAVERSE, TRAVERSE_GAUGED, OSCILLATE, OSCILLATE_GAUGED = (
+    "G71 grinding",
+    "G72 grinding",
+    "G73 grinding",
+    "G74 grinding",
+)
 _AXIS_PARAMETERS = {TRAVERSE: 5176, TRAVERSE_GAUGED: 5177, OSCILLATE: 5178, OSCILLATE_GAUGED: 5179}
 CODES = frozenset(_AXIS_PARAMETERS)
 _GAUGED = frozenset({TRAVERSE_GAUGED, OSCILLATE_GAUGED})
@@ -43,7 +48,9 @@ def plan_grinding(builder: Builder, _plan: Plan) -> Step:
     slots = {address: builder.slots[address] for address in named}
 
     def run(channel: Channel, values: list[float]) -> None:
-        words = {a: _value(builder, a, form, values[slot], infeed, along) for a, (slot, form) in slots.items()}
+        words = {
+            a: _value(builder, a, form, values[slot], infeed, along) for a, (slot, form) in slots.items()
+        }
         data: dict[str, float] = channel.memory.grinding
         once = ("H", "P", "B") if code in _OSCILLATING else ("H", "P")
         data.update({a: v for a, v in words.items() if a not in once})
@@ -104,5 +111,5 @@ def _stroke(
 
 def _move(channel: Channel, end: list[float], feed: float) -> None:
     if not feed > 0.0:
-        raise channel.control.fail("no_feed")  # type: ignore[attr-defined]
+        raise channel.control.fail("no_feed")
     channel.straight(Kind.FEED, end, feed)

@@ -55,7 +55,9 @@ class TurningFrames(ProgrammingFrames):
 
     def set_turret(self, distance: float | None) -> None:
         """X of the opposite turret, mirrored at this distance (mm, radius); None for the own turret."""
-        self.turret = IDENTITY if distance is None else translation(distance, 0.0, 0.0) @ scaling(-1.0, 1.0, 1.0)
+        self.turret = (
+            IDENTITY if distance is None else translation(distance, 0.0, 0.0) @ scaling(-1.0, 1.0, 1.0)
+        )
 
     @property
     def rotates(self) -> bool:
@@ -126,11 +128,13 @@ class TurningMemory(MacroMemory):
         self.reading_shape = False
         self.shape: Shape | None = None
         for name in self.work_offsets:
-            self.work_offsets[name] = [self.radius_of(i, value) for i, value in enumerate(self.work_offsets[name])]
+            self.work_offsets[name] = [
+                self.radius_of(i, value) for i, value in enumerate(self.work_offsets[name])
+            ]
 
     def radius_of(self, axis: int, shown: float) -> float:
         """A value of the displays (diameter where the axis has one), mm, in internal units."""
-        internal: float = self.channel.control.from_display(self.channel, axis, shown)  # type: ignore[attr-defined]
+        internal: float = self.channel.control.from_display(self.channel, axis, shown)
         return internal
 
     def _from_setup(self, tool: Tool) -> TurningOffset:

@@ -7,7 +7,7 @@ Normal format: two blocks; the first, without shape or end point, stores amounts
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import Level
 from polycnc.control.fanuc.turning_coordinates import feed_number, plane_axes
@@ -53,12 +53,14 @@ SHAPE_KIND = "shape"
 def finish(channel: Channel, words: Words) -> None:
     """G70 P Q: run the shape once as it is written, then back to where the cycle began."""
     first, last = _shape_numbers(words)
-    code = channel.level.code
+    code: Any = channel.level.code
     code = code.code if isinstance(code, Section) else code
-    begin = code.find_sequence(first, channel.level.current, "no_shape_start")  # type: ignore[attr-defined]
-    end = code.find_sequence(last, begin - 1, "no_shape_end")  # type: ignore[attr-defined]
+    begin = code.find_sequence(first, channel.level.current, "no_shape_start")
+    end = code.find_sequence(last, begin - 1, "no_shape_end")
     level = channel.level
-    section = Level(Section(code, end), begin, begin, level.program_number, 0, begin, SHAPE_KIND, level.locals)
+    section = Level(
+        Section(code, end), begin, begin, level.program_number, 0, begin, SHAPE_KIND, level.locals
+    )
     section.data["start"] = channel.coordinates.position
     if is_compensated(channel):
         leave_compensation(channel)

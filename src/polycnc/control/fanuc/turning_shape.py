@@ -1,8 +1,8 @@
 """Shapes of G70 to G73: the blocks from P to Q, read ahead by running them with the tool held (II.4.2.8).
 
-The control reads a shape by interpreting its blocks, macro statements included. So does polycnc: the blocks run in a
-modal state of their own (`shape` = `reading`), in which F, S, T and M do nothing, and their moves are caught before they
-reach the toolpath. Then everything is put back, and the cycle cuts along the moves.
+The control reads a shape by interpreting its blocks, macro statements included. So does polycnc: they run in a
+modal state of their own (`shape` = `reading`), in which F, S, T and M do nothing, and their moves are caught before
+they reach the toolpath. Then everything is put back, and the cycle cuts along the moves.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ from copy import copy
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.path import Move
 from polycnc.compensation import CutterCompensation, Plane
 from polycnc.control.fanuc.turning_coordinates import plane_axes
 from polycnc.control.fanuc.turning_corners import TurningCorner
@@ -23,8 +22,9 @@ from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.channel.path import PathStage
+    from polycnc.channel.path import Move, PathStage
     from polycnc.channel.stack import Level
+    from polycnc.channel.stack import Step as BlockStep
     from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.toolpath import Event
@@ -161,7 +161,16 @@ class _Kept:
         channel.context_changed()
 
 
-_MEMORY_FIELDS = ("spindle_speed", "spindle_direction", "tool", "next_tool", "feed_code", "side", "d", "single_cycle")
+_MEMORY_FIELDS = (
+    "spindle_speed",
+    "spindle_direction",
+    "tool",
+    "next_tool",
+    "feed_code",
+    "side",
+    "d",
+    "single_cycle",
+)
 
 
 def contour_of(channel: Channel, shape: Shape) -> Contour:
@@ -170,7 +179,11 @@ def contour_of(channel: Channel, shape: Shape) -> Contour:
     u, v, w = PLANES[channel.mode["plane"]]
     plane = Plane(u, v, w, channel.coordinates.geometry)
     for move in shape.moves:
-        if any(s != e for i, (s, e) in enumerate(zip(move.start, move.end, strict=True)) if i not in (first, second)):
+        if any(
+            s != e
+            for i, (s, e) in enumerate(zip(move.start, move.end, strict=True))
+            if i not in (first, second)
+        ):
             raise channel.control.fail("shape_command", address="P")
     moves = _compensated(channel, shape.moves, plane) if channel.memory.side else shape.moves
     contour: Contour = []
@@ -201,13 +214,13 @@ class Section:
         self.code = code
         self.program = code.program
         self.end = end
-        self.steps: tuple[Step | None, ...] = ()
+        self.steps: tuple[BlockStep | None, ...] = ()
 
-    def step(self, index: int) -> Step | None:
+    def step(self, index: int) -> BlockStep | None:
         """The step of a block; None behind the last one of the shape."""
         if index > self.end:
             return None
-        step: Step = self.code.compile(self.code.lines[index], index)
+        step: BlockStep = self.code.compile(self.code.lines[index], index)
         return step
 
     def __getattr__(self, name: str) -> Any:

@@ -50,7 +50,10 @@ def plan_single_cycle(builder: Builder, plan: Plan) -> Step | None:
     def run(channel: Channel, values: list[float]) -> None:
         data = channel.memory.single_cycle
         for axis, word in named.items():
-            data[axis] = (word.convert(values[word.slot]) if word.convert else values[word.slot], word.incremental)
+            data[axis] = (
+                word.convert(values[word.slot]) if word.convert else values[word.slot],
+                word.incremental,
+            )
         if taper_slot is not None:
             data["taper"] = taper_of(values[taper_slot]) if taper_of else values[taper_slot]
         if not data:
@@ -74,7 +77,11 @@ def _run(channel: Channel, code: str, axes: tuple[int, int], angle: float) -> No
     corner: Point = (target[axes[0]], target[axes[1]])
     taper = data.get("taper", 0.0)
     if code == "G92":
-        emit(channel, turning_single.threading(start, corner, taper, runout(channel), angle), lead=feed_number(channel))
+        emit(
+            channel,
+            turning_single.threading(start, corner, taper, runout(channel), angle),
+            lead=feed_number(channel),
+        )
         return
     cycle = turning_single.longitudinal if code == "G90" else turning_single.facing
     compensated_cycle(channel, list(cycle(start, corner, taper)))
@@ -107,5 +114,3 @@ def plan_clearing(builder: Builder) -> Step | None:
         if leaves or any(not row.group and row.code != "G4" for row in builder.codes):
             return lambda channel, _values: getattr(channel.memory, field).clear()
     return None
-
-

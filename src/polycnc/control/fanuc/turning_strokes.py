@@ -6,8 +6,8 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.turning_coordinates import drop_vector, plane_axes
-from polycnc.control.fanuc.turning_tools import nose_radius, nose_tip
 from polycnc.control.fanuc.turning_threads import thread_move
+from polycnc.control.fanuc.turning_tools import nose_radius, nose_tip
 from polycnc.control.word_address.path import PLANES
 from polycnc.geometry import offset
 from polycnc.toolpath import Kind

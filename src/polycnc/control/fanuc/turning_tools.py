@@ -23,6 +23,7 @@ TIPS = {1: (1, 1), 2: (-1, 1), 3: (-1, -1), 4: (1, -1), 5: (1, 0), 6: (0, 1), 7:
 THREADS = frozenset({"G32", "G34", "G35", "G36"})
 #: One-shot codes beside which a T is allowed.
 _BESIDE_T = frozenset({"G50"})
+_MEASURING = frozenset({"G36", "G37", "G37.1", "G37.2"})
 MAX_OFFSETS = 999
 
 
@@ -30,6 +31,8 @@ def plan_tool(builder: Builder) -> Step:
     """T: turret position and offset number in one word; the offset acts with the block's motion."""
     control, mode = builder.control, builder.mode
     slot = builder.slots["T"][0]
+    if any(row.code in _MEASURING for row in builder.codes):
+        raise control.fail("measure_h", address="T")
     if any(row.group == "" and row.code not in _BESIDE_T for row in builder.codes):
         raise control.fail("tool_with_one_shot", address="T")
     one_shot = any(row.axis_words for row in builder.codes)

@@ -106,7 +106,7 @@ def cylinder(channel: Channel, words: Words) -> None:
     memory.cylinder = Cylinder(axis, radius * pi / 180.0)
     u, v, _ = PLANES[channel.mode["plane"]]
     geometry = list(channel.coordinates.geometry)
-    role = channel.control.axis_role(channel, axis)  # type: ignore[attr-defined]
+    role = channel.control.axis_role(channel, axis)
     slot = role - 5 if role in (5, 6, 7) else (v if channel.mode["plane"] != "G19" else u)
     geometry[slot] = axis
     channel.coordinates.geometry = (geometry[0], geometry[1], geometry[2])
@@ -194,4 +194,3 @@ def unroll(channel: Channel, axis: int, angle_deg: float) -> float:
     """A word of the unrolled axis as a length on the surface, mm."""
     active: Cylinder | None = channel.memory.cylinder
     return angle_deg * active.mm_per_degree if active is not None and active.axis == axis else angle_deg
-

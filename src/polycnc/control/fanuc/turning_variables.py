@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from polycnc.control.fanuc.system_variables import COMMON_VARIABLES
 from polycnc.control.fanuc.turning_tools import offset_changed, refresh
@@ -24,7 +24,7 @@ def _shown(m: MacroMemory, axis: int, value: float) -> float:
     channel = m.channel
     if channel.axis_data[axis].rotary:
         return value
-    factor = 2.0 if channel.control.is_diameter(channel, axis) else 1.0  # type: ignore[attr-defined]
+    factor = 2.0 if channel.control.is_diameter(channel, axis) else 1.0
     return m.to_program_unit(value * factor)
 
 
@@ -138,9 +138,11 @@ def _rows_work_offsets() -> list[SystemRange]:
     rows = [SystemRange(2501, 2501, *_work_shift("X")), SystemRange(2601, 2601, *_work_shift("Z"))]
     for i, name in enumerate([EXTERNAL, "G54", "G55", "G56", "G57", "G58", "G59"]):
         rows.append(SystemRange(5201 + 20 * i, 5220 + 20 * i, *_work_offset(name)))
-    for p in range(1, 49):
-        rows.append(SystemRange(7001 + 20 * (p - 1), 7020 + 20 * (p - 1), *_work_offset(f"G54.1 P{p}")))
-    return rows
+    extended = (
+        SystemRange(7001 + 20 * (p - 1), 7020 + 20 * (p - 1), *_work_offset(f"G54.1 P{p}"))
+        for p in range(1, 49)
+    )
+    return [*rows, *extended]
 
 
 def _end_point(m: MacroMemory, i: int) -> float:
@@ -189,8 +191,8 @@ def _rows_positions() -> list[SystemRange]:
 
 def _modal(group: str) -> Read:
     def read(m: MacroMemory, _i: int) -> float:
-        code: str = m.channel.control.written_code(m.channel, group)  # type: ignore[attr-defined]
-        return float(code[1:].split()[0])
+        code: str = m.channel.control.written_code(m.channel, group)
+        return float(code[1:].split(maxsplit=1)[0])
 
     return read
 
@@ -202,12 +204,17 @@ def _feed(m: MacroMemory, _i: int) -> float:
     return round(m.to_program_unit(feed * (60.0 if m.channel.mode["feed"] == "G98" else 1.0)), 6)
 
 
+def _sequence(m: MacroMemory, _i: int) -> float:
+    level: Any = m.channel.level
+    return float(level.code.sequence(level.current))
+
+
 def _rows_modal(first: int) -> list[SystemRange]:
     rows = [SystemRange(first + n, first + n, _modal(group)) for n, group in GROUPS.items()]
     words: dict[int, Read] = {
         109: _feed,
         113: lambda m, _i: float(m.last_m),
-        114: lambda m, _i: float(m.channel.level.code.sequence(m.channel.level.current)),  # type: ignore[attr-defined]
+        114: _sequence,
         115: lambda m, _i: float(m.channel.level.code.program.number or 0),
         119: lambda m, _i: float(m.spindle_speed),
         120: lambda m, _i: float(m.next_tool),
