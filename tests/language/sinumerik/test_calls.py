@@ -160,6 +160,11 @@ def test_return_over_several_levels() -> None:
     assert alarm("SUBA", files={**files, "SUBB.SPF": "RET(,,3)"})[0] == "14091"
 
 
+def test_a_return_with_levels_counts_repeated_sections() -> None:
+    files = {"SUBB.SPF": "AA: R1=R1+1\nIF R1>=2 GOTOF OUT\nREPEAT AA OUT P=5\nR2=1\nOUT: RET(,,$P_STACK)"}
+    assert values("SUBB\nR3=1", "R1", "R2", "R3", files=files) == [2, 0, 1]
+
+
 def test_save_brings_back_modal_functions() -> None:
     files = {"SUBB.SPF": "PROC SUBB SAVE\nG91\nM17"}
     assert targets("G0 G90 X10\nSUBB\nX5", files=files)[-1]["X"] == 5

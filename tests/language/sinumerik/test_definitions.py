@@ -30,6 +30,8 @@ def test_limits_hold_for_assignments() -> None:
         ("DEF INT AA BB", "12080"),
         ("DEF INT A", "12080"),
         ("DEF INT IF", "12170"),
+        ("DEF INT TRANS", "12170"),
+        ("DEF REAL AX1", "12170"),
         ("DEF INT AA, AA", "12170"),
         ("DEF INT " + "A" * 32, "12420"),
         ("DEF INT AA[0]", "12370"),

@@ -45,6 +45,7 @@ def test_five_m_functions_are_allowed_and_no_sixth() -> None:
         ("X=GP(5,99)", "12560", 0),
         ("G[8]=999", "12470", 0),
         ("G[2]=1", "12470", 0),
+        ("G[8]=R1+1", "12080", 8),
         ("WHEN TRUE DO R1=1", "PC0001", 1),
     ],
 )

@@ -370,12 +370,13 @@ def return_(compiler: BlockCompiler) -> None:
 
 
 def return_to(channel: Channel, target: str, after: int, levels: int, to_start: bool) -> None:
-    """Return over several levels, and go on at a place of the program there; alarm 14080 if it has none."""
-    if not 1 <= levels <= sum(level.kind != "repeat" for level in channel.stack[1:]):
+    """Return over several levels, and go on at a place of the program there; alarm 14080 if it has none.
+
+    A repeated section is a level of its own (1.11).
+    """
+    if not 1 <= levels < len(channel.stack):
         raise AlarmError("14091", text="RET")
     for _ in range(levels):
-        while channel.level.kind == "repeat":
-            leave(channel)
         leave(channel)
     if to_start and len(channel.stack) == 1 and not target:
         return

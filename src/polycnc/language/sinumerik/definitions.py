@@ -178,7 +178,8 @@ def _check_name(token: Token, compiler: BlockCompiler) -> None:
         raise compiler.error(token)
     if len(token.text) > MAX_NAME:
         raise NcSyntaxError("12420", token.column, token.text)
-    if token.text in _RESERVED:
+    scope = compiler.scope
+    if token.text in _RESERVED or token.text in scope.memory.axes or token.text in scope.control.g_groups:
         raise NcSyntaxError("12170", token.column, token.text)
 
 

@@ -119,6 +119,10 @@ class ExpressionReader(TokenReader):
         self.depth -= 1
         return left
 
+    def operand(self) -> Expr:
+        """Read one operand; an operator behind it is left."""
+        return self._unary()
+
     def value(self, type_: Type) -> str:
         """Code of an expression converted to a type."""
         token = self.token

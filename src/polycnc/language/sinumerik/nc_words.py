@@ -87,7 +87,8 @@ class WordReader:
         group = compiler.value(Type.INT)
         compiler.expect("]")
         compiler.expect("=")
-        number = compiler.value(Type.INT)
+        token = compiler.token
+        number = compiler.converted(compiler.operand(), Type.INT, token)
         self.codes.append(f"channel.control.g_function({group}, {number})")
         self.dynamic = True
 
