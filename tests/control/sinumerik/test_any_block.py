@@ -6,7 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polycnc.control.sinumerik.control import Sinumerik
+from polycnc.control.sinumerik.functions import FUNCTIONS
 from polycnc.control.sinumerik.gcodes import GROUP_OF, NOT_EXECUTED
+from polycnc.control.sinumerik.procedures import PROCEDURES
+from polycnc.control.sinumerik.system_variables import VARIABLES
 from polycnc.control.sinumerik.words import COMPANIONS, WORDS
 from tests.control.sinumerik.support import run
 
@@ -30,7 +33,7 @@ def block(draw: st.DrawFn) -> str:
     return " ".join([*codes, *draw(st.lists(word(), max_size=3))])
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(st.lists(block(), min_size=1, max_size=4))
 def test_every_block_runs_or_alarms(lines: list[str]) -> None:
     result = run(
@@ -42,3 +45,34 @@ def test_every_block_runs_or_alarms(lines: list[str]) -> None:
     )
     assert all(alarm.code in CATALOGUE for alarm in result.alarms), [alarm.code for alarm in result.alarms]
     assert all(value == value for row in result.rows if "to" in row for value in row["to"].values())
+
+
+ARGUMENTS = st.sampled_from(["X", "A", "S1", "1", "2", "-3", "0.5", '"X"', '"TEXT"', "TRUE", "", "R5"])
+PROCEDURE_NAMES = st.sampled_from(sorted(set(PROCEDURES) - {"SETAL"}))
+FUNCTION_NAMES = st.sampled_from(sorted(set(FUNCTIONS)))
+VARIABLE_NAMES = st.sampled_from(sorted(VARIABLES))
+
+
+@settings(max_examples=100, deadline=None)
+@given(PROCEDURE_NAMES, st.lists(ARGUMENTS, max_size=3))
+def test_every_procedure_runs_or_alarms(name: str, arguments: list[str]) -> None:
+    result = run(f"{name}({','.join(arguments)})", machine="mill4")
+    assert all(alarm.code in CATALOGUE for alarm in result.alarms), [alarm.code for alarm in result.alarms]
+
+
+@settings(max_examples=100, deadline=None)
+@given(FUNCTION_NAMES, st.lists(ARGUMENTS, max_size=4))
+def test_every_function_gives_a_value_or_alarms(name: str, arguments: list[str]) -> None:
+    result = run(f"R1={name}({','.join(arguments)})", machine="mill4")
+    assert all(alarm.code in CATALOGUE for alarm in result.alarms), [alarm.code for alarm in result.alarms]
+
+
+@settings(max_examples=150, deadline=None)
+@given(VARIABLE_NAMES, st.lists(ARGUMENTS.filter(bool), max_size=3), st.booleans(), ARGUMENTS.filter(bool))
+def test_every_variable_is_read_and_written_or_alarms(
+    name: str, indices: list[str], writes: bool, value: str
+) -> None:
+    place = f"{name}[{','.join(indices)}]" if indices else name
+    line = f"{place}={value}" if writes else f"R1={place}"
+    result = run(line, "G0 X1", machine="mill4")
+    assert all(alarm.code in CATALOGUE for alarm in result.alarms), [alarm.code for alarm in result.alarms]

@@ -22,6 +22,7 @@ from polycnc.language.sinumerik.nc_frame import (
     cscale,
     ctrans,
 )
+from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -89,12 +90,21 @@ def mirror(draft: Draft) -> Step:
     return _programmable(lambda _values: cmirror(names), additive=_is_additive(draft))
 
 
+def _angles(draft: Draft) -> list[tuple[str, int, float]]:
+    """The axis words of a rotation, degrees; alarm 16440 for an axis outside the geometry."""
+    words = [(name, position, 1.0) for name, position, _ in named(draft)]
+    for name, position, _ in words:
+        if name not in GEOMETRY_AXES:
+            raise WordAlarm("16440", position, axis=name)
+    return words
+
+
 def rotate(draft: Draft) -> Step:
     """ROT, AROT: about axes in RPY order (MD10600 = 1), or by RPL in the plane."""
     in_plane = draft.take("RPL")
-    words = [(name, position, 1.0) for name, position, _ in named(draft)]
-    if any(name not in GEOMETRY_AXES for name, _, _ in words):
-        raise AlarmError("16440", axis=next(name for name, _, _ in words if name not in GEOMETRY_AXES))
+    words = _angles(draft)
+    if in_plane is not None and words:
+        raise WordAlarm("12080", in_plane, text="RPL")
     index = PLANES[draft.mode["plane"]][2]
 
     def elementary(values: Values) -> NcFrame:
@@ -107,7 +117,7 @@ def rotate(draft: Draft) -> Step:
 
 def rotate_solid(draft: Draft) -> Step:
     """ROTS, AROTS: the plane by the angles of its traces in two coordinate planes, or by one."""
-    words = [(name, position, 1.0) for name, position, _ in named(draft)]
+    words = _angles(draft)
     return _programmable(lambda values: crots(_values(words, values)), additive=_is_additive(draft))
 
 
@@ -118,7 +128,7 @@ def crots(angles: dict[str, float]) -> NcFrame:
     in the Y/Z plane is turned about X; Y and Z, Z and X follow by exchanging the axes in a circle.
 
     Raises:
-        AlarmError: 12080 for three angles.
+        AlarmError: 12080 for three angles, 12160 for two traces along one line.
     """
     if len(angles) < 2:
         return crot(angles)
@@ -262,4 +272,6 @@ def _cross(a: list[float], b: list[float]) -> list[float]:
 
 def _unit(a: list[float]) -> list[float]:
     length = sum(value * value for value in a) ** 0.5
+    if length < 1e-12:
+        raise AlarmError("12160", text="ROTS")
     return [value / length for value in a]

@@ -11,6 +11,7 @@ from polycnc.control.sinumerik import d_numbers, frame_codes
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frame_variables import frame_axis
 from polycnc.geometry import fit
+from polycnc.language.sinumerik.keywords import CONTROL_FUNCTIONS
 from polycnc.language.sinumerik.nc_frame import GEOMETRY_AXES, NEUTRAL, NcFrame, crpl
 from polycnc.language.sinumerik.values import Axis
 from polycnc.messages import AlarmError
@@ -30,7 +31,11 @@ def value(channel: Channel, name: str, args: Arguments, column: int) -> Any:
     function = FUNCTIONS.get(name)
     if function is None:
         raise not_supported(name)
+    letters = CONTROL_FUNCTIONS[name].arguments
+    needed = sum(1 for letter in letters if letter.isupper() or letter == "[")
     try:
+        if len(args) < needed or None in args[:needed] or (len(args) > len(letters) and letters != "*"):
+            raise AlarmError("14020", text=name)
         return function(channel, args)
     except AlarmError as alarm:
         alarm.column = alarm.column or column

@@ -7,10 +7,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik import d_numbers, limits, sections
+from polycnc.control.sinumerik import arguments, d_numbers, limits, sections
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.language.sinumerik.nc_frame import NEUTRAL
-from polycnc.language.sinumerik.values import Axis
 from polycnc.messages import Alarm, AlarmError
 
 if TYPE_CHECKING:
@@ -52,7 +51,7 @@ def set_alarm(channel: Channel, args: Arguments) -> None:
     number = args[0] if args else None
     if not isinstance(number, int) or not 60000 <= number <= 69999:
         raise AlarmError("14020", text="SETAL")
-    text = str(args[1]) if len(args) > 1 and args[1] is not None else ""
+    text = str(args[1]) if len(args) > 1 and args[1] is not None else f"SETAL({number})"
     if number // 1000 not in SHOWN_ONLY:
         raise AlarmError(str(number), detail=text)
     program = channel.level.code.program
@@ -72,7 +71,8 @@ def set_alarm(channel: Channel, args: Arguments) -> None:
 def set_master_spindle(channel: Channel, args: Arguments) -> None:
     """SETMS(n): the master spindle; SETMS alone returns to that of the machine data."""
     spindles = channel.memory.spindles
-    number = args[0] if args and args[0] is not None else spindles.default_master
+    number = arguments.spindle(args[0]) if args else None
+    number = spindles.default_master if number is None else number
     spindles.get(number)
     spindles.master = number
     channel.context_changed()
@@ -83,7 +83,7 @@ def position_control(on: bool) -> Callable[[Channel, Arguments], None]:
 
     def switch(channel: Channel, args: Arguments) -> None:
         for number in args or (None,):
-            channel.memory.spindles.get(number).controlled = on
+            channel.memory.spindles.get(arguments.spindle(number)).controlled = on
 
     return switch
 
@@ -91,15 +91,13 @@ def position_control(on: bool) -> Callable[[Channel, Arguments], None]:
 def wait_for_axes(channel: Channel, args: Arguments) -> None:
     """WAITP(axis, …): positioning axes stand at their targets when their block is written."""
     for axis in args:
-        if not isinstance(axis, Axis):
-            raise AlarmError("12040", text=str(axis))
-        channel.memory.column(axis.name)
+        arguments.column(channel, axis)
 
 
 def wait_for_spindles(channel: Channel, args: Arguments) -> None:
     """WAITS(n, …): spindles stand at their positions."""
     for number in args:
-        channel.memory.spindles.get(number)
+        channel.memory.spindles.get(arguments.spindle(number))
 
 
 def preset(channel: Channel, args: Arguments) -> None:
@@ -109,7 +107,7 @@ def preset(channel: Channel, args: Arguments) -> None:
     coordinates = channel.coordinates
     machine = coordinates.machine
     for axis, value in zip(args[::2], args[1::2], strict=True):
-        machine[channel.memory.column(axis.name)] = float(value)
+        machine[arguments.column(channel, axis)] = arguments.real(value)
     coordinates.arrive_machine(machine)
 
 
@@ -119,7 +117,7 @@ def dynamics(name: str) -> Callable[[Channel, Arguments], None]:
     def keep(channel: Channel, args: Arguments) -> None:
         memory: Memory = channel.memory
         for axis in args:
-            column = memory.column(axis.name)
+            column = arguments.column(channel, axis)
             memory.values["acceleration", (channel.axes[column],)] = name
 
     return keep
@@ -128,11 +126,13 @@ def dynamics(name: str) -> Callable[[Channel, Arguments], None]:
 def path_group(channel: Channel, args: Arguments) -> None:
     """FGROUP(axis, …): the axes whose way the path feed is for; none for those of the machine data."""
     memory: Memory = channel.memory
-    memory.values["FGROUP", ()] = tuple(memory.column(axis.name) for axis in args)
+    memory.values["FGROUP", ()] = tuple(arguments.column(channel, axis) for axis in args)
 
 
 def renumber(channel: Channel, args: Arguments) -> None:
     """SETDNO(t, ce, d) without use of its status."""
+    if len(args) != 3 or None in args:
+        raise AlarmError("14020", text="SETDNO")
     d_numbers.set_number(channel, args)
 
 

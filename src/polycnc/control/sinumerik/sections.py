@@ -10,6 +10,7 @@ from collections.abc import Callable
 from math import hypot
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.sinumerik import arguments
 from polycnc.control.sinumerik.positions import number
 from polycnc.language.sinumerik.values import Axis, Type
 from polycnc.language.sinumerik.words import WordAlarm
@@ -68,11 +69,12 @@ def motion_end(name: str) -> Procedure:
     """FINEA, COARSEA, IPOENDA, IPOBRKA: when a positioning axis counts as arrived."""
 
     def run(channel: Channel, args: Arguments) -> None:
-        axes = [arg for arg in args if isinstance(arg, Axis)]
+        # IPOBRKA takes an axis and a percentage, the others take axes.
+        axes = args[:1] if name == "IPOBRKA" else args
         if not axes:
             raise AlarmError("12040", text=name)
         for axis in axes:
-            channel.memory.values["MOTEND", (channel.memory.column(axis.name),)] = MOTION_ENDS[name]
+            channel.memory.values["MOTEND", (arguments.column(channel, axis),)] = MOTION_ENDS[name]
 
     return run
 

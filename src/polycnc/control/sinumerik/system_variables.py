@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from math import isnan
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik import gcodes, limits, link_memory
+from polycnc.control.sinumerik import arguments, gcodes, limits, link_memory
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frame_variables import FRAME_VARIABLES
 from polycnc.control.sinumerik.known_variables import is_known
@@ -213,9 +213,7 @@ def _programmed_feed(channel: Channel, _indices: Indices) -> float:
 
 def _spindle_value(attribute: str) -> Reader:
     def read(channel: Channel, indices: Indices) -> Any:
-        number = indices[0] if indices else None
-        if isinstance(number, Axis):
-            number = int(number.name[1:]) if number.name[1:].isdigit() else None
+        number = arguments.spindle(indices[0]) if indices else None
         return getattr(channel.memory.spindles.get(number), attribute)
 
     return read
