@@ -257,6 +257,8 @@ class WordAddressProgram:
     def _word(self, reader: BlockReader, words: _BlockWords) -> None:
         """Read one word."""
         start = reader.pos
+        if KEYWORD.match(reader.text, start):
+            raise reader.fail("nc_and_macro")
         name = _NAME.match(reader.text, reader.pos)
         if name:
             words.keys.append(name[1])

@@ -114,7 +114,7 @@ def fup_(_m: Any, x: float) -> float:
 
 def bin_(m: Any, x: float) -> float:
     """Binary-coded decimal digits to a number: BIN[37] = 25."""
-    digits = f"{_whole(m, x):x}"
+    digits = f"{_whole(m, x, MOST_BCD):x}"
     if not digits.isdigit():
         raise m.fail("argument_range")
     return float(int(digits))
@@ -125,8 +125,12 @@ def bcd_(m: Any, x: float) -> float:
     return float(int(str(_whole(m, x)), 16))
 
 
-def _whole(m: Any, x: float) -> int:
-    if x < 0.0 or x > 99_999_999:
+#: Eight decimal digits as binary-coded decimals.
+MOST_BCD = 0x9999_9999
+
+
+def _whole(m: Any, x: float, most: int = 99_999_999) -> int:
+    if x < 0.0 or x > most:
         raise m.fail("argument_range")
     return int(round_half_away(x))
 
