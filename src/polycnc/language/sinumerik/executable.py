@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from polycnc.program import Program
 
 _DEFINITION = re.compile(r"[ \t]*(?:DEF|REDEF|DEFINE|PROC|EXTERN)\b", re.IGNORECASE)
+#: A line that begins with none of these is a block.
+_BLANK = " \t;%\r\x00"
 _EMPTY = re.compile(r"[ \t\r\x00]*(?:;|%|$)")
 
 
@@ -49,7 +51,10 @@ class SinumerikProgram:
         self.control = control
         self.is_definition_file = definitions
         self.declared: dict[str, int] = {}
-        self._lines = array("I", (i for i, line in enumerate(program.lines) if not _EMPTY.match(line)))
+        blocks = [
+            i for i, line in enumerate(program.lines) if line[:1] not in _BLANK or not _EMPTY.match(line)
+        ]
+        self._lines = array("I", blocks)
         numbers = array("I", (program.first_line + i for i in self._lines))
         numbers.append(numbers[-1] if numbers else program.first_line)
         #: The line in the file of a step. Asked for every row, so it is the array's own method.
