@@ -7,4 +7,4 @@ from polycnc.messages import AlarmError
 
 def not_supported(what: str) -> AlarmError:
     """PC0001: a function of the control that polycnc knows and does not execute yet."""
-    return AlarmError("PC0001", hint="hint.not-supported", code=what)
+    return AlarmError("PC0001", address=what, hint="hint.not-supported", code=what)
