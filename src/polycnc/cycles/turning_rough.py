@@ -7,7 +7,7 @@ way from the start point to the shape's first point; the shape follows.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import copysign
+from math import copysign, hypot
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.contour import climb, gaps, points, shifted
@@ -38,6 +38,8 @@ class Roughing:
         infeed_rapid: Infeed as the first block of the shape has it.
         escape_rapid: The way off at 45 degrees is a rapid.
         clearance: Distance from a pocket's next stroke at which rapid becomes feed.
+        returns_straight: From the way off straight to the start of the stroke before (RPA); with infeed at feed the
+            last `feeds_last` mm of it.
         returns_rapid: The way back to the level before is rapid (ASU); `returns_merged`: it is left out (ASC).
     """
 
@@ -52,6 +54,8 @@ class Roughing:
     clearance: float = 0.0
     returns_rapid: bool = False
     returns_merged: bool = False
+    returns_straight: bool = False
+    feeds_last: float = 0.0
 
 
 def rough(contour: Contour, cuts: Roughing) -> Iterator[PlaneStroke]:
@@ -67,12 +71,27 @@ def rough(contour: Contour, cuts: Roughing) -> Iterator[PlaneStroke]:
     else:
         yield from _strokes(stock, cuts, towards, to_bottom=has_extra or not cuts.finishes)
     if cuts.finishes or has_extra:
+        raised = _raised(contour, cuts, towards)
         if cuts.pockets or has_extra:
+            yield from raised
             yield PlaneStroke(Kind.RAPID, start)
         kind = Kind.RAPID if cuts.infeed_rapid else Kind.FEED
         yield PlaneStroke(kind, finish[0].edge.end)
         yield from (piece.stroke() for piece in finish[1:])
+        if cuts.pockets:
+            yield from raised
     yield PlaneStroke(Kind.RAPID, start)
+
+
+def _raised(contour: Contour, cuts: Roughing, towards: float) -> list[PlaneStroke]:
+    """Type II: a shape as high as the start is passed one depth above it on the way back (II.4.2.1)."""
+    start, last = contour[0].edge.start, contour[-1].edge.end
+    highest = (
+        min(towards * piece.edge.end[1] for piece in contour[1:]) if len(contour) > 1 else towards * last[1]
+    )
+    if not cuts.pockets or highest > towards * start[1] + _SAME:
+        return []
+    return [PlaneStroke(Kind.RAPID, (last[0], start[1] - towards * cuts.depth))]
 
 
 def _levels(contour: Contour, depth: float, towards: float, *, to_bottom: bool) -> Iterator[float]:
@@ -103,10 +122,26 @@ def _strokes(contour: Contour, cuts: Roughing, towards: float, *, to_bottom: boo
         yield feed(end, level)
         away = (end - onwards * cuts.escape, level - towards * cuts.escape)
         yield PlaneStroke(Kind.RAPID if cuts.escape_rapid else Kind.FEED, away)
-        yield PlaneStroke(Kind.RAPID, (begin[0], away[1]))
+        if cuts.returns_straight:
+            yield from _straight_back(away, (begin[0], level), cuts)
+        else:
+            yield PlaneStroke(Kind.RAPID, (begin[0], away[1]))
         before = level
     if before is not None and not to_bottom and not cuts.returns_merged:
         yield PlaneStroke(back, (begin[0], before))
+
+
+def _straight_back(away: Point, start: Point, cuts: Roughing) -> Iterator[PlaneStroke]:
+    """RPA: straight back to where the stroke began (II.4.2.9)."""
+    way = hypot(start[0] - away[0], start[1] - away[1])
+    if not cuts.infeed_rapid and way > cuts.feeds_last:
+        part = 1.0 - cuts.feeds_last / way
+        yield PlaneStroke(
+            Kind.RAPID, (away[0] + part * (start[0] - away[0]), away[1] + part * (start[1] - away[1]))
+        )
+        yield feed(*start)
+    else:
+        yield PlaneStroke(Kind.RAPID, start)
 
 
 def _end_on(contour: Contour, level: float) -> float:

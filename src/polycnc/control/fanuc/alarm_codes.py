@@ -59,6 +59,7 @@ ALARMS: dict[str, str] = {
     "parameter_words": "PS0231",
     "zone_plus": "OT0502",
     "zone_minus": "OT0503",
+    "spindle_choice": "PS5305",
     # turning
     "shape_ends_in_corner": "PS0069",
     "tool_with_one_shot": "PS0245",

@@ -53,8 +53,9 @@ class FanucTurning(CustomMacroControl):
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
-    alarms: ClassVar[Mapping[str, str]] = ALARMS
+    alarms: ClassVar[Mapping[str, str]] = {**ALARMS, "comp_skip": "PS0035"}
     foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
+    EXTENDED_WORK_SYSTEMS: ClassVar[int] = 48
     DIAMETER_PROGRAMMING: ClassVar[bool] = True
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z", "H": "C"}
 
@@ -91,7 +92,7 @@ class FanucTurning(CustomMacroControl):
         shown = [channel.memory.radius_of(i, value) for i, value in enumerate(machine)]
         channel.coordinates.arrive_machine(shown)
         if channel.mode["stroke"] == "G22":
-            channel.stroke_zone = barrier(channel)
+            channel.memory.zone = channel.stroke_zone = barrier(channel)
         channel.memory.feed_code, channel.memory.plane = channel.mode["feed"], channel.mode["plane"]
 
     def start_codes(self, channel: Channel) -> dict[str, str]:
@@ -222,6 +223,10 @@ class FanucTurning(CustomMacroControl):
     def drilling_rules(self, channel: Channel) -> Drilling:
         """The drilling cycles of the chosen format."""
         return turning_drilling.rules(channel)
+
+    def packs_repeats(self, channel: Channel) -> bool:
+        """In the Series 15 format the last four digits of P count, and L has the repeats (II.6.2)."""
+        return not turning_drilling.is_series_15(channel)
 
     def spindle_slot(self, builder: Builder) -> int | None:
         """P beside S or M names the spindle (3703#3 MPP, or the builder's), where no code takes it."""

@@ -58,12 +58,3 @@ def switch_by_q(_channel: Channel, words: Words) -> None:
 
 def note_fluctuation(_channel: Channel, _words: Words) -> None:
     """G26 P Q R I: the spindle's speed is watched; an ideal spindle never leaves the window."""
-
-
-def limit_increment(channel: Channel, words: Words) -> None:
-    """G91.1: largest increment of each named axis in one block; 0 ends the check."""
-    limits = channel.memory.increment_limits
-    for axis, value, _ in words.axes():
-        limits[axis] = abs(value)
-    for axis in [axis for axis, value in limits.items() if not value]:
-        del limits[axis]

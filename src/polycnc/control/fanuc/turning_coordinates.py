@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.fanuc.turning_tools import refresh
 from polycnc.control.word_address import coordinates, extended
 from polycnc.control.word_address.path import PLANES
+from polycnc.control.word_address.radius import suspended
 from polycnc.geometry.frames import about, rotation
 from polycnc.toolpath import Kind
 
@@ -76,28 +77,26 @@ def feed_in_machine_system(channel: Channel, words: Words) -> None:
 def _move_in_machine_system(channel: Channel, words: Words, *, rapid: bool) -> None:
     if not rapid and not channel.feed > 0.0:
         raise words.fail("no_feed", "G53.2")
-    drop_vector(channel)
     c = channel.coordinates
     machine = c.machine
     for axis, value, incremental in words.axes():
         if not incremental:
             machine[axis] = value
-    channel.straight(
-        Kind.RAPID if rapid else Kind.FEED, c.from_machine(machine), nan if rapid else channel.feed
-    )
+    with suspended(channel):
+        channel.straight(
+            Kind.RAPID if rapid else Kind.FEED, c.from_machine(machine), nan if rapid else channel.feed
+        )
 
 
 def return_to_reference(channel: Channel, words: Words) -> None:
     """G28: over the intermediate point to the first reference point."""
     _refuse_rotation(channel, words, "G28")
-    drop_vector(channel)
     coordinates.return_to_reference(channel, words)
 
 
 def return_to_further_reference(channel: Channel, words: Words) -> None:
     """G30 [P2 … P4]: over the intermediate point to another reference point."""
     _refuse_rotation(channel, words, "G30")
-    drop_vector(channel)
     coordinates.return_to_further_reference(channel, words)
 
 

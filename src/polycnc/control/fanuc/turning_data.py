@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.turning_barrier import barrier
@@ -12,11 +13,15 @@ from polycnc.control.word_address.plan import NOT_YET
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from collections.abc import Mapping
+
+    from polycnc.channel.channel import Channel, Zone
     from polycnc.control.word_address.words import Words
 
 #: Geometry offsets are numbered from here in G10 and in offset files.
 GEOMETRY = 10_000
+#: Largest offset of the delivered offset range (5042).
+MAX_OFFSET_MM = 9999.999
 PARAMETER_INPUT = (50, 52)
 #: 4th and 5th axis offsets: word and the parameter with the axis' number (II.5.1.5).
 FURTHER_AXES = {"E": 5044, "F": 5045}
@@ -63,6 +68,8 @@ def _set_tool_offset(channel: Channel, words: Words, number: int) -> None:
     radius_word = words.length("R")
     by_increment = words.length("C") if "C" not in channel.axes else None
     for axis, value, incremental in words.axes():
+        if abs(value) > MAX_OFFSET_MM:
+            raise words.fail("g10_value", words.plan.axis_words[0].address)
         name = channel.axes[axis]
         values[name] = values.get(name, 0.0) + value if incremental else value
     for address, parameter in FURTHER_AXES.items():
@@ -91,10 +98,11 @@ def _further_axis(channel: Channel, words: Words, address: str, parameter: int) 
 
 def stroke_check_on(channel: Channel, words: Words) -> None:
     """G22 X Z I K: stored stroke check 2 in machine coordinates; values of a diameter axis are diameters."""
-    zone = barrier(channel)
-    if zone is not None:
+    memory = channel.memory
+    memory.zone = barrier(channel)
+    if memory.zone is not None:
         # The barrier takes the place of stored stroke checks 2 and 3 (III.2.2).
-        channel.stroke_zone = zone
+        renew_zones(channel)
         return
     upper = {axis: value for axis, value, _ in words.axes()}
     named: list[tuple[int, float, float]] = []
@@ -106,5 +114,46 @@ def stroke_check_on(channel: Channel, words: Words) -> None:
             named.append((axis, min(low, upper[axis]), max(low, upper[axis])))
     if named:
         axes, lows, highs = zip(*named, strict=True)
-        inside = not channel.memory.parameters.bit(1300, 0)
-        channel.stroke_zone = extended.StrokeZone(tuple(lows), tuple(highs), tuple(axes), inside)
+        inside = not memory.parameters.bit(1300, 0)
+        memory.zone = extended.StrokeZone(tuple(lows), tuple(highs), tuple(axes), inside)
+    renew_zones(channel)
+
+
+def stroke_check_off(channel: Channel, _words: Words) -> None:
+    """G23: no forbidden zone."""
+    channel.memory.zone = None
+    renew_zones(channel)
+
+
+def limit_increment(channel: Channel, words: Words) -> None:
+    """G91.1: largest increment of each named axis in one block; 0 ends the check."""
+    limits = channel.memory.increment_limits
+    for axis, value, _ in words.axes():
+        limits[axis] = abs(value)
+        if not value:
+            del limits[axis]
+    renew_zones(channel)
+
+
+def renew_zones(channel: Channel) -> None:
+    """Let the channel check every move against the forbidden zone and the largest increments."""
+    memory = channel.memory
+    limits = memory.increment_limits
+    channel.stroke_zone = IncrementCheck(dict(limits), memory.zone) if limits else memory.zone
+
+
+@dataclass(frozen=True, slots=True)
+class IncrementCheck:
+    """The largest increment of axes in one block, and the zone that is checked beside it."""
+
+    limits: Mapping[int, float]
+    zone: Zone | None
+
+    def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:
+        """The control's alarm for a longer way of an axis."""
+        here = channel.coordinates.machine
+        for axis, limit in self.limits.items():
+            if abs(machine[axis] - here[axis]) > limit + 1e-9:
+                raise channel.control.fail("increment_limit", address=channel.axes[axis])
+        if self.zone is not None:
+            self.zone.check(channel, machine, straight=straight)

@@ -10,7 +10,7 @@ from polycnc.control.word_address.variables import MacroMemory
 from polycnc.geometry.frames import IDENTITY, Frame, scaling, translation
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.channel.channel import Channel, Zone
     from polycnc.control.fanuc.turning_drawing import OpenLine
     from polycnc.control.fanuc.turning_shape import Shape
     from polycnc.control.fanuc.turning_transform import Cylinder, PolarAxes
@@ -92,6 +92,7 @@ class TurningMemory(MacroMemory):
         open_line: Line of drawing dimensions that waits for the next block.
         rotation_angle: Angle of the last G68.1, degrees.
         increment_limits: Largest increment of axes (G91.1).
+        zone: Forbidden zone of G22, or the barrier.
         basic_geometry: Axes X, Y, Z, whatever parallel ones a plane has chosen.
         reading_shape: Blocks are read for their shape only: T, S, M do nothing.
         shape: What has been read of it.
@@ -124,6 +125,7 @@ class TurningMemory(MacroMemory):
         self.plane_before = ""
         self.table = channel.table
         self.increment_limits: dict[int, float] = {}
+        self.zone: Zone | None = None
         self.basic_geometry = channel.coordinates.geometry
         self.reading_shape = False
         self.shape: Shape | None = None

@@ -93,10 +93,13 @@ def rough_facing(channel: Channel, words: Words) -> None:
 def _rough(channel: Channel, words: Words, *, along: int) -> None:
     memory, plane = channel.memory, channel.mode["plane"]
     depth_word = INCREMENTS[plane][1 - along]
+    series_15 = is_series_15(channel)
+    _check_words(words, ("P", "Q", "R", *INCREMENTS[plane]), ("D", *CENTERS[plane]) if series_15 else ())
     if "P" not in words and "Q" not in words:
         _store(channel, words, {depth_word: DEPTH, "R": ESCAPE})
         return
-    series_15 = is_series_15(channel)
+    if "S" in words and memory.parameters.bit(3703, 3):
+        raise words.fail("spindle_choice", "S")
     depth = _series_15_depth(words) if series_15 and "D" in words else memory.cycle_parameter(DEPTH)
     if not depth > 0.0:
         raise words.fail("cycle_depth", "D" if series_15 else "U")
@@ -119,6 +122,8 @@ def _rough(channel: Channel, words: Words, *, along: int) -> None:
         clearance=memory.cycle_parameter(CLEARANCE),
         returns_rapid=bool(bit(5107, 0)),
         returns_merged=bool(bit(5107, 1)) and not pockets,
+        returns_straight=bool(bit(5125, 6) and bit(1401, 1)) and not pockets,
+        feeds_last=memory.cycle_parameter(5126) or 0.5 * memory.cycle_parameter(ESCAPE),
     )
     if along:
         strokes: Iterable[PlaneStroke] = (swapped_stroke(stroke) for stroke in rough(swapped(contour), cuts))
@@ -136,6 +141,9 @@ def repeat_pattern(channel: Channel, words: Words) -> None:
     """G73: the shape itself, pass by pass nearer to the finished part."""
     memory, plane = channel.memory, channel.mode["plane"]
     first_word, second_word = INCREMENTS[plane]
+    _check_words(
+        words, ("P", "Q", "R", *INCREMENTS[plane]), ("D", *CENTERS[plane]) if is_series_15(channel) else ()
+    )
     if "P" not in words and "Q" not in words:
         _store(channel, words, {first_word: PATTERN_FIRST, second_word: PATTERN_SECOND})
         if "R" in words:
@@ -238,7 +246,9 @@ def groove(channel: Channel, words: Words) -> None:
 
 
 def _peck(channel: Channel, words: Words, *, along: int) -> None:
-    memory = channel.memory
+    memory, plane = channel.memory, channel.mode["plane"]
+    forms = ("D", *CENTERS[plane]) if is_series_15(channel) else ("P", "Q", "R")
+    _check_words(words, ("R", *INCREMENTS[plane]), forms)
     if not words.axes():
         _store(channel, words, {"R": RETURN})
         return
@@ -282,6 +292,8 @@ def thread(channel: Channel, words: Words) -> None:
     axes = plane_axes(channel)
     start, end = _corner(channel, words, axes)
     series_15 = is_series_15(channel)
+    forms = ("A", "D", *CENTERS[channel.mode["plane"]]) if series_15 else ("R",)
+    _check_words(words, ("P", "Q", *INCREMENTS[channel.mode["plane"]]), forms)
     if series_15:
         taper = words.length(CENTERS[channel.mode["plane"]][1]) or 0.0
         height = abs(words.length(CENTERS[channel.mode["plane"]][0]) or 0.0)
@@ -332,6 +344,19 @@ def _store_thread(channel: Channel, words: Words) -> None:
         values[THREAD_LEAST] = _increments(words, "Q")
     if "R" in words:
         values[THREAD_ALLOWANCE] = abs(words.length("R") or 0.0)
+
+
+def _check_words(words: Words, common: tuple[str, ...], of_format: tuple[str, ...]) -> None:
+    """Refuse words that the cycle does not have in the chosen format; D, I and K belong to the Series 15 format."""
+    for address in WORDS.split():
+        if (
+            address in words
+            and address not in common
+            and address not in of_format
+            and not words.names_axis(address)
+        ):
+            hint = "hint.series-15" if address in "DIK" else ""
+            raise words.plan.control.fail("address", address=address, word=address, hint=hint)
 
 
 # ---- words -------------------------------------------------------------------------------------------------------

@@ -82,7 +82,7 @@ def is_compensated(channel: Channel) -> bool:
 def leave_compensation(channel: Channel) -> None:
     """The tool stands on the programmed point and compensation is off, until `enter_compensation`."""
     drop_vector(channel)
-    channel.memory.compensation.cancel()
+    channel.memory.compensation.discard()
 
 
 def enter_compensation(channel: Channel) -> None:

@@ -31,6 +31,8 @@ def plan_tool(builder: Builder) -> Step:
     """T: turret position and offset number in one word; the offset acts with the block's motion."""
     control, mode = builder.control, builder.mode
     slot = builder.slots["T"][0]
+    if any(row.code == "G10" for row in builder.codes):
+        raise control.fail("g10_format", address="T")
     if any(row.code in _MEASURING for row in builder.codes):
         raise control.fail("measure_h", address="T")
     if any(row.group == "" and row.code not in _BESIDE_T for row in builder.codes):
@@ -200,8 +202,11 @@ def nose_tip(channel: Channel) -> tuple[float, float]:
 
 
 def offset_changed(channel: Channel) -> None:
-    """The offset memory was written: the active offset keeps its values until the next T, unless 5001#6 EVO."""
-    if channel.memory.parameters.bit(5001, 6):
+    """A written offset acts from the next T, or from the next move (5002#4, #6; III.2.1.1), or now (5001#6)."""
+    memory = channel.memory
+    bit = memory.parameters.bit
+    at_next_move = bit(5002, 6) and (memory.common_offsets or bit(5002, 4))
+    if bit(5001, 6) or at_next_move:
         apply_offset(channel)
 
 

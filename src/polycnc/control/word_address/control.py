@@ -201,6 +201,10 @@ class WordAddressControl:
         """The row of an M code in a block; where the block gives it another meaning, that."""
         return self.m_code(number)
 
+    def packs_repeats(self, _channel: Channel) -> bool:
+        """Whether the digits of P in front of a four-digit program number are the repeats of a call."""
+        return True
+
     def drilling_rules(self, _channel: Channel) -> Drilling:
         """How the control drills."""
         return self.drilling

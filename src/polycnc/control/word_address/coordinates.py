@@ -75,12 +75,17 @@ def move_in_machine_system_absolute(channel: Channel, words: Words) -> None:
 
 
 def intermediate_point(channel: Channel, words: Words) -> list[float]:
-    """The intermediate point that a reference return names, programmed coordinates; it is kept for G29."""
+    """The intermediate point that a reference return names, programmed coordinates; kept by axis for G29."""
     c = channel.coordinates
     point = c.programmed[:]
+    named = set()
     for axis, value, incremental in words.axes():
         point[axis] = point[axis] + value if incremental else value
-    channel.memory.intermediate = point
+        named.add(axis)
+    kept = channel.memory.intermediate or point
+    channel.memory.intermediate = [
+        value if axis in named else old for axis, (value, old) in enumerate(zip(point, kept, strict=True))
+    ]
     return point
 
 

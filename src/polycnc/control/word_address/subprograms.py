@@ -82,7 +82,7 @@ def _program_and_repeats(channel: Channel, words: Words) -> tuple[int | None, in
     repeats = words.integer("L") if "L" in words else None
     if number is not None and number >= PROGRAM_NUMBERS and not channel.control.long_program_numbers(channel):
         packed, number = divmod(number, PROGRAM_NUMBERS)
-        return number, packed
+        return number, packed if channel.control.packs_repeats(channel) else 1 if repeats is None else repeats
     return number, 1 if repeats is None else repeats
 
 

@@ -79,6 +79,10 @@ class Words:
             for word in self.plan.axis_words
         ]
 
+    def names_axis(self, address: str) -> bool:
+        """Whether a word is an axis word."""
+        return any(word.address == address for word in self.plan.axis_words)
+
     def fail(self, mistake: str, address: str = "") -> AlarmError:
         """The control's alarm for a mistake in this block."""
         return self.plan.control.fail(mistake, address=address, word=address)
