@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
 
 def set_position(channel: Channel, words: Words) -> None:
-    """G50 (B, C: G92): the present point reads these coordinates, or changes by U, W; S clamps the speed of G96.
+    """G50 (B, C: G92, absolute even under G91): the present point reads these coordinates; U, W change the reading.
 
-    The point is the one before the tool offset that moves it (II.5.1.2), so a T in the block moves nothing.
+    S clamps the speed of G96. The point is the one before the tool offset that moves it (II.5.1.2), so a T in the block moves nothing.
     """
     limit = words.typed("S")
     if limit is not None:
@@ -32,8 +32,9 @@ def set_position(channel: Channel, words: Words) -> None:
     c, memory = channel.coordinates, channel.memory
     drop_vector(channel)
     point = c.programmed[:]
+    by_address = channel.control.system(channel) == "A"
     for axis, value, incremental in named:
-        point[axis] = point[axis] + value if incremental else value
+        point[axis] = point[axis] + value if incremental and by_address else value
         memory.local_shift[axis] = 0.0
     refresh(channel)
     wanted = c.to_position(point)
