@@ -42,8 +42,10 @@ class CustomMacroControl(WordAddressControl):
     # ---- numbers -------------------------------------------------------------------------------------
 
     def number_rules(self, channel: Channel) -> NumberRules:
-        """IS-B; calculator input by 3401#0."""
-        return NumberRules(calculator=bool(channel.setup.parameters.bit(3401, 0)))
+        """IS-B, or IS-A and IS-C by 1013#0 and #1; calculator input by 3401#0."""
+        bit = channel.setup.parameters.bit
+        decimals = 2 if bit(1013, 0) else 4 if bit(1013, 1) else 3
+        return NumberRules(decimals, decimals + 1, calculator=bool(bit(3401, 0)))
 
     def feed_factor(self, _builder: Builder, form: str, mode: str) -> float:
         """F per minute counts whole units; per revolution, without a point, 0.01 mm or 0.0001 inch."""

@@ -62,7 +62,8 @@ def plan_parameter_block(builder: Builder, plan: Plan) -> Step | None:
 def set_parameter(channel: Channel, key: ParameterKey, value: float) -> None:
     """Give a parameter another value; whatever rests on the old one is worked out anew."""
     setup = channel.setup
-    parameters = Parameters({**dict(setup.parameters.items()), key: value})
+    whole = int(value) if value == int(value) else value
+    parameters = Parameters({**dict(setup.parameters.items()), key: whole})
     channel.setup = replace(setup, parameters=parameters)
     channel.memory.parameters = parameters
     channel.modes.forget_plans()
