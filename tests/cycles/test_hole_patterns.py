@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import hypot
 
 import pytest
@@ -47,5 +48,5 @@ def test_an_arc_goes_on_by_its_pitch() -> None:
 def test_a_grid_visits_every_point_once_by_single_steps(columns: int, rows: int) -> None:
     points = list(hole_patterns.grid((0.0, 0.0), (3.0, 4.0), columns, rows))
     assert sorted(points) == sorted((3.0 * i, 4.0 * j) for i in range(columns) for j in range(rows))
-    steps = [hypot(b[0] - a[0], b[1] - a[1]) for a, b in zip(points, points[1:], strict=False)]
+    steps = [hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(points)]
     assert set(steps) <= {3.0, 4.0}
