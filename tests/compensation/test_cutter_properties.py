@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from itertools import pairwise
 from math import cos, hypot, pi, sin
 
@@ -85,6 +87,8 @@ def flattened(move: Move) -> list[Corner]:
 def test_the_tool_keeps_its_radius_from_the_contour_on_the_right_side(
     contour: list[Corner], policy: Policy, side: int
 ) -> None:
+    # Corner moves up to a limit are left out by the control (FANUC 5010); without the limit the radius is exact.
+    policy = replace(policy, least_move_mm=0.0)
     polygon = Polygon(contour)
     assume(polygon.is_valid and polygon.buffer(-2 * RADIUS).area > 0)
     try:
