@@ -100,6 +100,7 @@ def test_a_picture_without_its_library_says_what_to_install(
     said = console("plot", "good.nc", *FANUC, "-o", "good.png")
     assert said.status == 2
     assert "polycnc[png]" in said.err
+    assert not (console.folder / "good.png").exists()
 
 
 def test_a_picture_is_png(console: Console) -> None:

@@ -76,6 +76,18 @@ def test_the_trace_is_parquet_by_its_suffix(console: Console) -> None:
     assert "cw" in table.column("type").to_pylist()
 
 
+def test_a_trace_without_its_library_says_what_to_install_and_leaves_no_file(
+    console: Console, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("pyarrow", "pyarrow.parquet"):
+        monkeypatch.setitem(sys.modules, name, None)
+    console.file("good.nc", GOOD)
+    said = console("run", "good.nc", "--control", "fanuc-m", "--trace", "out.parquet")
+    assert said.status == 2
+    assert "polycnc[tables]" in said.err
+    assert not (console.folder / "out.parquet").exists()
+
+
 def test_the_trace_of_an_alarm_ends_with_it_in_words(console: Console) -> None:
     console.file("bad.nc", BAD)
     console("run", "bad.nc", "--control", "fanuc-m", "--trace", "out.jsonl")

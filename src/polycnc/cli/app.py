@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 #: Each command is the module of this name in `polycnc.cli`, which has a Typer `app`.
 COMMANDS = ("run", "check", "test", "plot", "features", "machines", "alarms")
 BAD_USE, INTERRUPTED = 2, 130
+#: Libraries that polycnc can do without, and the extra that brings each.
+EXTRAS = {"numpy": "tables", "pyarrow": "tables", "resvg_py": "png"}
 
 
 class _Commands(TyperGroup):
@@ -100,6 +102,8 @@ def _told(error: Exception) -> str:
         return text("cli.usage", message=told, command=context.command_path) if context is not None else told
     if isinstance(error, OSError) and not isinstance(error, BrokenPipeError):
         return f"{error.filename or ''}: {error.strerror or error}".removeprefix(": ")
+    if isinstance(error, ModuleNotFoundError) and error.name in EXTRAS:
+        return text("cli.extra", library=error.name, extra=EXTRAS[error.name])
     if isinstance(error, MemoryError):
         return text("cli.memory")
     raise error

@@ -59,8 +59,8 @@ def plot(
     drawing = _drawing(result, view, file.name)
     if suffix == ".svg":
         write_whole(output, drawing)
-    elif not _write_png(output, drawing):
-        return fail(text("plot.no-png"), 2)
+    else:
+        _write_png(output, drawing)
     for diagnostic in diagnostics_of(result, str(file)):
         note(str(diagnostic))
     return 0 if result.ok else 1
@@ -82,14 +82,10 @@ def _drawing(result: Result, view: ViewName | None, title: str) -> str:
     return svg(list(strokes(result.toolpath, geometry)), views, title, labels)
 
 
-def _write_png(output: Path, drawing: str) -> bool:
-    """Write a picture; false where the library for that is not installed."""
-    try:
-        import resvg_py
-    except ImportError:
-        return False
+def _write_png(output: Path, drawing: str) -> None:
+    import resvg_py
+
     from polycnc.cli.output import whole_file
 
     with whole_file(output, "wb") as stream:
         stream.write(bytes(resvg_py.svg_to_bytes(svg_string=drawing)))
-    return True
