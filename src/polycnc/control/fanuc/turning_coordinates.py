@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 def set_position(channel: Channel, words: Words) -> None:
     """G50 (B, C: G92, absolute even under G91): the present point reads these coordinates; U, W change the reading.
 
-    S clamps the speed of G96. The point is the one before the tool offset that moves it (II.5.1.2), so a T in the block moves nothing.
+    S clamps the speed of G96. The point is the one before the tool offset that moves it (II.5.1.2), so a T in the
+    block moves nothing.
     """
     limit = words.typed("S")
     if limit is not None:
