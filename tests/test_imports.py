@@ -25,6 +25,7 @@ LAYERS = (
     "compensation",
     "control",
     "motion",
+    "mainrun",
     "session",
     "cases",
     "cli",

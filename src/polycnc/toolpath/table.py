@@ -94,7 +94,9 @@ class Chunk:
     def __len__(self) -> int:
         return len(self.kind)
 
-    def extend(self, rows: int, program: int, context: int, curves: int, columns: Sequence[array[Any]]) -> None:
+    def extend(
+        self, rows: int, program: int, context: int, curves: int, columns: Sequence[array[Any]]
+    ) -> None:
         """Add rows of one program under one context.
 
         Args:
