@@ -39,6 +39,11 @@ class Executable(Protocol):
         """The column of an address or a code in the block of a step, from 1; 0 when unknown."""
 
 
+def _always(_index: int) -> bool:
+    """Every step of most languages is a block."""
+    return True
+
+
 @dataclass(slots=True)
 class Level:
     """One level of the program stack: where a program stands, and what belongs to this call of it.
@@ -54,6 +59,7 @@ class Level:
         kind: `main`, or how the level came about: `sub`, `macro`, `modal`, `interrupt`.
         locals: Local variables, shared with the caller or its own, as the kind of call has it.
         data: What the control's language keeps for this level.
+        counts: Whether a step is a block for stages that look ahead (a macro statement is none).
         scanner: What scans the plain blocks of the program, if anything does.
     """
 
@@ -69,7 +75,9 @@ class Level:
     scanner: Scanner | None = None
     steps: Sequence[Step | None] = field(init=False)
     line_of: Callable[[int], int] = field(init=False)
+    counts: Callable[[int], bool] = field(init=False)
 
     def __post_init__(self) -> None:
         self.steps = self.code.steps
         self.line_of = self.code.line
+        self.counts = getattr(self.code, "counts", _always)

@@ -52,6 +52,8 @@ class Interruptions:
 def enable(channel: Channel, words: Words) -> None:
     """M96 P: from now on an input calls this program."""
     number = words.integer("P")
+    if number is None:
+        raise words.fail("no_program", "M96")
     channel.memory.interruptions = Interruptions(channel.control.find_program(channel, number))
     channel.mode = channel.mode.with_code("interruption", "M96")
 

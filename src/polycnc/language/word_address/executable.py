@@ -28,6 +28,7 @@ _PLAIN = re.compile(r"(?:[A-Z][-+]?(?:\d+(?:\.\d*)?|\.\d+)[ \t]*)+;?")
 _WORD = re.compile(r"([A-Z])([-+]?)([\d.]+)")
 _COMMENT = re.compile(r"\([^)]*\)?")
 _SEQUENCE = re.compile(r"^[ \t]*(?:/\d?[ \t]*)*N[ \t]*0*(\d+)")
+_STATEMENT = re.compile(rf"[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*(?:{KEYWORD.pattern})")
 _LOOP = re.compile(r"(?<![A-Z])(DO|END)[ \t]*(\d)")
 _HEAD = re.compile(r"[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?")
 _SKIP = re.compile(r"[ \t]*/[ \t]*(\d?)")
@@ -126,6 +127,10 @@ class WordAddressProgram:
             if match:
                 return int(match[1])
         return 0
+
+    def counts(self, index: int) -> bool:
+        """Whether a line is a block for stages that look ahead: macro statements are none (FANUC macro B §7)."""
+        return index >= len(self.lines) or not _STATEMENT.match(self.blank_comments(self.lines[index]))
 
     # ---- jumps --------------------------------------------------------------------------------------------------
 
