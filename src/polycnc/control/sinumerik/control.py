@@ -11,6 +11,7 @@ from polycnc.control.sinumerik import (
     frames,
     functions,
     gcodes,
+    interrupts,
     limits,
     positions,
     procedures,
@@ -90,6 +91,7 @@ class Sinumerik:
         limits.refresh(channel)
         for name, value in channel.setup.variables.items():
             self.write_variable(channel, name, value)
+        interrupts.watch(channel)
 
     def _memory(self, channel: Channel) -> Memory:
         names = axis_names(channel)

@@ -73,6 +73,8 @@ DELIVERED: dict[str, Datum] = {
     "$MC_SPF_END_TO_VDI": Datum(20800, 1),
     "$MC_CIRCLE_ERROR_CONST": Datum(21000, 0.01),
     "$MC_CIRCLE_ERROR_FACTOR": Datum(21010, 0.001),
+    "$MC_LIFTFAST_DIST": Datum(21200, 5.0),
+    "$MC_LIFTFAST_WITH_MIRROR": Datum(21202, False),
     "$MC_TOOL_CHANGE_MODE": Datum(22550, 0),
     "$MC_TOOL_CHANGE_M_CODE": Datum(22560, 6),
     "$MC_FRAME_ADD_COMPONENTS": Datum(24000, True),

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.stack import Level
     from polycnc.control.sinumerik.frames import Frames
+    from polycnc.control.sinumerik.interrupts import Assignment, Watch
     from polycnc.control.sinumerik.limits import Limit
     from polycnc.control.sinumerik.machine_data import MachineData
     from polycnc.control.sinumerik.spindles import Spindles
@@ -69,6 +70,9 @@ class Memory:
         rounding_mm: ADIS.
         rapid_rounding_mm: ADISPOS.
         percent: Programmed overrides and dynamic limits (OVR, ACC[X] …), by address and axis.
+        interrupts: What SETINT has given each interrupt input.
+        watch: The stage that interrupt routines begin from; None where the setup has no inputs.
+        repos_mode: Point of the last REPOS (`$AC_REPOS_PATH_MODE`), 0 before.
         values: Values of system variables that only store (`$AC_PARAM`, `$A_DLB` …), by name and index.
     """
 
@@ -98,6 +102,9 @@ class Memory:
     rounding_mm: float = 0.0
     rapid_rounding_mm: float = 0.0
     percent: dict[tuple[str, str], float] = field(default_factory=dict)
+    interrupts: dict[int, Assignment] = field(default_factory=dict)
+    watch: Watch | None = None
+    repos_mode: int = 0
     values: dict[tuple[str, tuple[Any, ...]], Any] = field(default_factory=dict)
 
     def column(self, axis: str) -> int:

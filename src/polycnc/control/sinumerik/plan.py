@@ -17,6 +17,7 @@ from polycnc.control.sinumerik import (
     gcodes,
     limits,
     motion,
+    repositioning,
     smooth_approach,
     spindle_speed,
     stages,
@@ -58,6 +59,7 @@ BLOCK_MOTIONS: dict[str, Callable[[Draft], Step | None]] = {
     "G74": motion.reference_point,
     "G75": motion.fixed_point,
     "G751": motion.fixed_point,
+    **dict.fromkeys(repositioning.FUNCTIONS, repositioning.reposition),
     **dict.fromkeys(smooth_approach.APPROACHES, smooth_approach.approach),
     **dict.fromkeys(smooth_approach.RETRACTIONS, smooth_approach.retract),
 }

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik import arguments, d_numbers, limits, sections
+from polycnc.control.sinumerik import arguments, d_numbers, interrupts, limits, retraction, sections
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.nc_frame import NEUTRAL
 from polycnc.messages import Alarm, AlarmError
 
@@ -28,6 +29,12 @@ def run(channel: Channel, name: str, args: Arguments, column: int) -> None:
     """Run a procedure; PC0001 for one that is not executed, with the column of the call."""
     procedure = PROCEDURES.get(name)
     try:
+        if procedure is None and name in keywords.CYCLES:
+            from polycnc.control.sinumerik import cycles  # programs without cycles do not pay for them
+
+            if name in cycles.CYCLES:
+                cycles.start(channel, name, args, column)
+                return
         if procedure is None:
             raise not_supported(name)
         procedure(channel, args)
@@ -189,4 +196,6 @@ PROCEDURES: dict[str, Callable[[Channel, Arguments], None]] = {
     "GROUP_BEGIN": editor_mark,
     "GROUP_END": editor_mark,
     "CORROF": no_overlay,
+    **interrupts.PROCEDURES,
+    **retraction.PROCEDURES,
 }

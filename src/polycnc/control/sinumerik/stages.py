@@ -77,7 +77,11 @@ class Stages:
         """Put the stages that have something to do in front of the path, and no others."""
         chain: tuple[SmoothApproach | CornerStage | CutterCompensation, ...]
         chain = (self.approach, self.corner, self.cutter)
-        channel.head = next((stage for stage in chain if stage.active), None)
+        head = next((stage for stage in chain if stage.active), None)
+        watch = channel.memory.watch
+        if watch is not None:
+            watch.after = head or channel.table
+        channel.head = watch or head
 
 
 def stages(channel: Channel) -> Stages:

@@ -20,6 +20,7 @@ from polycnc.control.sinumerik.frame_variables import FRAME_VARIABLES
 from polycnc.control.sinumerik.known_variables import is_known
 from polycnc.control.sinumerik.machine_data import DELIVERED, MachineData
 from polycnc.control.sinumerik.positions import Way, is_diameter
+from polycnc.control.sinumerik.repositioning import REPOS_VARIABLES
 from polycnc.control.sinumerik.sections import SECTION_VARIABLES
 from polycnc.control.sinumerik.tables import MINUTE, MM_PER_INCH
 from polycnc.control.sinumerik.tool_variables import TOOL_VARIABLES
@@ -323,4 +324,5 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in FRAME_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in TOOL_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in SECTION_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
 }

@@ -10,7 +10,7 @@ from math import inf, nan, pi
 from typing import TYPE_CHECKING
 
 from polycnc.compensation.corner import Shape
-from polycnc.control.sinumerik import auxiliary, motion, sections, stages, tables
+from polycnc.control.sinumerik import auxiliary, motion, retraction, sections, stages, tables
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.positions import length_factor, number
 from polycnc.language.sinumerik.values import Axis
@@ -350,7 +350,7 @@ def cutting_rate(_draft: Draft, position: int, _shape: WordShape) -> Step:
 
 
 def kept(_draft: Draft, position: int, shape: WordShape) -> Step:
-    """DITS, DITE, DILF, ALF: paths of acceleration and of retraction on an interruption; no effect on the path."""
+    """DITS, DITE, DILF: paths of acceleration and of retraction on an interruption; no effect on the path."""
 
     def run(channel: Channel, values: Values) -> None:
         channel.memory.values[shape.address, ()] = number(values, position)
@@ -442,23 +442,26 @@ WORDS: dict[str, Maker] = {
     "CTOL": sections.tolerance,
     "OTOL": sections.tolerance,
     "ATOL": sections.tolerance,
-    **dict.fromkeys(("DITS", "DITE", "DILF", "ALF"), kept),
+    "ALF": retraction.direction_code,
+    "POLF": retraction.retraction_position,
+    **dict.fromkeys(("DITS", "DITE", "DILF"), kept),
     **dict.fromkeys(_PERCENT, percentage),
 }
 #: Addresses that take an extension or an index, and those that take something round their value.
 _EXTENDED = """
 S M H T D F FA LIMS SPOS SPOSA TOFFL TOFF OVRA ACC ACCLIMA VELOLIM VELOLIMA JERKLIM JERKLIMA SCPARA ATOL
-FGREF FL
+FGREF FL POLF
 """
 EXTENDED = frozenset(_EXTENDED.split())
 MODIFIED = {
     **dict.fromkeys(("SPOS", "SPOSA"), frozenset(("AC", "IC", "DC", "ACP", "ACN"))),
     **dict.fromkeys(("M", "H"), frozenset(("QU",))),
     "F": frozenset(("FPO",)),
+    "POLF": frozenset(("AC", "IC")),
 }
 #: Words that only mean something together with others; alone they are a mistake of the block.
 COMPANIONS = frozenset(
-    "I J K I1 J1 K1 IP CR AR TURN AP RP RPL ANG SF FB FRC FP DISR DISCL FAD".split()  # noqa: SIM905 - a table
+    "I J K I1 J1 K1 IP CR AR TURN AP RP RPL ANG SF FB FRC FP DISR DISCL FAD DISPR".split()  # noqa: SIM905 - a table
 )
 
 

@@ -152,7 +152,7 @@ class SinumerikProgram:
             # A branch that had never been run when blocks were joined has become alive: join anew.
             del self._joins[join]
             self.steps[join] = None
-        if channel.setup.switches.single_block:
+        if channel.setup.switches.single_block or channel.setup.switches.interrupts:
             return None
 
         def source(at: int) -> Emitter | None:

@@ -1,0 +1,192 @@
+"""The way of a move, point by point: where it is after some part, how long it is, and the move that is a piece of it.
+
+A part of the way is a number from 0 (start) to 1 (end): of the length on a line, of the angle on an arc.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import atan2, cos, hypot, pi, sin
+from typing import TYPE_CHECKING
+
+from polycnc.toolpath.kinds import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.channel.path import Move
+    from polycnc.geometry.frames import Vector
+
+#: Positions that differ by less (mm, degrees) are the same.
+SAME = 1e-6
+#: Pieces in which crossings and nearest points are looked for before they are narrowed down.
+PIECES = 720
+_NARROWINGS = 60
+_CCW = (Kind.CCW, Kind.HELIX_CCW)
+
+
+class Way:
+    """The way of one move.
+
+    Args:
+        move: A line, an arc, a helix or a spiral.
+        geometry: Columns of X, Y, Z among the axes, -1 for none.
+    """
+
+    def __init__(self, move: Move, geometry: tuple[int, int, int]) -> None:
+        self.move = move
+        self._geometry = geometry
+        self._sweep = 0.0
+        if move.center is not None:
+            self._lay_out()
+
+    def _lay_out(self) -> None:
+        """An arc as start direction, direction of travel, angle, radii and rise along its normal."""
+        move, normal = self.move, self.move.normal
+        center = move.center or (0.0, 0.0, 0.0)
+        a = [value - c for value, c in zip(self._geometric(move.start), center, strict=True)]
+        b = [value - c for value, c in zip(self._geometric(move.end), center, strict=True)]
+        height, top = _dot(a, normal), _dot(b, normal)
+        a = [value - height * n for value, n in zip(a, normal, strict=True)]
+        b = [value - top * n for value, n in zip(b, normal, strict=True)]
+        sign = 1.0 if move.kind in _CCW else -1.0
+        angle = sign * atan2(_dot(_cross(a, b), normal), _dot(a, b))
+        if angle < 1e-12:
+            angle += 2.0 * pi
+        self._radius = hypot(*a)
+        self._growth = hypot(*b) - self._radius
+        self._sweep = sign * (angle + 2.0 * pi * move.turns)
+        self._out = [value / self._radius for value in a] if self._radius else [0.0, 0.0, 0.0]
+        self._on = _cross(normal, self._out)
+        self._foot = [c + height * n for c, n in zip(center, normal, strict=True)]
+        self._rise = top - height
+
+    def _geometric(self, position: list[float]) -> list[float]:
+        return [position[column] if column >= 0 else 0.0 for column in self._geometry]
+
+    def at(self, part: float) -> list[float]:
+        """The position of all axes after a part of the way."""
+        move = self.move
+        if part >= 1.0:
+            return move.end.copy()
+        point = [a + (b - a) * part for a, b in zip(move.start, move.end, strict=True)]
+        if move.center is None:
+            return point
+        angle, radius = self._sweep * part, self._radius + self._growth * part
+        c, s, rise = radius * cos(angle), radius * sin(angle), self._rise * part
+        for k, column in enumerate(self._geometry):
+            if column >= 0:
+                turned = c * self._out[k] + s * self._on[k] + rise * move.normal[k]
+                point[column] = self._foot[k] + turned
+        return point
+
+    @property
+    def length(self) -> float:
+        """Length on the geometry axes, mm; of the longest way of another axis where those stand."""
+        move = self.move
+        if move.center is not None:
+            mean = self._radius + 0.5 * self._growth
+            return hypot(mean * self._sweep, self._growth, self._rise)
+        start, end = self._geometric(move.start), self._geometric(move.end)
+        way = hypot(*(b - a for a, b in zip(start, end, strict=True)))
+        return way or max(abs(b - a) for a, b in zip(move.start, move.end, strict=True))
+
+    def direction(self, part: float) -> Vector:
+        """Unit vector of travel on the geometry axes; zero where they stand."""
+        if self.move.center is None:
+            start, end = self._geometric(self.move.start), self._geometric(self.move.end)
+            return _unit([b - a for a, b in zip(start, end, strict=True)])
+        angle, radius = self._sweep * part, self._radius + self._growth * part
+        c, s = cos(angle), sin(angle)
+        return _unit(
+            [
+                self._sweep * radius * (c * on - s * out) + self._growth * (c * out + s * on) + self._rise * n
+                for out, on, n in zip(self._out, self._on, self.move.normal, strict=True)
+            ]
+        )
+
+    def part_at(self, wanted: Mapping[int, float]) -> float | None:
+        """The first part of the way at which every named axis (by column) has its value; None for never."""
+        if not wanted:
+            return None
+        column, value = next(iter(wanted.items()))
+        for part in self._crossings(column, value):
+            point = self.at(part)
+            if all(abs(point[at] - target) <= 1e3 * SAME for at, target in wanted.items()):
+                return part
+        return None
+
+    def _crossings(self, column: int, value: float) -> list[float]:
+        """Parts at which an axis has a value, in order."""
+        start, end = self.move.start[column], self.move.end[column]
+        if self.move.center is None or column not in self._geometry:
+            if abs(end - start) < SAME:
+                return [0.0] if abs(start - value) < SAME else []
+            part = (value - start) / (end - start)
+            return [min(max(part, 0.0), 1.0)] if -SAME <= part <= 1.0 + SAME else []
+        found, before = [], self.at(0.0)[column] - value
+        if abs(before) < SAME:
+            found.append(0.0)
+        for k in range(1, PIECES + 1):
+            after = self.at(k / PIECES)[column] - value
+            if abs(after) < SAME:
+                found.append(k / PIECES)
+            elif before * after < 0.0 and abs(before) >= SAME:
+                found.append(self._narrowed(column, value, (k - 1) / PIECES, k / PIECES))
+            before = after
+        return found
+
+    def _narrowed(self, column: int, value: float, low: float, high: float) -> float:
+        below = self.at(low)[column] < value
+        for _ in range(_NARROWINGS):
+            middle = 0.5 * (low + high)
+            if (self.at(middle)[column] < value) == below:
+                low = middle
+            else:
+                high = middle
+        return 0.5 * (low + high)
+
+    def nearest(self, position: list[float]) -> float:
+        """The part of the way that is nearest to a position on the geometry axes."""
+        target = self._geometric(position)
+
+        def distance(part: float) -> float:
+            return hypot(*(a - b for a, b in zip(self._geometric(self.at(part)), target, strict=True)))
+
+        best = min(range(PIECES + 1), key=lambda k: distance(k / PIECES)) / PIECES
+        low, high = max(best - 1.0 / PIECES, 0.0), min(best + 1.0 / PIECES, 1.0)
+        for _ in range(_NARROWINGS):
+            third = (high - low) / 3.0
+            if distance(low + third) <= distance(high - third):
+                high -= third
+            else:
+                low += third
+        middle = 0.5 * (low + high)
+        return min((0.0, 1.0, middle), key=lambda part: (round(distance(part), 9), part != middle))
+
+    def until(self, part: float) -> Move:
+        """The move as far as a part of its way."""
+        return self._piece(self.move.start, self.at(part), part)
+
+    def beyond(self, part: float, start: list[float] | None = None) -> Move:
+        """The rest of the move from a part of its way on; `start` where axes beside its way stand elsewhere."""
+        return self._piece(self.at(part) if start is None else start, self.move.end, 1.0 - part)
+
+    def _piece(self, start: list[float], end: list[float], share: float) -> Move:
+        turns = max(int(abs(self._sweep) * share / (2.0 * pi) - 1e-12), 0) if self.move.turns else 0
+        return replace(self.move, start=start, end=end, turns=float(turns))
+
+
+def _dot(a: list[float], b: Vector | list[float]) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _cross(a: Vector | list[float], b: list[float]) -> list[float]:
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def _unit(vector: list[float]) -> Vector:
+    size = hypot(*vector)
+    if size < SAME:
+        return (0.0, 0.0, 0.0)
+    return (vector[0] / size, vector[1] / size, vector[2] / size)
