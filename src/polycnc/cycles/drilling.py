@@ -60,6 +60,7 @@ class Action(Enum):
     SPINDLE = "direction against that before the cycle: 1 the same, -1 reversed, 0 stopped"
     HALT = "wait for the operator"
     OUTPUT = "send this M code to the machine"
+    RETURN = "to a level at rapid, and back over the hole on the way"
 
 
 class Stroke(NamedTuple):
@@ -204,3 +205,25 @@ def bore_and_halt(hole: Hole, *, feeds_out: bool = False) -> Iterator[Stroke]:
         yield Stroke(Action.FEED, hole.r)
     yield from leave(hole)
     yield Stroke(Action.SPINDLE, 1.0)
+
+
+def bore_and_lift(hole: Hole) -> Iterator[Stroke]:
+    """Feed in, dwell, oriented stop, off the wall, rapid to R, then back over the hole on the way up (SINUMERIK)."""
+    yield Stroke(Action.RAPID, hole.r)
+    yield Stroke(Action.FEED, hole.bottom)
+    yield Stroke(Action.DWELL, hole.dwell_s)
+    yield Stroke(Action.SPINDLE, 0.0)
+    yield Stroke(Action.SHIFT, 1.0)
+    yield Stroke(Action.RAPID, hole.r)
+    yield Stroke(Action.RETURN, hole.back)
+    yield Stroke(Action.SPINDLE, 1.0)
+
+
+def bore_and_leave_standing(hole: Hole) -> Iterator[Stroke]:
+    """Feed in, dwell, spindle stop, wait for the operator, rapid out with the spindle at rest (SINUMERIK)."""
+    yield Stroke(Action.RAPID, hole.r)
+    yield Stroke(Action.FEED, hole.bottom)
+    yield Stroke(Action.DWELL, hole.dwell_s)
+    yield Stroke(Action.SPINDLE, 0.0)
+    yield Stroke(Action.HALT)
+    yield Stroke(Action.RAPID, hole.back)

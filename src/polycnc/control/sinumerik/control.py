@@ -25,6 +25,7 @@ from polycnc.control.sinumerik.frames import Frames, chain, stored_frames
 from polycnc.control.sinumerik.machine_data import MachineData
 from polycnc.control.sinumerik.memory import Memory
 from polycnc.control.sinumerik.plan import make_plan
+from polycnc.control.sinumerik.reset import reset
 from polycnc.control.sinumerik.spindles import Spindle, Spindles
 from polycnc.control.sinumerik.system_variables import SystemVariables
 from polycnc.control.sinumerik.tools import tools_of_setup
@@ -33,6 +34,7 @@ from polycnc.language.sinumerik.interface import LanguageMemory
 from polycnc.language.sinumerik.nc_frame import GEOMETRY_AXES, NEUTRAL, ctrans
 from polycnc.language.sinumerik.sections import end_of_subprogram
 from polycnc.language.sinumerik.values import Axis
+from polycnc.machine.motion_settings import MotionSettings
 from polycnc.messages import AlarmError, Catalogue
 from polycnc.program import Form
 from polycnc.toolpath import Context
@@ -67,7 +69,8 @@ class Sinumerik:
     @cached_property
     def catalogue(self) -> Catalogue:
         """Texts of the control's alarms."""
-        return Catalogue(resources.files("polycnc.control.sinumerik").joinpath("alarms.toml"))
+        folder = resources.files("polycnc.control.sinumerik")
+        return Catalogue(folder.joinpath("alarms.toml"), folder.joinpath("cycle_alarms.toml"))
 
     @cached_property
     def system_variables(self) -> SystemVariables:
@@ -92,6 +95,10 @@ class Sinumerik:
         for name, value in channel.setup.variables.items():
             self.write_variable(channel, name, value)
         interrupts.watch(channel)
+
+    def reset(self, channel: Channel) -> None:
+        """The state after reset, and after the end of a program."""
+        reset(channel, _start_codes(channel, channel.memory.data))
 
     def _memory(self, channel: Channel) -> Memory:
         names = axis_names(channel)
@@ -238,6 +245,8 @@ class Sinumerik:
             spindle_limit_rpm=spindle.limit if spindle and spindle.limit < inf else 0.0,
             path_mode="G9" if memory.exact_stop_block else mode["path_mode"],
             tolerance_mm=_tolerance(memory, mode["path_mode"]),
+            acceleration=mode["acceleration"],
+            rapid_by_axis=mode["rapid"] == "RTLIOF",
             diameter_axes=diameters,
             wcs=mode["zero_offset"],
             part=chain(memory.frames.inner()).frame,
@@ -254,6 +263,10 @@ class Sinumerik:
     def block_limit(self) -> AlarmError:
         """The program has run more blocks than allowed."""
         return AlarmError("PC0002", hint="hint.block-limit")
+
+    def motion_settings(self, _channel: Channel) -> MotionSettings:
+        """How the control leads the axes: rapids stop only where an exact stop does; feeds count linear axes."""
+        return MotionSettings(rapid_stops=False, rotary_in_feed=False)
 
     # ---- variables by name
 

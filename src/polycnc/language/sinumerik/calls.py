@@ -286,7 +286,14 @@ def modal_program(
 
 def modal_cycle(name: str, args: tuple[Any, ...], column: int) -> Callable[[Channel], None]:
     """A modal call of a cycle of the control."""
-    return lambda channel: channel.control.procedure(channel, name, args, column)
+
+    def run(channel: Channel) -> None:
+        caller = channel.level
+        channel.control.procedure(channel, name, args, column)
+        if channel.level is not caller:
+            channel.level.kind = "modal"
+
+    return run
 
 
 def call_modal(channel: Channel) -> None:

@@ -1,0 +1,104 @@
+"""Arguments of cycles: names from the signature, values in internal units, omitted ones zero or empty.
+
+A signature is the list of a cycle's parameter names. What kind of value a name stands for is the same in all cycles
+and stands in the tables here; a name that stands in none of them is a length.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.sinumerik import tables
+from polycnc.control.sinumerik.positions import length_factor
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+
+
+def _names(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
+#: Plain numbers: angles, times, counts, modes, factors.
+NUMBERS = _names(
+    """
+    DTB DTS _DTD DTD FRF VARI _VARI _AXN _GMODE _DMODE _AMODE _UMODE SDAC SDIR SDR ENC MPIT POSS SST SST1 _PTAB
+    _PTABA _PITA _TECHNO STA1 _STA INDA NUM _NUM _NUM1 _NUM2 _NSP CDIR _CDIR NSP NRC NID NUMT IANG ANG1 ANG2 TYPTH
+    _ANG1 _ANG2 _STA2 AFSL SSF _ST _MODE _A _B _C _DIR _FR _TYPE _RL _AS1 _AS2 _LIM S_TOLM S_OTOL DT _LAGE _DN _XA
+    _YA PIT_INCH
+    """
+)
+#: Path feeds, in the feed type of the caller.
+FEEDS = _names(
+    """
+    FFR RFF FFD FFP1 FFP2 _FFD _FFP1 _FFP2 _FFCP FF1 FF2 FF3 _FF1 _FF3 S_FA S_FD _FFR _FF2
+    """
+)
+#: Diameters of turned parts, whatever DIAMON says; the value is the radius.
+DIAMETERS = _names("SPD DM1 DM2 DM3 DM4 _SPD")
+TEXTS = _names("_TC _KNAME _HIDE _TEXT NPP FORM _FORM _PITM _PRG _LAB1 _LAB2")
+
+
+class Arguments:
+    """The arguments of one call.
+
+    Args:
+        channel: Where it stands: units and feed type count as they are at the call.
+        cycle: Name of the cycle.
+        signature: Names of its parameters.
+        values: As written, None for one that is left out.
+
+    Raises:
+        AlarmError: 12340 for too many arguments, 12330 for one of another type.
+    """
+
+    def __init__(
+        self, channel: Channel, cycle: str, signature: tuple[str, ...], values: tuple[Any, ...]
+    ) -> None:
+        written = len(values)
+        while written and values[written - 1] is None:
+            written -= 1
+        if written > len(signature):
+            raise AlarmError("12340", text=cycle)
+        self.cycle = cycle
+        self._length = length_factor(channel.mode)
+        self._feed = tables.FEED_TYPES[channel.mode["feed"]].factor
+        if channel.mode["units"] == "G700":
+            self._feed *= tables.MM_PER_INCH
+        self._values: dict[str, Any] = {
+            name: value for name, value in zip(signature, values, strict=False) if value is not None
+        }
+        for name, value in self._values.items():
+            if isinstance(value, str) is not (name in TEXTS) or not isinstance(value, (int, float, str)):
+                raise AlarmError("12330", text=f"{cycle} {name}")
+
+    def given(self, name: str) -> bool:
+        """Whether an argument was written."""
+        return name in self._values
+
+    def text(self, name: str) -> str:
+        """A text, empty where it was left out."""
+        return str(self._values.get(name, ""))
+
+    def __getitem__(self, name: str) -> float:
+        """A number in internal units (mm, radius, mm/s …), 0 where it was left out."""
+        value = float(self._values.get(name, 0.0))
+        if name in NUMBERS:
+            return value
+        if name in FEEDS:
+            return value * self._feed
+        return value * self._length * (0.5 if name in DIAMETERS else 1.0)
+
+    def plain(self, name: str) -> float:
+        """A number as it was written."""
+        return float(self._values.get(name, 0.0))
+
+    def integer(self, name: str) -> int:
+        """A whole number; a parameter of type INT rounds what is handed over."""
+        return round(self.plain(name))
+
+    def digit(self, name: str, place: int) -> int:
+        """A decimal digit of a whole number, place 0 on the right."""
+        digit: int = abs(self.integer(name)) // 10**place % 10
+        return digit

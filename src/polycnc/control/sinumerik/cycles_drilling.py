@@ -1,0 +1,446 @@
+"""Drilling, tapping and boring cycles: CYCLE81 to CYCLE89 and CYCLE840 (strokes: `polycnc.cycles`)."""
+
+from __future__ import annotations
+
+from functools import partial
+from math import radians, tan
+from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.control.sinumerik import tables
+from polycnc.control.sinumerik.cycles_moves import Moves
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.cycles import deep_hole as deep
+from polycnc.cycles import drilling
+from polycnc.cycles.drilling import Action, Hole, Stroke
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.cycles_arguments import Arguments
+
+#: Pitch of coarse metric threads by nominal diameter, mm (DIN 13; MPIT 3 to 48).
+METRIC_PITCHES = {
+    3: 0.5, 4: 0.7, 5: 0.8, 6: 1.0, 8: 1.25, 10: 1.5, 12: 1.75, 14: 2.0, 16: 2.0, 18: 2.5, 20: 2.5, 22: 2.5,
+    24: 3.0, 27: 3.0, 30: 3.5, 33: 3.5, 36: 4.0, 39: 4.0, 42: 4.5, 45: 4.5, 48: 5.0,
+}  # fmt: skip
+#: Retract between strokes where the call gives none.
+CHIP_BREAKING_MM = 1.0
+SAME_MM = 1e-9
+DP_TIP_ANGLE = 24
+DIRECTIONS = {3: 1, 4: -1, 5: 0}
+
+
+# ---- levels
+
+
+class Levels(NamedTuple):
+    """Levels of a drilling cycle on its axis: retraction plane, reference plane, safety plane, depth; mm."""
+
+    retract: float
+    reference: float
+    safe: float
+    depth: float
+
+    @property
+    def down(self) -> float:
+        """The direction of drilling."""
+        return 1.0 if self.depth > self.reference else -1.0
+
+    def hole(self, dwell: float = 0.0) -> Hole:
+        """The same as the strokes want it."""
+        return Hole(self.retract, self.safe, self.depth, self.retract, dwell_s=dwell)
+
+
+def levels(moves: Moves, a: Arguments, *, of: str = "DP", relative: str = "DPR") -> Levels | None:
+    """Levels from RTP, RFP, SDIS and a depth; None where the depth is the reference plane: nothing to do.
+
+    The relative depth counts where it is given, else the absolute one; _AMODE can demand either.
+
+    Raises:
+        AlarmError: 61101 for a reference plane that does not lie between retraction plane and depth.
+    """
+    retract, reference = a["RTP"], a["RFP"]
+    mode = a.digit("_AMODE", 0)
+    amount = abs(a[relative])
+    if mode == 1 or (mode != 2 and amount):
+        if amount and retract == reference:
+            raise AlarmError("61101")
+        if mode == 0 and a.given(of) and a[of] != reference - _sign(retract - reference) * amount:
+            moves.note("62000")
+        depth = reference - _sign(retract - reference) * amount
+    else:
+        depth = a[of]
+    if depth == reference:
+        return None
+    up = _sign(reference - depth)
+    if retract != reference and _sign(retract - reference) != up:
+        raise AlarmError("61101")
+    return Levels(retract, reference, reference + up * abs(a["SDIS"]), depth)
+
+
+def _sign(value: float) -> float:
+    return 1.0 if value > 0.0 else -1.0 if value < 0.0 else 0.0
+
+
+def pause(value: float, mode: int) -> float:
+    """A dwell from an argument: seconds above 0, revolutions below; the mode may say which (1, 2)."""
+    if mode == 1:
+        return abs(value)
+    return -abs(value) if mode == 2 else value
+
+
+def _tip_per_radius(moves: Moves) -> float:
+    """Height of the tool's tip for each mm of radius; 61000 without a tip angle."""
+    edge = moves.memory.tools.edge
+    angle = edge.values[DP_TIP_ANGLE] if edge is not None else 0.0
+    if not 0.0 < angle < 180.0:
+        raise AlarmError("61000")
+    return 1.0 / tan(radians(angle / 2.0))
+
+
+def levels_of_drill(moves: Moves, a: Arguments) -> Levels | None:
+    """Levels as _GMODE (tens) means the depth: of the tip, of the full diameter, or as a diameter to be centred."""
+    if a.digit("_GMODE", 1) != 1:
+        return levels(moves, a)
+    if a.cycle == "CYCLE81":
+        retract, reference = a["RTP"], a["RFP"]
+        up = _sign(retract - reference) or 1.0
+        depth = reference - up * abs(a["DP"]) / 2.0 * _tip_per_radius(moves)
+        return Levels(retract, reference, reference + up * abs(a["SDIS"]), depth)
+    found = levels(moves, a)
+    if found is None:
+        return None
+    tip = moves.memory.tools.radius * _tip_per_radius(moves)
+    return found._replace(depth=found.depth + found.down * tip)
+
+
+# ---- performing
+
+
+class Acts(NamedTuple):
+    """What the strokes of one cycle mean on the machine.
+
+    Attributes:
+        feed: Path feed of FEED strokes; their factor multiplies it.
+        tap: TAP strokes: to a level.
+        spindle: SPINDLE strokes.
+        shift: Way of SHIFT strokes along u, v and w.
+    """
+
+    feed: float
+    tap: Callable[[float], None] = lambda _level: None
+    spindle: Callable[[float], None] = lambda _value: None
+    shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+def perform(moves: Moves, strokes: Iterator[Stroke], acts: Acts) -> Iterator[None]:
+    """Make the strokes of a hole; every stroke is a block."""
+    center = moves.point
+    for action, value, factor in strokes:
+        match action:
+            case Action.RAPID:
+                moves.rapid(w=value)
+            case Action.RETURN:
+                moves.rapid(*_if_moved(moves, center), value)
+            case Action.FEED:
+                moves.feed(acts.feed * factor, w=value)
+            case Action.TAP:
+                acts.tap(value)
+            case Action.DWELL:
+                moves.dwell(value)
+            case Action.SPINDLE:
+                acts.spindle(value)
+            case Action.SHIFT:
+                u, v = moves.point
+                du, dv, dw = (value * way for way in acts.shift)
+                moves.rapid(u + du if du else None, v + dv if dv else None, moves.level + dw)
+            case Action.HALT:
+                moves.channel.stop("M0")
+        yield
+
+
+def _if_moved(moves: Moves, center: tuple[float, float]) -> tuple[float | None, float | None]:
+    """The hole's centre, without the axes that stand over it."""
+    u, v = (None if here == there else there for here, there in zip(moves.point, center, strict=True))
+    return u, v
+
+
+# ---- the cycles
+
+
+def drill(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE81, CYCLE82: drilling, centring, with dwell."""
+    moves = Moves(channel)
+    if any(a[name] for name in ("S_ZA", "S_ZD")):
+        raise not_supported("CYCLE82 S_ZA S_ZD")
+    found = levels_of_drill(moves, a)
+    if found is not None:
+        dwell = pause(a["DTB"], a.digit("_AMODE", 1))
+        yield from perform(moves, drilling.drill(found.hole(dwell)), Acts(channel.feed))
+
+
+def bore(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE89: in and out with the path feed."""
+    moves = Moves(channel)
+    found = levels(moves, a)
+    if found is not None:
+        yield from perform(moves, drilling.bore(found.hole(a["DTB"])), Acts(channel.feed))
+
+
+def ream(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE85: in with FFR, out with RFF; the path feed where one of them is left out."""
+    moves = Moves(channel)
+    found = levels(moves, a)
+    if found is not None:
+        into, out = a["FFR"] or channel.feed, a["RFF"] or channel.feed
+        dwell = pause(a["DTB"], a.digit("_AMODE", 1))
+        yield from perform(moves, drilling.bore(found.hole(dwell), out / into), Acts(into))
+
+
+def _direction(a: Arguments, name: str = "SDIR") -> int:
+    """A direction of the spindle, 3 or 4; 61102 for others."""
+    if a.integer(name) not in (3, 4):
+        raise AlarmError("61102")
+    return DIRECTIONS[a.integer(name)]
+
+
+def _turning(moves: Moves, direction: int) -> None:
+    if moves.spindle.direction != direction:
+        moves.turn(direction)
+
+
+def bore_and_lift(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE86: oriented stop, off the wall by RPA, RPO, RPAP, out at rapid."""
+    moves = Moves(channel)
+    direction = _direction(a)
+    found = levels(moves, a)
+    if found is None:
+        return
+    _turning(moves, direction)
+
+    def spindle(value: float) -> None:
+        if value:
+            moves.turn(direction)
+        else:
+            moves.orient(a["POSS"])
+
+    acts = Acts(channel.feed, spindle=spindle, shift=(a["RPA"], a["RPO"], a["RPAP"]))
+    dwell = pause(a["DTB"], a.digit("_AMODE", 1))
+    yield from perform(moves, drilling.bore_and_lift(found.hole(dwell)), acts)
+
+
+def bore_and_halt(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE87, CYCLE88: spindle stop and M0 at depth, out at rapid."""
+    moves = Moves(channel)
+    direction = _direction(a)
+    found = levels(moves, a)
+    if found is not None:
+        _turning(moves, direction)
+        acts = Acts(channel.feed, spindle=lambda _value: moves.turn(0))
+        yield from perform(moves, drilling.bore_and_leave_standing(found.hole(a["DTB"])), acts)
+
+
+# ---- deep holes
+
+
+def deep_hole(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE83: strokes that become shorter, breaking chips (VARI=0) or clearing them (VARI=1)."""
+    moves = Moves(channel, a.integer("_AXN"))
+    found = levels_of_drill(moves, a)
+    variant = a.digit("VARI", 0)
+    if variant not in (0, 1):
+        raise AlarmError("61002")
+    if found is None:
+        return
+    total = abs(found.depth - found.reference)
+    mode = partial(a.digit, "_AMODE")
+    below = deep.degressive_depths(
+        _first_depth(moves, a, found, total), total, _degression(a, mode(5)), abs(a["_MDEP"])
+    )
+    down = found.down
+    strokes = deep.peck(
+        [found.reference + down * depth for depth in below[:-1]] + [found.depth],
+        found.safe,
+        found.retract,
+        first_factor=_first_feed(a["FRF"], percent=mode(6) == 1),
+        dwell=pause(a["DTB"], mode(1)),
+        dwell_at_bottom=pause(a["_DTD"], mode(3)) or pause(a["DTB"], mode(1)),
+        retract=None if variant == 1 else a["_VRT"] if a["_VRT"] > 0.0 else CHIP_BREAKING_MM,
+        dwell_at_clearance=pause(a["DTS"], mode(2)),
+        limits=[_limit(a, mode(7), depth) for depth in below],
+    )
+    yield from perform(moves, strokes, Acts(channel.feed))
+
+
+def _first_depth(moves: Moves, a: Arguments, found: Levels, total: float) -> float:
+    """Depth of the first stroke below the reference plane; 61107 for one above it."""
+    mode = a.digit("_AMODE", 4)
+    relative = abs(a["FDPR"])
+    if mode == 1 or (mode != 2 and relative):
+        if a.given("FDEP") and mode == 0 and abs(a["FDEP"] - found.reference) != relative:
+            moves.note("62001")
+        return relative or total
+    if not a.given("FDEP"):
+        return total
+    first = (a["FDEP"] - found.reference) * found.down
+    if first <= 0.0:
+        raise AlarmError("61107")
+    return min(first, total)
+
+
+def _degression(a: Arguments, mode: int) -> float:
+    """Amount above 0, factor below, 0 for none; as a percentage where _AMODE says so (100: none)."""
+    value = a.plain("DAM")
+    if mode == 2 or (mode == 0 and value < 0.0):
+        factor = abs(value) / 100.0 if mode == 2 else min(abs(value), 1.0)
+        return 0.0 if factor in (0.0, 1.0) and mode == 2 else -factor
+    return abs(a["DAM"])
+
+
+def _first_feed(factor: float, *, percent: bool) -> float:
+    """FRF: factor on the feed of the first stroke, 0.001 to 1; 0 or none: 1."""
+    if percent and factor > 1.0:
+        factor /= 100.0
+    return min(max(factor, 0.001), 1.0) if factor else 1.0
+
+
+def _limit(a: Arguments, mode: int, depth: float) -> float:
+    """Distance in front of a depth at which the rapid return ends."""
+    return a["_DIS1"] if a["_DIS1"] > 0.0 and mode != 1 else deep.automatic_limit(depth)
+
+
+# ---- tapping
+
+
+def pitch(a: Arguments, size: str = "MPIT", amount: str = "PIT") -> float:
+    """Pitch of a thread, mm, with the sign of its hand; 61001 for none, or two that differ."""
+    nominal, written = a.plain(size), a.plain(amount)
+    of_size = METRIC_PITCHES.get(round(abs(nominal)))
+    if nominal and of_size is None:
+        raise AlarmError("61001")
+    given = _written_pitch(a, amount)
+    if not nominal and not written:
+        raise AlarmError("61001")
+    if nominal and of_size is not None:
+        if written and abs(abs(given) - of_size) > deep.SAME_MM:
+            raise AlarmError("61001")
+        given = of_size if nominal > 0.0 else -of_size
+    return -abs(given) if a.digit("_AMODE", 2) == 2 else given
+
+
+def _written_pitch(a: Arguments, name: str) -> float:
+    """PIT in the unit that _PITA names: of the program, mm, threads per inch, inch per revolution."""
+    value = a.plain(name)
+    match a.integer("_PITA"):
+        case 1:
+            return value
+        case 2:
+            return tables.MM_PER_INCH / value if value else 0.0
+        case 3:
+            return value * tables.MM_PER_INCH
+        case _:
+            return a[name]
+
+
+def _directions(a: Arguments) -> int:
+    """Direction after the cycle (SDAC); whatever is not 3, 4 or 5 counts as 5."""
+    return DIRECTIONS.get(a.integer("SDAC"), 0)
+
+
+def rigid_tapping(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE84: tapping with the spindle in position control, in one go or in steps."""
+    moves = Moves(channel, a.integer("_AXN"))
+    lead = pitch(a)
+    variant = a.digit("_VARI", 0)
+    if variant not in (0, 1, 2):
+        raise AlarmError("61002")
+    found = levels(moves, a)
+    if found is None:
+        return
+    total = abs(found.depth - found.reference)
+    below = [total]
+    if variant:
+        step = abs(a["_DAM"])
+        if not 0.0 < step <= total:
+            raise AlarmError("61809")
+        below = deep.degressive_depths(step, total, step)
+    speed, into = moves.spindle.speed, a["SST"] or moves.spindle.speed
+    out = a["SST1"] if a["SST1"] > 0.0 else into
+
+    def spindle(value: float) -> None:
+        if value:
+            moves.speed(into if value > 0.0 else out)
+        else:
+            moves.speed(speed)
+            if a.digit("_TECHNO", 3) != 1:
+                moves.turn(_directions(a))
+
+    strokes = deep.tap_in_steps(
+        [found.reference + found.down * depth for depth in below[:-1]] + [found.depth],
+        found.safe,
+        found.retract,
+        dwell=abs(a["DTB"]),
+        retract=None if variant != 1 else a["_VRT"] if a["_VRT"] > 0.0 else CHIP_BREAKING_MM,
+        limit=a["_VRT"] if a["_VRT"] > 0.0 else CHIP_BREAKING_MM,
+    )
+    moves.orient(a["POSS"])
+    acts = Acts(channel.feed, tap=lambda level: moves.special(Kind.TAP, lead, level), spindle=spindle)
+    yield from perform(moves, strokes, acts)
+
+
+#: ENC of CYCLE840: with the encoder of the spindle, without dwell and with it; without encoder, with the programmed
+#: feed and with one that the cycle works out.
+WITH_ENCODER, WITH_ENCODER_AND_DWELL, BY_FEED, BY_PITCH = 0, 20, 1, 11
+
+
+def tapping_with_chuck(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE840: tapping with a compensating chuck, G33 with the spindle's encoder or G63 without."""
+    moves = Moves(channel, a.integer("_AXN"))
+    kind = a.integer("ENC")
+    if kind not in (WITH_ENCODER, WITH_ENCODER_AND_DWELL, BY_FEED, BY_PITCH):
+        raise AlarmError("61002")
+    encoder = kind in (WITH_ENCODER, WITH_ENCODER_AND_DWELL)
+    back = a.integer("SDR")
+    if back not in (3, 4) and (back != 0 or not encoder):
+        raise AlarmError("61102")
+    has_pitch = bool(a.plain("PIT") or a.plain("MPIT"))
+    lead = abs(pitch(a)) if kind != BY_FEED or has_pitch else 0.0
+    found = levels(moves, a)
+    if found is None:
+        return
+    cutting = moves.spindle.direction or 1
+    feed = _chuck_feed(moves, channel, lead if kind == BY_PITCH else 0.0)
+
+    def tap(level: float) -> None:
+        if encoder:
+            moves.special(Kind.THREAD, lead, level)
+        else:
+            moves.special(Kind.TAP, lead or _lead_of(moves, feed), level, feed)
+
+    def spindle(value: float) -> None:
+        if value < 0.0:
+            moves.turn(DIRECTIONS[back] if back else -cutting)
+        elif value == 0.0:
+            moves.turn(_directions(a))
+
+    strokes = deep.tap_in_steps(
+        [found.depth], found.safe, found.retract, dwell=0.0 if kind == WITH_ENCODER else abs(a["DTB"])
+    )
+    yield from perform(moves, strokes, Acts(channel.feed, tap=tap, spindle=spindle))
+
+
+def _chuck_feed(moves: Moves, channel: Channel, lead: float) -> float:
+    """Feed of G63: the programmed one, or speed times pitch in the feed type of the caller."""
+    if not lead:
+        return channel.feed
+    return lead if moves.memory.feed_mode == "G95" else lead * moves.spindle.speed / tables.MINUTE
+
+
+def _lead_of(moves: Moves, feed: float) -> float:
+    if not feed > 0.0:
+        raise AlarmError("10860")
+    speed = moves.spindle.speed
+    return feed if moves.memory.feed_mode == "G95" else feed * tables.MINUTE / speed if speed else 0.0

@@ -1,0 +1,121 @@
+"""Patterns of positions: HOLES1, HOLES2, CYCLE801, CYCLE802. They move, and what MCALL has set works at each."""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import TYPE_CHECKING
+
+from polycnc.control.sinumerik.cycles_moves import Moves
+from polycnc.cycles import hole_patterns
+from polycnc.geometry.frames import cos_sin_deg
+from polycnc.language.sinumerik.calls import call_modal
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.cycles_arguments import Arguments
+    from polycnc.geometry.arcs import Point
+
+TURN = 360.0
+#: Points that a call of CYCLE802 can name.
+MOST_POINTS = 9
+
+
+def visit(moves: Moves, a: Arguments, points: Iterable[Point]) -> Iterator[None]:
+    """Rapid from point to point; the modal cycle follows at each. Without one: message 62100 and M0 first.
+
+    `_HIDE` leaves positions out, by number from 1; `_NSP` is the first one.
+    """
+    channel = moves.channel
+    if channel.memory.language.modal_call is None:
+        moves.note("62100")
+        channel.stop("M0")
+        yield
+    hidden = {int(part) for part in a.text("_HIDE").replace(",", " ").split() if part.isdigit()}
+    for number, (u, v) in enumerate(points, 1):
+        if number in hidden or number < a.integer("_NSP"):
+            continue
+        moves.rapid(u, v)
+        call_modal(channel)
+        yield
+
+
+def _nearer_end_first(points: list[Point], tool: Point) -> list[Point]:
+    """The same row from the end that is nearer to the tool."""
+    first, last = (hypot(p[0] - tool[0], p[1] - tool[1]) for p in (points[0], points[-1]))
+    return points if first <= last else points[::-1]
+
+
+def row(channel: Channel, a: Arguments) -> Iterator[None]:
+    """HOLES1: a row of holes, from the end nearer to the tool."""
+    moves = Moves(channel)
+    count = abs(a.integer("NUM"))
+    if count == 0:
+        raise AlarmError("61103")
+    cosine, sine = cos_sin_deg(a["STA1"])
+    ways = [abs(a["FDIS"]) + k * abs(a["DBH"]) for k in range(count)]
+    points = [(a["SPCA"] + way * cosine, a["SPCO"] + way * sine) for way in ways]
+    yield from visit(moves, a, _nearer_end_first(points, moves.point))
+
+
+def circle(channel: Channel, a: Arguments) -> Iterator[None]:
+    """HOLES2: holes on a circle, on all of it where INDA is 0."""
+    moves = Moves(channel)
+    count, pitch = abs(a.integer("NUM")), a["INDA"]
+    if count == 0:
+        raise AlarmError("61103")
+    if abs(pitch) * (count - 1) >= TURN:
+        raise AlarmError("61106")
+    center = (a["CPA"], a["CPO"])
+    yield from visit(
+        moves, a, hole_patterns.arc(center, abs(a["RAD"]), a["STA1"], pitch or TURN / count, count)
+    )
+
+
+def grid(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE801: a turned grid, or its frame, from the corner nearest to the tool.
+
+    The grid is visited to and fro along its smaller pitch, the frame once round.
+    """
+    moves = Moves(channel)
+    columns, rows = (abs(a.integer(name)) for name in ("_NUM1", "_NUM2"))
+    if not columns or not rows:
+        moves.note("62105")
+        columns, rows = max(columns, 1), max(rows, 1)
+    corners = [(i, j) for j in (0, rows - 1) for i in (0, columns - 1)]
+    u, v = moves.point
+    near = min(corners, key=lambda cell: hypot(_place(a, *cell)[0] - u, _place(a, *cell)[1] - v))
+    if a.digit("_VARI", 0) == 1:
+        cells = hole_patterns.frame_cells(columns, rows)
+    elif abs(a["_DIS1"]) <= abs(a["_DIS2"]):
+        cells = hole_patterns.meander_cells(columns, rows)
+    else:
+        cells = [(i, j) for j, i in hole_patterns.meander_cells(rows, columns)]
+    yield from visit(moves, a, (_place(a, abs(near[0] - i), abs(near[1] - j)) for i, j in cells))
+
+
+def _place(a: Arguments, column: int, row: int) -> Point:
+    """A point of the grid: turned by _STA, its axes sheared by _ANG1 and _ANG2."""
+    along, across = cos_sin_deg(a["_STA"] + a["_ANG1"]), cos_sin_deg(a["_STA"] + 90.0 + a["_ANG2"])
+    first, second = column * a["_DIS1"], row * a["_DIS2"]
+    return (
+        a["_SPCA"] + first * along[0] + second * across[0],
+        a["_SPCO"] + first * along[1] + second * across[1],
+    )
+
+
+def points(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE802: up to nine points, absolute or incremental; an omitted pair ends the list."""
+    moves = Moves(channel)
+    found: list[Point] = []
+    u, v = moves.point
+    for i in range(MOST_POINTS):
+        if not (a.given(f"_X{i}") or a.given(f"_Y{i}")):
+            break
+        place = MOST_POINTS - 1 - i
+        u = a[f"_X{i}"] + (u if a.digit("_XA", place) == 2 else 0.0)
+        v = a[f"_Y{i}"] + (v if a.digit("_YA", place) == 2 else 0.0)
+        found.append((u, v))
+    yield from visit(moves, a, found)
