@@ -86,7 +86,8 @@ class Result:
         channel: The channel in its last state.
         display: Turns rows of the toolpath into what the control shows.
         alarms: In order.
-        start: Machine position at the start (mm, radius, degrees), an axis each.
+        lead: What the planner must know of the start: machine position (mm, radius, degrees), and how the
+            control leads the axes.
         planner: Has planned the chunks that are no longer held; None where all are.
         stops: Where the run halted in single block mode, as N words.
     """
@@ -96,7 +97,7 @@ class Result:
     machine: Machine
     channel: Channel
     display: Display
-    start: Sequence[float]
+    lead: Mapping[str, Any]
     planner: Planner | None = None
     stops: list[str] = field(default_factory=list)
 
@@ -139,7 +140,7 @@ class Result:
             return self.planner.finish()
         from polycnc.motion.plan import plan
 
-        return plan(self.toolpath, self.machine, start=self.start)
+        return plan(self.toolpath, self.machine, **self.lead)
 
     @property
     def time(self) -> float:
@@ -217,12 +218,15 @@ class Session:
         toolpath = Toolpath(machine.channel_axes(1), on_full=self._take)
         self.channel = Channel(control, machine, setup, store, block_limit=block_limit, toolpath=toolpath)
         display = Display(toolpath, axis_layout(machine, 1), self._event_text)
-        start = self.channel.coordinates.machine
-        self.result = Result(program, control, machine, self.channel, display, start)
+        lead: dict[str, Any] = {
+            "start": self.channel.coordinates.machine,
+            "settings": control.motion_settings(self.channel),
+        }
+        self.result = Result(program, control, machine, self.channel, display, lead)
         if not keep:
             from polycnc.motion.planner import Planner
 
-            self.result.planner = Planner(toolpath, machine, start=start, keep_rows=False)
+            self.result.planner = Planner(toolpath, machine, keep_rows=False, **self.result.lead)
 
     def run(self, progress: Callable[[Channel], None] | None = None) -> Result:
         """Run to the end of the program or to an alarm. Programmed stops are recorded and started again.

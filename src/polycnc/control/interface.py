@@ -8,6 +8,7 @@ from polycnc.channel.channel import Control as ChannelControl
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.machine.motion_settings import MotionSettings
     from polycnc.messages import Catalogue
     from polycnc.program import Form
 
@@ -26,6 +27,12 @@ class Control(ChannelControl, Protocol):
     @property
     def catalogue(self) -> Catalogue:
         """Texts of the control's alarms."""
+
+    def reset(self, channel: Channel) -> None:
+        """Bring a channel into the state after reset and after the end of a program; its axes stay."""
+
+    def motion_settings(self, channel: Channel) -> MotionSettings:
+        """How the control leads the axes, by its machine parameters."""
 
     def read_variable(self, channel: Channel, name: str) -> object:
         """The value of a variable as a user names it; None where it is vacant, `KeyError` where there is none."""

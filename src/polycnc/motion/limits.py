@@ -6,7 +6,7 @@ from array import array
 from math import inf
 from typing import TYPE_CHECKING
 
-from polycnc.motion.settings import EXACT_STOP_MODES, WITHOUT_DEVIATION_MODES, Settings
+from polycnc.motion.settings import EXACT_STOP_MODES, Settings
 
 if TYPE_CHECKING:
     from polycnc.machine import Axis, Machine, Spindle
@@ -103,4 +103,4 @@ def _tolerance(context: Context, settings: Settings) -> float:
     """Contour tolerance of a context; 0 for corners without deviation."""
     if context.tolerance_mm > 0.0:
         return context.tolerance_mm
-    return 0.0 if context.path_mode in WITHOUT_DEVIATION_MODES else settings.tolerance_mm
+    return 0.0 if context.path_mode in settings.without_deviation else settings.tolerance_mm

@@ -1,36 +1,8 @@
-"""How a control leads the axes: what a machine file does not say and a control's parameters decide."""
+"""How a control leads the axes; stated by the controls, therefore kept with the machine."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from polycnc.machine.motion_settings import BRISK, DEFAULT, DRIVE, EXACT_STOP_MODES, SOFT
+from polycnc.machine.motion_settings import MotionSettings as Settings
 
-#: Words for exact stop, block by block or until further notice.
-EXACT_STOP_MODES = frozenset({"G9", "G09", "G60", "G61", "G61.1"})
-#: Words for continuous path that keeps to the contour: a corner costs speed, not accuracy.
-WITHOUT_DEVIATION_MODES = frozenset({"G62", "G63", "G64"})
-
-
-@dataclass(frozen=True, slots=True)
-class Settings:
-    """What the planner asks of a control's parameters.
-
-    Attributes:
-        rapid_by_axis: On a rapid every axis runs alone at its own speed (FANUC 1401#1 LRP = 0, SINUMERIK
-            `RTLIOF`); else all arrive together on a line.
-        rapid_stops: The axes come to rest before and after every rapid (in-position check).
-        rotary_in_feed: The feed of a move of linear and rotary axes counts a degree as a millimetre (an inch
-            in inch mode), as the word-address controls do; else it counts the linear axes alone (SINUMERIK
-            without FGROUP).
-        tolerance_mm: Contour tolerance of the modes that round corners, where the program names none.
-        overload: At a corner without deviation an axis may change its velocity within one interpolation cycle
-            by this many times its acceleration (SINUMERIK MD32310 MAX_ACCEL_OVL_FACTOR).
-    """
-
-    rapid_by_axis: bool = False
-    rapid_stops: bool = True
-    rotary_in_feed: bool = True
-    tolerance_mm: float = 0.01
-    overload: float = 1.2
-
-
-DEFAULT = Settings()
+__all__ = ["BRISK", "DEFAULT", "DRIVE", "EXACT_STOP_MODES", "SOFT", "Settings"]

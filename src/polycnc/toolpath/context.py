@@ -31,6 +31,8 @@ class Context:
         spindle_rpm: Programmed speed (rpm; m/min under constant surface speed), spindle direction 1, -1 or 0.
         path_mode: The control's own word for exact stop or continuous path (`G61`, `G64`, `G642` …).
         tolerance_mm: Contour tolerance for the planner where a code names one, else 0.
+        acceleration: `BRISK`, `SOFT` or `DRIVE`; empty for the control's own.
+        rapid_by_axis: On a rapid every axis runs alone, whatever the control's parameters say.
         diameter_axes: Bit mask of channel axes that show diameters.
         wcs: Name of the active work coordinate system.
         part: From the display to the system of the work offset, where programmed frames lie behind the display: in
@@ -54,6 +56,8 @@ class Context:
     spindle_limit_rpm: float = 0.0
     path_mode: str = "G64"
     tolerance_mm: float = 0.0
+    acceleration: str = ""
+    rapid_by_axis: bool = False
     diameter_axes: int = 0
     wcs: str = "G54"
     part: Frame = IDENTITY

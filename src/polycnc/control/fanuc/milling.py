@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.drilling import Drilling
     from polycnc.control.word_address.interlocks import Interlock
     from polycnc.control.word_address.plan import Builder, Plan
+    from polycnc.machine.motion_settings import MotionSettings
 
 
 class FanucMilling(MillingControl):
@@ -71,6 +72,11 @@ class FanucMilling(MillingControl):
             least_move_mm=parameters.number(5010, default=HARTFORD.least_move_mm),
             checks_direction=not parameters.bit(5008, 1),
         )
+
+    def motion_settings(self, channel: Channel) -> MotionSettings:
+        """1401#1 LRP: rapids run on a line; else every axis by itself."""
+        by_axis = not channel.setup.parameters.bit(1401, 1)
+        return replace(super().motion_settings(channel), rapid_by_axis=by_axis)
 
     def make_memory(self, channel: Channel) -> MacroMemory:
         """Offsets, tools and variables."""

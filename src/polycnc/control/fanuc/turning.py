@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.numbers import Convert
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.geometry.arcs import Point
+    from polycnc.machine.motion_settings import MotionSettings
     from polycnc.messages import AlarmError
     from polycnc.toolpath import Context
 
@@ -80,6 +81,11 @@ class FanucTurning(CustomMacroControl):
         """The active code of a modal group as the program writes it."""
         code = channel.mode[group]
         return written_codes(self.system(channel)).get((group, code), code)
+
+    def motion_settings(self, channel: Channel) -> MotionSettings:
+        """1401#1 LRP: rapids run on a line; else every axis by itself."""
+        by_axis = not channel.setup.parameters.bit(1401, 1)
+        return replace(super().motion_settings(channel), rapid_by_axis=by_axis)
 
     def make_memory(self, channel: Channel) -> TurningMemory:
         """Offsets, tools and variables."""
@@ -198,7 +204,7 @@ class FanucTurning(CustomMacroControl):
 
     def end_of_program(self, channel: Channel) -> None:
         """The shape of G70 ends with its last block; every other text as usual."""
-        if channel.level.kind == turning_repetitive.SHAPE_KIND:
+        if channel.level.kind == turning_comp.SHAPE_KIND:
             turning_repetitive.end_of_shape(channel)
         else:
             super().end_of_program(channel)

@@ -35,6 +35,7 @@ from polycnc.language.sinumerik.nc_frame import GEOMETRY_AXES, NEUTRAL, ctrans
 from polycnc.language.sinumerik.sections import end_of_subprogram
 from polycnc.language.sinumerik.values import Axis
 from polycnc.machine.motion_settings import MotionSettings
+from polycnc.machine.motion_settings import MotionSettings
 from polycnc.messages import AlarmError, Catalogue
 from polycnc.program import Form
 from polycnc.toolpath import Context
@@ -247,6 +248,8 @@ class Sinumerik:
             tolerance_mm=_tolerance(memory, mode["path_mode"]),
             acceleration=mode["acceleration"],
             rapid_by_axis=mode["rapid"] == "RTLIOF",
+            acceleration=mode["acceleration"],
+            rapid_by_axis=mode["rapid"] == "RTLIOF",
             diameter_axes=diameters,
             wcs=mode["zero_offset"],
             part=chain(memory.frames.inner()).frame,
@@ -263,6 +266,10 @@ class Sinumerik:
     def block_limit(self) -> AlarmError:
         """The program has run more blocks than allowed."""
         return AlarmError("PC0002", hint="hint.block-limit")
+
+    def motion_settings(self, _channel: Channel) -> MotionSettings:
+        """How the control leads the axes: rapids stop only where an exact stop does; feeds count linear axes."""
+        return MotionSettings(rapid_stops=False, rotary_in_feed=False)
 
     def motion_settings(self, _channel: Channel) -> MotionSettings:
         """How the control leads the axes: rapids stop only where an exact stop does; feeds count linear axes."""

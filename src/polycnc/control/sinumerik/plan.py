@@ -327,4 +327,5 @@ EFFECTS: dict[str, Step] = {
 #: After the words of the block: the tool is that of the block's own T and D.
 LATE_EFFECTS: dict[str, Step] = {"approach": _rules, "corner": _rules, "side": _side}
 #: Groups that a context of the toolpath tells of.
-IN_CONTEXT = frozenset(("plane", "zero_offset", "units", "feed", "diameter", "path_mode", "side", "dynamics"))
+IN_CONTEXT = frozenset(("plane", "zero_offset", "units", "feed", "diameter", "path_mode", "side", "dynamics",
+    "acceleration", "rapid"))

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
     from polycnc.geometry.arcs import Point
+    from polycnc.machine.motion_settings import MotionSettings
     from polycnc.program import Program
     from polycnc.toolpath import Context
 
@@ -71,6 +72,11 @@ class SyntecMill(WordAddressControl):
         return program
 
     # ---- states ------------------------------------------------------------------------------------------
+
+    def motion_settings(self, channel: Channel) -> MotionSettings:
+        """Pr411: each axis runs a rapid by itself."""
+        by_axis = parameter(channel.setup.parameters, 411) == 1
+        return replace(super().motion_settings(channel), rapid_by_axis=by_axis)
 
     def make_memory(self, channel: Channel) -> SyntecMemory:
         """Offsets, tools and variables."""

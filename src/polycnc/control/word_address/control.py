@@ -17,6 +17,7 @@ from polycnc.geometry.arcs import radius_mismatch
 from polycnc.language.bulk import Spelling
 from polycnc.language.word_address import Grammar, WordAddressProgram
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock
+from polycnc.machine.motion_settings import SOFT, MotionSettings
 from polycnc.messages import AlarmError, Catalogue
 from polycnc.program import Form
 from polycnc.toolpath import Context
@@ -294,6 +295,10 @@ class WordAddressControl:
             diameter_axes=diameters,
             wcs=memory.wcs,
         )
+
+    def motion_settings(self, _channel: Channel) -> MotionSettings:
+        """How the control leads the axes: corners of G64 are rounded, acceleration is bell-shaped."""
+        return MotionSettings(without_deviation=frozenset(), acceleration=SOFT)
 
     # ---- variables by name, for reports and test cases ---------------------------------------------------------------
 

@@ -1,0 +1,46 @@
+"""How a control leads the axes of a machine: what its parameters decide and no machine file says."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+#: Words for exact stop, block by block or until further notice.
+EXACT_STOP_MODES = frozenset({"G9", "G09", "G60", "G61", "G61.1"})
+#: Words for continuous path that keeps to the contour: a corner costs speed, not accuracy.
+WITHOUT_DEVIATION_MODES = frozenset({"G62", "G63", "G64"})
+#: Words for acceleration without and with limited jerk, and with less acceleration at high speed.
+BRISK, SOFT, DRIVE = "BRISK", "SOFT", "DRIVE"
+
+
+@dataclass(frozen=True, slots=True)
+class MotionSettings:
+    """What the planner asks of a control's parameters.
+
+    Attributes:
+        rapid_by_axis: On a rapid every axis runs alone at its own speed (FANUC 1401#1 LRP = 0, SYNTEC Pr411 =
+            1); else all arrive together on a line. A context can ask for it too (SINUMERIK `RTLIOF`).
+        rapid_stops: The axes come to rest before and after every rapid (in-position check).
+        rotary_in_feed: The feed of a move of linear and rotary axes counts a degree as a millimetre (an inch
+            in inch mode), as the word-address controls do; else it counts the linear axes alone (SINUMERIK
+            without FGROUP).
+        without_deviation: Path modes whose corners are passed without deviation; the others round corners.
+        tolerance_mm: Contour tolerance of the modes that round corners, where the program names none.
+        overload: At a corner without deviation an axis may change its velocity within one interpolation cycle
+            by this many times its acceleration (SINUMERIK MD32310 MAX_ACCEL_OVL_FACTOR).
+        acceleration: `BRISK` or `SOFT` where the context does not say.
+        drive_speed: `DRIVE`: from this part of its velocity on an axis accelerates less (MD35220).
+        drive_reduction: `DRIVE`: by this part of its acceleration (MD35230).
+    """
+
+    rapid_by_axis: bool = False
+    rapid_stops: bool = True
+    rotary_in_feed: bool = True
+    without_deviation: frozenset[str] = WITHOUT_DEVIATION_MODES
+    tolerance_mm: float = 0.01
+    overload: float = 1.2
+    acceleration: str = BRISK
+    drive_speed: float = 1.0
+    drive_reduction: float = 0.0
+
+
+DEFAULT = MotionSettings()
