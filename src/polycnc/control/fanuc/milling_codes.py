@@ -21,6 +21,8 @@ from polycnc.control.word_address import (
     radius,
     skip,
     thread,
+    tilted_plane,
+    tool_center_point,
     tool_measuring,
 )
 from polycnc.control.word_address.codes import GCode, Order, not_yet, table
@@ -48,6 +50,16 @@ def _outside_cycles(code: str, handler: Handler) -> Handler:
     def act(channel: Channel, words: Words) -> None:
         if is_active(channel):
             raise words.fail("cycle_reference", code)
+        handler(channel, words)
+
+    return act
+
+
+def tool_length(handler: Handler) -> Handler:
+    """A length code; it ends tool centre point control."""
+
+    def act(channel: Channel, words: Words) -> None:
+        tool_center_point.end_following(channel)
         handler(channel, words)
 
     return act
@@ -92,10 +104,11 @@ G_CODES = table(
     GCode("G40", "compensation", radius.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
     GCode("G41", "compensation", corner_vectors.compensate_left, takes="D I J K", order=Order.COMPENSATION),
     GCode("G42", "compensation", corner_vectors.compensate_right, takes="D I J K", order=Order.COMPENSATION),
-    GCode("G43", "length", length.compensate_length, takes="H", order=Order.LENGTH),
-    GCode("G44", "length", length.compensate_length, takes="H", order=Order.LENGTH),
+    GCode("G43", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
+    GCode("G44", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
+    GCode("G43.4", "length", tool_center_point.start_following, takes="H", order=Order.LENGTH),
     *(moves(code, position_offset.offset_move, "D", idle_in_cycle=True) for code in position_offset.TIMES),
-    GCode("G49", "length", length.cancel_length, order=Order.LENGTH),
+    GCode("G49", "length", tool_length(length.cancel_length), order=Order.LENGTH),
     GCode("G50", "scaling", frames.end_scale),
     GCode("G51", "scaling", frames.scale, takes="I J K P", axis_words=True),
     GCode("G50.1", "mirror", frames.end_mirror, axis_words=True),
@@ -115,7 +128,9 @@ G_CODES = table(
     GCode("G66.1", "macro", macro_calls.start_modal_call, takes="*", axis_words=True, order=Order.CALL),
     GCode("G67", "macro", macro_calls.end_modal_call),
     GCode("G68", "rotation", frames.rotate, takes="R", axis_words=True),
-    GCode("G69", "rotation", frames.end_rotation),
+    GCode("G68.2", "rotation", tilted_plane.tilt_plane, takes="P Q I J K", axis_words=True),
+    GCode("G53.1", handler=tilted_plane.align_tool, takes="P", order=Order.MOTION),
+    GCode("G69", "rotation", tilted_plane.end_tilt),
     GCode("G80", "cycle"),
     *(GCode(code, "cycle") for code in MILLING_DRILLING.cycles),
     GCode("G90", "distance"),
@@ -130,8 +145,8 @@ G_CODES = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G5.4", "G6.2", "G7.1", "G107", "G12.1", "G13.1", "G112", "G113", "G40.1", "G41.1", "G42.1", "G43.4",
-        "G43.5", "G53.1", "G53.6", "G54.2", "G54.4", "G68.2", "G68.3", "G68.4", "G10.9",
+        "G5.4", "G6.2", "G7.1", "G107", "G12.1", "G13.1", "G112", "G113", "G40.1", "G41.1", "G42.1", "G43.5",
+        "G53.6", "G54.2", "G54.4", "G68.3", "G68.4", "G10.9",
     ),
 )  # fmt: skip
 

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.words import Words
 
 LINES = frozenset({"G0", "G1"})
+#: Kind of the program level in which G70 runs a shape.
+SHAPE_KIND = "shape"
 
 
 def policy(channel: Channel) -> Policy:
@@ -49,8 +51,7 @@ def right(channel: Channel, words: Words) -> None:
 
 def _engage(channel: Channel, words: Words, engage: Callable[[Channel, Words], None]) -> None:
     memory = channel.memory
-    if memory.reading_shape:
-        _refuse_in_shape(channel, words)
+    if not _takes(channel, words, starts=True):
         return
     memory.d = memory.offset_active
     corner = channel.head if isinstance(channel.head, turning_corners.TurningCorner) else None
@@ -63,17 +64,28 @@ def _engage(channel: Channel, words: Words, engage: Callable[[Channel, Words], N
 
 def cancel(channel: Channel, words: Words) -> None:
     """G40, with the direction of the wall behind the last point in I, J, K."""
-    if channel.memory.reading_shape:
-        _refuse_in_shape(channel, words)
+    if not _takes(channel, words, starts=False):
         return
     radius.cancel_compensation(channel, words)
 
 
-def _refuse_in_shape(channel: Channel, words: Words) -> None:
-    """G40 to G42 in the shape of G71 to G73: an alarm; with 5106#2 NT1 or #3 NT2 they do nothing there."""
-    bit = channel.memory.parameters.bit
-    if not (bit(5106, 2) or bit(5106, 3)):
-        raise words.fail("shape_command", channel.mode["compensation"])
+def _takes(channel: Channel, words: Words, *, starts: bool) -> bool:
+    """Whether a G40 to G42 acts; in the shape of a cycle it depends (II.4.2.1).
+
+    There it is an alarm as delivered. 5106#2 NT1: G71 to G73 pass over it. #3 NT2: they do so too, and G70 takes
+    it, if G41 or G42 stands in the first block and compensation was off before.
+    """
+    bit, level = channel.memory.parameters.bit, channel.level
+    finishing = not channel.memory.reading_shape
+    if finishing and level.kind != SHAPE_KIND:
+        return True
+    if finishing and bit(5106, 3):
+        if starts and (level.current != level.entry or level.data["compensated"]):
+            raise words.fail("shape_command", channel.mode["compensation"])
+        return True
+    if bit(5106, 2) or (bit(5106, 3) and not finishing):
+        return False
+    raise words.fail("shape_command", channel.mode["compensation"])
 
 
 def hold_vector(channel: Channel, _words: Words) -> None:

@@ -10,6 +10,7 @@ from math import nan
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import Level
+from polycnc.control.fanuc.turning_comp import SHAPE_KIND
 from polycnc.control.fanuc.turning_coordinates import feed_number, plane_axes
 from polycnc.control.fanuc.turning_drilling import is_series_15
 from polycnc.control.fanuc.turning_shape import Section, contour_of, read_shape
@@ -44,7 +45,6 @@ RETURN = 5139
 THREAD_LEAST, THREAD_ALLOWANCE, THREAD_FINISHING, THREAD_ANGLE = 5140, 5141, 5142, 5143
 CHAMFER = 5130
 TIP_ANGLES = (80, 60, 55, 30, 29, 0)
-SHAPE_KIND = "shape"
 
 
 # ---- shape cycles ----------------------------------------------------------------------------------------------
@@ -62,6 +62,7 @@ def finish(channel: Channel, words: Words) -> None:
         Section(code, end), begin, begin, level.program_number, 0, begin, SHAPE_KIND, level.locals
     )
     section.data["start"] = channel.coordinates.position
+    section.data["compensated"] = bool(channel.memory.side)
     if is_compensated(channel):
         leave_compensation(channel)
         enter_compensation(channel)
@@ -71,7 +72,10 @@ def finish(channel: Channel, words: Words) -> None:
 
 def end_of_shape(channel: Channel) -> None:
     """The shape of G70 is cut: back to the start in rapid, on with the block behind G70."""
-    start: list[float] = channel.pop().data["start"]
+    section = channel.pop()
+    start: list[float] = section.data["start"]
+    if channel.memory.side and not section.data["compensated"]:
+        raise channel.control.fail("shape_compensation_open", address="Q")
     if not is_compensated(channel):
         channel.straight(Kind.RAPID, start, nan)
         return
