@@ -31,7 +31,7 @@ def policy(channel: Channel) -> Policy:
         FANUC_A,
         approach=Approach.CORNER if bit(5003, 0) else Approach.SQUARE,
         shifts_without_motion=bool(bit(5003, 1)),
-        outer=Outer(0.0, Joint.ARC) if bit(19607, 2) else FANUC_A.outer,
+        outer=Outer(90.0, Joint.ARC) if bit(19607, 2) else FANUC_A.outer,
         read_blocks=min(max(int(parameters.number(19625, default=3)), 3), 8),
         least_move_mm=parameters.number(5010, default=0.001),
         checks_direction=not (bit(5008, 3) or bit(5008, 1)),

@@ -394,6 +394,8 @@ def _least_increments(words: Words, address: str) -> float:
 
 def _series_15_depth(words: Words) -> float:
     """D: least increments even under calculator input; a decimal point is an alarm (II.6.4)."""
+    if "D" not in words:
+        return 0.0
     if words.form("D") not in ("", "#"):
         raise words.fail("point", "D")
     return _least_increments(words, "D")
