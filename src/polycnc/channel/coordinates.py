@@ -14,7 +14,19 @@ incremental words; `owes` says whether there is any.
 
 from __future__ import annotations
 
+from typing import Protocol
+
 from polycnc.geometry.frames import IDENTITY, Frame
+
+
+class Following(Protocol):
+    """How real axes follow the displayed position in a mode that makes axes of others, and back."""
+
+    def real(self, end: list[float]) -> list[float]:
+        """Work coordinates of the real axes at a displayed position."""
+
+    def display(self, real: list[float]) -> list[float]:
+        """The displayed position for work coordinates of the real axes."""
 
 
 class Coordinates:
@@ -31,6 +43,7 @@ class Coordinates:
         self.programming = IDENTITY
         self.shift: list[float] | None = None
         self.direct = True
+        self.transformation: Following | None = None
         self.zero = IDENTITY
         self.offsets = [0.0] * len(axes)
         self.pending = [0.0] * len(axes)
@@ -64,12 +77,18 @@ class Coordinates:
 
     def to_machine(self, position: list[float]) -> list[float]:
         """Absolute display to machine axes."""
-        return [value + offset for value, offset in zip(self.image(self.zero, position), self.offsets, strict=True)]
+        if self.transformation is not None:
+            position = self.transformation.real(position)
+        return [
+            value + offset
+            for value, offset in zip(self.image(self.zero, position), self.offsets, strict=True)
+        ]
 
     def from_machine(self, machine: list[float]) -> list[float]:
         """Machine axes to absolute display."""
         inner = [value - offset for value, offset in zip(machine, self.offsets, strict=True)]
-        return self.image(self.zero.inverse(), inner)
+        position = self.image(self.zero.inverse(), inner)
+        return position if self.transformation is None else self.transformation.display(position)
 
     @property
     def machine(self) -> list[float]:

@@ -60,6 +60,7 @@ ALARMS: dict[str, str] = {
     "zone_plus": "OT0502",
     "zone_minus": "OT0503",
     "spindle_choice": "PS5305",
+    "comp_in_mdi": "PS5257",
     # turning
     "shape_ends_in_corner": "PS0069",
     "tool_with_one_shot": "PS0245",
@@ -98,6 +99,7 @@ ALARMS: dict[str, str] = {
     "tilt_unreachable": "PS5459",
     "tip_machine": "PS5420",
     "tip_mode": "PS5421",
+    "tip_direction": "PS5459",
     "cycle_word": "PS0045",
     "cycle_reference": "PS0044",
     "pattern": "PS0009",

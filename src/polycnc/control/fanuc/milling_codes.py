@@ -107,6 +107,7 @@ G_CODES = table(
     GCode("G43", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
     GCode("G44", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
     GCode("G43.4", "length", tool_center_point.start_following, takes="H", order=Order.LENGTH),
+    GCode("G43.5", "length", tool_center_point.start_following, takes="H", order=Order.LENGTH),
     *(moves(code, position_offset.offset_move, "D", idle_in_cycle=True) for code in position_offset.TIMES),
     GCode("G49", "length", tool_length(length.cancel_length), order=Order.LENGTH),
     GCode("G50", "scaling", frames.end_scale),
@@ -145,7 +146,7 @@ G_CODES = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G5.4", "G6.2", "G7.1", "G107", "G12.1", "G13.1", "G112", "G113", "G40.1", "G41.1", "G42.1", "G43.5",
+        "G5.4", "G6.2", "G7.1", "G107", "G12.1", "G13.1", "G112", "G113", "G40.1", "G41.1", "G42.1",
         "G53.6", "G54.2", "G54.4", "G68.3", "G68.4", "G10.9",
     ),
 )  # fmt: skip

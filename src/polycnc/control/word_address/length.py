@@ -68,8 +68,22 @@ def _shift(channel: Channel) -> None:
         raise channel.control.fail("plane")
     sign = _SIGN.get(channel.mode["length"], 0.0)
     value = channel.control.length_value(channel, memory.h) if sign and memory.h else 0.0
-    memory.length_offset[z] = sign * value
+    if memory.tool_direction is None:
+        memory.length_offset[z] = sign * value
+    else:
+        for axis, part in zip(channel.coordinates.geometry, memory.tool_direction, strict=True):
+            if axis >= 0:
+                memory.length_offset[axis] = sign * value * part
     refresh_zero(channel, travelled=True)
+
+
+def renew_direction(channel: Channel) -> None:
+    """The direction of the tool has changed: an active length counts along the new one."""
+    for axis in channel.coordinates.geometry:
+        if axis >= 0:
+            channel.memory.length_offset[axis] = 0.0
+    if channel.mode["length"] in _SIGN:
+        _shift(channel)
 
 
 def _travel(channel: Channel) -> None:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.drilling import CycleData
     from polycnc.control.word_address.interruption import Interruptions
     from polycnc.control.word_address.macro_calls import ModalCall
+    from polycnc.geometry.frames import Vector
 
 #: Name of the offset that is added to every work coordinate system.
 EXTERNAL = "EXT"
@@ -77,6 +78,8 @@ class Memory:
         local_shift: G52.
         preset_shift: G92.
         zero_frame: Turn of the work coordinate system (SYNTEC G92.1); identity on most controls.
+        tilted_plane: The tilted plane inside the work system.
+        tool_direction: Direction in which the tool's length counts, where it is not Z.
         length_offset: Shift of each axis by the active tool length.
         tool: Tool in the spindle; `next_tool` is selected.
         last_m: The last M code sent to the machine.
@@ -109,6 +112,8 @@ class Memory:
         self.preset_shift = [0.0] * count
         self.zero_frame = IDENTITY
         self.length_offset = [0.0] * count
+        self.tilted_plane: Frame | None = None
+        self.tool_direction: Vector | None = None
         self.tool = 0
         self.next_tool = 0
         self.last_m = 0

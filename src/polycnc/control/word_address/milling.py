@@ -11,6 +11,7 @@ from polycnc.control.word_address.custom_macro import CustomMacroControl
 from polycnc.control.word_address.interlocks import Interlock, guarded
 from polycnc.control.word_address.length import renew_length
 from polycnc.control.word_address.parameter_input import plan_parameter_block
+from polycnc.control.word_address.tool_center_point import plan_with_direction
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -47,7 +48,7 @@ class MillingControl(CustomMacroControl):
         mode = builder.mode
         if mode["feed"] == "G93" and mode["motion"] in CUTTING and plan.axis_words and not builder.has("F"):
             raise self.fail("inverse_time_feed", address=mode["motion"])
-        return super().plan_motion(builder, plan)
+        return plan_with_direction(builder, plan) or super().plan_motion(builder, plan)
 
     def plan_corner(self, builder: Builder) -> Step | None:
         """What ,R and ,C ask for."""
