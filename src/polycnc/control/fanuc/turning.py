@@ -9,6 +9,7 @@ from polycnc.control.fanuc import (
     turning_comp,
     turning_drawing,
     turning_drilling,
+    turning_limits,
     turning_repetitive,
     turning_shape,
     turning_single,
@@ -16,7 +17,6 @@ from polycnc.control.fanuc import (
     turning_transform,
 )
 from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
-from polycnc.control.fanuc.turning_barrier import barrier
 from polycnc.control.fanuc.turning_codes import ADDRESSES, M_CODES, POWER_ON, g_table, written_codes
 from polycnc.control.fanuc.turning_memory import TurningMemory
 from polycnc.control.fanuc.turning_variables import TURNING_VARIABLES
@@ -97,8 +97,7 @@ class FanucTurning(CustomMacroControl):
         machine = channel.coordinates.machine
         shown = [channel.memory.radius_of(i, value) for i, value in enumerate(machine)]
         channel.coordinates.arrive_machine(shown)
-        if channel.mode["stroke"] == "G22":
-            channel.memory.zone = channel.stroke_zone = barrier(channel)
+        turning_limits.at_power_on(channel)
         channel.memory.feed_code, channel.memory.plane = channel.mode["feed"], channel.mode["plane"]
 
     def start_codes(self, channel: Channel) -> dict[str, str]:

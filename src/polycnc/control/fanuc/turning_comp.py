@@ -53,6 +53,8 @@ def _engage(channel: Channel, words: Words, engage: Callable[[Channel, Words], N
     memory = channel.memory
     if not _takes(channel, words, starts=True):
         return
+    if channel.setup.switches.mode == "mdi" and memory.parameters.bit(5008, 4):
+        raise words.fail("comp_in_mdi", channel.mode["compensation"])
     memory.d = memory.offset_active
     corner = channel.head if isinstance(channel.head, turning_corners.TurningCorner) else None
     engage(channel, words)

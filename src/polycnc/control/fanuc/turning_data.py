@@ -1,21 +1,16 @@
-"""G10 and G22 of the lathe: work offsets, work shift, tool offsets, parameters, stroke limits."""
+"""G10 of the lathe: work offsets, work shift, tool offsets."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.control.fanuc.turning_barrier import barrier
 from polycnc.control.fanuc.turning_tools import MAX_OFFSETS, offset_changed, refresh
-from polycnc.control.word_address import extended
 from polycnc.control.word_address.data_input import WORK_SYSTEMS
 from polycnc.control.word_address.plan import NOT_YET
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from polycnc.channel.channel import Channel, Zone
+    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.words import Words
 
 #: Geometry offsets are numbered from here in G10 and in offset files.
@@ -94,66 +89,3 @@ def _further_axis(channel: Channel, words: Words, address: str, parameter: int) 
     if not 1 <= number <= len(channel.axes):
         raise words.fail("g10_format", address)
     return channel.axes[number - 1]
-
-
-def stroke_check_on(channel: Channel, words: Words) -> None:
-    """G22 X Z I K: stored stroke check 2 in machine coordinates; values of a diameter axis are diameters."""
-    memory = channel.memory
-    memory.zone = barrier(channel)
-    if memory.zone is not None:
-        # The barrier takes the place of stored stroke checks 2 and 3 (III.2.2).
-        renew_zones(channel)
-        return
-    upper = {axis: value for axis, value, _ in words.axes()}
-    named: list[tuple[int, float, float]] = []
-    for letter, axis in zip("IJK", channel.coordinates.geometry, strict=True):
-        low = words.length(letter, diameter=axis >= 0 and channel.control.is_diameter(channel, axis))
-        if (low is None) != (axis not in upper):
-            raise words.fail("address", letter)
-        if low is not None:
-            named.append((axis, min(low, upper[axis]), max(low, upper[axis])))
-    if named:
-        axes, lows, highs = zip(*named, strict=True)
-        inside = not memory.parameters.bit(1300, 0)
-        memory.zone = extended.StrokeZone(tuple(lows), tuple(highs), tuple(axes), inside)
-    renew_zones(channel)
-
-
-def stroke_check_off(channel: Channel, _words: Words) -> None:
-    """G23: no forbidden zone."""
-    channel.memory.zone = None
-    renew_zones(channel)
-
-
-def limit_increment(channel: Channel, words: Words) -> None:
-    """G91.1: largest increment of each named axis in one block; 0 ends the check."""
-    limits = channel.memory.increment_limits
-    for axis, value, _ in words.axes():
-        limits[axis] = abs(value)
-        if not value:
-            del limits[axis]
-    renew_zones(channel)
-
-
-def renew_zones(channel: Channel) -> None:
-    """Let the channel check every move against the forbidden zone and the largest increments."""
-    memory = channel.memory
-    limits = memory.increment_limits
-    channel.stroke_zone = IncrementCheck(dict(limits), memory.zone) if limits else memory.zone
-
-
-@dataclass(frozen=True, slots=True)
-class IncrementCheck:
-    """The largest increment of axes in one block, and the zone that is checked beside it."""
-
-    limits: Mapping[int, float]
-    zone: Zone | None
-
-    def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:
-        """The control's alarm for a longer way of an axis."""
-        here = channel.coordinates.machine
-        for axis, limit in self.limits.items():
-            if abs(machine[axis] - here[axis]) > limit + 1e-9:
-                raise channel.control.fail("increment_limit", address=channel.axes[axis])
-        if self.zone is not None:
-            self.zone.check(channel, machine, straight=straight)

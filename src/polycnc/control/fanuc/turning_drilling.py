@@ -79,6 +79,7 @@ def _rules(choice: _Choice) -> Drilling:
         by_r=True,
         repeats="L" if choice.repeats_by_l else "K",
         triggers="R",
+        least_increments="Q",
         axis=_axis,
         relief=_relief,
         turn=_turn,

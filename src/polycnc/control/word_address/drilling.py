@@ -8,10 +8,11 @@ from the block that enters the mode until the mode ends.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.numbers import length_converter
 from polycnc.control.word_address.path import FEED_MODES, PLANES, target
 from polycnc.cycles.drilling import Action, Cycle, Hole, Stroke
 from polycnc.toolpath import Kind
@@ -117,6 +118,7 @@ class Drilling:
         lead: Lead of a tap, mm.
         check: Alarms for what must not be when a cycle begins to drill.
         turn: What a reversal or stop of the spindle within a cycle does.
+        least_increments: Words that count least increments even under calculator input.
         dress: What the machine adds to the strokes of a hole (clamping an axis), by cycle code.
     """
 
@@ -135,6 +137,7 @@ class Drilling:
     lead: Callable[[Channel], float] = lead_from_feed
     turn: Callable[[Channel, int], None] = turn_spindle
     check: Callable[[Channel, str], None] = nothing_to_check
+    least_increments: Sequence[str] = ""
     dress: Callable[[Channel, str, Hole, Iterator[Stroke]], Iterator[Stroke]] = as_it_is
 
     @property
@@ -243,6 +246,8 @@ class _Words:
         if address == "P":
             form, rules = builder.slots[address][1], builder.rules
             return lambda value: self.rules.seconds(value, form, rules)
+        if address in self.rules.least_increments and builder.slots[address][1] == "":
+            return length_converter("", replace(builder.rules, calculator=False), inch=builder.inch) or float
         return builder.length(address) or (lambda value: value)
 
     def store(self, data: CycleData, values: list[float]) -> None:
