@@ -75,14 +75,21 @@ class Kinematics:
     def angles_for(self, direction: Vector, near: Angles) -> dict[str, float] | None:
         """Angles of the rotary axes that stand the tool along a direction of the work; None where none do.
 
-        Of two solutions the one with the shorter way from `near`. With `d = R(k1, a1) R(k2, a2) ez` the component of
-        `d` along k1 depends on a2 alone; a1 then turns the rest about k1. At a pole, where a1 may be anything, it
-        stays.
+        Of two solutions the one with the shorter way from `near`.
+        """
+        found = self.solutions_for(direction, near)
+        return min(found, key=lambda s: sum(abs(s[a] - near.get(a, 0.0)) for a in s), default=None)
+
+    def solutions_for(self, direction: Vector, near: Angles) -> list[dict[str, float]]:
+        """All angles of the rotary axes, each on its turn nearest to `near`, that stand the tool along a direction.
+
+        With `d = R(k1, a1) R(k2, a2) ez` the component of `d` along k1 depends on a2 alone; a1 then turns the rest
+        about k1. At a pole, where a1 may be anything, it stays.
         """
         wanted = _unit(direction)
         turns = self._turns
         if not turns or len(turns) > 2:
-            return None
+            return []
         if len(turns) == 1:
             turns = ((turns[0][0], turns[0][1]), (turns[0][0], 0.0))
         (outer, outer_sign), (inner, inner_sign) = turns
@@ -97,8 +104,7 @@ class Kinematics:
             if outer_deg is not None:
                 solution[outer.axis] = outer_sign * outer_deg
             found.append({name: _nearest(solution[name], near.get(name, 0.0)) for name in self.axes})
-        reached = [s for s in found if _same(self.tool_on_work(s), wanted)]
-        return min(reached, key=lambda s: sum(abs(s[a] - near.get(a, 0.0)) for a in s), default=None)
+        return [solution for solution in found if _same(self.tool_on_work(solution), wanted)]
 
     @property
     def _turns(self) -> tuple[tuple[Joint, float], ...]:

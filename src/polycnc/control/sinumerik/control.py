@@ -8,6 +8,8 @@ from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.control.sinumerik import (
+    axis_exchange,
+    coordination,
     frames,
     functions,
     gcodes,
@@ -33,8 +35,8 @@ from polycnc.language.sinumerik.executable import SinumerikProgram
 from polycnc.language.sinumerik.interface import LanguageMemory
 from polycnc.language.sinumerik.nc_frame import GEOMETRY_AXES, NEUTRAL, ctrans
 from polycnc.language.sinumerik.sections import end_of_subprogram
-from polycnc.language.sinumerik.values import Axis
-from polycnc.machine.motion_settings import MotionSettings
+from polycnc.language.sinumerik.values import Axis, Type
+from polycnc.language.sinumerik.variables import Variable
 from polycnc.machine.motion_settings import MotionSettings
 from polycnc.messages import AlarmError, Catalogue
 from polycnc.program import Form
@@ -93,9 +95,14 @@ class Sinumerik:
         memory.frames.select(gcodes.number_of(channel.mode["zero_offset"]) - 1)
         frames.apply(channel)
         limits.refresh(channel)
-        for name, value in channel.setup.variables.items():
-            self.write_variable(channel, name, value)
+        memory.language.macros.update(coordination.names(channel))
+        if channel.group is None or channel is channel.group.first:
+            for name, value in channel.setup.variables.items():
+                self.write_variable(channel, name, value)
         interrupts.watch(channel)
+
+    def begin(self, channel: Channel) -> None:
+        """A main program begins in the state that the channel is in."""
 
     def reset(self, channel: Channel) -> None:
         """The state after reset, and after the end of a program."""
@@ -112,6 +119,7 @@ class Sinumerik:
         count = data.integer("$MC_MM_NUM_R_PARAM") if data.is_set("$MC_MM_NUM_R_PARAM") else R_PARAMETERS
         offsets = dict(channel.setup.work_offsets)
         external, base = offsets.pop("EXT", {}), offsets.pop("BASE", {})
+        shared = channel.group.shared if channel.group is not None else {}
         unknown = next((name for name in offsets if name not in ZERO_OFFSETS), None)
         if unknown is not None:
             raise AlarmError("12550", text=unknown)
@@ -122,6 +130,11 @@ class Sinumerik:
                 names,
                 exact_order=bool(data.integer("$MN_PROG_FUNCTION_MASK") & 1),
                 main_variables_everywhere=bool(data.integer("$MN_LUD_EXTENDED_SCOPE")),
+                nck_variables=shared.setdefault("user variables", {}),
+                global_variables={
+                    name: Variable(name, Type.INT, store=[value])
+                    for name, value in tables.CYCLE_SYMBOLS.items()
+                },
             ),
             data=data,
             frames=Frames(
@@ -134,6 +147,8 @@ class Sinumerik:
             spindles=Spindles({n: Spindle(n) for n in numbers}, master, master),
             columns=_columns(channel),
             machine_columns=_machine_columns(channel),
+            shares_axes=axis_exchange.shares_axes(channel),
+            nck=shared.setdefault("system variables", {}),
             transverse=next((i for i, axis in enumerate(channel.axis_data) if axis.diameter), -1),
         )
 
@@ -152,6 +167,8 @@ class Sinumerik:
         plan = plans.get(block)
         if plan is None:
             plan = plans[block] = make_plan(channel, block)
+        if plan.shared and not axis_exchange.ready(channel, plan.shared):
+            return False
         for step in plan.steps:
             step(channel, values)
         if channel.head is not None:
@@ -248,8 +265,6 @@ class Sinumerik:
             tolerance_mm=_tolerance(memory, mode["path_mode"]),
             acceleration=mode["acceleration"],
             rapid_by_axis=mode["rapid"] == "RTLIOF",
-            acceleration=mode["acceleration"],
-            rapid_by_axis=mode["rapid"] == "RTLIOF",
             diameter_axes=diameters,
             wcs=mode["zero_offset"],
             part=chain(memory.frames.inner()).frame,
@@ -266,10 +281,6 @@ class Sinumerik:
     def block_limit(self) -> AlarmError:
         """The program has run more blocks than allowed."""
         return AlarmError("PC0002", hint="hint.block-limit")
-
-    def motion_settings(self, _channel: Channel) -> MotionSettings:
-        """How the control leads the axes: rapids stop only where an exact stop does; feeds count linear axes."""
-        return MotionSettings(rapid_stops=False, rotary_in_feed=False)
 
     def motion_settings(self, _channel: Channel) -> MotionSettings:
         """How the control leads the axes: rapids stop only where an exact stop does; feeds count linear axes."""
@@ -324,8 +335,8 @@ def axis_names(channel: Channel) -> dict[str, Axis]:
     for letter, column in zip(GEOMETRY_AXES, channel.coordinates.geometry, strict=True):
         if column >= 0:
             names.setdefault(letter, Axis(letter))
-    for i, axis in enumerate(channel.axis_data):
-        for name in (axis.machine_name, f"AX{i + 1}"):
+    for axis in channel.axis_data:
+        for name in (axis.machine_name, f"AX{channel.machine.axes.index(axis) + 1}"):
             if name:
                 names.setdefault(name.upper(), Axis(name.upper()))
     for spindle in channel.machine.spindles:
@@ -344,6 +355,6 @@ def _columns(channel: Channel) -> dict[str, int]:
 
 def _machine_columns(channel: Channel) -> dict[str, int]:
     """Columns by machine axis names: of the machine, of its machine data, and AX1 and so on."""
-    columns = {f"AX{i + 1}": i for i in range(len(channel.axes))}
+    columns = {f"AX{channel.machine.axes.index(axis) + 1}": i for i, axis in enumerate(channel.axis_data)}
     columns.update({axis.machine_name.upper(): i for i, axis in enumerate(channel.axis_data)})
     return columns

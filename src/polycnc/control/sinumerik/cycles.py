@@ -16,6 +16,8 @@ from polycnc.control.sinumerik import (
     auxiliary,
     cycles_drilling,
     cycles_patterns,
+    cycles_settings,
+    cycles_swivel,
     stages,
 )
 from polycnc.control.sinumerik.cycles_arguments import Arguments
@@ -75,6 +77,12 @@ CYCLES: dict[str, Cycle] = {
         "_SPCA _SPCO _STA _DIS1 _DIS2 _NUM1 _NUM2 _VARI _UMODE _ANG1 _ANG2 _HIDE _NSP _DMODE",
         cycles_patterns.grid,
     ),
+    "CYCLE800": Cycle(
+        "_FR _TC _ST _MODE _X0 _Y0 _Z0 _A _B _C _X1 _Y1 _Z1 _DIR _FR_I _DMODE",
+        cycles_swivel.swivel,
+        saves=False,
+    ),
+    "CYCLE832": Cycle("S_TOL S_TOLM S_OTOL", cycles_settings.high_speed, saves=False),
     "CYCLE802": Cycle(
         "_XA _YA " + " ".join(f"_X{i} _Y{i}" for i in range(9)) + " _VARI _UMODE _DMODE",
         cycles_patterns.points,
@@ -98,6 +106,7 @@ class CycleProgram:
         self._line = channel.line
         self._column = column
         self._blocks = blocks
+        self._acted = False
 
     def step(self, index: int) -> Step | None:  # noqa: ARG002 - every block of a cycle is the next one
         """The next block."""
@@ -116,10 +125,15 @@ class CycleProgram:
         return ""
 
     def _advance(self, channel: Channel) -> None:
-        channel.memory.acted = True
+        """One block; for single block operation the end acts if any block of the cycle did."""
+        memory: Memory = channel.memory
+        mark = channel.toolpath.mark()
         try:
             next(self._blocks)
+            memory.acted = channel.toolpath.mark() != mark
+            self._acted = self._acted or memory.acted
         except StopIteration:
+            memory.acted = self._acted or channel.toolpath.mark() != mark
             end_of_subprogram(channel)
         except AlarmError as alarm:
             alarm.column = alarm.column or self._column

@@ -73,6 +73,11 @@ class Arguments:
             if isinstance(value, str) is not (name in TEXTS) or not isinstance(value, (int, float, str)):
                 raise AlarmError("12330", text=f"{cycle} {name}")
 
+    @property
+    def any_given(self) -> bool:
+        """Whether any argument was written."""
+        return bool(self._values)
+
     def given(self, name: str) -> bool:
         """Whether an argument was written."""
         return name in self._values

@@ -42,3 +42,15 @@ FEED_TYPES = {
     "G952": _PER_REVOLUTION,
     "G973": _PER_REVOLUTION,
 }
+
+#: Names that the cycles define for all programs (CYCLE832).
+CYCLE_SYMBOLS = {
+    "_OFF": 0,
+    "_FINISH": 1,
+    "_SEMIFIN": 2,
+    "_ROUGH": 3,
+    "_PRECISION": 4,
+    "_ORI_FINISH": 11,
+    "_ORI_SEMIFIN": 12,
+    "_ORI_ROUGH": 13,
+}

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.control.sinumerik.machine_data import MachineData
-    from polycnc.geometry.frames import Vector
+    from polycnc.geometry.frames import Frame, Vector
     from polycnc.machine.setup import Tool as SetupTool
 
 #: Parameters of a cutting edge: $TC_DP1 … $TC_DP25.
@@ -97,6 +97,7 @@ class Tools:
         added_on_axes: TOFF along X, Y, Z, mm.
         added_radius: TOFFR, mm.
         additive: DL, 0 for none.
+        carrier: How an orientable tool carrier or head turns and shifts the lengths; None where there is none.
     """
 
     tools: dict[int, Tool] = field(default_factory=dict)
@@ -109,6 +110,7 @@ class Tools:
     added_on_axes: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     added_radius: float = 0.0
     additive: int = 0
+    carrier: Frame | None = None
 
     @property
     def edge(self) -> Edge | None:
@@ -191,7 +193,8 @@ class Tools:
                 offsets[axis] += length + added
             for i, axis in enumerate(axes):
                 offsets[axis] += self._additive(edge, DP_LENGTH + i)
-        self.lengths = (offsets[0], offsets[1], offsets[2])
+        x, y, z = offsets
+        self.lengths = (x, y, z) if self.carrier is None else self.carrier.apply(x, y, z)
 
     def _additive(self, edge: Edge, parameter: int) -> float:
         """What DL adds to a parameter: offset x, parameter y have the number 10x + y in their names."""

@@ -1,0 +1,105 @@
+"""CYCLE832: tolerance, dynamics, smoothing and compressor for free-form surfaces in one call."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.sinumerik import gcodes, procedures, sections
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.cycles_arguments import Arguments
+    from polycnc.control.sinumerik.memory import Memory
+
+#: Kind of machining (units of S_TOLM): dynamics, and the tolerance where S_TOL is 0, mm.
+KINDS = {1: ("DYNFINISH", 0.01), 2: ("DYNSEMIFIN", 0.05), 3: ("DYNROUGH", 0.1)}
+#: What the cycle switches on, by group.
+ON = {
+    "acceleration": "SOFT",
+    "feedforward": "FFWON",
+    "path_mode": "G645",
+    "compressor": "COMPCAD",
+    "path_reference": "UPATH",
+}
+#: Groups that go back to what the machine data say when the cycle is switched off.
+SET = ("dynamics", *ON)
+#: A second argument above this is the code of the older cycle.
+LARGEST_KIND = 99
+#: Digits of that code: path mode, feedforward and acceleration, compressor.
+OLD_PATH_MODES = {0: "G64", 1: "G641", 2: "G642"}
+OLD_DYNAMICS = {0: ("FFWOF", "SOFT"), 1: ("FFWON", "SOFT"), 2: ("FFWOF", "BRISK")}
+OLD_COMPRESSORS = {0: "COMPOF", 1: "COMPCAD", 2: "COMPCURV", 3: "COMPON"}
+
+
+def high_speed(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE832(S_TOL, S_TOLM, S_OTOL); S_TOLM 0 or no argument: off."""
+    kind = abs(a.integer("S_TOLM"))
+    if kind > LARGEST_KIND:
+        _older(channel, a)
+    elif kind % 10 == 0:
+        _switch(channel, start_codes(channel), sections.NO_TOLERANCE, sections.NO_TOLERANCE)
+    elif kind % 10 in KINDS:
+        dynamics, delivered = KINDS[kind % 10]
+        orientation = a["S_OTOL"] if kind // 10 == 1 else sections.NO_TOLERANCE
+        _switch(channel, {"dynamics": dynamics, **ON}, a["S_TOL"] or delivered, orientation)
+    elif kind % 10 == 4:
+        raise not_supported("CYCLE832 _PRECISION")
+    else:
+        raise AlarmError("61002")
+    yield
+
+
+def _switch(channel: Channel, codes: dict[str, str], tolerance: float, orientation: float) -> None:
+    memory: Memory = channel.memory
+    if tolerance < 0.0 and tolerance != sections.NO_TOLERANCE:
+        raise AlarmError("12560", text="S_TOL")
+    channel.mode = channel.mode.with_codes(list(codes.items()))
+    memory.values["CTOL", ()] = tolerance
+    memory.values["OTOL", ()] = orientation
+    channel.context_changed()
+
+
+def start_codes(channel: Channel) -> dict[str, str]:
+    """The functions of the cycle's groups as machine data 20150 and the delivered state have them."""
+    memory: Memory = channel.memory
+    codes = {}
+    for name in SET:
+        group = gcodes.BY_NAME[name]
+        codes[name] = gcodes.START_CODES[name]
+        if memory.data.is_set("$MC_GCODE_RESET_VALUES", group.number - 1):
+            number = memory.data.integer("$MC_GCODE_RESET_VALUES", group.number - 1)
+            if 1 <= number <= len(group.words):
+                codes[name] = group.words[number - 1]
+    return codes
+
+
+def _older(channel: Channel, a: Arguments) -> None:
+    """The code of six digits: kind, -, transformation, path mode, feedforward and acceleration, compressor."""
+    digit = [a.digit("S_TOLM", place) for place in range(6)]
+    if digit[0] == 0:
+        _switch(channel, start_codes(channel), sections.NO_TOLERANCE, sections.NO_TOLERANCE)
+        return
+    if (
+        digit[0] not in KINDS
+        or digit[2] > 2
+        or digit[3] not in OLD_PATH_MODES
+        or digit[4] not in OLD_DYNAMICS
+        or digit[5] not in OLD_COMPRESSORS
+    ):
+        raise AlarmError("61002")
+    dynamics, delivered = KINDS[digit[0]]
+    feedforward, acceleration = OLD_DYNAMICS[digit[4]]
+    codes = {
+        "dynamics": dynamics,
+        "path_mode": OLD_PATH_MODES[digit[3]],
+        "feedforward": feedforward,
+        "acceleration": acceleration,
+        "compressor": OLD_COMPRESSORS[digit[5]],
+    }
+    _switch(channel, codes, a["S_TOL"] or delivered, sections.NO_TOLERANCE)
+    name, values = ("TRAORI", (digit[2],)) if digit[2] else ("TRAFOOF", ())
+    procedures.run(channel, name, values, 0)

@@ -1,0 +1,300 @@
+"""CYCLE800: swivel the working plane, and stand the rotary axes square on it.
+
+A point p of the swivelled plane lies at `p0 + R·(p1 + p)` of the system before: that is the frame `$P_WPFRAME`. What
+the table turns goes into `$P_PARTFRAME`, what the head turns acts on the tool's lengths; so p stays where it is on
+the work whichever axes move.
+
+The swivel data record is that of the machine: its two rotary joints, the one nearer to the base first.
+"""
+
+from __future__ import annotations
+
+from math import inf, nan
+from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.control.sinumerik import auxiliary, frames, motion, stages, tables
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.frame_codes import crots
+from polycnc.geometry.frames import IDENTITY, Frame, rotation
+from polycnc.language.sinumerik.nc_frame import GEOMETRY_AXES, NEUTRAL, NcFrame
+from polycnc.machine.kinematics import Kinematics
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.cycles_arguments import Arguments
+    from polycnc.control.sinumerik.memory import Memory
+
+#: _TC that takes the swivel away.
+DESELECT = "0"
+#: Ways of retracting (_FR): by axis of the machine in this order, along the tool to its limit, along it by a way.
+BY_AXES = {1: ((2,),), 2: ((2,), (0, 1))}
+TO_LIMIT, BY_WAY = 4, 5
+#: Retractions that are programs of the machine builder (CUST_800).
+OF_THE_BUILDER = frozenset((3, 6, 7, 8))
+#: Ways of telling the plane (_MODE, bits 7 and 6).
+AXIS_BY_AXIS, SOLID, PROJECTION, DIRECT = range(4)
+#: Order of rotations where _MODE names none: X, Y, Z.
+DEFAULT_ORDER = 57
+PLANES = {1: "G17", 2: "G18", 3: "G19"}
+HALF_TURN = 180.0
+
+
+class Record(NamedTuple):
+    """A swivel data record: the kinematics, the rotary axes in their order, and their columns in the channel."""
+
+    kinematics: Kinematics
+    axes: tuple[str, str]
+    columns: tuple[int, int]
+
+    @property
+    def tilting(self) -> str:
+        """The axis whose sign tells the two solutions apart: the one that does not turn about the tool."""
+        joints = {joint.axis: joint for joint in (*self.kinematics.tool, *self.kinematics.work)}
+        first, second = self.axes
+        return second if abs(joints[first].direction[2]) > abs(joints[second].direction[2]) else first
+
+
+def record_of(channel: Channel, name: str) -> Record:
+    """The record that _TC names; empty for the only one.
+
+    Raises:
+        AlarmError: 61180 on a machine without two rotary axes, 61182 for a name that is not known.
+    """
+    machine = channel.machine
+    kinematics = Kinematics.of(machine)
+    axes = tuple(joint.axis for joint in (*kinematics.tool, *kinematics.work))
+    names = [axis.name for axis in channel.axis_data]
+    if len(axes) != 2 or any(axis not in names for axis in axes):
+        raise AlarmError("61180")
+    if name and name.upper() != machine.id.upper():
+        raise AlarmError("61182", name=name)
+    first, second = axes
+    return Record(kinematics, (first, second), (names.index(first), names.index(second)))
+
+
+def swivel(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE800; without arguments, or with the record "0", it takes the swivel away."""
+    if not a.any_given or a.text("_TC").strip() == DESELECT:
+        if a.any_given and a.integer("_FR"):
+            yield from _retract(channel, a, Kinematics.of(channel.machine))
+        deselect(channel)
+        return
+    record = record_of(channel, a.text("_TC").strip())
+    _check(a)
+    yield from _retract(channel, a, record.kinematics)
+    _choose_plane(channel, a)
+    memory: Memory = channel.memory
+    state = memory.frames
+    adds = a.digit("_ST", 0) == 1
+    base = state.system["$P_WPFRAME"] @ state.programmable if adds else NEUTRAL
+    turned = _plane_frame(a, record)
+    frame = base @ NcFrame(matrix=turned.m, coarse=turned.t)
+    angles = _angles(channel, a, record, frame)
+    if a.integer("_DIR"):
+        _turn(channel, record, angles)
+        yield
+    state.system["$P_WPFRAME"] = frame
+    state.programmable = NEUTRAL
+    _carry(channel, record.kinematics, angles)
+
+
+def _check(a: Arguments) -> None:
+    """Alarms for what the call asks for."""
+    if a.digit("_ST", 1) == 1:
+        raise AlarmError("61191")
+    if a.digit("_ST", 2):
+        raise not_supported("CYCLE800 _ST")
+    if a.integer("_DIR") not in (-1, 0, 1):
+        raise AlarmError("61189")
+
+
+def deselect(channel: Channel) -> None:
+    """The frames of the swivel and the tool carrier are gone; nothing moves."""
+    memory: Memory = channel.memory
+    for name in ("$P_WPFRAME", "$P_TOOLFRAME", "$P_PARTFRAME"):
+        memory.frames.system[name] = NEUTRAL
+    memory.tools.carrier = None
+    auxiliary.tool_changed(channel)
+
+
+def _choose_plane(channel: Channel, a: Arguments) -> None:
+    """_DMODE: the plane, which stays."""
+    plane = PLANES.get(a.digit("_DMODE", 0))
+    if plane is not None and plane != channel.mode["plane"]:
+        channel.mode = channel.mode.with_code("plane", plane)
+        stages.change_plane(channel)
+        auxiliary.tool_changed(channel)
+
+
+# ---- the plane
+
+
+def _plane_frame(a: Arguments, record: Record) -> Frame:
+    """`p0 + R·(p1 + p)` as a frame."""
+    before = Frame(IDENTITY.m, (a["_X0"], a["_Y0"], a["_Z0"]))
+    after = Frame(IDENTITY.m, (a["_X1"], a["_Y1"], a["_Z1"]))
+    return before @ _rotation(a, record) @ after
+
+
+def _rotation(a: Arguments, record: Record) -> Frame:
+    """R by the way in which _MODE tells the plane."""
+    mode = a.integer("_MODE")
+    order = [(mode or DEFAULT_ORDER) >> 2 * i & 3 for i in range(3)]
+    angles = [a["_A"], a["_B"], a["_C"]]
+    match mode >> 6 & 3:
+        case 1:  # solid angle
+            return rotation(2, angles[0]) @ rotation(1, angles[1])
+        case 2:  # projection angles
+            letters = [GEOMETRY_AXES[axis - 1] if axis else "XY"[i] for i, axis in enumerate(order[:2])]
+            return crots(dict(zip(letters, angles, strict=False))).frame @ rotation(2, angles[2])
+        case 3:  # rotary axes direct
+            direct = dict(zip(record.axes, angles, strict=False))
+            work, head = record.kinematics.work_turn(direct), record.kinematics.head_turn(direct)
+            return Frame(work.m).inverse() @ Frame(head.m)
+    turned = IDENTITY
+    for axis, angle in zip(order, angles, strict=True):
+        if axis:
+            turned = turned @ rotation(axis - 1, angle)
+        elif angle:
+            raise not_supported("CYCLE800 _MODE")
+    return turned
+
+
+# ---- the rotary axes
+
+
+def _angles(channel: Channel, a: Arguments, record: Record, frame: NcFrame) -> dict[str, float]:
+    """Positions of the rotary axes for the plane: of two solutions that which _DIR asks for; 61184 for none."""
+    memory: Memory = channel.memory
+    if a.integer("_MODE") >> 6 & 3 == DIRECT:
+        return dict(zip(record.axes, (a["_A"], a["_B"]), strict=True))
+    state = memory.frames
+    outer = frames.chain([state.system["$P_SETFRAME"], state.actual_base(), state.active_settable])
+    index = tables.PLANES[channel.mode["plane"]][2]
+    square = [1.0 if i == index else 0.0 for i in range(3)]
+    normal = (outer @ frame).frame.direct(square[0], square[1], square[2])
+    found = [
+        _in_range(channel, record, angles)
+        for angles in record.kinematics.solutions_for(normal, dict.fromkeys(record.axes, 0.0))
+    ]
+    allowed = [angles for angles in found if angles is not None]
+    if not allowed:
+        raise AlarmError("61184")
+    if a.integer("_DIR") == 0:
+        machine = channel.coordinates.machine
+        return min(
+            allowed,
+            key=lambda s: sum(
+                abs(s[n] - machine[c]) for n, c in zip(record.axes, record.columns, strict=True)
+            ),
+        )
+    choose = max if a.integer("_DIR") > 0 else min
+    return choose(allowed, key=lambda solution: solution[record.tilting])
+
+
+def _in_range(channel: Channel, record: Record, angles: dict[str, float]) -> dict[str, float] | None:
+    """A solution on the turns that the axes can reach; None where one of them cannot."""
+    placed = {}
+    for name, column in zip(record.axes, record.columns, strict=True):
+        axis = channel.axis_data[column]
+        turns = [angles[name] + turn for turn in (0.0, tables.TURN, -tables.TURN)]
+        if axis.modulo:
+            turns = [angles[name] % tables.TURN]
+        else:
+            turns.sort(key=abs)
+        within = [angle for angle in turns if axis.limit_minus - 1e-9 <= angle <= axis.limit_plus + 1e-9]
+        if not within:
+            return None
+        placed[name] = within[0]
+    return placed
+
+
+def _turn(channel: Channel, record: Record, angles: dict[str, float]) -> None:
+    """The rotary axes go to their positions together, at rapid."""
+    coordinates = channel.coordinates
+    machine = coordinates.machine
+    end = coordinates.position.copy()
+    for name, column in zip(record.axes, record.columns, strict=True):
+        end[column] += angles[name] - machine[column]
+    motion.line(channel, Kind.RAPID, end, nan)
+
+
+def _carry(channel: Channel, kinematics: Kinematics, angles: dict[str, float]) -> None:
+    """What the rotary axes do to the work and to the tool's lengths at these positions."""
+    memory: Memory = channel.memory
+    work = kinematics.work_turn(angles)
+    memory.frames.system["$P_PARTFRAME"] = NcFrame(matrix=work.m, coarse=work.t)
+    head, rest = kinematics.head_turn(angles), kinematics.head_turn({})
+    x, y, z = (r - h for r, h in zip(rest.t, head.t, strict=True))
+    memory.tools.carrier = Frame(head.m, (x, y, z)) if kinematics.tool else None
+    auxiliary.tool_changed(channel)
+
+
+# ---- retraction
+
+
+def _retract(channel: Channel, a: Arguments, kinematics: Kinematics) -> Iterator[None]:
+    """_FR: away from the work before anything turns; a way whose end is not known is not gone.
+
+    Raises:
+        AlarmError: 61183 for a way that does not exist.
+    """
+    way = a.integer("_FR")
+    if way in OF_THE_BUILDER:
+        raise not_supported("CYCLE800 _FR")
+    if way not in (0, TO_LIMIT, BY_WAY, *BY_AXES):
+        raise AlarmError("61183")
+    for axes in BY_AXES.get(way, ()):
+        _to_limits(channel, axes)
+        yield
+    if way in (TO_LIMIT, BY_WAY):
+        _along_tool(channel, kinematics, abs(a["_FR_I"]) if way == BY_WAY else None)
+        yield
+
+
+def _to_limits(channel: Channel, axes: tuple[int, ...]) -> None:
+    """Machine axes to the positions of the record ($TC_CARR38 to 40 of record 1), else to their upper limits."""
+    memory: Memory = channel.memory
+    coordinates = channel.coordinates
+    machine = coordinates.machine
+    for axis in axes:
+        column = coordinates.geometry[axis]
+        if column < 0:
+            continue
+        stored = memory.values.get((f"$TC_CARR{38 + axis}", (1,)))
+        limit = _upper_limit(channel, column) if stored is None else float(stored)
+        if limit < inf:
+            machine[column] = limit
+    motion.line(channel, Kind.RAPID, coordinates.from_machine(machine), nan)
+
+
+def _upper_limit(channel: Channel, column: int) -> float:
+    memory: Memory = channel.memory
+    limit = channel.axis_data[column].limit_plus
+    if memory.data.is_set("$MA_POS_LIMIT_PLUS", channel.axes[column]):
+        limit = min(limit, memory.data.number("$MA_POS_LIMIT_PLUS", channel.axes[column]))
+    return limit
+
+
+def _along_tool(channel: Channel, kinematics: Kinematics, way: float | None) -> None:
+    """Along the tool, as it stands, by a way or to the first limit."""
+    coordinates = channel.coordinates
+    machine = coordinates.machine
+    names = {axis.name: machine[i] for i, axis in enumerate(channel.axis_data)}
+    direction = kinematics.tool_on_machine(names)
+    if way is None:
+        rooms = [
+            (_upper_limit(channel, column) - machine[column]) / part
+            for column, part in zip(coordinates.geometry, direction, strict=True)
+            if column >= 0 and part > 1e-9
+        ]
+        way = min(rooms, default=inf)
+    if way < inf:
+        for column, part in zip(coordinates.geometry, direction, strict=True):
+            if column >= 0:
+                machine[column] += way * part
+        motion.line(channel, Kind.RAPID, coordinates.from_machine(machine), nan)
