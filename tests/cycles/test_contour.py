@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import itertools
+from typing import TYPE_CHECKING
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from polycnc.cycles.contour import Contour, Piece, climb, crossings, gaps, reversal, shifted, swapped
 from polycnc.geometry import offset
-from polycnc.geometry.arcs import Point
+
+if TYPE_CHECKING:
+    from polycnc.geometry.arcs import Point
 
 
 def lines(*points: Point) -> Contour:
-    return [Piece(offset.line(a, b)) for a, b in zip(points, points[1:], strict=False)]
+    return [Piece(offset.line(a, b)) for a, b in itertools.pairwise(points)]
 
 
 POCKET = lines(

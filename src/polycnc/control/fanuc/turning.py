@@ -11,6 +11,7 @@ from polycnc.control.fanuc import (
     turning_drilling,
     turning_limits,
     turning_repetitive,
+    turning_reset,
     turning_shape,
     turning_single,
     turning_tools,
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Level
+    from polycnc.channel.stack import Step as ProgramStep
     from polycnc.compensation.policies import Policy
     from polycnc.control.word_address.codes import GCode, Planner, Step
     from polycnc.control.word_address.drilling import Drilling
@@ -99,6 +102,16 @@ class FanucTurning(CustomMacroControl):
         channel.coordinates.arrive_machine(shown)
         turning_limits.at_power_on(channel)
         channel.memory.feed_code, channel.memory.plane = channel.mode["feed"], channel.mode["plane"]
+
+    def reset(self, channel: Channel) -> None:
+        """The state after reset, and after the end of a program."""
+        turning_reset.reset(channel)
+
+    def halts(self, channel: Channel, level: Level, step: ProgramStep) -> bool:
+        """Single block halts behind the first block that is no thread (II.3.1)."""
+        if channel.memory.thread_step == level.current and channel.mode["motion"] in turning_tools.THREADS:
+            return False
+        return super().halts(channel, level, step)
 
     def start_codes(self, channel: Channel) -> dict[str, str]:
         """Code of every modal group at power-on (3402)."""

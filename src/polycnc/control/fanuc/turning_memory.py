@@ -85,6 +85,7 @@ class TurningMemory(MacroMemory):
         grinding: Modal words of grinding cycles.
         cycle_values: Parameters of turning cycles that a program has overwritten.
         clamp: M code that clamps the C axis in drilling cycles, 0 for none.
+        thread_step: Step of the last block that cut a thread.
         plane: Plane code given last.
         polar: Axes of polar coordinate interpolation while it is on, and `plane_before` it.
         cylinder: The cylinder of cylindrical interpolation while it is on.
@@ -121,6 +122,7 @@ class TurningMemory(MacroMemory):
         self.open_line: OpenLine | None = None
         self.polar: PolarAxes | None = None
         self.cylinder: Cylinder | None = None
+        self.thread_step = -1
         self.plane = ""
         self.plane_before = ""
         self.table = channel.table

@@ -53,6 +53,7 @@ def _plan(builder: Builder, plan: Plan, *, grows: bool) -> Step | None:
         if growth_slot is not None:
             growth = values[growth_slot]
             check_last_lead(channel, programmed, lead, growth_of(growth) if growth_of else growth)
+        channel.memory.thread_step = channel.level.current
         degrees = 0.0 if angle is None else start_angle(values[angle])
         thread_move(channel, c.to_position(programmed), lead, degrees, programmed)
 

@@ -135,6 +135,17 @@ def _end_cylinder(channel: Channel) -> None:
     channel.coordinates.arrive(point)
 
 
+def end_all(channel: Channel) -> None:
+    """Reset: no transformation is on."""
+    if channel.memory.polar is not None:
+        point = channel.memory.polar.real(channel.coordinates.position)
+        channel.memory.polar = None
+        channel.mode = channel.mode.with_code("plane", channel.memory.plane_before)
+        channel.coordinates.geometry = channel.memory.basic_geometry
+        channel.coordinates.arrive(point)
+    _end_cylinder(channel)
+
+
 @dataclass(frozen=True, slots=True)
 class Cylinder:
     """An unrolled cylinder: its axis, and the length of a degree on its surface, mm."""
