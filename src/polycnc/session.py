@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
+from polycnc.channel.group import ChannelGroup
 from polycnc.messages import text
 from polycnc.toolpath import Toolpath
 from polycnc.toolpath.trace import AxisLayout, Display
@@ -83,7 +84,7 @@ class Result:
         program: The main program.
         control: The control.
         machine: The machine that it moved.
-        channel: The channel in its last state.
+        channel: The (first) channel in its last state.
         display: Turns rows of the toolpath into what the control shows.
         alarms: In order.
         lead: What the planner must know of the start: machine position (mm, radius, degrees), and how the
@@ -160,9 +161,26 @@ class Result:
     @property
     def final(self) -> dict[str, dict[str, float]]:
         """`work` and `machine` display at the end of the program, before its implicit reset."""
-        channel = self.channel
+        channel, group = self.channel, self.channel.group
+        shown = self._shown(channel, self.display)
+        for other in group.channels[1:] if group is not None else ():
+            # An axis that another channel has moved last stands where that one shows it.
+            for axis, value in zip(other.axis_data, other.axes, strict=True):
+                if (
+                    other.memory is not None
+                    and group is not None
+                    and group.moved_by[axis.name] == other.number
+                ):
+                    elsewhere = self._shown(
+                        other, Display(other.toolpath, axis_layout(self.machine, other.number))
+                    )
+                    for system in shown:
+                        shown[system][value] = elsewhere[system][value]
+        return shown
+
+    def _shown(self, channel: Channel, display: Display) -> dict[str, dict[str, float]]:
         end, context = channel.coordinates.position, self.control.context(channel)
-        return {"work": self.display.work(end, context), "machine": self.display.machine(end, context)}
+        return {"work": display.work(end, context), "machine": display.machine(end, context)}
 
     def alarm_text(self, alarm: Alarm, lang: str | None = None) -> str:
         """The control's own text of an alarm, with the hint on this very case if there is one."""
@@ -183,7 +201,9 @@ class Result:
         return program.path if program is not None else ""
 
     def _program(self, name: str) -> Program | None:
-        return next((program for program in self.channel.programs if program.name == name), None)
+        group = self.channel.group
+        channels = group.channels if group is not None else [self.channel]
+        return next((each for channel in channels for each in channel.programs if each.name == name), None)
 
 
 class Session:
@@ -217,6 +237,7 @@ class Session:
         self.consumers: list[Callable[[Chunk], object]] = []
         toolpath = Toolpath(machine.channel_axes(1), on_full=self._take)
         self.channel = Channel(control, machine, setup, store, block_limit=block_limit, toolpath=toolpath)
+        self.group = ChannelGroup(self.channel)
         display = Display(toolpath, axis_layout(machine, 1), self._event_text)
         lead: dict[str, Any] = {
             "start": self.channel.coordinates.machine,
@@ -234,7 +255,7 @@ class Session:
         Args:
             progress: Called now and then in a long run.
         """
-        for wait in self.channel.run(self.result.program):
+        for wait in self.group.run(self.result.program):
             if wait.reason == SINGLE_BLOCK:
                 self.result.stops.append(self._halt(wait))
             elif progress is not None:

@@ -24,6 +24,7 @@ from polycnc.toolpath.table import CHUNK_ROWS
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from polycnc.channel.group import ChannelGroup
     from polycnc.channel.stack import Step
     from polycnc.geometry.frames import Vector
     from polycnc.language.bulk.scanner import Bulk, Dialect, Scanner
@@ -89,6 +90,7 @@ class Channel:
         head: First stage of the path, or None while moves go straight to the table.
         mark: Rows of the chunk when the running block began.
         control: The control, for the handlers of its family, which know its class.
+        group: The channels of the control, which the first one belongs to as well; None where it runs alone.
         memory: The control's own state (variables, offsets, tools), set by `Control.start`.
     """
 
@@ -138,6 +140,7 @@ class Channel:
         self.blocks = 0
         self.block_limit = block_limit
         self._wait: Wait | None = None
+        self.group: ChannelGroup | None = None
         self.skip_levels = 0
         self.stroke_zone: Zone | None = None
         self.single_block = bool(setup.switches.single_block)
@@ -386,6 +389,10 @@ class Channel:
         )
         self.head = None
         self.finished = True
+
+    def fail(self, error: AlarmError) -> None:
+        """End the run with an alarm that arose outside of a block."""
+        self._alarm(error)
 
     # ---- writing -------------------------------------------------------------------------------------------------
 

@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 
 @dataclass(frozen=True, slots=True)
 class Wait:
-    """A channel that waits. `reason` is `stop` (M00 and the like: `code` says which), `chunk`, or `preprocessing`."""
+    """A channel that waits.
+
+    `reason` is `stop` (M00 and the like: `code` says which), `chunk`, `preprocessing`, `single-block` behind a
+    block at which that halts (`code` is the block), `block` behind any other one, or `channel` for another
+    channel: then `until` is asked again and again, and true once the channel may go on.
+    """
 
     reason: str
     code: str = ""
+    until: Callable[[], bool] | None = None
 
 
 CHUNK = Wait("chunk")
+BLOCK = Wait("block")

@@ -36,7 +36,7 @@ _KEY = ("$A_DL", ())
 
 
 def _bytes(channel: Channel) -> bytearray:
-    values = channel.memory.values
+    values = channel.memory.nck
     if _KEY not in values:
         values[_KEY] = bytearray(channel.memory.data.integer("$MN_MM_SIZEOF_LINKVAR_DATA"))
     memory: bytearray = values[_KEY]

@@ -73,6 +73,8 @@ class Memory:
         interrupts: What SETINT has given each interrupt input.
         watch: The stage that interrupt routines begin from; None where the setup has no inputs.
         repos_mode: Point of the last REPOS (`$AC_REPOS_PATH_MODE`), 0 before.
+        shares_axes: Another channel can use axes of this one.
+        nck: As `values`, of variables that all channels share.
         values: Values of system variables that only store (`$AC_PARAM`, `$A_DLB` …), by name and index.
     """
 
@@ -105,6 +107,8 @@ class Memory:
     interrupts: dict[int, Assignment] = field(default_factory=dict)
     watch: Watch | None = None
     repos_mode: int = 0
+    shares_axes: bool = False
+    nck: dict[tuple[str, tuple[Any, ...]], Any] = field(default_factory=dict)
     values: dict[tuple[str, tuple[Any, ...]], Any] = field(default_factory=dict)
 
     def column(self, axis: str) -> int:

@@ -73,13 +73,15 @@ class Plan(NamedTuple):
         steps: In order.
         acts: Something happens on the machine: motion, dwell, auxiliary functions.
         calls: A modal subprogram (MCALL) follows the block.
-        end: Place of an M word that may end the program, or None.
+        ends: Places of the M words, which may end the program.
+        shared: Axes that the block moves and that other channels can use as well, by their columns.
     """
 
     steps: tuple[Step, ...]
     acts: bool
     calls: bool
     ends: tuple[int, ...]
+    shared: tuple[int, ...] = ()
 
 
 def make_plan(channel: Channel, block: Block) -> Plan:
@@ -114,7 +116,16 @@ def make_plan(channel: Channel, block: Block) -> Plan:
     draft.steps += [_stop(position) for position in ends]
     calls = moving is not None or (mode["motion"] in LINEAR and _is_bare_motion(block, codes))
     acts = bool(block.words) and "frame" not in codes
-    return Plan(tuple(draft.steps), acts, calls and own is None, tuple(ends))
+    return Plan(tuple(draft.steps), acts, calls and own is None, tuple(ends), _shared(draft))
+
+
+def _shared(draft: Draft) -> tuple[int, ...]:
+    """Columns of the axes that a block moves, where other channels can use them as well."""
+    if not draft.memory.shares_axes or "frame" in draft.codes:
+        return ()
+    names = (str(w.index) if w.address in ("POS", "POSA") else w.address for w in draft.block.words)
+    tables_of_names = (draft.memory.columns, draft.memory.machine_columns)
+    return tuple({table[name] for name in names for table in tables_of_names if name in table})
 
 
 #: Words that choose a diameter function for one axis; empty: that of the channel again.
@@ -327,5 +338,17 @@ EFFECTS: dict[str, Step] = {
 #: After the words of the block: the tool is that of the block's own T and D.
 LATE_EFFECTS: dict[str, Step] = {"approach": _rules, "corner": _rules, "side": _side}
 #: Groups that a context of the toolpath tells of.
-IN_CONTEXT = frozenset(("plane", "zero_offset", "units", "feed", "diameter", "path_mode", "side", "dynamics",
-    "acceleration", "rapid"))
+IN_CONTEXT = frozenset(
+    (
+        "plane",
+        "zero_offset",
+        "units",
+        "feed",
+        "diameter",
+        "path_mode",
+        "side",
+        "dynamics",
+        "acceleration",
+        "rapid",
+    )
+)

@@ -7,7 +7,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik import arguments, d_numbers, interrupts, limits, retraction, sections
+from polycnc.control.sinumerik import (
+    arguments,
+    axis_exchange,
+    coordination,
+    d_numbers,
+    interrupts,
+    limits,
+    retraction,
+    sections,
+)
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.nc_frame import NEUTRAL
@@ -197,5 +206,7 @@ PROCEDURES: dict[str, Callable[[Channel, Arguments], None]] = {
     "GROUP_END": editor_mark,
     "CORROF": no_overlay,
     **interrupts.PROCEDURES,
+    **coordination.PROCEDURES,
+    **axis_exchange.PROCEDURES,
     **retraction.PROCEDURES,
 }

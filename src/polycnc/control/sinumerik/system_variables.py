@@ -256,6 +256,7 @@ _STATES = (
     SystemVariable("$P_OFFN", Type.REAL, _polar_mode),
     SystemVariable("$P_PROG", Type.STRING, _program_name),
     SystemVariable("$P_LINENO", Type.INT, _line_number),
+    SystemVariable("$P_CHANNO", Type.INT, lambda channel, _indices: channel.number),
     SystemVariable("$P_SEARCH", Type.BOOL, _always(False)),
     SystemVariable("$P_ISTEST", Type.BOOL, _always(False)),
     SystemVariable("$P_SIM", Type.BOOL, _always(False)),
@@ -294,11 +295,15 @@ def _store(
         return index_of(indices, name, size + first, first)
 
     def read(channel: Channel, indices: Indices) -> Any:
-        index = place(channel, indices)
-        return channel.memory.values.get((name, (index,)), empty)
+        return kept(channel).get((name, (place(channel, indices),)), empty)
 
     def write(channel: Channel, indices: Indices, value: Any) -> None:
-        channel.memory.values[name, (place(channel, indices),)] = value
+        kept(channel)[name, (place(channel, indices),)] = value
+
+    def kept(channel: Channel) -> dict[tuple[str, Indices], Any]:
+        values: dict[tuple[str, Indices], Any]
+        values = channel.memory.nck if name.startswith("$A_") else channel.memory.values
+        return values
 
     return SystemVariable(name, type_, read, write, stop)
 

@@ -10,6 +10,7 @@ from polycnc.program.names import DEF_DIR
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.language.sinumerik.executable import SinumerikProgram
+    from polycnc.language.sinumerik.interface import LanguageMemory
 
 _ENDS = frozenset({"M30", "M17", "M2", "M02", "RET"})
 
@@ -25,6 +26,10 @@ def load_definitions(channel: Channel) -> None:
         except AlarmError as error:
             error.column = 0
             raise
+    memory: LanguageMemory = channel.memory.language
+    for name, variable in memory.global_variables.items():
+        if variable.range == "NCK":
+            memory.global_variables[name] = memory.nck_variables.setdefault(name, variable)
 
 
 def _run(code: SinumerikProgram, channel: Channel) -> None:

@@ -160,6 +160,7 @@ def _define_one(compiler: BlockCompiler, attributes: _Attributes, type_: Type) -
         unit=attributes.unit,
         rights=dict(attributes.rights or {}),
         init_time=attributes.init_time,
+        range=attributes.range,
     )
     _declare(compiler, variable, token)
     if dims:

@@ -83,7 +83,8 @@ class LanguageMemory:
         exact_order: `<` and `>` compare exactly (MD10280 bit 0); otherwise equal within 1E-12 is neither.
         main_variables_everywhere: Variables of the main program are known in subprograms (MD11120).
         global_variables: User variables of the definition files (GUD), upper case. macros: Texts of DEFINE …
-        AS of the definition files, upper case names. call_path: Directory of CALLPATH, or empty. modal_call:
+        AS of the definition files, and names of channels, upper case. nck_variables: Those of the
+        global_variables that all channels share. call_path: Directory of CALLPATH, or empty. modal_call:
         What MCALL has set: called after every block with path motion. definitions_loaded: The definition
         files have been read. programs: Every compiled program; they forget what they have resolved when files
         or search paths change.
@@ -94,6 +95,7 @@ class LanguageMemory:
     exact_order: bool = False
     main_variables_everywhere: bool = False
     global_variables: dict[str, Any] = field(default_factory=dict)
+    nck_variables: dict[str, Any] = field(default_factory=dict)
     macros: dict[str, str] = field(default_factory=dict)
     call_path: str = ""
     modal_call: Callable[[Channel], None] | None = None

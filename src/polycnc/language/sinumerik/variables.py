@@ -37,6 +37,7 @@ class Variable:
         unit: Physical unit (PHU).
         rights: Access rights by keyword (APRP, APWP, APRB, APWB).
         init_time: INIPO, INIRE, INICF or PRLOC, empty for none.
+        range: NCK for one that all channels share, CHAN or empty for one of its own in each channel.
     """
 
     name: str
@@ -52,6 +53,7 @@ class Variable:
     unit: int = 0
     rights: dict[str, int] = field(default_factory=dict)
     init_time: str = ""
+    range: str = ""
 
     @property
     def is_plain(self) -> bool:

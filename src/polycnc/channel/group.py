@@ -1,0 +1,197 @@
+"""The channels of one control, run together: who runs next, wait marks, and what all of them share.
+
+A channel runs until it has to wait for another one (`Wait.until`); then the next one in the order of their numbers
+runs as far as it can. So the order of what different channels do follows from their wait marks alone, and the same
+programs always give the same result. The run ends with the program of the first channel.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from polycnc.channel.channel import Channel
+from polycnc.channel.waits import Wait
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    from polycnc.program import Program
+
+
+@dataclass(slots=True, eq=False)
+class Member:
+    """One channel of the group.
+
+    Attributes:
+        channel: The channel.
+        selected: The program that a start runs.
+        run: The program that runs.
+        until: What the channel waits for: asked again and again, true once it may go on.
+        marks: Wait marks that are set.
+    """
+
+    channel: Channel
+    selected: Program | None = None
+    run: Iterator[Wait] | None = None
+    until: Callable[[], bool] | None = None
+    marks: set[int] = field(default_factory=set)
+
+
+@dataclass(slots=True, eq=False)
+class Meeting:
+    """A channel that waits at a mark for others.
+
+    Attributes:
+        number: The channel.
+        mark: The mark.
+        missing: Channels that have not been seen at the mark.
+    """
+
+    number: int
+    mark: int
+    missing: set[int]
+
+
+class ChannelGroup:
+    """All channels of a control; further ones are made when they are first spoken of.
+
+    Args:
+        first: The channel whose end is the end of the run.
+
+    Attributes:
+        first: That channel.
+        shared: What the control keeps once for all channels, by names of its own.
+        owner: Number of the channel that may move an axis of the machine, 0 for none.
+        moved_by: Number of the channel that knows where an axis of the machine stands.
+    """
+
+    def __init__(self, first: Channel) -> None:
+        self.first = first
+        self.shared: dict[str, Any] = {}
+        machine = first.machine
+        self.owner = {axis: machine.owner(axis) for each in machine.channels for axis in each.axes}
+        self.moved_by = self.owner.copy()
+        self._members = {first.number: Member(first)}
+        self._meetings: list[Meeting] = []
+        first.group = self
+
+    @property
+    def channels(self) -> list[Channel]:
+        """The channels that have been spoken of, the first one in front."""
+        return [member.channel for member in self._members.values()]
+
+    def has(self, number: int) -> bool:
+        """Whether the machine has a channel of this number."""
+        return any(channel.number == number for channel in self.first.machine.channels)
+
+    def channel(self, number: int) -> Channel:
+        """A channel by its number; `KeyError` where the machine has none."""
+        return self._member(number).channel
+
+    def _member(self, number: int) -> Member:
+        if number not in self._members:
+            if not self.has(number):
+                raise KeyError(number)
+            first = self.first
+            channel = Channel(
+                first.control, first.machine, first.setup, first.store, number=number, block_limit=first.block_limit
+            )  # fmt: skip
+            channel.group = self
+            channel.alarms = first.alarms
+            self._members[number] = Member(channel)
+        return self._members[number]
+
+    # ---- programs
+
+    def select(self, number: int, program: Program) -> None:
+        """Choose the program that the next start of a channel runs."""
+        self._member(number).selected = program
+
+    def is_running(self, number: int) -> bool:
+        """Whether a channel runs a program."""
+        member = self._members.get(number)
+        return member is not None and member.run is not None
+
+    def start(self, number: int) -> bool:
+        """Start the selected program of a channel; false where none is selected, or one is still running."""
+        member = self._member(number)
+        if member.selected is None or member.run is not None:
+            return False
+        channel = member.channel
+        first_time = channel.memory is None
+        if not first_time:
+            channel.control.reset(channel)
+        member.run = channel.run(member.selected, power_on=first_time)
+        return True
+
+    def run(self, program: Program) -> Iterator[Wait]:
+        """Run a program in the first channel, and in the others what it starts; yields the waits of the first."""
+        first = self._members[self.first.number]
+        first.run = self.first.run(program)
+        member: Member | None = first
+        while member is not None and member.run is not None and self.is_running(first.channel.number):
+            member.until = None
+            for wait in self._turn(member, member.run):
+                if member is first:
+                    yield wait
+            member = self._next(member.channel.number)
+        if self.is_running(first.channel.number) and not self.first.alarms:
+            # Every channel waits for another one: nothing will ever happen again.
+            self.first.fail(AlarmError("PC0005"))
+        for member in self._members.values():
+            member.run = None
+
+    @staticmethod
+    def _turn(member: Member, run: Iterator[Wait]) -> Iterator[Wait]:
+        """Let a channel run until it waits for another one; yields its other waits."""
+        for wait in run:
+            if wait.until is not None:
+                member.until = wait.until
+                return
+            yield wait
+        member.run = None
+
+    def _next(self, number: int) -> Member | None:
+        """The channel that can go on, from the one behind a number on; None where all wait."""
+        order = sorted(self._members, key=lambda other: (other <= number, other))
+        for member in map(self._members.__getitem__, order):
+            if member.run is not None and (member.until is None or member.until()):
+                return member
+        return None
+
+    # ---- wait marks
+
+    def marks(self, number: int) -> set[int]:
+        """The marks that a channel has set."""
+        return self._member(number).marks
+
+    def set_mark(self, number: int, mark: int) -> None:
+        """Set a mark; those who wait for it see it."""
+        self._member(number).marks.add(mark)
+        for meeting in self._meetings:
+            if meeting.mark == mark:
+                meeting.missing.discard(number)
+        # Marks of channels that have met are deleted at once, before one of them can come to the same mark again.
+        for meeting in [meeting for meeting in self._meetings if not meeting.missing]:
+            self._meetings.remove(meeting)
+            self.marks(meeting.number).discard(meeting.mark)
+
+    def meet(self, channel: Channel, mark: int, others: Iterable[int]) -> None:
+        """Set a mark and wait until the others have set it too; the mark is deleted when they have met."""
+        number = channel.number
+        missing = {other for other in others if other != number and mark not in self.marks(other)}
+        meeting = Meeting(number, mark, missing)
+        self._meetings.append(meeting)
+        self.set_mark(number, mark)
+        channel.wait = Wait("channel", until=lambda: not meeting.missing)
+
+    def wait_for_ends(self, channel: Channel, others: Iterable[int]) -> None:
+        """Wait until the programs of other channels have ended."""
+        awaited = tuple(others)
+        channel.wait = Wait("channel", until=lambda: not any(self.is_running(number) for number in awaited))
+
+    def let_run(self, channel: Channel) -> None:
+        """Give the other channels a turn."""
+        channel.wait = Wait("channel", until=lambda: True)
