@@ -1,0 +1,355 @@
+"""Preparation: the channel runs ahead of the axes, and its rows become pieces of the path and events, in order.
+
+The channel writes a block's rows; the planner's kernels (`motion/kernels`) lay them out as pieces with the speed
+that the axes allow. What the program asks for is kept beside it, because overrides act on that alone.
+"""
+
+from __future__ import annotations
+
+from array import array
+from collections import deque
+from math import inf, nan
+from typing import TYPE_CHECKING, Any
+
+from polycnc.mainrun.geometry import arc_laid, line_laid, way_along
+from polycnc.mainrun.items import Block, BlockEnd, Happening, Item, Piece, Rates, Standing
+from polycnc.motion.kernels.arcs import facing_radius
+from polycnc.motion.kernels.columns import (
+    BLOCKS,
+    CAP2,
+    CURVED,
+    ENTRY2,
+    FACING,
+    FEED,
+    FORM,
+    GEOMETRY,
+    LIMIT_BLOCKS,
+    OFFSETS,
+    PER_REVOLUTION,
+    PIECES,
+    POSITION,
+    REACH2,
+    ROW_LENGTH,
+    STATE_BLOCKS,
+    STOP,
+    SWEEP,
+    TIMED,
+    Rows,
+    piece_width,
+)
+from polycnc.motion.kernels.feeds import asked_speed, follows_radius, is_rapid
+from polycnc.motion.kernels.lay import lay
+from polycnc.motion.kernels.speeds import backward
+from polycnc.motion.limits import axis_limits, context_fields
+from polycnc.motion.waits import ORIENT, Waits
+from polycnc.toolpath import Kind, Toolpath
+from polycnc.toolpath.kinds import ARC_KINDS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.waits import Wait
+    from polycnc.machine.model import Machine
+    from polycnc.machine.motion_settings import MotionSettings
+    from polycnc.program import Program
+    from polycnc.toolpath.table import Chunk
+
+#: Items that are prepared at most, and at how few the channel is asked for more.
+FULL, LOW = 512, 128
+#: Blocks that the channel runs in one interpolation cycle while it makes no item.
+BLOCKS_A_CYCLE = 1000
+#: Waits of the channel behind a block that counts as one even without rows.
+BEHIND_A_BLOCK = frozenset({"single-block", "stop"})
+#: Waits of the channel that only let others look in.
+PASSING = frozenset({"chunk", "block", "single-block"})
+
+
+class Ahead:
+    """What lies ahead of the axes.
+
+    Args:
+        machine: The machine.
+        number: Number of the channel.
+
+    Attributes:
+        items: What is prepared, in order.
+        channel: The channel; set by `use` before anything runs.
+        waiting: Why the channel does not go on until it is told to; None while it runs.
+        finished: The program is at its end, or none runs.
+        revised: The speeds ahead have to be worked out anew.
+    """
+
+    def __init__(self, machine: Machine, number: int) -> None:
+        self.toolpath = Toolpath(machine.channel_axes(number), chunk_rows=1, on_full=self._take)
+        self.items: deque[Item] = deque()
+        self.channel: Channel
+        self.waiting: Wait | None = None
+        self.finished = True
+        self.revised = False
+        self._run: Iterator[Wait] = iter(())
+        self._axes = len(self.toolpath.axes)
+        self._width = piece_width(self._axes)
+        self._settings: MotionSettings
+        self.limits: array[float]
+        self._machine, self._number = machine, number
+        self._state = array("d", bytes(8 * (STATE_BLOCKS + BLOCKS * self._axes)))
+        self._pieces = array("d", bytes(8 * self._width * 64))
+        self._contexts = array("d")
+        self._stations: dict[tuple[object, ...], int] = {}
+        self._laid_contexts = 0
+        self._delays: dict[int, list[tuple[str, float]]] = {}
+        self._waits = Waits(machine, self.toolpath.contexts, (0, ""), self._delay)
+        self._blocks: deque[tuple[tuple[int, int], str, Mapping[str, str]]] = deque()
+        self._open: tuple[tuple[int, int], str] | None = None
+        self._stopped = False
+
+    # ---- the channel ---------------------------------------------------------------------------------------
+
+    def use(self, channel: Channel, settings: MotionSettings) -> None:
+        """Say whose channel it is, and how the control leads the axes."""
+        self.channel, self._settings = channel, settings
+        self.limits = axis_limits(self._machine, self._number, self.toolpath.axes, settings)
+
+    def start(self, program: Program, position: Sequence[float]) -> None:
+        """Begin with a program; the axes stand at a machine position."""
+        self.clear(position)
+        self.finished = False
+        self._run = self.channel.run(program, power_on=False)
+
+    def clear(self, position: Sequence[float]) -> None:
+        """Forget everything prepared."""
+        self.items.clear()
+        self._blocks.clear()
+        self._open = None
+        self._state[PIECES] = 0.0
+        self._state[STOP] = 1.0
+        first = STATE_BLOCKS + POSITION * self._axes
+        self._state[first : first + self._axes] = array("d", position)
+        self._run = iter(())
+        self.waiting, self.finished = None, True
+
+    def fill(self) -> bool:
+        """Let the channel run ahead; false if it made nothing although it may go on."""
+        if len(self.items) > LOW or self.finished or self.waiting is not None:
+            return True
+        before = len(self.items)
+        for _ in range(BLOCKS_A_CYCLE):
+            self._step()
+            if self.finished or self.waiting is not None or len(self.items) >= FULL:
+                break
+        self.revised = self.revised or len(self.items) > before
+        return len(self.items) > before or self.finished or self.waiting is not None
+
+    def end_in_rest(self) -> None:
+        """The axes come to rest behind what is prepared, for nobody knows when more will come."""
+        self._state[STOP] = 1.0
+
+    def proceed(self) -> None:
+        """What the channel waited for has happened."""
+        self.waiting = None
+
+    def _step(self) -> None:
+        """Run the channel to its next wait."""
+        channel = self.channel
+        wait = next(self._run, None)
+        level = channel.stack[-1] if channel.stack else None
+        if level is not None and (len(channel.toolpath.chunk) or (wait and wait.reason in BEHIND_A_BLOCK)):
+            halts = wait is not None and wait.reason == "single-block"
+            self._note_block(level.program_number, level.line_of(level.current), wait if halts else None)
+        self._stopped = False
+        self.toolpath.block_boundary()
+        if wait is None:
+            self._close_blocks()
+            self.finished = True
+        elif channel.head is None:
+            self._close_blocks()
+        if wait is not None and wait.reason not in PASSING and (wait.reason != "stop" or self._stopped):
+            self.waiting = wait
+
+    # ---- blocks --------------------------------------------------------------------------------------------
+
+    def _note_block(self, program: int, line: int, halt: Wait | None) -> None:
+        """The channel has run a block; its rows may come later, if a stage of the path holds them back."""
+        code = "" if halt is None else halt.code or str(line)
+        self._blocks.append(((program, line), code, self.channel.mode.codes))
+
+    def _enter_block(self, key: tuple[int, int]) -> None:
+        """A row of a block comes: every block run before that one is over."""
+        if self._open is not None and self._open[0] == key:
+            return
+        if not any(block[0] == key for block in self._blocks):
+            return  # a row that a stage has added counts for the block before it
+        self._end_block()
+        while self._blocks:
+            found, code, modal = self._blocks.popleft()
+            self.items.append(Block(self.toolpath.programs[found[0]], found[1], modal))
+            self._open = (found, code)
+            if found == key:
+                return
+            self._end_block()
+
+    def _end_block(self) -> None:
+        if self._open is not None and self._open[1]:
+            self.items.append(BlockEnd(self._open[1]))
+        self._open = None
+
+    def _close_blocks(self) -> None:
+        """Nothing is held back: every block that was run is over."""
+        if self._blocks:
+            self._enter_block(self._blocks[-1][0])
+        self._end_block()
+
+    # ---- rows ----------------------------------------------------------------------------------------------
+
+    def _take(self, chunk: Chunk) -> bool:
+        """Turn the rows of a block into items."""
+        self._add_contexts()
+        self._delays.clear()
+        self._waits.take(chunk, int(self.limits[LIMIT_BLOCKS * self._axes + GEOMETRY]))
+        self._waits.parallel.clear()
+        contexts = self.toolpath.contexts
+        for row in range(len(chunk)):
+            self._enter_block((chunk.program[row], chunk.line[row]))
+            number, context, kind = chunk.first + row, contexts[chunk.context[row]], chunk.kind[row]
+            delays = self._delays.get(number, [])
+            event = chunk.events[chunk.curve[row]] if kind == Kind.EVENT else None
+            if event is not None and event.type == "m":
+                delays = _without_function(delays, event.data.get("code"))
+            self.items.extend(Standing(why, seconds, context) for why, seconds in delays)
+            if event is not None:
+                stands = self._waits.stands_for(event)
+                self.items.append(Happening(event, context, stands))
+                if stands:
+                    self._state[STOP] = 1.0
+                self._stopped = self._stopped or event.type == "stop"
+            elif kind == Kind.DWELL:
+                self._state[STOP] = 1.0
+            else:
+                self._lay(chunk, row)
+        return True
+
+    def _delay(self, row: int, why: str, _context: int, seconds: float) -> None:
+        if seconds > 0.0:
+            self._delays.setdefault(row, []).append((why, seconds))
+
+    def _add_contexts(self) -> None:
+        for context in self.toolpath.contexts[self._laid_contexts :]:
+            spindle = self._waits.spindle(context)
+            turning = (context.spindle, context.spindle_rpm, context.spindle_direction, context.surface_speed)
+            key = (context.tool, context.tool_name, *turning)
+            station = self._stations.setdefault(key, len(self._stations))
+            self._contexts.extend(context_fields(context, self._axes, spindle, station, self._settings))
+            self._laid_contexts += 1
+
+    def _lay(self, chunk: Chunk, row: int) -> None:
+        """Lay a move out as pieces. Its feed is left out there, so that the pieces know what the axes allow."""
+        n, state = self._axes, self._state
+        end = chunk.end[row * n : (row + 1) * n]
+        rows = Rows([chunk.kind[row]], [chunk.context[row]], [nan], end, [chunk.curve[row]], [])
+        first = STATE_BLOCKS + POSITION * n
+        start, before = tuple(state[first : first + n]), int(state[PIECES])
+        number = chunk.first + row
+        while lay(rows, 0, chunk.curves, number, self._contexts, self.limits, self._pieces, state) == 0:
+            self._pieces.frombytes(bytes(len(self._pieces) * 8))
+        count = int(state[PIECES]) - before
+        if count == 0:
+            return
+        is_arc = (
+            chunk.kind[row] in ARC_KINDS and self._pieces[before * self._width + FORM] == CURVED
+        )
+        way = arc_laid(start, state, self.limits, n) if is_arc else line_laid(start, state, n)
+        state[FEED] = chunk.feed[row]
+        record = chunk.context[row] * (OFFSETS + n)
+        for part in range(count):
+            at = (before + part) * self._width
+            asked = asked_speed(
+                chunk.curves, self._contexts, record, state, state[ROW_LENGTH],
+                self._radius(record, part, count, is_arc=is_arc),
+            )  # fmt: skip
+            self.items.append(
+                Piece(
+                    way=way,
+                    first=part / count,
+                    share=1.0 / count,
+                    kind=chunk.kind[row],
+                    context=self.toolpath.contexts[chunk.context[row]],
+                    program=self.toolpath.programs[chunk.program[row]],
+                    line=chunk.line[row],
+                    entry2=self._pieces[at + ENTRY2],
+                    cap2=self._pieces[at + CAP2],
+                    asked=asked if asked > 0.0 else inf,
+                    rapid=is_rapid(state),
+                    fixed=chunk.kind[row] in (Kind.THREAD, Kind.TAP),
+                    per_revolution=self._contexts[record + PER_REVOLUTION] != 0.0,
+                    by_axis=self._pieces[at + FORM] == TIMED,
+                )
+            )
+
+    def _radius(self, record: int, part: int, parts: int, *, is_arc: bool) -> float:
+        """Turning radius in the middle of a part of the row laid last, as the planner takes it."""
+        state, n = self._state, self._axes
+        facing = int(self.limits[LIMIT_BLOCKS * n + GEOMETRY])
+        if facing < 0:
+            return 0.0
+        follows = follows_radius(self._contexts, record)
+        middle = (part + 0.5) / parts
+        if is_arc:
+            return facing_radius(middle * state[SWEEP] if follows else 0.0, n, self.limits, state)
+        return state[FACING] - (way_along(state, facing, n) * (1.0 - middle) if follows else 0.0)
+
+    # ---- speeds --------------------------------------------------------------------------------------------
+
+    def revise(self, rates: Rates, cap2: float, *, gated: bool, single_block: bool) -> None:
+        """Work out how fast each piece may be entered, so that all that follow can be run.
+
+        Args:
+            rates: Overrides.
+            cap2: Largest squared speed on the piece that runs now.
+            gated: An auxiliary function is running: the next block must wait.
+            single_block: Every block ends in a halt.
+        """
+        at, width, pieces = 0, self._width, self._pieces
+        closed = False
+        for item in self.items:
+            if isinstance(item, Piece):
+                own = rates.cap2(item)
+                pieces[at + ENTRY2] = 0.0 if closed else min(item.entry2, cap2, own)
+                cap2, closed = own, False
+                at += width
+            elif isinstance(item, Block):
+                closed = closed or gated
+            elif isinstance(item, BlockEnd):
+                closed = closed or single_block
+        backward(pieces, int(self._state[PIECES]), self._axes, self.limits)
+        self.revised = False
+
+    def reach2(self) -> float:
+        """Largest squared speed at which the next piece may be entered; 0 where none is prepared."""
+        return self._pieces[REACH2] if self._state[PIECES] else 0.0
+
+    def pop_piece(self) -> array[Any]:
+        """Take the piece in front out of the queue; its record."""
+        self.items.popleft()
+        width, count = self._width, int(self._state[PIECES])
+        record = self._pieces[:width]
+        self._pieces[: (count - 1) * width] = self._pieces[width : count * width]
+        self._state[PIECES] = count - 1
+        return record
+
+    @property
+    def is_last_piece(self) -> bool:
+        """Whether the piece in front is the last, and a row to come could still change it."""
+        open_end = self._state[STOP] == 0.0 and not self.finished and self.waiting is None
+        return self._state[PIECES] <= 1.0 and open_end
+
+    @property
+    def axes(self) -> int:
+        """Number of axes."""
+        return self._axes
+
+
+def _without_function(delays: list[tuple[str, float]], code: object) -> list[tuple[str, float]]:
+    """Delays of a row without what its M function takes: that is up to the machine's own controller."""
+    kept = [delay for delay in delays if delay[0] != "auxiliary_s"]
+    return kept[:-1] if code == ORIENT and kept else kept

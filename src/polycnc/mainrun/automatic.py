@@ -1,0 +1,282 @@
+"""Automatic operation: what is prepared is executed in time, piece by piece and event by event.
+
+Between two events the motion is known in closed form, so the clock goes from event to event, however far apart they
+are, and an override or a hold takes effect at the very moment it is given.
+"""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING, Any, Protocol
+
+from polycnc.mainrun.items import Block, BlockEnd, Happening, Piece, Rates, Standing
+from polycnc.mainrun.motion import AxesMotion, Motion, PathMotion
+from polycnc.toolpath import Context
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from polycnc.mainrun.ahead import Ahead
+
+#: Squared speed below which the axes stand, (mm/s)².
+REST2 = 1e-9
+
+
+class Machinery(Protocol):
+    """What carries out the program's events on the machine."""
+
+    def perform(self, happening: Happening) -> None:
+        """An event of the program."""
+
+    def enter(self, block: Block) -> None:
+        """A block begins."""
+
+    def halted(self, reason: str) -> None:
+        """The run has halted."""
+
+    @property
+    def busy(self) -> bool:
+        """Whether functions are under way that the next block waits for."""
+
+    @property
+    def due(self) -> float:
+        """When something happens on the machine next; inf where nothing will."""
+
+    def advance(self, time: float) -> None:
+        """Let happen what is due."""
+
+
+class Automatic:
+    """Executes what is prepared.
+
+    Args:
+        ahead: What is prepared.
+        rates: What the operator has set; tell `revise` when it changes.
+        machinery: Carries out events.
+        position: Machine position at the start.
+        cycle_s: Interpolation cycle: as long lasts what a program computes between two moves.
+
+    Attributes:
+        time: Simulated time, s.
+        running: Cycle start has been given, and nothing has halted the run since.
+        halt: Why it has halted: `single-block`, `M00`, `M01`, `alarm`, `end`; empty while it runs.
+        single_block: Halt behind every block.
+        block: The block in execution.
+        context: What holds in it.
+        position: Machine position where the axes last stood at a joint.
+    """
+
+    def __init__(
+        self,
+        ahead: Ahead,
+        rates: Rates,
+        machinery: Machinery,
+        position: Sequence[float],
+        cycle_s: float,
+    ) -> None:
+        self.ahead = ahead
+        self.rates = rates
+        self.time = 0.0
+        self.running = False
+        self.halt = ""
+        self.single_block = False
+        self.block: Block | None = None
+        self.context = Context()
+        self.modal: Mapping[str, str] = {}
+        self.motion: Motion | None = None
+        self.position = list(position)
+        self._machinery = machinery
+        self._x2 = 0.0
+        self._cap2 = inf
+        self._until = 0.0
+        self._waiting = False
+        self._blocked = False
+        self._cycle_s = cycle_s
+
+    # ---- what a panel reads --------------------------------------------------------------------------------
+
+    @property
+    def moving(self) -> bool:
+        """Whether the axes move now."""
+        return self.speed > 0.0
+
+    @property
+    def speed(self) -> float:
+        """Path speed now, mm/s."""
+        return self.motion.speed(self.time) if self.motion is not None else 0.0
+
+    @property
+    def machine(self) -> list[float]:
+        """Machine position now."""
+        return self.motion.machine(self.time) if self.motion is not None else list(self.position)
+
+    @property
+    def row_end(self) -> list[float]:
+        """Machine position at the end of the move in execution."""
+        return list(self.motion.piece.way.end) if self.motion is not None else list(self.position)
+
+    @property
+    def standing(self) -> bool:
+        """Whether the run has come to rest: no motion, no dwell, no auxiliary function under way."""
+        return not self.moving and self._until <= self.time and not self._machinery.busy
+
+    # ---- time ----------------------------------------------------------------------------------------------
+
+    def advance(self, until: float) -> None:
+        """Execute up to a time."""
+        machinery = self._machinery
+        while (due := self._due()) <= until:
+            self.time = max(self.time, due)
+            if machinery.due <= self.time:
+                was_busy = machinery.busy
+                machinery.advance(self.time)
+                if was_busy and not machinery.busy:
+                    self.revise()  # the gate behind the block opens
+            elif self.motion is not None:
+                if self.motion.end <= self.time:
+                    self._arrive()
+            elif not self._go_on():
+                self._blocked = True
+                if machinery.due > until:
+                    break
+                self.time = machinery.due
+        self.time = max(self.time, until)
+
+    def _due(self) -> float:
+        """When something happens next, as far as it is known."""
+        if self.motion is not None:
+            rest = self.motion.rest
+            return min(self.motion.end, rest if rest > self.time else inf, self._machinery.due)
+        if self._waiting and self._machinery.busy:
+            return self._machinery.due
+        return min(max(self._until, self.time), self._machinery.due)
+
+    @property
+    def next_event(self) -> float:
+        """When something will happen next; inf where nothing will without a command."""
+        idle = self.motion is None and (self._blocked or not self.running)
+        return self._machinery.due if idle else self._due()
+
+    def _arrive(self) -> None:
+        """The end of a piece."""
+        motion = self.motion
+        assert motion is not None
+        self._x2 = motion.end2 if motion.end2 > REST2 else 0.0
+        self.position = motion.piece.at(1.0)
+        self.motion = None
+
+    def _go_on(self) -> bool:
+        """Begin what comes next; false where nothing can begin now."""
+        self._waiting = False
+        if not self.running:
+            return False
+        filled = self.ahead.fill()
+        if self.ahead.revised:
+            self._look_ahead()
+        if not self.ahead.items:
+            return self._run_out(filled=filled)
+        item = self.ahead.items[0]
+        if isinstance(item, Piece):
+            return self._begin(item)
+        if self.rates.hold and self._x2 == 0.0 and not isinstance(item, BlockEnd):
+            return False
+        return self._pass(item)
+
+    def _run_out(self, *, filled: bool) -> bool:
+        """Nothing is prepared."""
+        if not filled:
+            self._until = self.time + self._cycle_s  # the program computes
+            return True
+        waiting = self.ahead.waiting
+        if self.ahead.finished or waiting is None:
+            self._waiting = self._machinery.busy
+            if not self._waiting:
+                self._stop("end")
+            return self._waiting
+        self.ahead.proceed()
+        return True
+
+    def _pass(self, item: Block | BlockEnd | Happening | Standing) -> bool:
+        """Execute something that is no motion."""
+        if isinstance(item, Block) and self._x2 == 0.0 and self._machinery.busy:
+            self._waiting = True
+            return True
+        self.ahead.items.popleft()
+        if isinstance(item, Block):
+            self._enter(item)
+        elif isinstance(item, BlockEnd):
+            if self.single_block and self._x2 == 0.0:
+                self._stop("single-block")
+        elif isinstance(item, Standing):
+            self.context = item.context
+            self._until = self.time + item.seconds
+        else:
+            self.context = item.context
+            self._machinery.perform(item)
+            self._waiting = item.stands
+            if self._machinery.busy:
+                self._look_ahead()
+        return self.running
+
+    def _enter(self, block: Block) -> None:
+        self.block, self.modal = block, block.modal
+        self._machinery.enter(block)
+
+    def _begin(self, piece: Piece) -> bool:
+        """Start along a piece."""
+        if self.ahead.is_last_piece:
+            self.ahead.end_in_rest()
+        cap2 = self.rates.cap2(piece)
+        if self._x2 == 0.0 and cap2 == 0.0:
+            return False
+        ahead = self.ahead
+        record = ahead.pop_piece()
+        self.context, self._cap2 = piece.context, cap2
+        if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
+            self._enter(Block(piece.program, piece.line, self.modal))
+        if piece.by_axis:
+            self.motion = AxesMotion(piece, ahead.limits, self.time, self.rates.rapid)
+        else:
+            self.motion = PathMotion(piece, record, ahead.limits, self.time, self._x2, ahead.reach2(), cap2)
+        return True
+
+    # ---- changes -------------------------------------------------------------------------------------------
+
+    def _look_ahead(self) -> None:
+        """Work out the speeds of what is prepared anew."""
+        busy = self._machinery.busy
+        self.ahead.revise(self.rates, self._cap2, gated=busy, single_block=self.single_block)
+
+    def revise(self) -> None:
+        """Something that bounds the speed has changed: the motion goes on accordingly from where it is."""
+        self._blocked = False
+        motion = self.motion
+        if motion is None:
+            self._look_ahead()
+            return
+        self._cap2 = self.rates.cap2(motion.piece)
+        self._look_ahead()
+        motion.revise(self.time, self.ahead.reach2(), self._cap2, 0.0 if self.rates.hold else self.rates.rapid)
+
+    def start(self) -> None:
+        """Go on, or begin."""
+        self.running, self.halt = True, ""
+        self.revise()
+
+    def _stop(self, reason: str) -> None:
+        self.running, self.halt = False, reason
+        self._x2 = 0.0
+        self._machinery.halted(reason)
+
+    def stop(self, reason: str) -> None:
+        """Halt here: the axes stand."""
+        self._stop(reason)
+
+    def abandon(self) -> None:
+        """Give up what is left: reset. The axes stand where they are, or have been braked before."""
+        self.position = self.machine
+        self.motion = None
+        self.running, self.halt = False, ""
+        self._x2, self._until = 0.0, self.time
+        self.block = None
+        self.ahead.clear(self.position)

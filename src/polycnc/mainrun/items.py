@@ -1,0 +1,132 @@
+"""What the interpreter has prepared and the main run has still to do, in order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.mainrun.geometry import Way
+    from polycnc.toolpath import Context, Event
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """A block begins.
+
+    Attributes:
+        program: Name of its program.
+        line: Its line in that program's file.
+        modal: Active code of every modal group behind it.
+    """
+
+    program: str
+    line: int
+    modal: Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class BlockEnd:
+    """A block is over; single block operation halts here. `code` is its N word, or its line."""
+
+    code: str
+
+
+@dataclass(frozen=True, slots=True)
+class Happening:
+    """An event of the program. `stands` says whether the axes stand still for it."""
+
+    event: Event
+    context: Context
+    stands: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """The axes stand for a time. `why` is a share of `motion.Times` (`dwell_s`, `spindle_s` …)."""
+
+    why: str
+    seconds: float
+    context: Context
+
+
+@dataclass(slots=True, eq=False)
+class Piece:
+    """A piece of the path: a line, a chord, or 7.5° of an arc.
+
+    Attributes:
+        way: The row that it is a part of.
+        first: Share of the row that lies before it; `share` is its own.
+        kind: Kind of the row.
+        context: What holds in it.
+        program: Name of the program; `line` the line in its file.
+        entry2: Largest squared speed at its start that its neighbours' geometry allows.
+        cap2: Largest squared speed that the axes allow in it.
+        asked: Speed that the program asks for, mm/s; infinite where it asks for none.
+        rapid: Runs at rapid traverse.
+        fixed: Bound to the spindle (thread, tap): no override, no feed hold.
+        per_revolution: Its speed follows the spindle.
+        by_axis: A rapid on which every axis runs alone.
+    """
+
+    way: Way
+    first: float
+    share: float
+    kind: int
+    context: Context
+    program: str
+    line: int
+    entry2: float
+    cap2: float
+    asked: float
+    rapid: bool
+    fixed: bool
+    per_revolution: bool
+    by_axis: bool
+
+    def at(self, share: float) -> list[float]:
+        """Machine position after a share of the piece."""
+        last = share >= 1.0 and self.first + self.share >= 1.0 - 1e-9
+        return self.way.at(1.0 if last else self.first + self.share * share)
+
+
+Item = Block | BlockEnd | Happening | Standing | Piece
+
+
+@dataclass(slots=True)
+class Rates:
+    """What the operator has set of the speeds, 1 for 100 %.
+
+    Attributes:
+        feed: Feed override.
+        rapid: Rapid override.
+        spindle: Spindle override.
+        dry_run: Speed of feed moves in dry run at 100 %, mm/s; 0 for off.
+        hold: Feed hold: the axes come to rest.
+    """
+
+    feed: float = 1.0
+    rapid: float = 1.0
+    spindle: float = 1.0
+    dry_run: float = 0.0
+    hold: bool = False
+
+    def cap2(self, piece: Piece) -> float:
+        """Largest squared speed on a piece."""
+        if piece.fixed:
+            return min(piece.cap2, piece.asked * piece.asked)
+        if self.hold:
+            return 0.0
+        if piece.by_axis:
+            return self.rapid * self.rapid
+        if piece.rapid:
+            return piece.cap2 * self.rapid * self.rapid
+        if self.dry_run:
+            speed = self.dry_run * self.feed
+            return min(piece.cap2, speed * speed)
+        speed = piece.asked * self.feed if self.feed > 0.0 else 0.0
+        if piece.per_revolution:
+            speed *= self.spindle
+        return min(piece.cap2, speed * speed)

@@ -1,0 +1,134 @@
+"""The motion of the axes along one piece: where they are and how fast, at any time."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING, Any, Protocol
+
+from polycnc.mainrun.axis_move import AxisMove, axis_move
+from polycnc.mainrun.speed import profile_of
+from polycnc.motion.kernels.columns import ACCELERATION, LENGTH, TOP_RAPID
+
+if TYPE_CHECKING:
+    from array import array
+    from collections.abc import Sequence
+
+    from polycnc.mainrun.items import Piece
+
+
+class Motion(Protocol):
+    """What the main run asks of a motion.
+
+    Attributes:
+        piece: The piece.
+        end: When its end is reached; inf where the axes come to rest before.
+        rest: When the axes come to rest before its end; inf where they do not.
+        end2: Squared path speed at the end.
+    """
+
+    piece: Piece
+    end: float
+    rest: float
+    end2: float
+
+    def machine(self, time: float) -> list[float]:
+        """Machine position."""
+
+    def speed(self, time: float) -> float:
+        """Path speed."""
+
+    def revise(self, time: float, aim2: float, cap2: float, rapid: float) -> None:
+        """The limits of the speed have changed."""
+
+
+class PathMotion:
+    """Along the path, all axes together.
+
+    Args:
+        piece: The piece.
+        record: The planner's numbers of it.
+        limits: The machine, as the planner's kernels take it.
+        since: When it begins.
+        start2: Squared speed then.
+        aim2: Largest squared speed at its end.
+        cap2: Largest squared speed on it.
+    """
+
+    def __init__(
+        self,
+        piece: Piece,
+        record: array[Any],
+        limits: Sequence[float],
+        since: float,
+        start2: float,
+        aim2: float,
+        cap2: float,
+    ) -> None:
+        self.piece = piece
+        self._record = record
+        self._limits = limits
+        self._axes = len(piece.way.start)
+        self._run(since, 0.0, start2, aim2, cap2)
+
+    def _run(self, since: float, done: float, start2: float, aim2: float, cap2: float) -> None:
+        profile = profile_of(self._record, done, start2, aim2, cap2, self._axes, self._limits)
+        self._profile, self._since, self._done = profile, since, done
+        over = since + profile.seconds
+        self.end, self.rest = (over, inf) if profile.arrives else (inf, over)
+        self.end2 = profile.end2
+
+    def _after(self, time: float) -> tuple[float, float]:
+        way, speed = self._profile.after(time - self._since)
+        return min(self._done + way, self._record[LENGTH]), speed
+
+    def machine(self, time: float) -> list[float]:
+        """Machine position."""
+        return self.piece.at(self._after(time)[0] / self._record[LENGTH])
+
+    def speed(self, time: float) -> float:
+        """Path speed."""
+        return self._after(time)[1]
+
+    def revise(self, time: float, aim2: float, cap2: float, rapid: float) -> None:  # noqa: ARG002 - is in cap2
+        """The limits of the speed have changed."""
+        done, speed = self._after(time)
+        self._run(time, done, speed * speed, aim2, cap2)
+
+
+class AxesMotion:
+    """A rapid on which every axis runs alone to its end.
+
+    Args:
+        piece: The piece.
+        limits: The machine, as the planner's kernels take it.
+        since: When it begins.
+        rapid: Rapid override.
+    """
+
+    def __init__(self, piece: Piece, limits: Sequence[float], since: float, rapid: float) -> None:
+        self.piece = piece
+        self.end2 = 0.0
+        n = len(piece.way.start)
+        self._top = tuple(limits[TOP_RAPID * n : (TOP_RAPID + 1) * n])
+        self._pull = tuple(limits[ACCELERATION * n : (ACCELERATION + 1) * n])
+        self._moves = tuple(AxisMove(start, (), since, start) for start in piece.way.start)
+        self.revise(since, 0.0, 0.0, rapid)
+
+    def machine(self, time: float) -> list[float]:
+        """Machine position."""
+        return [move.after(time)[0] for move in self._moves]
+
+    def speed(self, time: float) -> float:
+        """Speed of the fastest axis."""
+        return max(abs(move.after(time)[1]) for move in self._moves)
+
+    def revise(self, time: float, aim2: float, cap2: float, rapid: float) -> None:  # noqa: ARG002 - it ends in rest
+        """Another override; 0 brakes every axis."""
+        self._moves = tuple(
+            axis_move(*move.after(time), end, top * rapid, pull, time)
+            for move, end, top, pull in zip(
+                self._moves, self.piece.way.end, self._top, self._pull, strict=True
+            )
+        )
+        over = max(move.end for move in self._moves)
+        self.end, self.rest = (over, inf) if rapid > 0.0 else (inf, over)

@@ -1,0 +1,234 @@
+"""How fast a piece of the path is run from where the axes are now: phases of constant acceleration.
+
+As in the planner, `x` is the square of the path speed v and changes in proportion to the way: `x₁ = x₀ + 2·u·s`
+under a constant acceleration u. The planner asks for the fastest way from rest to rest; here the axes may be
+faster than what is now allowed, because an override was turned down or feed hold was pressed: then they brake as
+hard as their limits let them, along the path.
+"""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.motion.kernels.columns import ACCELERATION, CURVED, FORM, LENGTH, PULL, VECTORS
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+#: Relative difference of squared speeds, and a way in mm, that count as none.
+SAME, NO_WAY_MM = 1e-12, 1e-12
+#: Heights that are tried for the speed in the middle of a curved piece, as the planner does.
+TRIES = 16
+
+
+class Phase(NamedTuple):
+    """Constant acceleration `pull` for `seconds` from `speed` on, over `way`."""
+
+    seconds: float
+    way: float
+    speed: float
+    pull: float
+
+
+class Profile(NamedTuple):
+    """The phases of a piece.
+
+    Attributes:
+        phases: In order.
+        end2: Squared speed behind them.
+        arrives: They lead to the end of the piece; else the axes come to rest before it.
+    """
+
+    phases: tuple[Phase, ...]
+    end2: float
+    arrives: bool
+
+    @property
+    def seconds(self) -> float:
+        """Time of all phases."""
+        return sum(phase.seconds for phase in self.phases)
+
+    def after(self, seconds: float) -> tuple[float, float]:
+        """Way and speed after a time."""
+        way = 0.0
+        for phase in self.phases:
+            if seconds < phase.seconds:
+                speed = phase.speed + phase.pull * seconds
+                return way + (phase.speed + 0.5 * phase.pull * seconds) * seconds, max(speed, 0.0)
+            seconds -= phase.seconds
+            way += phase.way
+        return way, sqrt(self.end2)
+
+
+def ramp(way: float, start2: float, end2: float) -> Phase:
+    """The phase that leads over a way from one squared speed to another."""
+    start, end = sqrt(start2), sqrt(end2)
+    seconds = 2.0 * way / (start + end) if way > 0.0 else 0.0
+    return Phase(seconds, way, start, (end - start) / seconds if seconds > 0.0 else 0.0)
+
+
+def straight_profile(length: float, start2: float, aim2: float, cap2: float, pull: float) -> Profile:
+    """Phases over a straight way.
+
+    Args:
+        length: The way.
+        start2: Squared speed now.
+        aim2: Squared speed wanted at the end; no more than what can be reached there is taken.
+        cap2: Largest squared speed; above it the axes brake first.
+        pull: Acceleration along the way.
+    """
+    phases: list[Phase] = []
+    if start2 > cap2 * (1.0 + SAME):
+        brake = (start2 - cap2) / (2.0 * pull)
+        if brake >= length:
+            end2 = max(start2 - 2.0 * pull * length, 0.0)
+            return Profile((ramp(length, start2, end2),), end2, arrives=True)
+        phases.append(ramp(brake, start2, cap2))
+        length, start2 = length - brake, cap2
+    if cap2 <= 0.0:
+        return Profile(tuple(phases), 0.0, arrives=False)
+    end2 = min(max(aim2, start2 - 2.0 * pull * length, 0.0), start2 + 2.0 * pull * length)
+    peak2 = max(min(cap2, 0.5 * (start2 + end2) + pull * length), start2, end2)
+    up, down = (peak2 - start2) / (2.0 * pull), (peak2 - end2) / (2.0 * pull)
+    level = max(length - up - down, 0.0)
+    phases += [ramp(up, start2, peak2), ramp(level, peak2, peak2), ramp(down, peak2, end2)]
+    return Profile(tuple(phase for phase in phases if phase.way > 0.0), end2, arrives=True)
+
+
+class Limits(NamedTuple):
+    """What a curved piece allows: q' and q'' of every axis at its start and end, and the axes' accelerations."""
+
+    tangent: tuple[float, ...]
+    bend: tuple[float, ...]
+    end_tangent: tuple[float, ...]
+    end_bend: tuple[float, ...]
+    acceleration: tuple[float, ...]
+
+    def later(self, share: float) -> Limits:
+        """Those of the rest of the piece behind a share of it."""
+
+        def between(a: tuple[float, ...], b: tuple[float, ...]) -> tuple[float, ...]:
+            return tuple(x + (y - x) * share for x, y in zip(a, b, strict=True))
+
+        tangent, bend = between(self.tangent, self.end_tangent), between(self.bend, self.end_bend)
+        return self._replace(tangent=tangent, bend=bend)
+
+    def reachable(self, length: float, start2: float) -> tuple[float, float]:
+        """Least and largest squared speed at the end of a way under one acceleration."""
+        low, high, half = -inf, inf, 0.5 / length
+        for q, b, q_end, b_end, a in zip(*self, strict=True):
+            if q != 0.0:
+                sides = sorted((start2 + (sign * a - b * start2) / (q * half) for sign in (-1.0, 1.0)))
+                low, high = max(low, sides[0]), min(high, sides[1])
+            own = b_end + q_end * half
+            if own != 0.0:
+                sides = sorted((sign * a + q_end * half * start2) / own for sign in (-1.0, 1.0))
+                low, high = max(low, sides[0]), min(high, sides[1])
+        return low, high
+
+    def brake(self, start2: float) -> float:
+        """Deceleration that holds at both ends of the piece for every squared speed up to this one."""
+        hardest = inf
+        for q, b, q_end, b_end, a in zip(*self, strict=True):
+            for tangent, bend in ((q, b), (q_end, b_end)):
+                if tangent != 0.0:
+                    spent = max(-bend * start2 * (1.0 if tangent > 0.0 else -1.0), 0.0)
+                    hardest = min(hardest, (a - spent) / abs(tangent))
+        return max(hardest, 0.0)
+
+    def left(self, peak2: float) -> float:
+        """Acceleration to either side that is left at a squared speed, at the worse end."""
+        least = inf
+        for q, b, q_end, b_end, a in zip(*self, strict=True):
+            for tangent, bend in ((q, b), (q_end, b_end)):
+                if tangent != 0.0:
+                    least = min(least, (a - abs(bend) * peak2) / abs(tangent))
+        return least
+
+
+def curved_profile(
+    length: float, start2: float, aim2: float, cap2: float, pull: float, limits: Limits
+) -> Profile:
+    """Phases over a curved piece or the rest of one: one acceleration, or over a peak where that is quicker.
+
+    Args:
+        length: The way.
+        start2: Squared speed now.
+        aim2: Squared speed wanted at the end.
+        cap2: Largest squared speed; above it the axes brake.
+        pull: Largest acceleration along the way.
+        limits: What the axes allow.
+    """
+    low, high = limits.reachable(length, start2)
+    end2 = min(aim2, max(high, 0.0), cap2)
+    if start2 > cap2 * (1.0 + SAME) or end2 < low:
+        hardest = limits.brake(start2)
+        rest2 = start2 - 2.0 * hardest * length
+        if rest2 < 0.0 and cap2 <= 0.0:
+            way = start2 / (2.0 * hardest)
+            return Profile((ramp(way, start2, 0.0),) if way > 0.0 else (), 0.0, arrives=False)
+        end2 = max(min(max(low, end2), start2), 0.0) if low <= high else max(rest2, 0.0)
+    if cap2 <= 0.0 and start2 <= 0.0:
+        return Profile((), 0.0, arrives=False)
+    if end2 <= 0.0 and cap2 <= 0.0:
+        return Profile((ramp(length, start2, 0.0),), 0.0, arrives=True)
+    return Profile(_over_peak(length, start2, end2, cap2, pull, limits), end2, arrives=True)
+
+
+def _over_peak(
+    length: float, start2: float, end2: float, cap2: float, pull: float, limits: Limits
+) -> tuple[Phase, ...]:
+    """The planner's rule (`kernels/speeds.py`): a peak costs acceleration to the side, the rest goes up and down."""
+    high2 = max(start2, end2)
+    single = ramp(length, start2, end2) if high2 > 0.0 else None
+    peak2 = min(cap2, high2 + pull * length)
+    if single is not None and start2 + end2 >= 1.96 * peak2:
+        return (single,)
+    for _ in range(TRIES):
+        left = limits.left(peak2)
+        if left > 0.0 and abs(end2 - start2) <= 2.0 * left * length:
+            peaked = straight_profile(length, start2, end2, peak2, left)
+            if single is None or peaked.seconds < single.seconds:
+                return peaked.phases
+            return (single,)
+        peak2 = high2 + 0.5 * (peak2 - high2)
+    return (single,) if single is not None else ()
+
+
+def limits_of(record: Sequence[float], axes: int, limits: Sequence[float]) -> Limits:
+    """The limits of a curved piece from its record and those of the machine (`kernels/columns.py`)."""
+    blocks = [tuple(record[VECTORS + k * axes : VECTORS + (k + 1) * axes]) for k in range(4)]
+    acceleration = tuple(limits[ACCELERATION * axes : (ACCELERATION + 1) * axes])
+    return Limits(blocks[0], blocks[2], blocks[1], blocks[3], acceleration)
+
+
+def profile_of(
+    record: Sequence[float],
+    done: float,
+    start2: float,
+    aim2: float,
+    cap2: float,
+    axes: int,
+    limits: Sequence[float],
+) -> Profile:
+    """Phases over what is left of a piece.
+
+    Args:
+        record: The planner's record of the piece.
+        done: Way along it that lies behind.
+        start2: Squared speed now.
+        aim2: Squared speed wanted at its end.
+        cap2: Largest squared speed on it.
+        axes: Number of axes.
+        limits: The machine, as the planner's kernels take it.
+    """
+    length = record[LENGTH] - done
+    if length <= NO_WAY_MM:
+        return Profile((), start2, arrives=True)
+    if record[FORM] != CURVED:
+        return straight_profile(length, start2, aim2, cap2, record[PULL])
+    curve = limits_of(record, axes, limits)
+    if done > 0.0:
+        curve = curve.later(done / record[LENGTH])
+    return curved_profile(length, start2, aim2, cap2, record[PULL], curve)

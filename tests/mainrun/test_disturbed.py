@@ -1,0 +1,192 @@
+"""Overrides, holds and single block in the middle of a run: the path and its end stay, and so do the axes' limits."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import dist
+from random import Random
+
+import pytest
+
+from polycnc.mainrun import State, VirtualControl
+from tests.mainrun.support import MILL, power_on, recorded
+
+SCRIPTS = 1000
+
+
+def joints_of(virtual: VirtualControl) -> list[tuple[float, ...]]:
+    """The ends of all pieces that the axes will have run along, in order."""
+    joints: list[tuple[float, ...]] = []
+    arrive = virtual._automatic._arrive
+
+    def noted() -> None:
+        arrive()
+        joints.append(tuple(virtual._automatic.position))
+
+    virtual._automatic._arrive = noted  # type: ignore[method-assign]
+    return joints
+
+
+def disturb(virtual: VirtualControl, random: Random) -> None:
+    """One thing that an operator may do."""
+    match random.randrange(6):
+        case 0:
+            virtual.override(feed=random.choice((0.0, 0.1, 0.5, 1.0, 1.2, 2.0)))
+        case 1:
+            virtual.override(rapid=random.choice((0.0, 0.25, 1.0)))
+        case 2:
+            virtual.set_switches(single_block=random.random() < 0.5)
+        case 3 if virtual.state is State.RUNNING:
+            virtual.feed_hold()
+        case _ if virtual.state in (State.HOLD, State.STOPPED):
+            virtual.cycle_start()
+
+
+def play(virtual: VirtualControl, random: Random, commands: int) -> Iterator[None]:
+    """A random script; then everything goes back to normal and the program to its end."""
+    virtual.cycle_start()
+    yield
+    for _ in range(commands):
+        for _ in range(random.randrange(4)):
+            virtual.step(random.randrange(1, 60) * 0.004)
+            yield
+        if virtual.state is State.READY:
+            return
+        disturb(virtual, random)
+    virtual.override(feed=1.0, rapid=1.0)
+    virtual.set_switches(single_block=False)
+    while virtual.state is not State.READY:
+        if virtual.state is not State.RUNNING:
+            virtual.cycle_start()
+        virtual.step(0.1)
+        yield
+
+
+def undisturbed() -> tuple[list[tuple[float, ...]], list[float]]:
+    virtual = power_on()
+    joints = joints_of(virtual)
+    virtual.cycle_start()
+    virtual.run()
+    return joints, virtual.machine_position
+
+
+def test_a_thousand_scripts_end_where_the_undisturbed_run_ends() -> None:
+    path, end = undisturbed()
+    for seed in range(SCRIPTS):
+        virtual = power_on()
+        joints = joints_of(virtual)
+        for _ in play(virtual, Random(seed), 12):
+            pass
+        assert virtual.machine_position == end, seed
+        assert joints == path, seed
+
+
+def test_the_same_script_gives_the_same_trace() -> None:
+    def trace() -> list[object]:
+        virtual = power_on()
+        records = recorded(virtual)
+        positions = [virtual.machine_position for _ in play(virtual, Random(7), 40)]
+        return [records, positions]
+
+    assert trace() == trace()
+
+
+def test_every_position_lies_on_the_path() -> None:
+    for seed in range(20):
+        virtual = power_on("O1\nG1 X20. F3000\nG2 X30. Y10. R10.\nG1 Y40.\nM30\n")
+        for _ in play(virtual, Random(seed), 20):
+            x, y, _z = virtual.machine_position
+            if x < 20.0:
+                assert y == pytest.approx(0.0, abs=1e-9)
+            elif y < 10.0:
+                assert dist((x, y), (30.0, 0.0)) == pytest.approx(10.0, abs=1e-9)
+            else:
+                assert x == pytest.approx(30.0, abs=1e-9)
+        assert virtual.machine_position == [30.0, 40.0, 0.0]
+
+
+#: A slow axis, so that arcs are bound by it: mm/s² and mm/s of every axis.
+PULL, TOP = 3000.0, 15000.0 / 60.0
+ARCS = "O1\nG1 X20. F15000\nG2 X30. Y10. R10.\nG1 Y14.\nG3 X20. Y24. R10.\nX0 Y4. R20.\nG1 X-10.\nM30\n"
+
+
+@pytest.mark.parametrize("text", [ARCS, MILL], ids=["arcs", "mill"])
+def test_no_script_makes_an_axis_exceed_its_acceleration(text: str) -> None:
+    cycle = 0.004
+    jump = 1.2 * PULL * cycle  # what an axis may step by at a corner
+    for seed in range(40):
+        virtual = power_on(text)
+        random = Random(seed)
+        positions = [virtual.machine_position]
+        virtual.cycle_start()
+        for _ in range(4000):
+            if random.random() < 0.05:
+                disturb(virtual, random)
+            virtual.step()
+            positions.append(virtual.machine_position)
+            if virtual.state is State.READY:
+                break
+        speeds = [[(b - a) / cycle for a, b in zip(p, q, strict=True)] for p, q in zip(positions, positions[1:])]
+        assert max(abs(v) for speed in speeds for v in speed) <= max(TOP, 24000.0 / 60.0) * 1.001
+        for before, after in zip(speeds, speeds[1:]):
+            for a, b in zip(before, after, strict=True):
+                assert abs(b - a) <= (PULL * cycle + jump) * 1.01, seed
+
+
+def test_feed_hold_brakes_within_the_acceleration_and_stays() -> None:
+    virtual = power_on("O1\nG1 X100. F6000\nM30\n")
+    virtual.cycle_start()
+    virtual.step(0.4)
+    before = virtual.machine_position[0]
+    virtual.feed_hold()
+    virtual.run()
+    assert virtual.state is State.HOLD
+    assert virtual.machine_position[0] - before == pytest.approx(100.0**2 / (2 * PULL))
+    stands = virtual.machine_position
+    virtual.step(5.0)
+    assert virtual.machine_position == stands
+    virtual.cycle_start()
+    assert virtual.run() is State.READY
+    assert virtual.positions.work["X"] == 100.0
+
+
+def test_an_override_changes_the_speed_while_moving() -> None:
+    virtual = power_on("O1\nG1 X1000. F1200\nM30\n")
+    virtual.cycle_start()
+    virtual.step(1.0)
+    assert virtual.feed == pytest.approx(1200.0)
+    virtual.override(feed=0.5)
+    assert virtual.feed == pytest.approx(1200.0)
+    virtual.step(0.1)
+    assert virtual.feed == pytest.approx(600.0)
+    virtual.override(feed=0.0)
+    virtual.step(1.0)
+    assert virtual.feed == 0.0
+    assert virtual.run() is State.RUNNING, "it waits for the override"
+    virtual.override(feed=2.0)
+    virtual.step(1.0)
+    assert virtual.feed == pytest.approx(2400.0)
+
+
+def test_an_override_of_the_feed_leaves_rapids_alone() -> None:
+    virtual = power_on("O1\nG0 X100.\nM30\n")
+    virtual.override(feed=0.0)
+    virtual.cycle_start()
+    assert virtual.run() is State.READY
+
+
+def test_a_tap_knows_no_override_and_no_hold() -> None:
+    text = "O1\nM29 S600\nG84 Z-20. R2. F600\nG80\nM30\n"
+    plain, disturbed = power_on(text), power_on(text)
+    plain.cycle_start()
+    plain.run()
+    disturbed.cycle_start()
+    disturbed.run_until(lambda control: control.machine_position[2] < -5.0)
+    disturbed.override(feed=0.1)
+    disturbed.feed_hold()
+    disturbed.run()
+    assert disturbed.machine_position[2] == pytest.approx(2.0)
+    disturbed.override(feed=1.0)
+    disturbed.cycle_start()
+    assert disturbed.run() is State.READY
+    assert disturbed.time == pytest.approx(plain.time, abs=0.05)

@@ -1,0 +1,98 @@
+"""A program that nobody disturbs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import polycnc
+from polycnc.mainrun import State, VirtualControl
+from tests.mainrun.support import MILL, power_on, recorded, run_through
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+CONTROLS = {
+    "fanuc-0i-tf": "fanuc-0i-tf", "fanuc-m": "fanuc-m", "meldas-m": "meldas-m",
+    "sinumerik-840d": "sinumerik-840d", "syntec-mill": "syntec-mill",
+}  # fmt: skip
+
+
+def examples() -> list[Path]:
+    return [path for path in sorted(EXAMPLES.iterdir()) if path.suffix in (".nc", ".mpf")]
+
+
+def setup_of(path: Path) -> Path | None:
+    setup = path.with_suffix("").with_suffix(".setup.yaml")
+    return setup if setup.exists() else None
+
+
+def control_of(path: Path) -> str:
+    return next(name for name in CONTROLS if path.name.startswith(name))
+
+
+@pytest.mark.parametrize("path", examples(), ids=lambda path: path.name)
+def test_the_clock_says_what_the_planner_says(path: Path) -> None:
+    planned = polycnc.run(path, control=control_of(path), setup=setup_of(path))
+    virtual = VirtualControl(control_of(path), setup=setup_of(path))
+    virtual.load(path)
+    records = recorded(virtual)
+    assert run_through(virtual) is State.READY
+    end = next(record.time for record in reversed(records) if record.what == "state")
+    parallel = 0.01 * planned.time  # beside what waits for functions that run with the motion
+    assert end == pytest.approx(planned.time, rel=1e-6, abs=parallel)
+
+
+def after_reference(virtual: VirtualControl) -> list[tuple[float, str, object]]:
+    """Run the program from the reference point; what it prints may count the runs."""
+    virtual.select_mode("reference")
+    virtual.home()
+    virtual.run()
+    virtual.select_mode("auto")
+    start, records = virtual.time, recorded(virtual)
+    run_through(virtual)
+    virtual.listeners.clear()
+    return [(round(r.time - start, 6), r.what, r.data) for r in records if r.data.get("type") != "print"]
+
+
+@pytest.mark.parametrize("path", examples(), ids=lambda path: path.name)
+def test_nothing_of_a_run_is_left_in_the_next(path: Path) -> None:
+    virtual = VirtualControl(control_of(path), setup=setup_of(path))
+    virtual.load(path)
+    after_reference(virtual)  # the first one changes the tool that is in the spindle
+    assert after_reference(virtual) == after_reference(virtual)
+
+
+def test_stepping_gives_the_same_as_running() -> None:
+    whole, stepped = power_on(), power_on()
+    one, other = recorded(whole), recorded(stepped)
+    whole.cycle_start()
+    whole.run()
+    stepped.cycle_start()
+    while stepped.state is State.RUNNING:
+        stepped.step(0.012)
+    assert one == other
+
+
+def test_no_piece_is_ticked_through() -> None:
+    virtual = power_on("O1\nG1 X100. F1.\nM30\n")
+    steps = 0
+    advance = virtual._automatic.advance
+
+    def counted(until: float) -> None:
+        nonlocal steps
+        steps += 1
+        advance(until)
+
+    virtual._automatic.advance = counted  # type: ignore[method-assign]
+    virtual.cycle_start()
+    virtual.run()
+    assert virtual.time > 5000.0
+    assert steps < 20
+
+
+def test_the_end_position_is_that_of_the_plain_run() -> None:
+    virtual = power_on()
+    run_through(virtual)
+    final = polycnc.run(MILL, control="fanuc-m").final
+    assert virtual.positions.work == pytest.approx(final["work"])
+    assert virtual.positions.machine == pytest.approx(final["machine"])
