@@ -16,7 +16,7 @@ from polycnc.channel.coordinates import Coordinates
 from polycnc.channel.mode import Mode, ModeTable
 from polycnc.channel.path import Move, PathStage
 from polycnc.channel.stack import Executable, Level
-from polycnc.channel.waits import CHUNK, Wait
+from polycnc.channel.waits import BLOCK, CHUNK, Wait
 from polycnc.messages import Alarm, AlarmError
 from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
 from polycnc.toolpath.table import CHUNK_ROWS
@@ -49,6 +49,9 @@ class Control(Protocol):
 
     def start(self, channel: Channel) -> None:
         """Bring a channel into the state of power-on and program start; sets `mode` and `memory`."""
+
+    def begin(self, channel: Channel) -> None:
+        """A main program begins in the state that the channel is in; its level is the running one."""
 
     def end_of_program(self, channel: Channel) -> None:
         """A level has run out of blocks."""
@@ -90,6 +93,8 @@ class Channel:
         head: First stage of the path, or None while moves go straight to the table.
         mark: Rows of the chunk when the running block began.
         control: The control, for the handlers of its family, which know its class.
+        single_block: Hand over behind every block at which single block operation halts.
+        block_by_block: With it, behind every other block too.
         group: The channels of the control, which the first one belongs to as well; None where it runs alone.
         memory: The control's own state (variables, offsets, tools), set by `Control.start`.
     """
@@ -144,6 +149,7 @@ class Channel:
         self.skip_levels = 0
         self.stroke_zone: Zone | None = None
         self.single_block = bool(setup.switches.single_block)
+        self.block_by_block = False
         self.optional_stop = setup.switches.optional_stop
         self.variables_at_end: dict[str, Any] | None = None
         self._context = 0
@@ -252,11 +258,21 @@ class Channel:
 
     # ---- running -------------------------------------------------------------------------------------------------
 
-    def run(self, program: Program) -> Iterator[Wait]:
-        """Run a program to its end or to an alarm, yielding whenever the channel must wait."""
+    def run(self, program: Program, *, power_on: bool = True) -> Iterator[Wait]:
+        """Run a program to its end or to an alarm, yielding whenever the channel must wait.
+
+        Args:
+            program: The main program.
+            power_on: Begin in the state of power-on; else in the state that the channel is in.
+        """
+        self.stack.clear()
+        self.finished = False
         self.push(program, kind="main")
         try:
-            self._control.start(self)
+            if power_on:
+                self._control.start(self)
+            else:
+                self._control.begin(self)
         except AlarmError as error:
             self._alarm(error)
         while not self._finished:
@@ -287,6 +303,8 @@ class Channel:
                         if step is None:
                             self._control.end_of_program(self)
                             break
+                    if self.single_block:
+                        step = getattr(step, "alone", step)
                     level.current = index
                     level.index = index + 1
                     self.mark = len(kinds)
@@ -296,8 +314,11 @@ class Channel:
                         break
                 if self._head is not None:
                     self._head.block()
-                if self.single_block and step is not None and self._control.halts(self, level, step):
-                    self._wait = self._wait or Wait("single-block", self.sequence_of(level))
+                if self.single_block and step is not None:
+                    if self._control.halts(self, level, step):
+                        self._wait = self._wait or Wait("single-block", self.sequence_of(level))
+                    elif self.block_by_block:
+                        self._wait = self._wait or BLOCK
                 if self.blocks >= self.block_limit:
                     raise self._control.block_limit()
                 self.mark = toolpath.mark()

@@ -93,12 +93,18 @@ class SyntecMill(WordAddressControl):
         for number in range(3601, 3611):
             if memory.parameter(number) in calls.NEVER_REGISTERED - {0}:
                 raise self.fail("registered_m", number=number)
+        self.begin(channel)
+        if memory.parameter(3838) == 1:
+            channel.mode = channel.mode.with_code("stroke", "G22")
+
+    def begin(self, channel: Channel) -> None:
+        """A main program begins: it has the local variables; a channel of a file with `$n` runs its section."""
+        local = channel.memory.locals
+        channel.level.locals = local
         section = split_channels(channel.level.code.program).get(channel.number)
         if section is not None:
             channel.stack.pop()
-            channel.push(section, kind="main", local=memory.locals)
-        if memory.parameter(3838) == 1:
-            channel.mode = channel.mode.with_code("stroke", "G22")
+            channel.push(section, kind="main", local=local)
 
     def start_codes(self, channel: Channel) -> dict[str, str]:
         """Power-on codes; Pr3836 chooses between G94 and G95."""

@@ -13,6 +13,7 @@ from polycnc.control.word_address.memory import Memory
 from polycnc.control.word_address.numbers import Convert, NumberRules, angle_converter, length_converter
 from polycnc.control.word_address.plain import PlainBlocks
 from polycnc.control.word_address.plan import Builder, Plan
+from polycnc.control.word_address.reset import reset
 from polycnc.geometry.arcs import radius_mismatch
 from polycnc.language.bulk import Spelling
 from polycnc.language.word_address import Grammar, WordAddressProgram
@@ -142,6 +143,13 @@ class WordAddressControl:
         coordinates.refresh_zero(channel)
         for name, value in channel.setup.variables.items():
             self.write_variable(channel, name, value)
+
+    def begin(self, channel: Channel) -> None:
+        """A main program begins in the state that the channel is in."""
+
+    def reset(self, channel: Channel) -> None:
+        """The state after reset, and after the end of a program."""
+        reset(channel)
 
     def start_codes(self, channel: Channel) -> dict[str, str]:
         """Code of every modal group at program start."""

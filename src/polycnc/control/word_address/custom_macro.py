@@ -106,6 +106,10 @@ class CustomMacroControl(WordAddressControl):
     def start(self, channel: Channel) -> None:
         """Power-on state; the main program has local variables of its own."""
         super().start(channel)
+        self.begin(channel)
+
+    def begin(self, channel: Channel) -> None:
+        """A main program begins: it has the local variables."""
         channel.level.locals = channel.memory.locals
 
     # ---- calls ---------------------------------------------------------------------------------------

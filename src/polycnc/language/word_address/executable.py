@@ -58,6 +58,12 @@ def empty_block(_channel: Channel) -> None:
     """The step of a line without a block."""
 
 
+def _led_by(first: Step, joined: Step) -> Step:
+    """A joined step that knows its first one: single block operation runs that alone."""
+    joined.__dict__["alone"] = first
+    return joined
+
+
 class WordAddressProgram:
     """The steps of one program. A line is a step; a line with several `;` keeps its blocks in one step.
 
@@ -97,11 +103,11 @@ class WordAddressProgram:
         for i in range(index + 1, min(index + MAX_JOINED, len(self.lines))):
             following = self.compile(self.lines[i], i) if self._reached[i] else None
             if isinstance(following, LoopEnd):
-                return join_loop(stretch, i, following)
+                return _led_by(first, join_loop(stretch, i, following))
             if not isinstance(following, JOINABLE):
                 break
             stretch.append((i, following))
-        return join(stretch) if len(stretch) > 1 else first
+        return _led_by(first, join(stretch)) if len(stretch) > 1 else first
 
     def line_of_step(self, index: int) -> int:
         """Index of a step's line in the program's text."""
