@@ -23,7 +23,7 @@ from polycnc.program import Form
 from polycnc.program.split import split_channels
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Executable, Level
@@ -173,6 +173,10 @@ class SyntecMill(WordAddressControl):
         mode = channel.mode
         plan = mode.plans[signature] = SyntecBuilder(channel, self, signature).build()
         return plan
+
+    def modal_changes(self, rows: list[GCode]) -> Iterator[tuple[str, str]]:
+        """A motion code cancels the cycle of its block, in whatever order they are typed (2.47.3, note 9)."""
+        return super().modal_changes(sorted(rows, key=lambda row: bool(row.ends)))
 
     def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
         """G65, G66, and macros called by G, M and T codes."""

@@ -11,6 +11,7 @@ from polycnc.control.word_address import radius
 from polycnc.control.word_address.drilling import DrillCycle, Drilling, drill_here, is_active, lead_from_feed
 from polycnc.control.word_address.path import PLANES
 from polycnc.cycles import drilling
+from polycnc.cycles.drilling import Action, Hole, Stroke
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -72,6 +73,17 @@ def dwell_seconds(value: float, form: str, rules: NumberRules) -> float:
     return value if form != "" or rules.calculator else value / 10.0**rules.decimals
 
 
+def out_at_feed(channel: Channel, code: str, hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
+    """Fast drilling (Pr4008 = 1): the tool leaves a hole of G81 at the speed F2 (2.52)."""
+    speed: float = channel.memory.retract_feed
+    if code != "G81" or not speed > 0.0 or not channel.feed > 0.0:
+        yield from strokes
+        return
+    *inwards, _ = strokes
+    yield from inwards
+    yield Stroke(Action.FEED, hole.back, speed / channel.feed)
+
+
 DRILLING = Drilling(
     CYCLES,
     kept="RQPIJD",
@@ -81,12 +93,15 @@ DRILLING = Drilling(
     relief=relief,
     shift=shift_off_wall,
     lead=lead_from_feed,
+    dress=out_at_feed,
 )
 
 
 def with_cycle_words(builder: Builder, step: Step) -> Step:
     """F2 of G81 and E of the tapping cycles in front of a drilling block."""
     code = builder.mode["cycle"]
+    entering = builder.before["cycle"] not in CYCLES
+    unit = (INCH_MM if builder.inch else 1.0) / (1.0 if builder.mode["feed"] == "G95" else 60.0)
     retract, threads = builder.slot("F2"), builder.slot("E")
     if code == "G81":
         builder.take("F2")
@@ -95,11 +110,13 @@ def with_cycle_words(builder: Builder, step: Step) -> Step:
     control = builder.control
 
     def drill(channel: Channel, values: list[float]) -> None:
+        if entering:
+            channel.memory.retract_feed = 0.0
         if retract is not None and code == "G81":
             if values[retract] != int(values[retract]):
                 raise control.fail("retract_feed", address="F2")
-            if values[retract] > 0 and parameter(channel.setup.parameters, 4008) == 1:
-                raise AlarmError("PC0001", hint="hint.not-supported", address="F2", code="G81 F2")
+            fast = parameter(channel.setup.parameters, 4008) == 1
+            channel.memory.retract_feed = values[retract] * unit if fast else 0.0
         if threads is not None and code in TAPPING and not builder.has("F"):
             _feed_by_threads(channel, values[threads])
         step(channel, values)
