@@ -15,6 +15,7 @@ from polycnc.channel.stack import Level
 from polycnc.control.sinumerik import (
     auxiliary,
     cycles_drilling,
+    cycles_milling,
     cycles_patterns,
     cycles_settings,
     cycles_swivel,
@@ -51,6 +52,9 @@ class Cycle(NamedTuple):
 
 _SL = "_GMODE _DMODE _AMODE"
 _HOLE = "RTP RFP SDIS DP DPR"
+#: Milling cycles of the second generation: the depth is _DP alone.
+_MILL = "RTP RFP SDIS DP"
+_SL_MILL = f"_UMODE _FS _ZFS {_SL}"
 _PITCHES = "_PITM _PTAB _PTABA"
 CYCLES: dict[str, Cycle] = {
     "CYCLE81": Cycle(f"{_HOLE} DTB {_SL}", cycles_drilling.drill),
@@ -76,6 +80,35 @@ CYCLES: dict[str, Cycle] = {
     "CYCLE801": Cycle(
         "_SPCA _SPCO _STA _DIS1 _DIS2 _NUM1 _NUM2 _VARI _UMODE _ANG1 _ANG2 _HIDE _NSP _DMODE",
         cycles_patterns.grid,
+    ),
+    "POCKET1": Cycle(
+        f"{_HOLE} LENG WID CRAD CPA CPO STA1 FFD FFP1 MID CDIR FAL VARI MIDF FFP2 SSF",
+        cycles_milling.older_pocket,
+    ),
+    "POCKET2": Cycle(
+        f"{_HOLE} PRAD CPA CPO FFD FFP1 MID CDIR FAL VARI MIDF FFP2 SSF", cycles_milling.older_pocket
+    ),
+    "POCKET3": Cycle(
+        f"{_MILL} _LENG _WID _CRAD _PA _PO _STA _MID _FAL _FALD _FFP1 _FFD _CDIR _VARI _MIDA _AP1 _AP2 _AD"
+        f" _RAD1 _DP1 {_SL_MILL}",
+        cycles_milling.pocket3,
+    ),
+    "POCKET4": Cycle(
+        f"{_MILL} _PRAD _PA _PO _MID _FAL _FALD _FFP1 _FFD _CDIR _VARI _MIDA _AP1 _AD _RAD1 _DP1 {_SL_MILL}",
+        cycles_milling.pocket4,
+    ),
+    "SLOT1": Cycle(
+        f"{_HOLE} NUM LENG WID CPA CPO RAD STA1 INDA FFD FFP1 MID CDIR FAL VARI MIDF FFP2 SSF _FALD _STA2"
+        f" _DP1 {_SL_MILL}",
+        cycles_milling.slot1,
+    ),
+    "SLOT2": Cycle(
+        f"{_HOLE} NUM AFSL WID CPA CPO RAD STA1 INDA FFD FFP1 MID CDIR FAL VARI MIDF FFP2 SSF _FFCP"
+        f" {_SL_MILL}",
+        cycles_milling.slot2,
+    ),
+    "LONGHOLE": Cycle(
+        f"{_HOLE} NUM LENG CPA CPO RAD STA1 INDA FFD FFP1 MID {_SL_MILL}", cycles_milling.long_hole
     ),
     "CYCLE800": Cycle(
         "_FR _TC _ST _MODE _X0 _Y0 _Z0 _A _B _C _X1 _Y1 _Z1 _DIR _FR_I _DMODE",

@@ -62,6 +62,7 @@ class Arguments:
         if written > len(signature):
             raise AlarmError("12340", text=cycle)
         self.cycle = cycle
+        self._signature = signature
         self._length = length_factor(channel.mode)
         self._feed = tables.FEED_TYPES[channel.mode["feed"]].factor
         if channel.mode["units"] == "G700":
@@ -77,6 +78,10 @@ class Arguments:
     def any_given(self) -> bool:
         """Whether any argument was written."""
         return bool(self._values)
+
+    def has(self, name: str) -> bool:
+        """Whether the cycle has a parameter."""
+        return name in self._signature
 
     def given(self, name: str) -> bool:
         """Whether an argument was written."""

@@ -54,25 +54,26 @@ class Levels(NamedTuple):
         return Hole(self.retract, self.safe, self.depth, self.retract, dwell_s=dwell)
 
 
-def levels(moves: Moves, a: Arguments, *, of: str = "DP", relative: str = "DPR") -> Levels | None:
+def levels(moves: Moves, a: Arguments) -> Levels | None:
     """Levels from RTP, RFP, SDIS and a depth; None where the depth is the reference plane: nothing to do.
 
-    The relative depth counts where it is given, else the absolute one; _AMODE can demand either.
+    The relative depth counts where it is given, else the absolute one; _AMODE can demand either. A cycle that has
+    only DP takes that as either.
 
     Raises:
         AlarmError: 61101 for a reference plane that does not lie between retraction plane and depth.
     """
     retract, reference = a["RTP"], a["RFP"]
     mode = a.digit("_AMODE", 0)
-    amount = abs(a[relative])
+    amount = abs(a["DPR" if a.has("DPR") or mode != 1 else "DP"])
     if mode == 1 or (mode != 2 and amount):
         if amount and retract == reference:
             raise AlarmError("61101")
-        if mode == 0 and a.given(of) and a[of] != reference - _sign(retract - reference) * amount:
+        if mode == 0 and a.given("DP") and a["DP"] != reference - _sign(retract - reference) * amount:
             moves.note("62000")
         depth = reference - _sign(retract - reference) * amount
     else:
-        depth = a[of]
+        depth = a["DP"]
     if depth == reference:
         return None
     up = _sign(reference - depth)

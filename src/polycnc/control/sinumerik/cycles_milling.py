@@ -1,0 +1,391 @@
+"""Pockets, slots, elongated holes: POCKET1 to POCKET4, SLOT1, SLOT2, LONGHOLE (shapes: `polycnc.cycles`)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import radians, sin
+from typing import TYPE_CHECKING
+
+from polycnc.control.sinumerik.cycles_drilling import levels
+from polycnc.control.sinumerik.cycles_moves import Moves, require_tool
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.cycles import pockets, slots
+from polycnc.cycles.mill_stroke import SAME_MM, MillStroke, Place
+from polycnc.cycles.pockets import Insertion, Pocket
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.cycles_arguments import Arguments
+    from polycnc.control.sinumerik.cycles_drilling import Levels
+    from polycnc.geometry.arcs import Point
+
+#: Width of a cut where the call gives none, as part of the tool's diameter.
+USUAL_WIDTH = 0.8
+TURN = 360.0
+#: Units of VARI.
+COMPLETE, ROUGHING, FINISHING, EDGE, CHAMFER = 0, 1, 2, 4, 5
+
+
+def perform(moves: Moves, strokes: Iterable[MillStroke]) -> Iterator[None]:
+    """Make the strokes of a milling cycle; every stroke is a block."""
+    for stroke in strokes:
+        u, v = stroke.point or (None, None)
+        match stroke.kind:
+            case Kind.RAPID:
+                moves.rapid(u, v, stroke.w)
+            case Kind.FEED:
+                moves.feed(stroke.feed, u, v, stroke.w)
+            case _ if stroke.point is not None and stroke.center is not None:
+                ccw = stroke.kind is Kind.CCW
+                moves.arc(stroke.feed, stroke.point, stroke.center, ccw, stroke.w)
+        yield
+
+
+# ---- what the cycles check alike
+
+
+def cutter(moves: Moves) -> float:
+    """Radius of a cutter; 61000 without a tool offset, 61117 for a radius that is not above zero."""
+    radius = require_tool(moves)
+    if radius <= 0.0:
+        raise AlarmError("61117")
+    return radius
+
+
+def feed_of(a: Arguments, name: str) -> float:
+    """A feed of the call; 61003 for one that is not above zero."""
+    if a[name] <= 0.0:
+        raise AlarmError("61003")
+    return a[name]
+
+
+def is_ccw(moves: Moves, direction: int, *, inside: bool) -> bool:
+    """Sense of rotation: 0 climb and 1 up-cut milling by the spindle, 2 G2, 3 G3.
+
+    Raises:
+        AlarmError: 61109 for another value, 61102 where the spindle would say but does not turn.
+    """
+    if direction not in (0, 1, 2, 3):
+        raise AlarmError("61109")
+    if direction in (2, 3):
+        return direction == 3
+    spindle = moves.spindle.direction
+    if spindle == 0:
+        raise AlarmError("61102")
+    climb = (spindle > 0) is inside
+    return climb is (direction == 0)
+
+
+def variant(a: Arguments, name: str, allowed: tuple[int, ...]) -> int:
+    """Units of VARI; 61002 for one that the cycle does not have."""
+    value = a.digit(name, 0)
+    if value == CHAMFER and a.has("_ZFS"):
+        raise not_supported(f"{a.cycle} {name}")
+    if value not in allowed:
+        raise AlarmError("61002")
+    return value
+
+
+def width_of_cut(a: Arguments, radius: float, name: str = "_MIDA") -> float:
+    """Step in the plane: as given, as a percentage of the tool's diameter (_AMODE tens), or 80 % of it.
+
+    Raises:
+        AlarmError: 61111 for a step that is wider than the tool.
+    """
+    diameter = 2.0 * radius
+    width = abs(a[name])
+    if a.digit("_AMODE", 1) == 1 and a.plain(name):
+        width = abs(a.plain(name)) / 100.0 * diameter
+    if width > diameter + SAME_MM:
+        raise AlarmError("61111")
+    return width or USUAL_WIDTH * diameter
+
+
+def milling_levels(moves: Moves, a: Arguments, base_allowance: float, infeed: str) -> Levels | None:
+    """Levels of a cycle whose depth may be given alone; 61110 for an allowance deeper than an infeed."""
+    found = levels(moves, a)
+    if found is not None and a[infeed] > 0.0 and base_allowance > a[infeed]:
+        raise AlarmError("61110")
+    return found
+
+
+def reference_point(moves: Moves, a: Arguments) -> Point:
+    """PA, PO; where the cycle is modal and both are 0, the position that was reached."""
+    given = a["_PA"], a["_PO"]
+    return moves.point if moves.channel.level.kind == "modal" and given == (0.0, 0.0) else given
+
+
+# ---- pockets
+
+
+def pocket3(channel: Channel, a: Arguments) -> Iterator[None]:
+    """POCKET3: rectangular pocket about its middle."""
+    moves = Moves(channel)
+    radius = cutter(moves)
+    length, width, corner = abs(a["_LENG"]), abs(a["_WID"]), abs(a["_CRAD"])
+    if not length or not width:
+        raise AlarmError("61118")
+    if 2.0 * corner > min(length, width) + SAME_MM:
+        raise AlarmError("61113")
+    if radius > corner + SAME_MM and corner > 0.0:
+        raise AlarmError("61105")
+    core = (abs(a["_AP1"]), abs(a["_AP2"]) or abs(a["_AP1"]))
+    yield from _pocket(moves, a, (length, width, corner), core, radius)
+
+
+def pocket4(channel: Channel, a: Arguments) -> Iterator[None]:
+    """POCKET4: circular pocket."""
+    moves = Moves(channel)
+    radius, size = cutter(moves), abs(a["_PRAD"])
+    yield from _pocket(moves, a, (2.0 * size, 2.0 * size, size), (abs(a["_AP1"]), abs(a["_AP1"])), radius)
+
+
+def _pocket(
+    moves: Moves, a: Arguments, size: tuple[float, float, float], core: tuple[float, float], radius: float
+) -> Iterator[None]:
+    kind = variant(a, "_VARI", (ROUGHING, FINISHING, EDGE))
+    if kind == EDGE:
+        kind, base_allowance = FINISHING, 0.0
+    else:
+        base_allowance = abs(a["_FALD"])
+    found = milling_levels(moves, a, base_allowance, "_MID")
+    if found is None:
+        return
+    insertion = a.digit("_VARI", 1)
+    if insertion not in (0, 1, 2, 3) or (insertion == 3 and size[0] == size[1] == 2.0 * size[2]):
+        raise AlarmError("61002")
+    way = Insertion(insertion)
+    helix, pitch = abs(a["_RAD1"]), abs(a["_DP1"])
+    if way is Insertion.OSCILLATION:
+        helix = abs(a.plain("_RAD1"))
+    if kind == ROUGHING and (
+        (way is Insertion.HELIX and not (helix and pitch)) or (way is Insertion.OSCILLATION and not helix)
+    ):
+        raise AlarmError("61108")
+    pocket = Pocket(
+        Place(reference_point(moves, a), a["_STA"]),
+        size[0] / 2.0,
+        size[1] / 2.0,
+        size[2],
+        radius,
+        found.reference,
+        found.safe,
+        found.retract,
+        found.depth,
+        abs(a["_MID"]),
+        width_of_cut(a, radius),
+        feed_of(a, "_FFP1"),
+        feed_of(a, "_FFD"),
+        is_ccw(moves, a.integer("_CDIR"), inside=True),
+        allowance=abs(a["_FAL"]),
+        base_allowance=base_allowance,
+        insertion=way,
+        insertion_size=helix,
+        pitch=pitch,
+        core_length=core[0],
+        core_width=core[1],
+        core_depth=abs(a["_AD"]),
+    )
+    yield from _mill(moves, along(pocket), kind)
+
+
+def along(pocket: Pocket) -> Pocket:
+    """The same pocket with its long side first."""
+    if pocket.half_length >= pocket.half_width:
+        return pocket
+    place = Place(pocket.place.origin, pocket.place.angle_deg + 90.0)
+    return replace(
+        pocket,
+        place=place,
+        half_length=pocket.half_width,
+        half_width=pocket.half_length,
+        core_length=pocket.core_width,
+        core_width=pocket.core_length,
+    )
+
+
+def _mill(
+    moves: Moves, pocket: Pocket, kind: int, finishing: Pocket | None = None, speed: float = 0.0
+) -> Iterator[None]:
+    """Rough, finish, or both; 61105 for a tool that does not go in."""
+    if not pockets.fits(pocket):
+        raise AlarmError("61105")
+    if kind in (COMPLETE, ROUGHING):
+        yield from perform(moves, pockets.rough(pocket))
+    if kind in (COMPLETE, FINISHING):
+        yield from at_speed(moves, speed, perform(moves, pockets.finish(finishing or pocket)))
+
+
+def at_speed(moves: Moves, speed: float, blocks: Iterator[None]) -> Iterator[None]:
+    """Blocks with a spindle speed of their own (SSF), 0 for the one in force."""
+    before = moves.spindle.speed
+    if speed > 0.0:
+        moves.speed(speed)
+    yield from blocks
+    moves.speed(before)
+
+
+def older_pocket(channel: Channel, a: Arguments) -> Iterator[None]:
+    """POCKET1 (rectangular), POCKET2 (circular): in with G1 in the middle; complete, roughing or finishing."""
+    moves = Moves(channel)
+    radius = cutter(moves)
+    kind = variant(a, "VARI", (COMPLETE, ROUGHING, FINISHING))
+    found = levels(moves, a)
+    if found is None:
+        return
+    circular = a.cycle == "POCKET2"
+    length = 2.0 * abs(a["PRAD"]) if circular else abs(a["LENG"])
+    width, corner = (length, length / 2.0) if circular else (abs(a["WID"]), abs(a["CRAD"]))
+    if 2.0 * corner > min(length, width) + SAME_MM:
+        raise AlarmError("61113")
+    rough = Pocket(
+        Place((a["CPA"], a["CPO"]), 0.0 if circular else a["STA1"]),
+        length / 2.0,
+        width / 2.0,
+        corner,
+        radius,
+        found.reference,
+        found.safe,
+        found.retract,
+        found.depth,
+        abs(a["MID"]),
+        USUAL_WIDTH * 2.0 * radius,
+        feed_of(a, "FFP1"),
+        feed_of(a, "FFD"),
+        is_ccw(moves, a.integer("CDIR"), inside=True),
+        allowance=abs(a["FAL"]),
+    )
+    fine = replace(rough, infeed=abs(a["MIDF"]), feed=a["FFP2"] or rough.feed)
+    yield from _mill(moves, along(rough), kind, along(fine), a["SSF"])
+
+
+# ---- patterns of slots
+
+
+def _angles(a: Arguments) -> list[float]:
+    """Directions of the elements on their circle; 61106 for none, or a pattern beyond one turn."""
+    count, pitch = abs(a.integer("NUM")), a["INDA"]
+    if count == 0 or abs(pitch) * (count - 1) >= TURN:
+        raise AlarmError("61106")
+    pitch = pitch or TURN / count
+    return [a["STA1"] + k * pitch for k in range(count)]
+
+
+def _apart(a: Arguments, count: int) -> float:
+    """The angle between neighbours, at most half a turn."""
+    pitch = abs(a["INDA"]) or TURN / count
+    return min(pitch, 180.0)
+
+
+def _slotting(moves: Moves, a: Arguments, found: Levels, insertion: Insertion) -> slots.Slotting:
+    """How the slots of a call are milled; 61105 for a cutter that does not fit the width."""
+    radius = cutter(moves)
+    width = abs(a["WID"])
+    if 2.0 * radius > width + SAME_MM or 2.0 * radius <= width / 2.0:
+        raise AlarmError("61105")
+    feed = feed_of(a, "FFP1")
+    return slots.Slotting(
+        half_width=width / 2.0,
+        radius=radius,
+        reference=found.reference,
+        safe=found.safe,
+        retract=found.retract,
+        depth=found.depth,
+        infeed=abs(a["MID"]),
+        finishing_infeed=abs(a["MIDF"]),
+        allowance=abs(a["FAL"]),
+        base_allowance=abs(a["_FALD"]),
+        feed=feed,
+        depth_feed=feed_of(a, "FFD"),
+        finishing_feed=a["FFP2"] or feed,
+        ccw=is_ccw(moves, a.integer("CDIR"), inside=True),
+        insertion=insertion,
+        steepest_deg=abs(a["_STA2"]),
+    )
+
+
+def _mill_slot(moves: Moves, a: Arguments, slotting: slots.Slotting, shape: slots.Shape) -> Iterator[None]:
+    """One slot: roughing, finishing, or complete."""
+    kind = variant(a, "VARI", (COMPLETE, ROUGHING, FINISHING))
+    if kind in (COMPLETE, ROUGHING):
+        yield from perform(moves, slots.rough(slotting, shape))
+    if kind == FINISHING or (kind == COMPLETE and slotting.leaves_allowance):
+        yield from at_speed(moves, a["SSF"], perform(moves, slots.finish(slotting, shape)))
+    moves.rapid(w=slotting.retract)
+    yield
+
+
+#: Insertion by the tens of VARI of SLOT1.
+INSERTIONS = {0: Insertion.RAPID, 1: Insertion.FEED, 3: Insertion.OSCILLATION}
+
+
+def slot1(channel: Channel, a: Arguments) -> Iterator[None]:
+    """SLOT1: straight slots that point away from a centre."""
+    moves = Moves(channel)
+    require_tool(moves)
+    insertion = INSERTIONS.get(a.digit("VARI", 1))
+    if insertion is None:
+        raise AlarmError("61002")
+    found = levels(moves, a)
+    if found is None:
+        return
+    slotting = _slotting(moves, a, found, insertion)
+    angles = _angles(a)
+    if len(angles) > 1 and 2.0 * abs(a["RAD"]) * sin(radians(_apart(a, len(angles)) / 2.0)) < abs(a["WID"]):
+        raise AlarmError("61104")
+    length = abs(a["LENG"]) - abs(a["WID"])
+    if length < 0.0:
+        raise AlarmError("61105")
+    for angle in angles:
+        start = Place((a["CPA"], a["CPO"]), angle)(abs(a["RAD"]) + abs(a["WID"]) / 2.0, 0.0)
+        yield from _mill_slot(moves, a, slotting, slots.Straight(Place(start, angle), length))
+
+
+def slot2(channel: Channel, a: Arguments) -> Iterator[None]:
+    """SLOT2: slots along a circle; from one to the next straight, or along the circle (tens of VARI)."""
+    moves = Moves(channel)
+    require_tool(moves)
+    if a.digit("VARI", 1) not in (0, 1):
+        raise AlarmError("61002")
+    found = levels(moves, a)
+    if found is None:
+        return
+    slotting = _slotting(moves, a, found, Insertion.FEED)
+    angles = _angles(a)
+    size, center = abs(a["RAD"]), (a["CPA"], a["CPO"])
+    if size <= abs(a["WID"]) / 2.0:
+        raise AlarmError("61105")
+    if len(angles) > 1 and slots.angle_of(abs(a["WID"]), size) + abs(a["AFSL"]) > _apart(a, len(angles)):
+        raise AlarmError("61104")
+    for number, angle in enumerate(angles):
+        shape = slots.Curved(Place(center, angle), size, abs(a["AFSL"]))
+        if number and a.digit("VARI", 1) == 1:
+            moves.arc(feed_of(a, "_FFCP"), shape.start, center, angles[1] > angles[0])
+            yield
+        yield from _mill_slot(moves, a, slotting, shape)
+
+
+def long_hole(channel: Channel, a: Arguments) -> Iterator[None]:
+    """LONGHOLE: elongated holes as wide as the tool, milled to and fro."""
+    moves = Moves(channel)
+    radius = cutter(moves)
+    found = levels(moves, a)
+    if found is None:
+        return
+    length = abs(a["LENG"])
+    if length < 2.0 * radius:
+        raise AlarmError("61105")
+    angles = _angles(a)
+    inner, outer = abs(a["RAD"]) + radius, abs(a["RAD"]) + length - radius
+    if len(angles) > 1 and inner * sin(radians(_apart(a, len(angles)) / 2.0)) < radius:
+        raise AlarmError("61104")
+    feed, depth_feed = feed_of(a, "FFP1"), feed_of(a, "FFD")
+    for angle in angles:
+        place = Place((a["CPA"], a["CPO"]), angle)
+        ends = place(inner, 0.0), place(outer, 0.0)
+        strokes = slots.to_and_fro(ends, moves.point, found, abs(a["MID"]), feed, depth_feed)
+        yield from perform(moves, strokes)
