@@ -29,6 +29,7 @@ _WORD = re.compile(r"([A-Z])([-+]?)([\d.]+)")
 _COMMENT = re.compile(r"\([^)]*\)?")
 _SEQUENCE = re.compile(r"^[ \t]*(?:/\d?[ \t]*)*N[ \t]*0*(\d+)")
 _STATEMENT = re.compile(rf"[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*(?:{KEYWORD.pattern})")
+_NUMBERS = re.compile(r"^[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*")
 _LOOP = re.compile(r"(?<![A-Z])(DO|END)[ \t]*(\d)")
 _HEAD = re.compile(r"[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?")
 _SKIP = re.compile(r"[ \t]*/[ \t]*(\d?)")
@@ -137,6 +138,12 @@ class WordAddressProgram:
     def counts(self, index: int) -> bool:
         """Whether a line is a block for stages that look ahead: macro statements are none (FANUC macro B §7)."""
         return index >= len(self.lines) or not _STATEMENT.match(self.blank_comments(self.lines[index]))
+
+    def has_words(self, index: int) -> bool:
+        """Whether a line holds a block of words."""
+        if index >= len(self.lines) or not self.counts(index):
+            return False
+        return bool(_NUMBERS.sub("", self.blank_comments(self.lines[index])).strip(" \t;%"))
 
     # ---- jumps --------------------------------------------------------------------------------------------------
 
