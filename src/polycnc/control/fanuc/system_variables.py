@@ -182,6 +182,8 @@ MILLING_GROUPS = {1: "motion", 2: "plane", 3: "distance", 4: "stroke", 5: "feed"
 def _rows_modal(first: int, groups: dict[int, str]) -> list[SystemRange]:
     rows = [SystemRange(first + n, first + n, _modal(group)) for n, group in groups.items()]
     words: dict[int, Read] = {
+        102: _nothing,
+        108: _nothing,
         107: lambda m, _i: float(m.d),
         109: _feed,
         111: lambda m, _i: float(m.h),
@@ -251,6 +253,17 @@ def _rows_tools() -> list[SystemRange]:
     ]
 
 
+def modal_names() -> dict[str, tuple[int, int]]:
+    """Names of modal information: `_BUFG[g]` of the blocks before, `_ACTG` of the running one, `_INTG` interrupted."""
+    words = {"B": 102, "D": 107, "E": 108, "F": 109, "H": 111, "M": 113, "N": 114, "O": 115, "S": 119, "T": 120,
+             "WZP": 130}  # fmt: skip
+    names: dict[str, tuple[int, int]] = {}
+    for prefix, first in (("_BUF", 4000), ("_ACT", 4200), ("_INT", 4400)):
+        names[prefix + "G"] = (first + 1, first + 30)
+        names |= {prefix + word: (first + number, first + number) for word, number in words.items()}
+    return names
+
+
 #: What every FANUC control has.
 COMMON_VARIABLES = [
     SystemRange(1000, 1015, _signal("UI"), name="_UI"),
@@ -283,5 +296,6 @@ MILLING_VARIABLES = Registry(
     + [SystemRange(4400 + n, 4400 + n, _interrupted(group)) for n, group in MILLING_GROUPS.items()]
     + _rows_positions()
     + _rows_work_offsets()
-    + _rows_tools()
+    + _rows_tools(),
+    modal_names(),
 )

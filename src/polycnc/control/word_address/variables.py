@@ -16,7 +16,7 @@ from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.language.word_address.functions import round_half_away
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from polycnc.channel.channel import Channel
     from polycnc.messages import AlarmError
@@ -42,12 +42,22 @@ class SystemRange:
 
 
 class Registry:
-    """The system variables of a control."""
+    """The system variables of a control.
 
-    def __init__(self, ranges: Sequence[SystemRange]) -> None:
+    Args:
+        ranges: Which numbers there are, and what reads and writes them.
+        aliases: Further names: first and last number of what each stands for.
+    """
+
+    def __init__(
+        self, ranges: Sequence[SystemRange], aliases: Mapping[str, tuple[int, int]] | None = None
+    ) -> None:
         self._ranges = sorted(ranges, key=lambda item: item.first)
         self._firsts = [item.first for item in self._ranges]
         self.names = {item.name: item for item in self._ranges if item.name}
+        self.names |= {
+            name: SystemRange(first, last, name=name) for name, (first, last) in (aliases or {}).items()
+        }
 
     def find(self, number: int) -> SystemRange | None:
         """The range that holds a number."""
