@@ -16,7 +16,7 @@ SOURCE = Path(polycnc.__file__).parent
 CATALOGUES = sorted(
     path
     for path in SOURCE.rglob("*.toml")
-    if path.name in ("messages.toml", "alarms.toml") or path.stem == "fields"
+    if path.name.endswith(("messages.toml", "alarms.toml")) or path.stem == "fields"
 )
 OWN = tomllib.loads((SOURCE / "messages" / "messages.toml").read_text(encoding="utf-8"))
 
