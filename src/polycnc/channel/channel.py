@@ -16,7 +16,7 @@ from polycnc.channel.coordinates import Coordinates
 from polycnc.channel.mode import Mode, ModeTable
 from polycnc.channel.path import Move, PathStage
 from polycnc.channel.stack import Executable, Level
-from polycnc.channel.waits import BLOCK, CHUNK, Wait
+from polycnc.channel.waits import BLOCK, CHUNK, PREPROCESSING, PreprocessingStop, Wait
 from polycnc.messages import Alarm, AlarmError
 from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
 from polycnc.toolpath.table import CHUNK_ROWS
@@ -75,6 +75,14 @@ class Control(Protocol):
         """The alarm for a division by zero or an overflow in an expression."""
 
 
+class MainRun(Protocol):
+    """What executes the channel's rows, if anything does while the channel runs."""
+
+    @property
+    def has_caught_up(self) -> bool:
+        """Whether everything that the channel has written is executed."""
+
+
 class Zone(Protocol):
     """A part of the machine's travel that a program has forbidden."""
 
@@ -95,6 +103,7 @@ class Channel:
         control: The control, for the handlers of its family, which know its class.
         single_block: Hand over behind every block at which single block operation halts.
         block_by_block: With it, behind every other block too.
+        main_run: What executes the rows while the channel runs; None where nobody waits for that.
         group: The channels of the control, which the first one belongs to as well; None where it runs alone.
         memory: The control's own state (variables, offsets, tools), set by `Control.start`.
     """
@@ -150,6 +159,7 @@ class Channel:
         self.stroke_zone: Zone | None = None
         self.single_block = bool(setup.switches.single_block)
         self.block_by_block = False
+        self.main_run: MainRun | None = None
         self.optional_stop = setup.switches.optional_stop
         self.variables_at_end: dict[str, Any] | None = None
         self._context = 0
@@ -247,6 +257,15 @@ class Channel:
             self.finished = True
         return ended
 
+    def synchronise(self) -> None:
+        """A preprocessing stop: the running block, which has done nothing yet, waits for the main run.
+
+        Raises:
+            PreprocessingStop: The main run is behind.
+        """
+        if self.main_run is not None and not self.main_run.has_caught_up:
+            raise PreprocessingStop
+
     def put_stage(self, stage: PathStage) -> None:
         """Put a stage in front of the path; its `after` must be what was in front before, or the table."""
         self.head = stage
@@ -332,6 +351,9 @@ class Channel:
         except AlarmError as error:
             self._take_back(found_ahead=bool(error.line))
             self._alarm(error)
+        except PreprocessingStop:
+            self._level.index = self._level.current
+            yield PREPROCESSING
         except ArithmeticError as error:
             self._take_back()
             self._alarm(self._control.arithmetic_alarm(error))

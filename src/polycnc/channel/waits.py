@@ -25,3 +25,8 @@ class Wait:
 
 CHUNK = Wait("chunk")
 BLOCK = Wait("block")
+PREPROCESSING = Wait("preprocessing")
+
+
+class PreprocessingStop(Exception):  # noqa: N818 - no mistake: the block waits, and comes again
+    """The running block needs what the main run knows; raised before it has done anything."""

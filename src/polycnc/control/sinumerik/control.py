@@ -203,6 +203,7 @@ class Sinumerik:
     def preprocessing_stop(self, channel: Channel) -> bool:
         """Wait for the main run: everything held back is written; the block need not come again."""
         channel.flush()
+        channel.synchronise()
         return False
 
     def restarts(self, channel: Channel) -> bool:

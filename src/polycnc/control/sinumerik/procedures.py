@@ -58,8 +58,9 @@ def message(channel: Channel, args: Arguments) -> None:
 
 
 def preprocessing_stop(channel: Channel, _args: Arguments) -> None:
-    """STOPRE: everything held back is written before the next block is read."""
+    """STOPRE: everything held back is written and executed before the next block is read."""
     channel.flush()
+    channel.synchronise()
 
 
 def set_alarm(channel: Channel, args: Arguments) -> None:

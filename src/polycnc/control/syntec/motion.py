@@ -148,7 +148,7 @@ def skip_move(channel: Channel, words: Words) -> None:
     stopped = skip.signal_position(channel, c.position, end, skip_source(channel, words))
     memory = channel.memory
     memory.skip_flags = int(stopped is not None)
-    channel.straight(Kind.SKIP, end if stopped is None else stopped, channel.feed)
+    skip.move_to_signal(channel, end, stopped)
     memory.note_skip(list(c.position))
     memory.skip_machine = c.machine
 

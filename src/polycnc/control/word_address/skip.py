@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import dist
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.path import target
@@ -32,9 +33,16 @@ def skip_move(channel: Channel, words: Words) -> None:
     programmed = target(channel, words.plan.axis_words, words.values)
     end = c.to_position(programmed)
     stopped = signal_position(channel, c.position, end, channel.setup.switches.skip_signal_at)
-    final = end if stopped is None else stopped
-    channel.straight(Kind.SKIP, final, channel.feed)
+    move_to_signal(channel, end, stopped)
     channel.memory.note_skip(list(channel.coordinates.position))
+
+
+def move_to_signal(channel: Channel, end: list[float], stopped: list[float] | None) -> None:
+    """The row of a skip move: to where the signal comes, with the way that is then left; else to its end."""
+    if stopped is None:
+        channel.straight(Kind.SKIP, end, channel.feed)
+    elif stopped != channel.coordinates.position:
+        channel.curve(Kind.SKIP, stopped, channel.feed, parameters=(dist(stopped, end),))
 
 
 def signal_position(channel: Channel, start: list[float], end: list[float], at: object) -> list[float] | None:
