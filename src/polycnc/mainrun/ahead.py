@@ -11,6 +11,7 @@ from collections import deque
 from math import inf, nan
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.waits import PREPROCESSING, Wait
 from polycnc.mainrun.geometry import arc_laid, line_laid, way_along
 from polycnc.mainrun.items import Block, BlockEnd, Happening, Item, Piece, Rates, Standing
 from polycnc.motion.kernels.arcs import facing_radius
@@ -44,12 +45,12 @@ from polycnc.motion.limits import axis_limits, context_fields
 from polycnc.motion.waits import ORIENT, Waits
 from polycnc.toolpath import Kind, Toolpath
 from polycnc.toolpath.kinds import ARC_KINDS
+from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     from polycnc.channel.channel import Channel
-    from polycnc.channel.waits import Wait
     from polycnc.machine.model import Machine
     from polycnc.machine.motion_settings import MotionSettings
     from polycnc.program import Program
@@ -78,6 +79,7 @@ class Ahead:
         waiting: Why the channel does not go on until it is told to; None while it runs.
         finished: The program is at its end, or none runs.
         revised: The speeds ahead have to be worked out anew.
+        has_caught_up: Everything that the channel has written is executed.
     """
 
     def __init__(self, machine: Machine, number: int) -> None:
@@ -87,6 +89,7 @@ class Ahead:
         self.waiting: Wait | None = None
         self.finished = True
         self.revised = False
+        self.has_caught_up = False
         self._run: Iterator[Wait] = iter(())
         self._axes = len(self.toolpath.axes)
         self._width = piece_width(self._axes)
@@ -102,13 +105,14 @@ class Ahead:
         self._waits = Waits(machine, self.toolpath.contexts, (0, ""), self._delay)
         self._blocks: deque[tuple[tuple[int, int], str, Mapping[str, str]]] = deque()
         self._open: tuple[tuple[int, int], str] | None = None
-        self._stopped = False
+        self._stopped = self._skips = False
 
     # ---- the channel ---------------------------------------------------------------------------------------
 
     def use(self, channel: Channel, settings: MotionSettings) -> None:
         """Say whose channel it is, and how the control leads the axes."""
         self.channel, self._settings = channel, settings
+        channel.main_run = self
         self.limits = axis_limits(self._machine, self._number, self.toolpath.axes, settings)
 
     def start(self, program: Program, position: Sequence[float]) -> None:
@@ -123,9 +127,7 @@ class Ahead:
         self._blocks.clear()
         self._open = None
         self._state[PIECES] = 0.0
-        self._state[STOP] = 1.0
-        first = STATE_BLOCKS + POSITION * self._axes
-        self._state[first : first + self._axes] = array("d", position)
+        self.stand_at(position)
         self._run = iter(())
         self.waiting, self.finished = None, True
 
@@ -146,8 +148,14 @@ class Ahead:
         self._state[STOP] = 1.0
 
     def proceed(self) -> None:
-        """What the channel waited for has happened."""
-        self.waiting = None
+        """What the channel waited for has happened, and everything before it is executed."""
+        self.waiting, self.has_caught_up = None, True
+
+    def stand_at(self, position: Sequence[float]) -> None:
+        """The axes stand elsewhere than the rows have led them."""
+        first = STATE_BLOCKS + POSITION * self._axes
+        self._state[STOP] = 1.0
+        self._state[first : first + self._axes] = array("d", position)
 
     def _step(self) -> None:
         """Run the channel to its next wait."""
@@ -157,7 +165,7 @@ class Ahead:
         if level is not None and (len(channel.toolpath.chunk) or (wait and wait.reason in BEHIND_A_BLOCK)):
             halts = wait is not None and wait.reason == "single-block"
             self._note_block(level.program_number, level.line_of(level.current), wait if halts else None)
-        self._stopped = False
+        self._stopped = self._skips = self.has_caught_up = False
         self.toolpath.block_boundary()
         if wait is None:
             self._close_blocks()
@@ -166,6 +174,8 @@ class Ahead:
             self._close_blocks()
         if wait is not None and wait.reason not in PASSING and (wait.reason != "stop" or self._stopped):
             self.waiting = wait
+        elif self._skips:
+            self.waiting = PREPROCESSING
 
     # ---- blocks --------------------------------------------------------------------------------------------
 
@@ -255,11 +265,13 @@ class Ahead:
         count = int(state[PIECES]) - before
         if count == 0:
             return
+        self._skips = self._skips or chunk.kind[row] == Kind.SKIP
         is_arc = (
             chunk.kind[row] in ARC_KINDS and self._pieces[before * self._width + FORM] == CURVED
         )
         way = arc_laid(start, state, self.limits, n) if is_arc else line_laid(start, state, n)
         state[FEED] = chunk.feed[row]
+        is_cut_short = chunk.kind[row] == Kind.SKIP and chunk.curve[row] >= 0
         record = chunk.context[row] * (OFFSETS + n)
         for part in range(count):
             at = (before + part) * self._width
@@ -282,6 +294,7 @@ class Ahead:
                     rapid=is_rapid(state),
                     fixed=chunk.kind[row] in (Kind.THREAD, Kind.TAP),
                     per_revolution=self._contexts[record + PER_REVOLUTION] != 0.0,
+                    left=chunk.curves[chunk.curve[row] * CURVE_WIDTH] if part == count - 1 and is_cut_short else 0.0,
                     by_axis=self._pieces[at + FORM] == TIMED,
                 )
             )

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from polycnc.mainrun.items import Block, BlockEnd, Happening, Piece, Rates, Standing
 from polycnc.mainrun.motion import AxesMotion, Motion, PathMotion
-from polycnc.toolpath import Context
+from polycnc.toolpath import Context, Kind
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -27,6 +27,9 @@ class Machinery(Protocol):
 
     def perform(self, happening: Happening) -> None:
         """An event of the program."""
+
+    def synchronise(self) -> None:
+        """The program is about to read signals."""
 
     def enter(self, block: Block) -> None:
         """A block begins."""
@@ -91,6 +94,7 @@ class Automatic:
         self._until = 0.0
         self._waiting = False
         self._blocked = False
+        self._moved_on = False
         self._cycle_s = cycle_s
 
     # ---- what a panel reads --------------------------------------------------------------------------------
@@ -164,6 +168,25 @@ class Automatic:
         self._x2 = motion.end2 if motion.end2 > REST2 else 0.0
         self.position = motion.piece.at(1.0)
         self.motion = None
+        if motion.piece.left > 0.0 and isinstance(motion, PathMotion):
+            self._coast(motion)
+
+    def _coast(self, motion: PathMotion) -> None:
+        """A skip signal has come: the axes brake on the line of the move, and the rest of it is dropped."""
+        self.motion = motion.after_signal(self.time)
+        self._x2, self._moved_on = 0.0, True
+        while self.ahead.items and isinstance(self.ahead.items[0], Piece):
+            self.ahead.pop_piece()
+
+    def skip_signal(self) -> list[float] | None:
+        """The skip input comes now: where the axes are if a skip move runs, else None."""
+        motion = self.motion
+        if not isinstance(motion, PathMotion) or motion.piece.kind != Kind.SKIP or motion.piece.is_coasting:
+            return None
+        here = motion.machine(self.time)
+        self.position = here
+        self._coast(motion)
+        return here
 
     def _go_on(self) -> bool:
         """Begin what comes next; false where nothing can begin now."""
@@ -193,6 +216,13 @@ class Automatic:
             if not self._waiting:
                 self._stop("end")
             return self._waiting
+        if self._moved_on:
+            self._moved_on = False
+            self.ahead.stand_at(self.position)
+            self.ahead.channel.coordinates.arrive_machine(list(self.position))
+        if waiting.reason == "preprocessing":
+            self._machinery.synchronise()
+            self._until = self.time + self._cycle_s
         self.ahead.proceed()
         return True
 

@@ -26,6 +26,7 @@ from polycnc.mainrun.items import Rates
 from polycnc.mainrun.machinery import Machinery
 from polycnc.mainrun.manual import ManualAxes
 from polycnc.mainrun.equipment import equipment
+from polycnc.mainrun.program_signals import connect, give
 from polycnc.mainrun.programs import Programs, forget_skipped, text_of
 from polycnc.mainrun.signals import SignalImage
 from polycnc.mainrun.snapshot import (
@@ -57,6 +58,8 @@ if TYPE_CHECKING:
 FEED_RANGE, RAPID_RANGE, SPINDLE_RANGE = (0.0, 2.0), (0.0, 1.0), (0.5, 1.2)
 #: Jog rate and dry run speed at a feed override of 100 %, mm/min or degrees/min (Hartford manual).
 JOG_RATE = 1000.0
+#: The input that ends a skip move.
+SKIP_SIGNAL = "SKIP"
 #: What the reasons of a halt lead to; every other one stops.
 HALTS = {"end": State.READY, "alarm": State.ALARM}
 SINGLE_BLOCK_KINDS = ("", "SBL1", "SBL2", "SBL3")
@@ -120,13 +123,14 @@ class VirtualControl:
             self.machine,
             self._signals,
             lambda: self.time,
-            (self._on_event, self._on_stop, self._on_block, self._on_halt),
+            (self._on_event, self._on_stop, self._on_block, self._on_halt, lambda: give(channel, self._signals)),
         )
         channel.push(self._programs.typed("\n"), kind="main")  # a control starts with a level to stand on
         try:
             self.control.start(channel)
         except AlarmError as error:
             self._raise_alarm(error)
+        connect(channel, self._signals)
         ahead.use(channel, self.control.motion_settings(channel))
         position = channel.coordinates.machine
         ahead.clear(position)
@@ -475,6 +479,10 @@ class VirtualControl:
 
     def _on_edge(self, name: str, value: float) -> None:
         self._report("signal", name=name, value=value)
+        if name == SKIP_SIGNAL and value:
+            here = self._automatic.skip_signal()
+            if here is not None:
+                self.channel.memory.note_skip(self._display.work_of(here, self._automatic.context))
 
     def _on_stop(self, code: str) -> None:
         if code == "alarm":

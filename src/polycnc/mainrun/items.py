@@ -68,6 +68,8 @@ class Piece:
         rapid: Runs at rapid traverse.
         fixed: Bound to the spindle (thread, tap): no override, no feed hold.
         per_revolution: Its speed follows the spindle.
+        left: Way from its end to the programmed end of a skip move that a signal cuts there, mm.
+        is_coasting: What is run behind a skip signal.
         by_axis: A rapid on which every axis runs alone.
     """
 
@@ -84,7 +86,9 @@ class Piece:
     rapid: bool
     fixed: bool
     per_revolution: bool
+    left: float
     by_axis: bool
+    is_coasting: bool = False
 
     def at(self, share: float) -> list[float]:
         """Machine position after a share of the piece."""

@@ -16,7 +16,11 @@ if TYPE_CHECKING:
     from polycnc.toolpath import Context, Event
 
     Reports = tuple[
-        Callable[[Event], None], Callable[[str], None], Callable[[Block], None], Callable[[str], None]
+        Callable[[Event], None],
+        Callable[[str], None],
+        Callable[[Block], None],
+        Callable[[str], None],
+        Callable[[], None],
     ]
 
 #: Stops that the operator's switch decides on.
@@ -32,7 +36,7 @@ class Machinery:
         signals: The signal image; its rules may finish functions.
         clock: Gives the simulated time.
         report: Called with each event that is carried out, with the code of a programmed stop (or `alarm`), with
-            each block that begins, and with the reason when the run has halted.
+            each block that begins, with the reason when the run has halted, and before the program reads signals.
 
     Attributes:
         optional_stop: M01 stops.
@@ -53,7 +57,7 @@ class Machinery:
         self._machine = machine
         self._signals = signals
         self._clock = clock
-        self._report, self._stop, self.enter, self.halted = report
+        self._report, self._stop, self.enter, self.halted, self.synchronise = report
         self._running: dict[int, float] = {}
 
     @property
@@ -84,6 +88,8 @@ class Machinery:
             self._begin(event.data.get("code"), happening.context)
         elif event.type == "t":
             self.next_tool = event.data.get("tool") or 0
+        elif event.type == "signal":
+            self._signals[str(event.data["name"])] = float(event.data["value"])
         elif event.type in MESSAGES:
             self.messages.append(str(event.data.get("text", "")))
         elif event.type == "alarm":

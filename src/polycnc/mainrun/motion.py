@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING, Any, Protocol
 
 from polycnc.mainrun.axis_move import AxisMove, axis_move
-from polycnc.mainrun.speed import profile_of
-from polycnc.motion.kernels.columns import ACCELERATION, LENGTH, TOP_RAPID
+from polycnc.mainrun.geometry import Line
+from polycnc.mainrun.speed import NO_WAY_MM, profile_of
+from polycnc.motion.kernels.columns import ACCELERATION, LENGTH, PULL, TOP_RAPID
 
 if TYPE_CHECKING:
     from array import array
@@ -71,6 +73,7 @@ class PathMotion:
         self._run(since, 0.0, start2, aim2, cap2)
 
     def _run(self, since: float, done: float, start2: float, aim2: float, cap2: float) -> None:
+        aim2 = max(aim2, self.coasting2)
         profile = profile_of(self._record, done, start2, aim2, cap2, self._axes, self._limits)
         self._profile, self._since, self._done = profile, since, done
         over = since + profile.seconds
@@ -88,6 +91,26 @@ class PathMotion:
     def speed(self, time: float) -> float:
         """Path speed."""
         return self._after(time)[1]
+
+    @property
+    def coasting2(self) -> float:
+        """Largest squared speed at its end from which the axes rest within the way that is left behind it."""
+        return 2.0 * self._record[PULL] * self.piece.left
+
+    def after_signal(self, time: float) -> PathMotion | None:
+        """The motion that brakes on the line of this one from now on; None where the axes stand."""
+        way, speed = self._after(time)
+        brakes = speed * speed / (2.0 * self._record[PULL])
+        if brakes <= NO_WAY_MM:
+            return None
+        piece, length = self.piece, self._record[LENGTH]
+        here, per_mm = piece.at(way / length), piece.share / length
+        ahead = [a + (b - a) * per_mm * brakes for a, b in zip(piece.way.start, piece.way.end, strict=True)]
+        end = [h + a - s for h, a, s in zip(here, ahead, piece.way.start, strict=True)]
+        rest = replace(piece, way=Line(tuple(here), tuple(end)), first=0.0, share=1.0, left=0.0, is_coasting=True)
+        record = self._record[:]
+        record[LENGTH] = brakes
+        return PathMotion(rest, record, self._limits, time, speed * speed, 0.0, speed * speed)
 
     def revise(self, time: float, aim2: float, cap2: float, rapid: float) -> None:  # noqa: ARG002 - is in cap2
         """The limits of the speed have changed."""
