@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.numbers import length_converter
 from polycnc.control.word_address.path import FEED_MODES, PLANES, target
+from polycnc.control.word_address.radius import suspended
 from polycnc.cycles.drilling import Action, Cycle, Hole, Stroke
 from polycnc.toolpath import Kind
 
@@ -208,9 +209,11 @@ def plan_drilling(builder: Builder, plan: Plan) -> Step:
             raise control.fail("cycle_word", address=cycle.needs, word=cycle.needs, code=code)
         if count:
             rules.check(channel, code)
-        for _ in range(count):
-            words.position(channel, values)
-            _perform(channel, _strokes(channel, code, data), data)
+        with suspended(channel):
+            # Radius compensation does not act in drilling cycles.
+            for _ in range(count):
+                words.position(channel, values)
+                _perform(channel, _strokes(channel, code, data), data)
 
     return run
 
