@@ -7,6 +7,7 @@ Points are (a, b): `a` runs along the strokes, `b` is the direction of infeed. F
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import sqrt
 from typing import TYPE_CHECKING
 
@@ -190,3 +191,56 @@ def climb(contour: Sequence[Piece], gap: Gap, level: float, until: float, toward
 def _is_before(part: Edge, at: Point) -> bool:
     """Whether a part of an edge ends where the climb begins."""
     return abs(part.end[0] - at[0]) + abs(part.end[1] - at[1]) <= _SAME
+
+
+def turned_round(contour: Sequence[Piece]) -> Contour:
+    """The contour travelled the other way."""
+    result: Contour = []
+    for piece in reversed(contour):
+        edge = piece.edge
+        if edge.center is None:
+            result.append(Piece(offset.line(edge.end, edge.start), piece.is_rapid))
+        else:
+            result.append(Piece(offset.arc(edge.end, edge.start, edge.center, not edge.ccw), piece.is_rapid))
+    return result
+
+
+#: Round every outer corner on an arc.
+_ROUND = offset.Outer(intersection_limit_deg=0.0, beyond=offset.Joint.ARC)
+
+
+def parallel(contour: Sequence[Piece], distance: float) -> Contour:
+    """The contour at a distance, positive to the left of its direction; outer corners become arcs.
+
+    Raises:
+        ValueError: An inner corner or arc is too narrow for the distance.
+    """
+    if abs(distance) <= _SAME:
+        return list(contour)
+    edges = [piece.edge for piece in contour]
+    corners = []
+    for a, b in pairwise(edges):
+        corner = offset.corner(a, b, distance, _ROUND)
+        if corner is None:
+            raise ValueError("corner too narrow")
+        corners.append(corner)
+    begins = [offset.square(edges[0].departing, distance), *(corner.vectors[-1] for corner in corners)]
+    ends = [*(corner.vectors[0] for corner in corners), offset.square(edges[-1].arriving, distance)]
+    result: Contour = []
+    for number, (piece, first, last) in enumerate(zip(contour, begins, ends, strict=True)):
+        edge = piece.edge
+        if offset.reverses(edge, first, last):
+            raise ValueError("edge too short")
+        start, end = _plus(edge.start, first), _plus(edge.end, last)
+        if edge.center is None:
+            result.append(Piece(offset.line(start, end), piece.is_rapid))
+        else:
+            result.append(Piece(offset.arc(start, end, edge.center, edge.ccw), piece.is_rapid))
+        if number < len(corners) and corners[number].joint is offset.Joint.ARC:
+            onto = _plus(edge.end, corners[number].vectors[-1])
+            result.append(Piece(offset.arc(end, onto, edge.end, distance < 0.0), piece.is_rapid))
+    return [piece for piece in result if piece.edge.length > _SAME]
+
+
+def _plus(point: Point, vector: Point) -> Point:
+    return point[0] + vector[0], point[1] + vector[1]

@@ -19,6 +19,7 @@ from polycnc.control.sinumerik import (
     cycles_patterns,
     cycles_settings,
     cycles_swivel,
+    cycles_turning,
     stages,
 )
 from polycnc.control.sinumerik.cycles_arguments import Arguments
@@ -110,6 +111,14 @@ CYCLES: dict[str, Cycle] = {
     "LONGHOLE": Cycle(
         f"{_HOLE} NUM LENG CPA CPO RAD STA1 INDA FFD FFP1 MID {_SL_MILL}", cycles_milling.long_hole
     ),
+    "CYCLE95": Cycle("NPP MID FALZ FALX FAL FF1 FF2 FF3 VARI DT DAM _VRT", cycles_turning.stock_removal),
+    "CYCLE97": Cycle(
+        "PIT MPIT SPL FPL DM1 DM2 APP ROP TDEP FAL IANG NSP NRC NID VARI NUMT _VRT", cycles_turning.thread
+    ),
+    "CYCLE98": Cycle(
+        "PO1 DM1 PO2 DM2 PO3 DM3 PO4 DM4 APP ROP TDEP FAL IANG NSP NRC NID PP1 PP2 PP3 VARI NUMT _VRT",
+        cycles_turning.thread_chain,
+    ),
     "CYCLE800": Cycle(
         "_FR _TC _ST _MODE _X0 _Y0 _Z0 _A _B _C _X1 _Y1 _Z1 _DIR _FR_I _DMODE",
         cycles_swivel.swivel,
@@ -181,7 +190,7 @@ def start(channel: Channel, name: str, values: tuple[Any, ...], column: int) -> 
     channel.flush()
     caller = channel.level
     code = CycleProgram(channel, _in_plane(channel, cycle, arguments), column)
-    level = Level(code, program_number=caller.program_number, kind="cycle")
+    level = Level(code, program_number=caller.program_number, kind="cycle", locals=caller.locals)
     level.data["single_block"] = False
     level.data["sblof_in_proc"] = caller.data.get("single_block", True)
     if cycle.saves:

@@ -16,7 +16,7 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Mapping
 
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.cycles_arguments import Arguments
@@ -316,13 +316,13 @@ def _limit(a: Arguments, mode: int, depth: float) -> float:
 # ---- tapping
 
 
-def pitch(a: Arguments, size: str = "MPIT", amount: str = "PIT") -> float:
-    """Pitch of a thread, mm, with the sign of its hand; 61001 for none, or two that differ."""
-    nominal, written = a.plain(size), a.plain(amount)
-    of_size = METRIC_PITCHES.get(round(abs(nominal)))
+def pitch(a: Arguments, sizes: Mapping[int, float] = METRIC_PITCHES) -> float:
+    """Pitch of a thread by PIT or MPIT, mm, with the sign of its hand; 61001 for none, or two that differ."""
+    nominal, written = a.plain("MPIT"), a.plain("PIT")
+    of_size = sizes.get(round(abs(nominal)))
     if nominal and of_size is None:
         raise AlarmError("61001")
-    given = _written_pitch(a, amount)
+    given = _written_pitch(a, "PIT")
     if not nominal and not written:
         raise AlarmError("61001")
     if nominal and of_size is not None:

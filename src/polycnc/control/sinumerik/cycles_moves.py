@@ -30,8 +30,7 @@ class Moves:
         channel: The channel.
         applicate: Which axis of the plane is w: 1 the abscissa, 2 the ordinate, else the third (`_AXN`).
 
-    Raises:
-        AlarmError: 61803 if the channel has no such axis.
+    A target for an axis that the channel does not have is alarm 61803.
     """
 
     def __init__(self, channel: Channel, applicate: int = 3) -> None:
@@ -42,8 +41,6 @@ class Moves:
         self.axes = (a, b, c)
         geometry = channel.coordinates.geometry
         self.columns = (geometry[a], geometry[b], geometry[c])
-        if self.columns[2] < 0:
-            raise AlarmError("61803", axis="XYZ"[c])
 
     @property
     def memory(self) -> Memory:
@@ -65,8 +62,9 @@ class Moves:
 
     @property
     def level(self) -> float:
-        """Where the tool stands along w."""
-        return self.channel.coordinates.position[self.columns[2]]
+        """Where the tool stands along w; 0 for an axis that does not exist."""
+        column = self.columns[2]
+        return self.channel.coordinates.position[column] if column >= 0 else 0.0
 
     def _end(self, values: tuple[float | None, float | None, float | None]) -> list[float]:
         end = self.channel.coordinates.position.copy()
@@ -105,6 +103,10 @@ class Moves:
         """A thread or tapping stroke along w."""
         parameters = [lead, 0.0] if kind is Kind.THREAD else [lead]
         motion.special(self.channel, kind, self._end((None, None, w)), feed, parameters)
+
+    def thread(self, u: float, v: float, lead: float, start_angle: float) -> None:
+        """A thread stroke in the plane."""
+        motion.special(self.channel, Kind.THREAD, self._end((u, v, None)), nan, [lead, start_angle])
 
     def dwell(self, amount: float) -> None:
         """Stand still: seconds above 0, spindle revolutions below."""

@@ -11,6 +11,7 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from polycnc.channel.path import PathStage
     from polycnc.channel.stack import Level
     from polycnc.control.sinumerik.frames import Frames
     from polycnc.control.sinumerik.interrupts import Assignment, Watch
@@ -53,6 +54,7 @@ class Memory:
         transverse: Column of the axis that diameter programming is for, -1 for none.
         polar: Pole and polar coordinates.
         stages: Corner and compensation stages of the active plane, once they were needed.
+        recorder: What catches the moves of a contour that a cycle reads; None while nothing is read.
         previous: Where the last path move came from: its start, centre and normal of an arc or None, and 1.0
             for counter-clockwise; None before the first.
         feed_mode: How F is meant, as the toolpath's feed modes.
@@ -88,6 +90,7 @@ class Memory:
     transverse: int = -1
     polar: Polar = field(default_factory=Polar)
     stages: Stages | None = None
+    recorder: PathStage | None = None
     previous: tuple[list[float], tuple[Vector, Vector] | None, float] | None = None
     feed_mode: str = "G94"
     modal_corner_feed: float = nan

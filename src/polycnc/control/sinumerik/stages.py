@@ -74,11 +74,15 @@ class Stages:
         return self.approach.active or self.corner.active or self.cutter.active
 
     def into_path(self, channel: Channel) -> None:
-        """Put the stages that have something to do in front of the path, and no others."""
+        """Put the stages that have something to do in front of the path, and no others.
+
+        While a cycle reads a contour, its moves end in the recorder.
+        """
         chain: tuple[SmoothApproach | CornerStage | CutterCompensation, ...]
         chain = (self.approach, self.corner, self.cutter)
-        head = next((stage for stage in chain if stage.active), None)
-        watch = channel.memory.watch
+        memory: Memory = channel.memory
+        head = next((stage for stage in chain if stage.active), memory.recorder)
+        watch = memory.watch if memory.recorder is None else None
         if watch is not None:
             watch.after = head or channel.table
         channel.head = watch or head

@@ -1,0 +1,228 @@
+"""Turning cycles: stock removal CYCLE95, threads CYCLE97 and CYCLE98 (strokes: `polycnc.cycles`)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+from math import ceil, copysign
+from typing import TYPE_CHECKING
+
+from polycnc.control.sinumerik import stages
+from polycnc.control.sinumerik.cycles_contour import read
+from polycnc.control.sinumerik.cycles_drilling import METRIC_PITCHES, pitch
+from polycnc.control.sinumerik.cycles_milling import feed_of
+from polycnc.control.sinumerik.cycles_moves import Moves, require_tool
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.cycles import thread_turning
+from polycnc.cycles.contour import Contour, parallel, shifted, swapped, swapped_stroke, turned_round
+from polycnc.cycles.plane_stroke import PlaneStroke
+from polycnc.cycles.stock_removal import Removal, remove
+from polycnc.cycles.thread_turning import Thread
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.cycles_arguments import Arguments
+    from polycnc.geometry.arcs import Point
+
+#: Ways off the work where the call gives none.
+LIFT_MM = 1.0
+#: Further coarse metric threads that can be cut, but not tapped, by their nominal diameter.
+LARGE_PITCHES = {52: 5.0, 56: 5.5, 60: 5.5}
+
+
+# ---- threads
+
+
+def thread(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE97: thread between SPL and FPL."""
+    corners = [(a["SPL"], a["DM1"]), (a["FPL"], a["DM2"])]
+    lead = abs(pitch(a, {**METRIC_PITCHES, **LARGE_PITCHES}))
+    yield from _thread(channel, a, corners, [lead])
+
+
+def thread_chain(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE98: three threads in a row."""
+    corners = [(a[f"PO{i}"], a[f"DM{i}"]) for i in range(1, 5)]
+    leads = [abs(a[f"PP{i}"]) for i in range(1, 4)]
+    if not all(leads):
+        raise AlarmError("61001")
+    yield from _thread(channel, a, corners, leads)
+
+
+def _thread(
+    channel: Channel, a: Arguments, corners: Sequence[Point], leads: Sequence[float]
+) -> Iterator[None]:
+    moves = Moves(channel)
+    kind = a.integer("VARI")
+    if kind not in (1, 2, 3, 4):
+        raise AlarmError("61002")
+    for (a0, b0), (a1, b1) in pairwise(corners):
+        if a0 == a1 or abs(b1 - b0) > abs(a1 - a0):
+            raise not_supported(f"{a.cycle}: face thread")
+    cutting = Thread(
+        corners,
+        leads,
+        run_in=abs(a["APP"]),
+        run_out=abs(a["ROP"]),
+        depth=abs(a["TDEP"]),
+        allowance=abs(a["FAL"]),
+        cuts=max(a.integer("NRC"), 1),
+        idle=max(a.integer("NID"), 0),
+        inside=kind in (2, 4),
+        degressive=kind in (3, 4),
+        flank_deg=a["IANG"],
+        start_angle_deg=a["NSP"],
+        starts=max(a.integer("NUMT"), 1),
+        lift=a["_VRT"] if a["_VRT"] > 0.0 else LIFT_MM,
+    )
+    for stroke in thread_turning.strokes(cutting):
+        if stroke.lead:
+            moves.thread(*stroke.end, stroke.lead, stroke.start_angle_deg)
+        else:
+            moves.rapid(*stroke.end)
+        yield
+
+
+# ---- stock removal
+
+#: Kinds of CYCLE95 by (VARI - 1) // 4.
+ROUGHING, FINISHING, COMPLETE = 0, 1, 2
+#: For each of the four sides of a kind: whether the cuts run across, and the direction of infeed.
+SIDES = ((False, -1.0), (True, -1.0), (False, 1.0), (True, -1.0))
+#: Hundreds of VARI: cuts end without following the contour.
+WITHOUT_ROUNDING = 2
+
+
+class Work:
+    """Which way the cuts of a call run: lengthwise (a is Z, b the radius) or across (a is the radius, b is Z)."""
+
+    def __init__(self, moves: Moves, *, across: bool, towards: float) -> None:
+        self.moves = moves
+        self.across = across
+        self.towards = towards
+
+    def contour(self, read_: Contour) -> Contour:
+        """A contour of the plane in the coordinates of the cuts."""
+        return swapped(read_) if self.across else read_
+
+    def pair(self, along: float, radial: float) -> Point:
+        """An amount along Z and one along X in the coordinates of the cuts."""
+        return (radial, along) if self.across else (along, radial)
+
+    def tool_path(self, contour: Contour, allowance: float) -> Contour:
+        """Where the tool's point runs: the nose lies on the contour, or an allowance off it.
+
+        Raises:
+            AlarmError: 61606 where the nose does not fit the contour.
+        """
+        channel = self.moves.channel
+        radius: float = stages.radius(channel.memory)
+        first, second = stages.tip(channel)
+        try:
+            path = parallel(contour, -self.towards * onwards(contour) * (radius + allowance))
+        except ValueError:
+            raise AlarmError("61606") from None
+        return shifted(path, *self.pair(radius * first, radius * second))
+
+    def perform(self, stroke: PlaneStroke, feed: float) -> None:
+        """Make a stroke."""
+        made = swapped_stroke(stroke) if self.across else stroke
+        if made.kind is Kind.RAPID:
+            self.moves.rapid(*made.end)
+        elif made.center is None:
+            self.moves.feed(feed, *made.end)
+        else:
+            self.moves.arc(feed, made.end, made.center, made.kind is Kind.CCW)
+
+
+def onwards(contour: Contour) -> float:
+    """The direction of a contour along the cuts."""
+    return copysign(1.0, contour[-1].edge.end[0] - contour[0].edge.start[0])
+
+
+def stock_removal(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE95: remove stock along a contour, lengthwise or across, outside or inside."""
+    moves = Moves(channel)
+    require_tool(moves)
+    number, rounding = a.integer("VARI") % 100, a.digit("VARI", 2)
+    if not 1 <= number <= 12 or rounding > WITHOUT_ROUNDING:
+        raise AlarmError("61002")
+    kind, side = divmod(number - 1, len(SIDES))
+    across, towards = SIDES[side]
+    work = Work(moves, across=across, towards=towards)
+    home = moves.point
+    contour = work.contour((yield from read(moves, a.text("NPP"))))
+    if kind != FINISHING:
+        yield from _rough(work, a, contour, follows=rounding != WITHOUT_ROUNDING)
+    if kind != ROUGHING:
+        yield from _finish(work, a, contour)
+    moves.rapid(*home)
+    yield
+
+
+def _lift(a: Arguments) -> float:
+    return a["_VRT"] if a["_VRT"] > 0.0 else LIFT_MM
+
+
+def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> Iterator[None]:
+    """Cuts down to the allowances, from the open end of the contour."""
+    if not a["MID"] > 0.0:
+        raise AlarmError("61610")
+    if work.towards * (contour[0].edge.start[1] - contour[-1].edge.end[1]) < 0.0:
+        contour = turned_round(contour)
+    path = work.tool_path(contour, abs(a["FAL"]))
+    off_a, off_b = work.pair(abs(a["FALZ"]), abs(a["FALX"]))
+    path = shifted(path, -onwards(contour) * off_a, -work.towards * off_b)
+    straight = feed_of(a, "FF1")
+    relief = a["FF2"] or straight
+    for cut in remove(path, Removal(a["MID"], _lift(a), work.towards, follows)):
+        if cut.is_straight and a["DAM"] > 0.0:
+            yield from _in_steps(work, a, cut.stroke, straight)
+        else:
+            work.perform(cut.stroke, relief if cut.is_relief else straight)
+            yield
+
+
+def _in_steps(work: Work, a: Arguments, stroke: PlaneStroke, feed: float) -> Iterator[None]:
+    """A cut that stands still for DT after every DAM, so that the chip breaks."""
+    at = work.moves.point
+    begin = at[1] if work.across else at[0]
+    way = stroke.end[0] - begin
+    for part in steps_of(abs(way), a["DAM"]):
+        work.perform(replace(stroke, end=(begin + copysign(part, way), stroke.end[1])), feed)
+        yield
+        if part < abs(way):
+            work.moves.dwell(a["DT"])
+            yield
+
+
+def steps_of(total: float, step: float) -> list[float]:
+    """Ends of equal steps along a way, the last one shorter."""
+    count = max(0, ceil(total / step - 1e-9) - 1)
+    return [step * k for k in range(1, count + 1)] + [total]
+
+
+def _finish(work: Work, a: Arguments, contour: Contour) -> Iterator[None]:
+    """The contour once, in its own direction, at the finished size."""
+    path = work.tool_path(contour, 0.0)
+    feed, lift = feed_of(a, "FF3"), _lift(a)
+    start, end = path[0].edge.start, path[-1].edge.end
+    before = (start[0] - onwards(contour) * lift, start[1] - work.towards * lift)
+    after = (end[0] - onwards(contour) * lift, end[1] - work.towards * lift)
+    for stroke in (
+        PlaneStroke(Kind.RAPID, before),
+        PlaneStroke(Kind.FEED, start),
+        *(piece.stroke() for piece in path),
+        PlaneStroke(Kind.FEED, after),
+    ):
+        # A rapid in the contour cuts as well: the cycle has feeds of its own.
+        work.perform(stroke if stroke.end == before else _at_feed(stroke), feed)
+        yield
+
+
+def _at_feed(stroke: PlaneStroke) -> PlaneStroke:
+    return replace(stroke, kind=Kind.FEED) if stroke.kind is Kind.RAPID else stroke
