@@ -19,11 +19,17 @@ if TYPE_CHECKING:
     from polycnc.cycles.plane_stroke import PlaneStroke
 
 
+#: A cycle with more strokes is taken for one that does not end (a depth of a micrometre, say).
+MAX_STROKES = 300_000
+
+
 def emit(channel: Channel, strokes: Iterable[PlaneStroke], *, lead: float = 0.0) -> None:
     """Make the strokes, at the feed in force; threads at a lead (mm)."""
     first, second = plane_axes(channel)
     c = channel.coordinates
-    for stroke in strokes:
+    for number, stroke in enumerate(strokes):
+        if number >= MAX_STROKES:
+            raise channel.control.block_limit()
         end = c.position[:]
         end[first], end[second] = stroke.end
         if stroke.kind is Kind.RAPID:

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 #: A value of the cycle data: in internal units (P as typed), and whether it is an increment.
 Datum = tuple[float, bool]
 BOTTOM = "bottom"
+#: A hole with more strokes is taken for one that does not end (a peck of a micrometre, say).
+MAX_STROKES = 300_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -318,7 +320,9 @@ def _perform(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> No
     center = channel.coordinates.programmed[:]
     direction = channel.memory.spindle_direction
     rules: Drilling = channel.control.drilling_rules(channel)
-    for stroke in strokes:
+    for number, stroke in enumerate(strokes):
+        if number >= MAX_STROKES:
+            raise channel.control.block_limit()
         if stroke.action is Action.SHIFT:
             _shift(channel, center, data, stroke.value)
         elif stroke.action is Action.DWELL:
