@@ -39,6 +39,8 @@ def test_a_new_work_offset_moves_the_coordinates_and_not_the_machine() -> None:
 
 
 class Identity:
+    geometry = (0, 1, 2)
+
     def real(self, end: list[float]) -> list[float]:
         return end
 

@@ -131,6 +131,8 @@ def test_a_rotated_frame_leads_to_the_machine_display() -> None:
 class HalfRadius:
     """Makes X of the toolpath half as far on the real axis."""
 
+    geometry = (0, 1, 2)
+
     def real(self, end: list[float]) -> list[float]:
         return [end[0] / 2, *end[1:]]
 
@@ -143,3 +145,22 @@ def test_under_a_transformation_the_machine_display_shows_the_real_axes_shifted_
     assert record["to"]["X"] == 10
     assert record["machine"] == {"X": 105, "Y": 0, "Z": 5}
     assert list(display._records_by_column(draft.toolpath.chunks[0])) == [record]
+
+
+class PolarLike:
+    """Makes a length of the rotary third axis."""
+
+    geometry = (0, 2, 1)
+
+    def real(self, end: list[float]) -> list[float]:
+        return end
+
+
+def test_a_rotary_axis_that_is_a_length_of_the_plane_keeps_its_sign() -> None:
+    layout = AxisLayout(geometry=(0, 1, -1), rotary=frozenset({2}), modulo=frozenset({2}))
+    draft = Draft().under(Context(transformation=PolarLike())).move(Kind.FEED, 10, 0, -20)
+    (record,) = draft.display(layout).records()
+    assert record["to"]["Z"] == -20
+    plain = Draft().move(Kind.FEED, 10, 0, -20)
+    (record,) = plain.display(layout).records()
+    assert record["to"]["Z"] == 340

@@ -22,6 +22,10 @@ from polycnc.geometry.frames import IDENTITY, Frame
 class Following(Protocol):
     """How real axes follow the displayed position in a mode that makes axes of others, and back."""
 
+    @property
+    def geometry(self) -> tuple[int, int, int]:
+        """Columns of X, Y and Z in displayed positions, or -1."""
+
     def real(self, end: list[float]) -> list[float]:
         """Work coordinates of the real axes at a displayed position."""
 

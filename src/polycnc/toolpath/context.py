@@ -11,6 +11,10 @@ from polycnc.geometry.frames import IDENTITY, Frame
 class Transformation(Protocol):
     """How real axes follow the Cartesian positions of a mode in which the control makes axes of others."""
 
+    @property
+    def geometry(self) -> tuple[int, int, int]:
+        """Columns of X, Y and Z in positions of the toolpath, or -1."""
+
     def real(self, end: list[float]) -> list[float]:
         """Positions of the real axes (work coordinates) at a position of the toolpath."""
 

@@ -131,17 +131,19 @@ class Display:
         kind, end, feed = columns["kind"], columns["end"], columns["feed"].copy()
         work, machine = np.empty_like(end), np.empty_like(end)
         unit = np.full(len(chunk), None, object)
+        turning: list[tuple[Any, int]] = []
         for number in np.unique(columns["context"]):
             rows = columns["context"] == number
             context = self.toolpath.contexts[number]
             scale = self.scale(context)
             work[rows] = end[rows] * scale.work
+            turning.extend((rows, i) for i in self._modulo(context))
             machine[rows] = _machine_columns(end[rows], context, self.layout.geometry) * scale.machine
             feed[rows] *= np.where(kind[rows] == Kind.THREAD, scale.length, scale.feed)
             unit[rows] = scale.unit
         work, machine, feed = (np.rint(values * _STEPS) / _STEPS + 0.0 for values in (work, machine, feed))
-        for i in self.layout.modulo:
-            work[:, i] %= _FULL_TURN
+        for rows, i in turning:
+            work[rows, i] %= _FULL_TURN
         is_event = kind == Kind.EVENT
         work[is_event] = machine[is_event] = np.nan
         unit[is_event] = None
@@ -165,7 +167,7 @@ class Display:
             factor = scale.length if row.kind == Kind.THREAD else scale.feed
             record["feed"] = _shown(row.feed * factor)
         if row.curve:
-            record.update(self.curve(row.kind, row.curve, scale))
+            record.update(self.curve(row.kind, row.curve, row.context))
         return record
 
     def _event(self, row: Row, event: Event) -> dict[str, Any]:
@@ -178,8 +180,8 @@ class Display:
         """A position (absolute, internal units) as the work display shows it."""
         factors = self.scale(context).work
         shown = {axis: _shown(v * f) for axis, v, f in zip(self.axes, end, factors, strict=True)}
-        for axis in self.modulo_axes:
-            shown[axis] = shown[axis] % _FULL_TURN
+        for i in self._modulo(context):
+            shown[self.axes[i]] %= _FULL_TURN
         return shown
 
     def machine(self, end: Sequence[float], context: Context) -> dict[str, float]:
@@ -194,27 +196,40 @@ class Display:
         if scale is None:
             length = 1.0 / MM_PER_INCH if context.inch else 1.0
             diameter = [2.0 if context.diameter_axes >> i & 1 else 1.0 for i in range(len(self.axes))]
-            work = tuple(d if i in self.layout.rotary else d * length for i, d in enumerate(diameter))
+            angles = self.layout.rotary.difference(self._geometry(context))
+            work = tuple(d if i in angles else d * length for i, d in enumerate(diameter))
             feed = _TIME_FACTOR[context.feed_mode] * (1.0 if context.feed_mode == "G93" else length)
             unit = "inch" if context.inch else "mm"
             scale = self._scales[id(context)] = Scale(work, tuple(diameter), length, feed, unit)
         return scale
 
-    def curve(self, kind: int, curve: Sequence[float], scale: Scale) -> dict[str, Any]:
+    def _geometry(self, context: Context) -> tuple[int, int, int]:
+        """Columns of X, Y, Z of what is shown."""
+        made = context.transformation
+        return self.layout.geometry if made is None else made.geometry
+
+    def _modulo(self, context: Context) -> frozenset[int]:
+        """Axes whose display stays within one turn; not one that a transformation makes a length."""
+        made = context.transformation
+        return self.layout.modulo if made is None else self.layout.modulo.difference(made.geometry)
+
+    def curve(self, kind: int, curve: Sequence[float], context: Context) -> dict[str, Any]:
         """What the curve parameters of a row add to its record."""
+        scale = self.scale(context)
         if kind == Kind.DWELL:
             seconds, revolutions = curve[0], curve[1]
             return {"revolutions": _shown(revolutions)} if revolutions else {"seconds": _shown(seconds)}
         if kind in (Kind.THREAD, Kind.TAP):
             return {"lead": _shown(curve[0] * scale.length), "start_angle": _shown(curve[1])}
-        return self._arc(curve, scale) if kind in ARC_KINDS else {}
+        return self._arc(curve, context) if kind in ARC_KINDS else {}
 
-    def _arc(self, curve: Sequence[float], scale: Scale) -> dict[str, Any]:
+    def _arc(self, curve: Sequence[float], context: Context) -> dict[str, Any]:
         """Centre on the axes of the arc's plane (all three where it is tilted), and further turns."""
         center, normal, turns = curve[0:3], curve[3:6], curve[6]
         tilted = sum(1 for component in normal if abs(component) > 1e-9) > 1
         shown: dict[str, float] = {}
-        for i, value, component in zip(self.layout.geometry, center, normal, strict=True):
+        scale = self.scale(context)
+        for i, value, component in zip(self._geometry(context), center, normal, strict=True):
             if i >= 0 and (tilted or abs(component) <= 1e-9):
                 shown[self.axes[i]] = _shown(value * scale.work[i])
         record: dict[str, Any] = {"center": shown}

@@ -35,6 +35,12 @@ class PolarAxes:
     linear: int
     rotary: int
     start_deg: float = 0.0
+    third: int = -1
+
+    @property
+    def geometry(self) -> tuple[int, int, int]:
+        """Columns of the plane's axes and of the one that stands on it."""
+        return self.linear, self.rotary, self.third
 
     def real(self, end: list[float]) -> list[float]:
         """Positions of the real axes, work coordinates: radius in mm, angle in degrees."""
@@ -61,7 +67,7 @@ def start_polar(channel: Channel, words: Words) -> None:
     if memory.polar is not None:
         return
     c = channel.coordinates
-    memory.polar = PolarAxes(linear, rotary, c.position[rotary])
+    memory.polar = PolarAxes(linear, rotary, c.position[rotary], c.geometry[2])
     memory.plane_before = channel.mode["plane"]
     channel.mode = channel.mode.with_code("plane", "G17")
     c.geometry = (linear, rotary, c.geometry[2])

@@ -7,7 +7,7 @@ from math import hypot
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.compensation.policies import SYNTEC, Policy
-from polycnc.control.syntec import arcs, calls, coordinates, cycles, interrupts, motion
+from polycnc.control.syntec import arcs, calls, coordinates, cycles, interrupts, motion, polar
 from polycnc.control.syntec.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
@@ -15,7 +15,7 @@ from polycnc.control.syntec.memory import SyntecMemory
 from polycnc.control.syntec.parameters import decimals, parameter
 from polycnc.control.word_address import frames
 from polycnc.control.word_address.control import WordAddressControl
-from polycnc.control.word_address.numbers import NumberRules
+from polycnc.control.word_address.numbers import Convert, NumberRules, length_converter
 from polycnc.language.syntec import executable
 from polycnc.language.syntec.blocks import TypedBlock
 from polycnc.messages import AlarmError
@@ -113,6 +113,11 @@ class SyntecMill(WordAddressControl):
             codes["feed"] = "G95"
         return codes
 
+    def reset(self, channel: Channel) -> None:
+        """The state after reset: polar interpolation ends as well."""
+        polar.leave_plane(channel)
+        super().reset(channel)
+
     def end_of_program(self, channel: Channel) -> None:
         """The text ends: as M30, in a subprogram as M99."""
         if len(channel.stack) > 1:
@@ -171,7 +176,9 @@ class SyntecMill(WordAddressControl):
     def plan(self, channel: Channel, signature: tuple[str, ...]) -> Plan:
         """The plan of a shape in the present modal state, made and kept."""
         mode = channel.mode
-        plan = mode.plans[signature] = SyntecBuilder(channel, self, signature).build()
+        builder = SyntecBuilder(channel, self, signature)
+        polar.check_block(builder)
+        plan = mode.plans[signature] = builder.build()
         return plan
 
     def modal_changes(self, rows: list[GCode]) -> Iterator[tuple[str, str]]:
@@ -225,6 +232,12 @@ class SyntecMill(WordAddressControl):
     def is_diameter(self, channel: Channel, axis: int) -> bool:
         """Whether words of an axis are diameters (Pr281~, G10.9)."""
         return bool(channel.memory.is_diameter(axis))
+
+    def axis_converter(self, builder: Builder, axis: int, form: str) -> Convert | None:
+        """What turns a word of an axis into internal units; C is a length in polar interpolation."""
+        if polar.is_length(builder.channel, axis):
+            return length_converter(form, builder.rules, inch=builder.inch)
+        return super().axis_converter(builder, axis, form)
 
     def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
         """U, V, W are increments of X, Y, Z only with Pr3809 = 1."""

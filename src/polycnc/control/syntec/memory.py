@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.syntec.interrupts import Interrupt
+    from polycnc.control.syntec.polar import PolarPlane
     from polycnc.control.syntec.skips import SkipGroup
     from polycnc.control.syntec.spindles import SpindlePair
 
@@ -49,6 +50,7 @@ class SyntecMemory(Memory):
         rotates_work: G54.4 P1 is active (#1849).
         interrupt: What M96 has prepared.
         skip_groups: Groups of G31.10 that G31.11 will move; the step behind the last one.
+        polar: Plane of G12.1; `plane_before` and `geometry_before` what G13.1 brings back.
         diameters: Axes switched by G10.9: programmed in diameter or not.
     """
 
@@ -89,6 +91,9 @@ class SyntecMemory(Memory):
         self.skip_groups: list[SkipGroup] = []
         self.skip_groups_end = 0
         self.diameters: dict[int, bool] = {}
+        self.polar: PolarPlane | None = None
+        self.plane_before = "G17"
+        self.geometry_before = channel.coordinates.geometry
         self.colour = 0
         self.print_file = ""
         self.functions: dict[str, Callable[..., Value]] = functions.bound(self)

@@ -29,6 +29,7 @@ def reset(channel: Channel) -> None:
         if hasattr(memory, name):
             setattr(memory, name, getattr(fresh, name))
     machine = channel.coordinates.machine
+    channel.coordinates.transformation = None
     frames = memory.frames
     frames.scale = frames.mirror = frames.rotation = IDENTITY
     frames.mirrored = {}

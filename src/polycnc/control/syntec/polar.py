@@ -1,0 +1,136 @@
+"""Polar coordinate interpolation G12.1 / G13.1: X and C become a Cartesian plane (manual 2.15).
+
+The contour is written as if X and C were the two axes of G17; the linear axis follows by the distance from the rotation
+centre, the rotary one by the angle. The angle of C at G12.1 is the direction of the first axis.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan2, cos, degrees, hypot, radians, sin
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address import coordinates
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.plan import Builder
+    from polycnc.control.word_address.words import Words
+
+POLAR = "polar_interpolation"
+LINEAR, ROTARY = "X", "C"
+#: What must not come inside: it would change the coordinate system or leave it (2.15.2, notes 5, 12 and 16).
+FORBIDDEN = frozenset({
+    "G28", "G28.1", "G29", "G30", "G31", "G31.10", "G31.11", "G50", "G50.1", "G51", "G51.1", "G52", "G53", "G53.1",
+    "G53.3", "G53.6", "G54", "G54.4", "G55", "G56", "G57", "G58", "G59", *(f"G59.{i}" for i in range(1, 10)), "G68",
+    "G68.2", "G68.3", "G92", "G92.1", "G43.4", "G43.5",
+})  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class PolarPlane:
+    """How the real axes follow a point of the plane.
+
+    Attributes:
+        geometry: Columns of the plane's first axis (the linear one), its second (the rotary one), and Z.
+        start_deg: Work coordinate of the rotary axis where the plane was chosen.
+        eccentricity: Program zero against the rotation centre, mm.
+        side: -1 where the linear axis stands on the negative side of the centre.
+    """
+
+    geometry: tuple[int, int, int]
+    start_deg: float
+    eccentricity: tuple[float, float]
+    side: float
+
+    def real(self, end: list[float]) -> list[float]:
+        """Work coordinates of the real axes at a point of the plane."""
+        linear, rotary, _ = self.geometry
+        first = self.side * (end[linear] + self.eccentricity[0])
+        second = self.side * (end[rotary] + self.eccentricity[1])
+        moved = list(end)
+        moved[linear] = self.side * hypot(first, second)
+        moved[rotary] = self.start_deg + degrees(atan2(second, first))
+        return moved
+
+    def display(self, real: list[float]) -> list[float]:
+        """The point of the plane for work coordinates of the real axes."""
+        linear, rotary, _ = self.geometry
+        distance, angle = real[linear], radians(real[rotary] - self.start_deg)
+        shown = list(real)
+        shown[linear] = distance * cos(angle) - self.eccentricity[0]
+        shown[rotary] = distance * sin(angle) - self.eccentricity[1]
+        return shown
+
+
+def start_polar(channel: Channel, words: Words) -> None:
+    """G12.1 [X] [C]: the plane of X and C; X and C are the program zero against the rotation centre."""
+    memory, c = channel.memory, channel.coordinates
+    linear, rotary = (channel.axis_index.get(name, -1) for name in (LINEAR, ROTARY))
+    if linear < 0 or rotary < 0 or not channel.axis_data[rotary].rotary:
+        raise words.fail("polar_axes", "G12.1")
+    if memory.side or not (c.direct and c.zero.is_identity):
+        raise words.fail("polar_mode", "G12.1")
+    if memory.polar is not None:
+        return
+    channel.flush()
+    machine, here = c.machine, c.position
+    eccentricity = (words.length("X") or 0.0, words.length("C") or 0.0)
+    side = -1.0 if here[linear] < 0.0 else 1.0
+    memory.polar = PolarPlane((linear, rotary, c.geometry[2]), here[rotary], eccentricity, side)
+    memory.plane_before, memory.geometry_before = channel.mode["plane"], c.geometry
+    memory.diameters[linear] = False
+    channel.mode = channel.mode.with_code("plane", "G17")
+    c.geometry, c.transformation = memory.polar.geometry, memory.polar
+    c.arrive(c.from_machine(machine))
+    channel.context_changed()
+
+
+def end_polar(channel: Channel, words: Words) -> None:
+    """G13.1: X and C are axes of their own again; the former plane and the parameter's kind of X return."""
+    memory = channel.memory
+    if memory.polar is None:
+        return
+    if memory.side:
+        raise words.fail("polar_mode", "G13.1")
+    channel.flush()
+    channel.mode = channel.mode.with_code("plane", memory.plane_before)
+    leave_plane(channel)
+
+
+def leave_plane(channel: Channel) -> None:
+    """The axes are named themselves again; nothing moves."""
+    memory, c = channel.memory, channel.coordinates
+    if memory.polar is None:
+        return
+    machine = c.machine
+    memory.diameters.pop(memory.polar.geometry[0], None)
+    memory.polar = None
+    c.transformation = None
+    c.geometry = memory.geometry_before
+    c.arrive(c.from_machine(machine))
+    channel.context_changed()
+
+
+def select_plane(channel: Channel, words: Words) -> None:
+    """G17, G18, G19; within polar interpolation its plane stays (2.15.2, note 4)."""
+    if channel.memory.polar is not None:
+        channel.mode = channel.mode.with_code("plane", "G17")
+    coordinates.note_context(channel, words)
+
+
+def is_length(channel: Channel, axis: int) -> bool:
+    """Whether words of a rotary axis are lengths now."""
+    plane: PolarPlane | None = channel.memory.polar
+    return plane is not None and axis == plane.geometry[1]
+
+
+def check_block(builder: Builder) -> None:
+    """Refuse codes that polar interpolation does not allow."""
+    if builder.before[POLAR] != "G12.1":
+        return
+    for row in builder.codes:
+        if row.code in FORBIDDEN:
+            raise builder.control.fail("polar_mode", address=row.code)
+        if row.code == "G10.9":
+            raise builder.control.fail("polar_diameter", address=row.code)
