@@ -126,7 +126,9 @@ def test_no_script_makes_an_axis_exceed_its_acceleration(text: str) -> None:
             positions.append(virtual.machine_position)
             if virtual.state is State.READY:
                 break
-        speeds = [[(b - a) / cycle for a, b in zip(p, q, strict=True)] for p, q in zip(positions, positions[1:])]
+        speeds = [
+            [(b - a) / cycle for a, b in zip(p, q, strict=True)] for p, q in zip(positions, positions[1:])
+        ]
         assert max(abs(v) for speed in speeds for v in speed) <= max(TOP, 24000.0 / 60.0) * 1.001
         for before, after in zip(speeds, speeds[1:]):
             for a, b in zip(before, after, strict=True):

@@ -119,6 +119,7 @@ class Ahead:
         """Begin with a program; the axes stand at a machine position."""
         self.clear(position)
         self.finished = False
+        self.channel.alarms.clear()
         self._run = self.channel.run(program, power_on=False)
 
     def clear(self, position: Sequence[float]) -> None:
@@ -151,6 +152,12 @@ class Ahead:
         """What the channel waited for has happened, and everything before it is executed."""
         self.waiting, self.has_caught_up = None, True
 
+    @property
+    def position(self) -> list[float]:
+        """Machine position behind everything prepared."""
+        first = STATE_BLOCKS + POSITION * self._axes
+        return list(self._state[first : first + self._axes])
+
     def stand_at(self, position: Sequence[float]) -> None:
         """The axes stand elsewhere than the rows have led them."""
         first = STATE_BLOCKS + POSITION * self._axes
@@ -163,7 +170,7 @@ class Ahead:
         wait = next(self._run, None)
         level = channel.stack[-1] if channel.stack else None
         if level is not None and (len(channel.toolpath.chunk) or (wait and wait.reason in BEHIND_A_BLOCK)):
-            halts = wait is not None and wait.reason == "single-block"
+            halts = wait is not None and wait.reason == "single-block" and not channel.finished
             self._note_block(level.program_number, level.line_of(level.current), wait if halts else None)
         self._stopped = self._skips = self.has_caught_up = False
         self.toolpath.block_boundary()
@@ -266,9 +273,7 @@ class Ahead:
         if count == 0:
             return
         self._skips = self._skips or chunk.kind[row] == Kind.SKIP
-        is_arc = (
-            chunk.kind[row] in ARC_KINDS and self._pieces[before * self._width + FORM] == CURVED
-        )
+        is_arc = chunk.kind[row] in ARC_KINDS and self._pieces[before * self._width + FORM] == CURVED
         way = arc_laid(start, state, self.limits, n) if is_arc else line_laid(start, state, n)
         state[FEED] = chunk.feed[row]
         is_cut_short = chunk.kind[row] == Kind.SKIP and chunk.curve[row] >= 0
@@ -294,7 +299,9 @@ class Ahead:
                     rapid=is_rapid(state),
                     fixed=chunk.kind[row] in (Kind.THREAD, Kind.TAP),
                     per_revolution=self._contexts[record + PER_REVOLUTION] != 0.0,
-                    left=chunk.curves[chunk.curve[row] * CURVE_WIDTH] if part == count - 1 and is_cut_short else 0.0,
+                    left=chunk.curves[chunk.curve[row] * CURVE_WIDTH]
+                    if part == count - 1 and is_cut_short
+                    else 0.0,
                     by_axis=self._pieces[at + FORM] == TIMED,
                 )
             )

@@ -7,7 +7,7 @@ are, and an override or a hold takes effect at the very moment it is given.
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from polycnc.mainrun.items import Block, BlockEnd, Happening, Piece, Rates, Standing
 from polycnc.mainrun.motion import AxesMotion, Motion, PathMotion
@@ -286,7 +286,9 @@ class Automatic:
             return
         self._cap2 = self.rates.cap2(motion.piece)
         self._look_ahead()
-        motion.revise(self.time, self.ahead.reach2(), self._cap2, 0.0 if self.rates.hold else self.rates.rapid)
+        motion.revise(
+            self.time, self.ahead.reach2(), self._cap2, 0.0 if self.rates.hold else self.rates.rapid
+        )
 
     def start(self) -> None:
         """Go on, or begin."""

@@ -95,7 +95,7 @@ class PathMotion:
     @property
     def coasting2(self) -> float:
         """Largest squared speed at its end from which the axes rest within the way that is left behind it."""
-        return 2.0 * self._record[PULL] * self.piece.left
+        return 2.0 * float(self._record[PULL]) * self.piece.left
 
     def after_signal(self, time: float) -> PathMotion | None:
         """The motion that brakes on the line of this one from now on; None where the axes stand."""
@@ -107,7 +107,9 @@ class PathMotion:
         here, per_mm = piece.at(way / length), piece.share / length
         ahead = [a + (b - a) * per_mm * brakes for a, b in zip(piece.way.start, piece.way.end, strict=True)]
         end = [h + a - s for h, a, s in zip(here, ahead, piece.way.start, strict=True)]
-        rest = replace(piece, way=Line(tuple(here), tuple(end)), first=0.0, share=1.0, left=0.0, is_coasting=True)
+        rest = replace(
+            piece, way=Line(tuple(here), tuple(end)), first=0.0, share=1.0, left=0.0, is_coasting=True
+        )
         record = self._record[:]
         record[LENGTH] = brakes
         return PathMotion(rest, record, self._limits, time, speed * speed, 0.0, speed * speed)

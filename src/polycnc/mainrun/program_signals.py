@@ -45,8 +45,8 @@ def connect(channel: Channel, image: SignalImage) -> None:
 
 def give(channel: Channel, image: SignalImage) -> None:
     """Give the inputs to programs that keep them in variables (`$A_IN[1]`), before they are read."""
-    kept = getattr(channel.memory, "nck", None)
-    for name, value in image.values.items() if kept is not None else ():
+    kept: dict[tuple[str, tuple[int, ...]], float] = getattr(channel.memory, "nck", {})
+    for name, value in image.values.items():
         variable, _, index = name.partition("[")
         if variable.startswith("$A_") and index[:-1].isdigit():
             kept[variable, (int(index[:-1]),)] = bool(value) if variable[-1] != "A" else value

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+import re
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from polycnc.mainrun.errors import CommandRefused
 from polycnc.program import Form, ProgramStore, decode
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
+    from pathlib import Path
 
     from polycnc.channel.channel import Channel
     from polycnc.program import Program
 
 #: Where SINUMERIK programs lie that come as texts.
 _DIRECTORY = "/_N_WKS_DIR/_N_TEST_WPD"
+_NUMBER = re.compile(r"\s*(?:/\d*\s*)?([N:]\d+)", re.IGNORECASE)
 
 
 class Programs:
@@ -32,6 +36,7 @@ class Programs:
         self._files = dict(files)
         self.store = self._new_store()
         self.main: Program | None = None
+        self._inserted = 0
 
     def _new_store(self) -> ProgramStore:
         return ProgramStore(search=self._search, form=self._form)
@@ -50,8 +55,37 @@ class Programs:
             main = store.add_file(content)
         for name, text in self._files.items():
             store.add_text(name, text)
-        self.store, self.main = store, main
+        self.store, self.main, self._inserted = store, main, 0
         return main
+
+    def insert(self, block: str, line: int | None) -> None:
+        """Put a block behind a line of the main program's file, or behind the one that was put in last."""
+        main = self.main
+        if main is None:
+            raise CommandRefused("mainrun.no-program")
+        last = main.first_line + len(main.lines) - 1
+        behind = line if line is not None else self._inserted or last
+        if not main.first_line - 1 <= behind <= last:
+            raise CommandRefused(
+                "mainrun.value", name="line", allowed=f"{main.first_line} … {last}", value=line
+            )
+        at = behind - main.first_line + 1
+        self.main = replace(main, lines=(*main.lines[:at], block, *main.lines[at:]))
+        self._inserted = behind + 1
+        self.store.replace(self.main)
+
+    def line_of(self, target: int | str) -> int:
+        """The line of a block of the main program: the line itself, or that of a block number."""
+        if self.main is None:
+            raise CommandRefused("mainrun.no-program")
+        if isinstance(target, int):
+            return target
+        wanted = target.strip().upper()
+        for i, text in enumerate(self.main.lines):
+            match = _NUMBER.match(text)
+            if match is not None and match[1].upper() == wanted:
+                return self.main.line_number(i)
+        raise CommandRefused("mainrun.search", target=target)
 
     def typed(self, text: str) -> Program:
         """What was typed in at MDI."""

@@ -88,7 +88,7 @@ def straight_profile(length: float, start2: float, aim2: float, cap2: float, pul
         length, start2 = length - brake, cap2
     if cap2 <= 0.0:
         return Profile(tuple(phases), 0.0, arrives=False)
-    end2 = min(max(aim2, start2 - 2.0 * pull * length, 0.0), start2 + 2.0 * pull * length)
+    end2 = min(max(min(aim2, cap2), start2 - 2.0 * pull * length, 0.0), start2 + 2.0 * pull * length)
     peak2 = max(min(cap2, 0.5 * (start2 + end2) + pull * length), start2, end2)
     up, down = (peak2 - start2) / (2.0 * pull), (peak2 - end2) / (2.0 * pull)
     level = max(length - up - down, 0.0)
@@ -119,7 +119,7 @@ class Limits(NamedTuple):
         low, high, half = -inf, inf, 0.5 / length
         for q, b, q_end, b_end, a in zip(*self, strict=True):
             if q != 0.0:
-                sides = sorted((start2 + (sign * a - b * start2) / (q * half) for sign in (-1.0, 1.0)))
+                sides = sorted(start2 + (sign * a - b * start2) / (q * half) for sign in (-1.0, 1.0))
                 low, high = max(low, sides[0]), min(high, sides[1])
             own = b_end + q_end * half
             if own != 0.0:

@@ -1,0 +1,269 @@
+"""What a virtual control is made of, and how its time passes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from polycnc.channel.channel import Channel
+from polycnc.mainrun.ahead import Ahead
+from polycnc.mainrun.automatic import Automatic
+from polycnc.mainrun.display import MainRunDisplay
+from polycnc.mainrun.equipment import equipment
+from polycnc.mainrun.items import Happening, Rates
+from polycnc.mainrun.machinery import Machinery
+from polycnc.mainrun.manual import ManualAxes
+from polycnc.mainrun.program_signals import connect, give
+from polycnc.mainrun.programs import Programs
+from polycnc.mainrun.signals import SignalImage
+from polycnc.mainrun.snapshot import PanelSwitches, Record
+from polycnc.mainrun.states import Mode, State
+from polycnc.messages import Alarm, AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+    from pathlib import Path
+
+    from polycnc.control.interface import Control
+    from polycnc.machine.model import Machine
+    from polycnc.machine.setup import Setup
+    from polycnc.mainrun.items import Block
+    from polycnc.program import Program
+    from polycnc.toolpath import Event
+
+#: The input that ends a skip move.
+SKIP_SIGNAL = "SKIP"
+#: What the reasons of a halt lead to; every other one stops.
+HALTS = {"end": State.READY, "alarm": State.ALARM}
+SINGLE_BLOCK_KINDS = ("", "SBL1", "SBL2", "SBL3")
+
+
+class Core:
+    """The parts of a virtual control and the events between them; commands and readings stand above it.
+
+    Attributes:
+        control: The control.
+        machine: Its machine.
+        channel: The channel; it runs ahead of the axes.
+        mode: What the mode switch says.
+        state: What the control is doing.
+        alarms: Alarms that wait for reset.
+        parts: How often a program has come to its end.
+        listeners: Called with each `Record`, in order.
+    """
+
+    def __init__(
+        self,
+        control: str | Control,
+        *,
+        machine: str | Path | Machine | None = None,
+        setup: Mapping[str, Any] | str | Path | Setup | None = None,
+        search: Sequence[str | Path] = (),
+        files: Mapping[str, str] | None = None,
+    ) -> None:
+        self.control, self.machine, start = equipment(control, machine, setup)
+        self.listeners: list[Callable[[Record], object]] = []
+        self.mode, self.state = Mode.AUTO, State.READY
+        self.alarms: tuple[Alarm, ...] = ()
+        self.parts = 0
+        self._switches = PanelSwitches(
+            start.switches.single_block, start.switches.optional_stop, start.switches.block_skip
+        )
+        self._rates = Rates()
+        self._cycles = 0
+        self._programs = Programs(self.control.form, search, files or {})
+        self._program_mode = Mode.AUTO
+        self._typed: Program | None = None
+        self._giving_up = False
+        self._returning = False
+        self._hand: list[float] | None = None
+        self._locked_at: list[float] | None = None
+        self._collected: list[Happening] = []
+        self._build(start)
+
+    def _build(self, setup: Setup) -> None:
+        """Power-on."""
+        ahead = Ahead(self.machine, 1)
+        channel = Channel(self.control, self.machine, setup, self._programs.store, toolpath=ahead.toolpath)
+        self.channel, self._ahead = channel, ahead
+        given = setup.switches.signals.items()
+        signals = {name: float(value) for name, value in given if isinstance(value, int | float)}
+        self._signals = SignalImage(signals, self._on_edge, lambda: self.time)
+        self._machinery = Machinery(
+            self.machine,
+            self._signals,
+            lambda: self.time,
+            (
+                self._on_event,
+                self._on_stop,
+                self._on_block,
+                self._on_halt,
+                lambda: give(channel, self._signals),
+            ),
+        )
+        channel.push(self._programs.typed("\n"), kind="main")  # a control starts with a level to stand on
+        try:
+            self.control.start(channel)
+        except AlarmError as error:
+            self._raise_alarm(error)
+        connect(channel, self._signals)
+        ahead.use(channel, self.control.motion_settings(channel))
+        position = channel.coordinates.machine
+        ahead.clear(position)
+        cycle = self.machine.interpolation_cycle_s
+        self._automatic = Automatic(ahead, self._rates, self._machinery, position, cycle)
+        self._manual = ManualAxes(channel.axis_data)
+        self._display = MainRunDisplay(ahead.toolpath, self.machine, 1)
+        self._show_channel()
+
+    # ---- time ----------------------------------------------------------------------------------------------
+
+    @property
+    def time(self) -> float:
+        """Simulated time since power-on, s: a whole number of interpolation cycles, between commands."""
+        return self._automatic.time
+
+    @property
+    def machine_position(self) -> list[float]:
+        """Commanded machine position of all axes, mm (radius) and degrees."""
+        if self._hand is not None:
+            return self._manual.positions(self._hand, self.time)
+        return self._automatic.machine
+
+    def _due(self) -> float:
+        return min(self._automatic.next_event, self._manual.due)
+
+    def _advance(self, until: float) -> None:
+        """Go from event to event."""
+        while (due := self._due()) < until:
+            self._move_to(max(due, self.time))
+        self._move_to(until)
+
+    def _move_to(self, time: float) -> None:
+        self._automatic.advance(time)
+        if self._hand is not None:
+            self._hand = self._manual.settle(self._hand, self.time)
+        self._settle()
+
+    def _settle(self) -> None:
+        """What follows when axes have come to rest."""
+        if self._manual.moving:
+            return
+        if self._giving_up and not self._automatic.moving:
+            self._give_up()
+        elif self._returning and not self._manual.goals:
+            self._resume()
+        elif self._hand is not None and self.state is State.READY and not self._manual.goals:
+            self._stand_at(self._hand)
+
+    def _resume(self) -> None:
+        self._returning, self._hand = False, None
+        self._rates.hold = False
+        self._automatic.single_block = bool(self._switches.single_block)
+        self._set_state(State.RUNNING)
+        self._automatic.start()
+
+    def _give_up(self) -> None:
+        """The axes stand: the program is given up, the control is as after reset."""
+        self._giving_up = self._rates.hold = False
+        here = self.machine_position
+        self._automatic.abandon()
+        self._machinery.reset()
+        self.control.reset(self.channel)
+        self._stand_at(here)
+        if self.state is not State.EMERGENCY:
+            self.alarms = ()
+            self._set_state(State.READY)
+
+    def _stand_at(self, position: Sequence[float]) -> None:
+        """The axes stand here and no program runs."""
+        self._hand = None
+        self._automatic.position = list(position)
+        self._prepare_channel()
+        self._ahead.clear(position)
+        self._show_channel()
+
+    def _prepare_channel(self) -> None:
+        self.channel.coordinates.arrive_machine(list(self._automatic.position))
+        self._apply_switches()
+
+    def _show_channel(self) -> None:
+        """Between programs the displays show the channel's own state."""
+        self._automatic.context = self.control.context(self.channel)
+        self._automatic.modal = self.channel.mode.codes
+
+    def _brake(self, state: State) -> None:
+        self._rates.hold = self._giving_up = True
+        self._automatic.revise()
+        self._manual.brake_all(self.time)
+        self._returning = False
+        self._set_state(state)
+        self._settle()
+
+    def _apply_switches(self) -> None:
+        channel, panel = self.channel, self._switches
+        skip = panel.block_skip
+        switches = replace(
+            channel.setup.switches,
+            single_block=panel.single_block or SINGLE_BLOCK_KINDS[1],  # so that blocks are run one by one
+            block_skip=skip,
+            optional_stop=panel.optional_stop,
+            mode="mdi" if self._program_mode is Mode.MDI else "memory",
+        )
+        channel.setup = replace(channel.setup, switches=switches)
+        channel.skip_levels = sum(1 << level for level in ((1,) if skip is True else skip or ()))
+        # Whether to halt is decided when the block is executed, not when it is prepared.
+        channel.single_block = channel.block_by_block = channel.optional_stop = True
+
+    # ---- what happens --------------------------------------------------------------------------------------
+
+    def _on_event(self, event: Event) -> None:
+        self._report("event", type=event.type, **event.data)
+
+    def _on_block(self, block: Block) -> None:
+        self._report("block", program=block.program, line=block.line)
+
+    def _on_edge(self, name: str, value: float) -> None:
+        self._report("signal", name=name, value=value)
+        if name == SKIP_SIGNAL and value:
+            here = self._automatic.skip_signal()
+            if here is not None:
+                self.channel.memory.note_skip(self._display.work_of(here, self._automatic.context))
+
+    def _on_stop(self, code: str) -> None:
+        if code == "alarm":
+            self.alarms = tuple(self.channel.alarms)
+        self._automatic.stop(code)
+
+    def _on_halt(self, reason: str) -> None:
+        """The run has halted of its own accord."""
+        if self.state is State.RUNNING:
+            self._set_state(HALTS.get(reason, State.STOPPED), halt=reason)
+        if reason == "end":
+            self.parts += self._program_mode is Mode.AUTO
+            if self._program_mode is Mode.AUTO:
+                self.control.reset(self.channel)
+            self._show_channel()
+
+    def _raise_alarm(self, error: AlarmError) -> None:
+        self.alarms = (
+            Alarm(
+                self.control.id,
+                error.code,
+                args=dict(error.args_by_name),
+                hint=error.hint,
+                detail=error.detail,
+            ),
+        )
+        self.state = State.ALARM
+
+    def _set_state(self, state: State, **data: object) -> None:
+        if state is not self.state:
+            self.state = state
+            self._report("state", state=state, **data)
+
+    def _report(self, what: str, **data: object) -> None:
+        if self.listeners:
+            record = Record(self.time, what, data)
+            for listener in self.listeners:
+                listener(record)

@@ -1,0 +1,140 @@
+"""What a panel or a factory system reads from a virtual control."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun.core import Core
+from polycnc.mainrun.programs import text_of
+from polycnc.mainrun.snapshot import (
+    ActiveBlock,
+    Overrides,
+    PanelSwitches,
+    Positions,
+    Snapshot,
+    SpindleState,
+    ToolState,
+)
+from polycnc.mainrun.states import State
+from polycnc.messages import text
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.mainrun.signals import SignalImage
+    from polycnc.messages import Alarm
+
+
+class Readings(Core):
+    """The readings; each is of the moment at which the clock stands, `snapshot` is all of them."""
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether something runs or moves."""
+        moving = self._automatic.moving or bool(self._manual.moving)
+        return moving or self.state in (State.RUNNING, State.BRAKING)
+
+    @property
+    def positions(self) -> Positions:
+        """Positions as the displays show them."""
+        here = self.machine_position
+        end = self._automatic.row_end if self._hand is None else here
+        real = here if self._locked_at is None else self._locked_at
+        return self._display.positions(here, end, real, self._automatic.context)
+
+    @property
+    def modal(self) -> Mapping[str, str]:
+        """Active code of every modal group in the block in execution."""
+        return dict(self._automatic.modal)
+
+    @property
+    def active_block(self) -> ActiveBlock:
+        """The block in execution."""
+        block = self._automatic.block
+        if block is None:
+            return ActiveBlock()
+        program = next((p for p in reversed(self.channel.programs) if p.name == block.program), None)
+        return ActiveBlock(block.program, block.line, text_of(program, block.line))
+
+    @property
+    def program(self) -> str:
+        """Name of the loaded program; empty for none."""
+        return self._programs.main.name if self._programs.main is not None else ""
+
+    @property
+    def messages(self) -> tuple[str, ...]:
+        """Texts that the program has put out."""
+        return tuple(self._machinery.messages)
+
+    @property
+    def spindle(self) -> SpindleState:
+        """The spindle of the block in execution."""
+        context = self._automatic.context
+        spindle = self.machine.spindle.get(context.spindle)
+        top = spindle.max_rpm if spindle is not None else inf
+        turning = 0.0 if context.surface_speed or not context.spindle_direction else context.spindle_rpm
+        rpm = min(turning * self._rates.spindle, top)
+        return SpindleState(context.spindle, context.spindle_rpm, rpm, context.spindle_direction)
+
+    @property
+    def tool(self) -> ToolState:
+        """Tool in the spindle, and the one that stands by."""
+        context = self._automatic.context
+        return ToolState(context.tool, context.tool_name, self._machinery.next_tool)
+
+    @property
+    def signals(self) -> SignalImage:
+        """The signal image; inputs can be set."""
+        return self._signals
+
+    def read_variable(self, name: str) -> object:
+        """A variable of the control as programs name it; None where it is vacant. It may be ahead of the axes.
+
+        Raises:
+            KeyError: There is no such variable.
+        """
+        return self.control.read_variable(self.channel, name)
+
+    @property
+    def feed(self) -> float:
+        """Path speed now, mm/min; of the fastest axis where axes are moved by hand."""
+        return 60.0 * max(self._automatic.speed, self._manual.speed(self.time))
+
+    @property
+    def switches(self) -> PanelSwitches:
+        """The panel's switches."""
+        return self._switches
+
+    @property
+    def snapshot(self) -> Snapshot:
+        """Everything at once, of one moment."""
+        rates = self._rates
+        return Snapshot(
+            time=self.time,
+            mode=self.mode,
+            state=self.state,
+            halt=self._automatic.halt,
+            positions=self.positions,
+            feed=self.feed,
+            program=self.program,
+            block=self.active_block,
+            modal=self.modal,
+            spindle=self.spindle,
+            tool=self.tool,
+            overrides=Overrides(rates.feed, rates.rapid, rates.spindle),
+            switches=self._switches,
+            signals=self._signals.values,
+            alarms=self.alarms,
+            messages=self.messages,
+            parts=self.parts,
+        )
+
+    def alarm_text(self, alarm: Alarm, lang: str | None = None) -> str:
+        """The control's own text of an alarm, with the hint on this very case if there is one."""
+        catalogue = self.control.catalogue
+        told = alarm.detail
+        if not told and alarm.code in catalogue:
+            told = catalogue.text(alarm.code, lang, **alarm.args)
+        hint = text(alarm.hint, lang, **alarm.args) if alarm.hint else ""
+        return ": ".join(filter(None, (told, hint)))

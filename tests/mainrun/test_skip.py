@@ -1,0 +1,101 @@
+"""Skip moves: the signal comes inside a segment, the axes brake behind it, and the program goes on from there."""
+
+from __future__ import annotations
+
+import pytest
+
+from polycnc.mainrun import State
+from tests.mainrun.support import power_on
+
+PROBE = "O1\nG90 G31 X100. F6000\n#100=#5061\n#101=#5041\nG91 G1 Y10.\nM30\n"
+BRAKING_MM = 100.0**2 / (2.0 * 3000.0)
+
+
+def test_a_signal_of_the_setup_leaves_its_braking_distance_behind() -> None:
+    virtual = power_on(PROBE, setup={"switches": {"skip_signal_at": {"X": 40.0}}})
+    virtual.cycle_start()
+    assert virtual.run() is State.READY
+    read = virtual.read_variable
+    assert read("#100") == pytest.approx(40.0)
+    assert read("#101") == pytest.approx(40.0 + BRAKING_MM)
+    assert virtual.machine_position[:2] == pytest.approx([40.0 + BRAKING_MM, 10.0])
+
+
+def test_the_axes_do_not_go_beyond_the_programmed_end() -> None:
+    virtual = power_on(PROBE, setup={"switches": {"skip_signal_at": {"X": 99.9}}})
+    virtual.cycle_start()
+    virtual.run()
+    assert 99.9 < virtual.machine_position[0] <= 100.0 + 1e-9
+
+
+def test_a_signal_may_come_at_any_time() -> None:
+    virtual = power_on(PROBE)
+    virtual.cycle_start()
+    virtual.step(0.3)
+    here = virtual.machine_position[0]
+    virtual.signals["SKIP"] = 1.0
+    assert virtual.run() is State.READY
+    assert virtual.read_variable("#100") == pytest.approx(here)
+    assert virtual.machine_position[0] == pytest.approx(here + BRAKING_MM)
+
+
+def test_without_a_signal_the_move_goes_to_its_end() -> None:
+    virtual = power_on(PROBE)
+    virtual.cycle_start()
+    virtual.run()
+    assert virtual.machine_position[:2] == pytest.approx([100.0, 10.0])
+
+
+def test_feed_hold_and_resume_in_a_skip_move() -> None:
+    virtual = power_on(PROBE, setup={"switches": {"skip_signal_at": {"X": 40.0}}})
+    virtual.cycle_start()
+    virtual.step(0.2)
+    virtual.feed_hold()
+    virtual.run()
+    virtual.cycle_start()
+    assert virtual.run() is State.READY
+    assert virtual.read_variable("#100") == pytest.approx(40.0)
+
+
+def test_a_loop_waits_for_an_input_while_time_passes() -> None:
+    virtual = power_on("O1\nWHILE[#1000 EQ 0] DO1\nEND1\nG0 X10.\nM30\n")
+    virtual.cycle_start()
+    virtual.step(2.0)
+    assert virtual.state is State.RUNNING
+    assert virtual.machine_position[0] == 0.0
+    virtual.signals["UI000"] = 1.0
+    assert virtual.run() is State.READY
+    assert virtual.machine_position[0] == 10.0
+    assert 2.0 < virtual.time < 2.5
+
+
+def test_an_output_of_the_program_comes_in_time() -> None:
+    virtual = power_on("O1\nG1 X10. F600\n#1101=1\nG1 X20.\nM30\n")
+    virtual.cycle_start()
+    virtual.step(0.5)
+    assert virtual.signals["UO001"] == 0.0
+    virtual.run()
+    assert virtual.signals["UO001"] == 1.0
+    assert virtual.signals.since("UO001") == pytest.approx(1.0, abs=0.05)
+
+
+def test_a_sinumerik_program_waits_for_an_input() -> None:
+    text = "WHILE $A_IN[1]==FALSE\nENDWHILE\nG0 X10\nM30\n"
+    virtual = power_on(text, "sinumerik-840d")
+    virtual.cycle_start()
+    virtual.step(1.0)
+    assert virtual.machine_position[0] == 0.0
+    virtual.signals["$A_IN[1]"] = 1.0
+    assert virtual.run(limit_s=10.0) is State.READY
+    assert virtual.machine_position[0] == 10.0
+
+
+def test_a_syntec_program_waits_for_an_input() -> None:
+    text = "%@MACRO\nWHILE (READDI(3) = 0) DO\nEND_WHILE;\nG0 X10.;\nM30;\n"
+    virtual = power_on(text, "syntec-mill")
+    virtual.cycle_start()
+    virtual.step(1.0)
+    assert virtual.machine_position[0] == 0.0
+    virtual.signals["I3"] = 1.0
+    assert virtual.run(limit_s=10.0) is State.READY
+    assert virtual.machine_position[0] == 10.0
