@@ -302,6 +302,7 @@ class WordAddressControl:
             path_mode=mode.codes.get("path", "G64"),
             diameter_axes=diameters,
             wcs=memory.wcs,
+            transformation=c.transformation,
         )
 
     def motion_settings(self, _channel: Channel) -> MotionSettings:
