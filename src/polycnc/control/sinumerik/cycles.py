@@ -18,6 +18,7 @@ from polycnc.control.sinumerik import (
     cycles_milling,
     cycles_patterns,
     cycles_settings,
+    cycles_surfaces,
     cycles_swivel,
     cycles_turning,
     stages,
@@ -111,6 +112,26 @@ CYCLES: dict[str, Cycle] = {
     "LONGHOLE": Cycle(
         f"{_HOLE} NUM LENG CPA CPO RAD STA1 INDA FFD FFP1 MID {_SL_MILL}", cycles_milling.long_hole
     ),
+    "CYCLE61": Cycle(
+        f"{_MILL} _PA _PO _LENG _WID _MID _MIDA _FALD _FFP1 _VARI _LIM _DMODE _AMODE", cycles_surfaces.face
+    ),
+    "CYCLE71": Cycle(
+        f"{_MILL} _PA _PO _LENG _WID _STA _MID _MIDA _FDP _FALD _FFP1 _VARI _FDP1", cycles_surfaces.face
+    ),
+    "CYCLE72": Cycle(
+        f"_KNAME {_MILL} _MID _FAL _FALD _FFP1 _FFD _VARI _RL _AS1 _LP1 _FF3 _AS2 _LP2 {_SL_MILL}",
+        cycles_surfaces.path,
+    ),
+    "CYCLE76": Cycle(
+        f"{_HOLE} _LENG _WID _CRAD _PA _PO _STA _MID _FAL _FALD _FFP1 _FFD _CDIR _VARI _AP1 _AP2"
+        f" _FS _ZFS {_SL}",
+        cycles_surfaces.spigot,
+    ),
+    "CYCLE77": Cycle(
+        f"{_HOLE} _PRAD _PA _PO _MID _FAL _FALD _FFP1 _FFD _CDIR _VARI _AP1 _FS _ZFS {_SL}",
+        cycles_surfaces.spigot,
+    ),
+    "CYCLE90": Cycle(f"{_HOLE} DIATH KDIAM PIT FFR CDIR TYPTH CPA CPO", cycles_surfaces.thread),
     "CYCLE95": Cycle("NPP MID FALZ FALX FAL FF1 FF2 FF3 VARI DT DAM _VRT", cycles_turning.stock_removal),
     "CYCLE97": Cycle(
         "PIT MPIT SPL FPL DM1 DM2 APP ROP TDEP FAL IANG NSP NRC NID VARI NUMT _VRT", cycles_turning.thread

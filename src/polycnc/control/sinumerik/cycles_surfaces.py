@@ -1,0 +1,240 @@
+"""Faces, contours, spigots and milled threads: CYCLE61, CYCLE71, CYCLE72, CYCLE76, CYCLE77, CYCLE90."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.sinumerik.cycles_contour import read
+from polycnc.control.sinumerik.cycles_drilling import levels
+from polycnc.control.sinumerik.cycles_milling import (
+    FINISHING,
+    ROUGHING,
+    cutter,
+    feed_of,
+    is_ccw,
+    milling_levels,
+    perform,
+    reference_point,
+    variant,
+)
+from polycnc.control.sinumerik.cycles_moves import Moves, require_tool
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.cycles import facing, path_milling, spigots, thread_milling
+from polycnc.cycles.contour import parallel, turned_round
+from polycnc.cycles.mill_stroke import SAME_MM, Place, steps
+from polycnc.cycles.path_milling import Approach, PathMilling, Way
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.cycles_arguments import Arguments
+    from polycnc.control.sinumerik.cycles_drilling import Levels
+
+
+def levels_below(found: Levels, total: float, infeed: float) -> list[float]:
+    """Levels of equal steps from the reference plane."""
+    return [found.reference + found.down * below for below in steps(total, infeed)]
+
+
+# ---- faces
+
+#: Tens of VARI: strips along the abscissa or the ordinate, in one direction or to and fro.
+STRIPS = {1: (False, False), 2: (True, False), 3: (False, True), 4: (True, True)}
+
+
+def face(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE71 and CYCLE61: face milling in strips."""
+    moves = Moves(channel)
+    radius = cutter(moves)
+    kind = variant(a, "_VARI", (ROUGHING, FINISHING))
+    strips = STRIPS.get(a.digit("_VARI", 1))
+    if strips is None:
+        raise AlarmError("61002")
+    if a.integer("_LIM"):
+        raise not_supported(f"{a.cycle} _LIM")
+    found = levels(moves, a)
+    if found is None:
+        return
+    length, width = _size(a)
+    if not length or not width:
+        raise AlarmError("61118")
+    shape = facing.Face(
+        Place((a["_PA"], a["_PO"]), a["_STA"]),
+        length,
+        width,
+        radius,
+        _strip(a, radius),
+        abs(a["_FDP"]),
+        abs(a["_FDP1"]),
+        across=strips[0],
+        alternating=strips[1],
+        feed=feed_of(a, "_FFP1"),
+        safe=found.safe,
+        retract=found.retract,
+        lift=abs(a["SDIS"]),
+    )
+    total = abs(found.depth - found.reference)
+    rough = levels_below(found, total - abs(a["_FALD"]), a["_MID"])
+    yield from perform(moves, facing.face(shape, rough if kind == ROUGHING else [found.depth]))
+
+
+def _size(a: Arguments) -> tuple[float, float]:
+    """Length and width from the corner; CYCLE61 tells the opposite corner where _AMODE does not say else."""
+    length, width = a["_LENG"], a["_WID"]
+    if a.cycle == "CYCLE61":
+        length -= 0.0 if a.digit("_AMODE", 3) == 1 else a["_PA"]
+        width -= 0.0 if a.digit("_AMODE", 4) == 1 else a["_PO"]
+    return length, width
+
+
+def _strip(a: Arguments, radius: float) -> float:
+    """Greatest width of a strip: mm, or per cent of the tool's diameter (_AMODE tens).
+
+    Raises:
+        AlarmError: 61124 for none, 61111 for one that is wider than the tool.
+    """
+    strip = abs(a["_MIDA"])
+    if a.digit("_AMODE", 1) == 1:
+        strip = abs(a.plain("_MIDA")) / 100.0 * 2.0 * radius
+    if not strip:
+        raise AlarmError("61124")
+    if strip > 2.0 * radius + SAME_MM:
+        raise AlarmError("61111")
+    return strip
+
+
+# ---- contours
+
+SIDES = {40: 0.0, 41: 1.0, 42: -1.0}
+#: Hundreds of VARI: how far the tool rises at the end of the contour.
+TO_RETRACT, TO_SAFE, BY_SAFETY, STAYS = range(4)
+
+
+def path(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE72: milling along a contour on its left, on its right or on it."""
+    moves = Moves(channel)
+    radius = require_tool(moves)
+    if radius < 0.0:
+        raise AlarmError("61112")
+    kind = variant(a, "_VARI", (ROUGHING, FINISHING))
+    rise = a.digit("_VARI", 2)
+    if a.digit("_VARI", 1) not in (0, 1) or rise > STAYS:
+        raise AlarmError("61002")
+    side = SIDES.get(a.integer("_RL"))
+    if side is None:
+        raise AlarmError("61114")
+    ways = _approach(a, "_AS1", "_LP1", side), _approach(a, "_AS2", "_LP2", side)
+    found = milling_levels(moves, a, abs(a["_FALD"]), "_MID")
+    if found is None:
+        return
+    feed, depth_feed = feed_of(a, "_FFP1"), feed_of(a, "_FFD")
+    between = feed_of(a, "_FF3") if a.digit("_VARI", 1) == 1 else 0.0
+    contour = yield from read(moves, a.text("_KNAME"))
+    if a.digit("_VARI", 4) == 1:
+        contour, side = turned_round(contour), -side
+    off = radius + (abs(a["_FAL"]) if kind == ROUGHING else 0.0)
+    try:
+        tool = parallel(contour, side * off)
+    except ValueError:
+        raise AlarmError("61606") from None
+    left = abs(a["_FALD"]) if kind == ROUGHING else 0.0
+    at = levels_below(found, abs(found.depth - found.reference) - left, a["_MID"])
+    lifts = [_lift(found, level, rise, abs(a["SDIS"])) for level in at]
+    work = PathMilling(tool, side, *ways, feed, depth_feed, between, lifts, found.safe, found.retract)
+    yield from perform(moves, path_milling.mill(work, at))
+
+
+def _lift(found: Levels, level: float, rise: int, safety: float) -> float | None:
+    """Level to which the tool rises behind a pass."""
+    return {TO_RETRACT: found.retract, TO_SAFE: found.safe, BY_SAFETY: level - found.down * safety}.get(rise)
+
+
+def _approach(a: Arguments, mode: str, size: str, side: float) -> Approach:
+    """An approach or a return.
+
+    Raises:
+        AlarmError: 61115 for a mode that does not exist, or arcs on the contour; 61116 for a way of no length.
+    """
+    kinds = {way.value: way for way in Way}
+    way = kinds.get(a.digit(mode, 0))
+    if way is None or a.digit(mode, 1) not in (0, 1) or (way in (Way.QUARTER, Way.HALF) and not side):
+        raise AlarmError("61115")
+    if way is not Way.DIRECT and not abs(a[size]):
+        raise AlarmError("61116")
+    return Approach(way, abs(a[size]), a.digit(mode, 1) == 1)
+
+
+# ---- spigots
+
+
+def spigot(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE76 (rectangular), CYCLE77 (circular)."""
+    moves = Moves(channel)
+    radius = require_tool(moves)
+    if radius < 0.0:
+        raise AlarmError("61112")
+    kind = variant(a, "_VARI", (ROUGHING, FINISHING))
+    circular = a.cycle == "CYCLE77"
+    length = abs(a["_PRAD"]) if circular else abs(a["_LENG"])
+    width, corner = (length, length / 2.0) if circular else (abs(a["_WID"]), abs(a["_CRAD"]))
+    if not length or not width:
+        raise AlarmError("61118")
+    if 2.0 * corner > min(length, width) + SAME_MM:
+        raise AlarmError("61113")
+    found = milling_levels(moves, a, abs(a["_FALD"]), "_MID")
+    if found is None:
+        return
+    rough = kind == ROUGHING
+    shape = spigots.Spigot(
+        Place(reference_point(moves, a), a["_STA"]),
+        length / 2.0,
+        width / 2.0,
+        corner,
+        abs(a["_AP1"]) / 2.0,
+        radius + (abs(a["_FAL"]) if rough else 0.0),
+        abs(a["SDIS"]),
+        is_ccw(moves, a.integer("_CDIR"), inside=False),
+        feed_of(a, "_FFP1"),
+        feed_of(a, "_FFD"),
+        found.safe,
+        found.retract,
+    )
+    total = abs(found.depth - found.reference) - (abs(a["_FALD"]) if rough else 0.0)
+    yield from perform(moves, spigots.mill(shape, levels_below(found, total, a["_MID"])))
+
+
+# ---- threads
+
+
+def thread(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE90: internal (TYPTH 0) or external thread on a helix; CDIR 2 is G2, 3 is G3."""
+    moves = Moves(channel)
+    radius = cutter(moves)
+    if a.integer("CDIR") not in (2, 3):
+        raise AlarmError("61109")
+    if a.integer("TYPTH") not in (0, 1):
+        raise AlarmError("61002")
+    if not a["PIT"] > 0.0:
+        raise AlarmError("61001")
+    inside = a.integer("TYPTH") == 0
+    size = abs(a["DIATH"]) / 2.0 - radius if inside else abs(a["KDIAM"]) / 2.0 + radius
+    if inside and 2.0 * radius >= abs(a["KDIAM"] or a["DIATH"]):
+        raise AlarmError("61105")
+    found = levels(moves, a)
+    if found is None:
+        return
+    milled = thread_milling.MilledThread(
+        Place((a["CPA"], a["CPO"])),
+        size,
+        a["PIT"],
+        found.reference,
+        found.depth,
+        ccw=a.integer("CDIR") == 3,
+        inside=inside,
+        clearance=radius + abs(a["SDIS"]),
+        feed=feed_of(a, "FFR"),
+        retract=found.retract,
+    )
+    yield from perform(moves, thread_milling.mill(milled))
