@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from polycnc.control.syntec import (
     arcs,
+    axis_groups,
     calls,
     cycles,
     interrupts,
@@ -34,7 +35,7 @@ G_CODES = table(
     GCode("G3.4", "motion", planner=arcs.plan_three_point_arc, ends="cycle"),
     GCode("G33", "motion", planner=motion.plan_thread, ends="cycle"),
     GCode("G4", handler=frames.dwell, takes="X P Q", axis_words=True, order=MOTION),
-    GCode("G4.1", handler=operation.meet_axis_groups, takes="P Q", axis_words=True, order=MOTION),
+    GCode("G4.1", handler=axis_groups.meet, takes="P Q", axis_words=True, order=MOTION),
     GCode("G10.6", handler=operation.arm_retract, takes="R F", axis_words=True),
     GCode("G28.1", handler=skips.position_at_sensor, takes="Q R F1 F2", axis_words=True, order=MOTION),
     GCode("G31.10", handler=skips.define_group, takes="Q P", axis_words=True, order=MOTION),

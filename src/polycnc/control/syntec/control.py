@@ -7,7 +7,7 @@ from math import hypot
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.compensation.policies import SYNTEC, Policy
-from polycnc.control.syntec import arcs, calls, coordinates, cycles, interrupts, motion, polar
+from polycnc.control.syntec import arcs, axis_groups, calls, coordinates, cycles, interrupts, motion, polar
 from polycnc.control.syntec.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
@@ -83,13 +83,13 @@ class SyntecMill(WordAddressControl):
         return SyntecMemory(channel)
 
     def start(self, channel: Channel) -> None:
-        """Power-on state; a channel of a file with `$n` sections runs its own section."""
+        """Power-on state."""
         super().start(channel)
         memory = channel.memory
+        axis_groups.share(channel)
         memory.feed_mode = channel.mode["feed"]
         if memory.feed_mode == "G95":
             channel.feed = motion.DEFAULT_FEED["G95"]
-        channel.level.locals = memory.locals
         for number in range(3601, 3611):
             if memory.parameter(number) in calls.NEVER_REGISTERED - {0}:
                 raise self.fail("registered_m", number=number)
@@ -101,6 +101,7 @@ class SyntecMill(WordAddressControl):
         """A main program begins: it has the local variables; a channel of a file with `$n` runs its section."""
         local = channel.memory.locals
         channel.level.locals = local
+        axis_groups.start_others(channel, channel.level.code.program)
         section = split_channels(channel.level.code.program).get(channel.number)
         if section is not None:
             channel.stack.pop()

@@ -1,4 +1,4 @@
-"""Codes that prepare operation and leave the path as it is: G04.1, G10.6, G120.1 and G121 (manual 2.7, 2.67, 2.81)."""
+"""Codes that prepare operation and leave the path as it is: G10.6, G120.1 and G121 (manual 2.67, 2.81)."""
 
 from __future__ import annotations
 
@@ -11,24 +11,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.words import Words
 
 RETRACT_AXES = 1
-
-
-def meet_axis_groups(channel: Channel, words: Words) -> None:
-    """G04.1 P Q: axis groups wait for each other; Q names them by digits, without Q all of them."""
-    mark, groups = words.typed("P"), words.typed("Q")
-    existing = {each.number for each in channel.machine.channels}
-    if mark is None or mark < 0 or mark != int(mark):
-        raise words.fail("meeting_mark", "P" if mark is not None else "G4.1")
-    named = existing
-    if groups is not None:
-        if groups <= 0 or groups != int(groups):
-            raise words.fail("meeting_groups", "Q")
-        named = {int(digit) for digit in str(int(groups))}
-        if not named <= existing or channel.number not in named:
-            raise words.fail("meeting_groups", "Q")
-    channel.flush()
-    if named != {channel.number}:
-        raise channel.control.not_yet("G4.1", "G4.1")
 
 
 def arm_retract(channel: Channel, words: Words) -> None:

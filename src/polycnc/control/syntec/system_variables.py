@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import isnan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from polycnc.control.syntec.coordinates import renew_preset_frame
 from polycnc.control.syntec.parameters import WORK_SYSTEMS
@@ -11,7 +11,7 @@ from polycnc.control.syntec.variables import Read, Registry, Space, Write, store
 from polycnc.control.word_address.coordinates import refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.numbers import INCH_MM
-from polycnc.language.syntec.values import Value, number, to_long, whole
+from polycnc.language.syntec.values import VACANT, Value, number, to_long, whole
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -261,10 +261,14 @@ def _skip_input(memory: SyntecMemory, offset: int) -> Value:
 
 
 def system_variable(memory: SyntecMemory, group: Value, index: Value) -> Value:
-    """SYSVAR(g, n): #n of an axis group; of another group than the own it is not known here."""
-    if whole(group, "COR-023") != memory.channel.number:
-        raise AlarmError("PC0001", hint="hint.not-supported", code="SYSVAR")
-    return memory.variable(index)
+    """SYSVAR(g, n): #n of an axis group."""
+    channels, wanted = memory.channel.group, whole(group, "COR-023")
+    if wanted == memory.channel.number:
+        return memory.variable(index)
+    if channels is None or not channels.has(wanted):
+        raise AlarmError("COR-016", variable=f"SYSVAR({wanted})")
+    other = channels.channel(wanted).memory
+    return VACANT if other is None else cast("Value", other.variable(index))
 
 
 _DOUBLES = stored("modal_doubles")
@@ -303,6 +307,7 @@ SYSTEM_VARIABLES = Registry(
         Space(1814, 1814, _diameter_mask),
         Space(1848, 1848, _constant(0)),
         Space(1849, 1849, lambda memory, _offset: int(memory.rotates_work)),
+        Space(1880, 1896, _read_work_offset, _write_work_offset),
         Space(1901, 1918, _read_shift, _write_shift),
         Space(1930, 1930, _read_preset_angle, _write_preset_angle),
         Space(1931, 1933, _read_preset_axis, _write_preset_axis),
