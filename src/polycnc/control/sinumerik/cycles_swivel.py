@@ -193,17 +193,23 @@ def _angles(channel: Channel, a: Arguments, record: Record, frame: NcFrame) -> d
             ),
         )
     choose = max if a.integer("_DIR") > 0 else min
-    return choose(allowed, key=lambda solution: solution[record.tilting])
+    return choose(allowed, key=lambda solution: signed(solution[record.tilting]))
+
+
+def signed(angle: float) -> float:
+    """An angle from -180 to below 180 degrees: also axes that count turns have a smaller and a greater solution."""
+    return (angle + HALF_TURN) % tables.TURN - HALF_TURN
 
 
 def _in_range(channel: Channel, record: Record, angles: dict[str, float]) -> dict[str, float] | None:
-    """A solution on the turns that the axes can reach; None where one of them cannot."""
+    """A solution on the turns that the axes can reach, modulo axes the short way; None where one cannot reach it."""
     placed = {}
+    machine = channel.coordinates.machine
     for name, column in zip(record.axes, record.columns, strict=True):
         axis = channel.axis_data[column]
         turns = [angles[name] + turn for turn in (0.0, tables.TURN, -tables.TURN)]
         if axis.modulo:
-            turns = [angles[name] % tables.TURN]
+            turns = [machine[column] + signed(angles[name] - machine[column])]
         else:
             turns.sort(key=abs)
         within = [angle for angle in turns if axis.limit_minus - 1e-9 <= angle <= axis.limit_plus + 1e-9]
