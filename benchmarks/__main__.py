@@ -5,9 +5,16 @@ from __future__ import annotations
 import os
 import sys
 
-from benchmarks import interpreter, startup
+from benchmarks import interpreter, sinumerik, startup
 
-BENCHMARKS = (interpreter.plain_blocks, interpreter.macro_loop, interpreter.memory, startup.small_run)
+BENCHMARKS = (
+    interpreter.plain_blocks,
+    interpreter.macro_loop,
+    interpreter.memory,
+    startup.small_run,
+    sinumerik.loop,
+    sinumerik.blocks,
+)
 
 
 def main() -> int:

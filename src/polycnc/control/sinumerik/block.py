@@ -57,6 +57,14 @@ class Draft:
                 return position
         return None
 
+    def take_plain(self, address: str) -> int | None:
+        """Take the word of an address if nothing stands round its value; its place, or None."""
+        for position, word in self._open.items():
+            if word.address == address and word.index is None and not word.modifier:
+                del self._open[position]
+                return position
+        return None
+
     def take_shape(self, address: str, *modifiers: str) -> tuple[int, WordShape] | None:
         """Take the first word of an address, with whatever index; `modifiers` may stand round its value."""
         for position, word in self._open.items():

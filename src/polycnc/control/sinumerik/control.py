@@ -167,19 +167,21 @@ class Sinumerik:
         plan = plans.get(block)
         if plan is None:
             plan = plans[block] = make_plan(channel, block)
-        if plan.shared and not axis_exchange.ready(channel, plan.shared):
+        steps, acts, calls, ends, shared = plan
+        if shared and not axis_exchange.ready(channel, shared):
             return False
-        for step in plan.steps:
+        for step in steps:
             step(channel, values)
-        if channel.head is not None:
-            stages.relax(channel)
-        if channel.single_block:
-            channel.memory.acted = plan.acts
-        for position in plan.ends:
+        if channel.attention:  # as wherever moves pass stages, and in single block operation
+            if channel.head is not None:
+                stages.relax(channel)
+            if channel.single_block:
+                channel.memory.acted = acts
+        for position in ends:
             if values[position] in (2, 30, 17):
                 self.end_of_program(channel)
                 return False
-        return bool(plan.calls)
+        return calls
 
     def procedure(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> None:
         """Run a predefined procedure."""

@@ -44,7 +44,7 @@ def linear(draft: Draft) -> Step | None:
     """G1: straight with path feed; FB for the block's own feed."""
     block_feed = draft.take("FB")
     if block_feed is None and not draft.has("AP", "RP", "ANG"):
-        return _plain_linear(draft.take_axes())
+        return _plain_linear(draft)
     goal = goal_of(draft)
     if goal is None:
         return None
@@ -57,8 +57,9 @@ def linear(draft: Draft) -> Step | None:
     return run
 
 
-def _plain_linear(terms: list[AxisTerm]) -> Step | None:
-    """G1 with axis words alone; where all are absolute, in one function: most blocks of most programs."""
+def _plain_linear(draft: Draft) -> Step | None:
+    """G1 with axis words alone; where all are absolute, in one function with F: most blocks of most programs."""
+    terms = draft.take_axes()
     if not terms:
         return None
     if any(term.way is not Way.ABSOLUTE or term.coded for term in terms):
@@ -66,22 +67,32 @@ def _plain_linear(terms: list[AxisTerm]) -> Step | None:
             channel, Kind.FEED, target(channel, terms, values), checked_feed(channel.feed)
         )
     plain = [(term.position, term.column, term.factor) for term in terms]
+    own_feed = draft.take_plain("F") if draft.mode["feed"] != "G931" else None
+    feed_place, feed_to_internal = -1 if own_feed is None else own_feed, feed_factor(draft)
 
     def run(channel: Channel, values: Values) -> None:
+        if feed_place >= 0:
+            value = values[feed_place]
+            if value.__class__ is not float:
+                value = number(values, feed_place)
+            if value < 0.0:
+                raise WordAlarm("14800", feed_place)
+            channel.feed = value * feed_to_internal or nan
         coordinates = channel.coordinates
         start = coordinates.position
         end = start.copy()
-        owed = coordinates.pending
         moves = False
         for position, column, factor in plain:
             value = values[position]
             if value.__class__ is not float:
                 value = number(values, position)
             value *= factor
-            if not -SAME_MM < value - end[column] < SAME_MM:
+            if not moves and not -SAME_MM < value - end[column] < SAME_MM:
                 moves = True
             end[column] = value
-            owed[column] = 0.0
+        if coordinates.owes:
+            for _, column, _ in plain:
+                coordinates.pending[column] = 0.0
         feed = channel.feed
         if not feed > 0.0:
             raise AlarmError("10860")

@@ -95,7 +95,7 @@ def make_plan(channel: Channel, block: Block) -> Plan:
     modal = [(name, code) for name, code in codes.items() if gcodes.BY_NAME[name].is_modal]
     mode = _axis_diameters(channel, block, channel.mode.with_codes(modal), codes)
     draft = Draft(channel, block, mode, codes)
-    if mode is not channel.mode or modal:
+    if mode is not channel.mode or any(name in IN_CONTEXT for name, _ in modal):
         draft.steps.append(_enter(mode, modal))
     draft.steps += [EFFECTS[name] for name, _ in modal if name in EFFECTS]
     own = _own_function(draft)
