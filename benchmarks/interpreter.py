@@ -104,7 +104,9 @@ def macro_loop() -> Iterator[Figure]:
     ours = LOOP_PASSES / best_of(lambda: interpret(OUR_LOOP))
     rs274 = shutil.which("rs274")
     if rs274 is None:
-        yield skipped("macro loop", f"rs274 is not installed (Debian: linuxcnc-uspace); ours {ours:,.0f} passes/s")
+        yield skipped(
+            "macro loop", f"rs274 is not installed (Debian: linuxcnc-uspace); ours {ours:,.0f} passes/s"
+        )
         return
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "loop.ngc")
@@ -139,5 +141,7 @@ def memory() -> Iterator[Figure]:
     out = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout
     used = float(out)
     yield Figure(
-        "table of 1,000,000 moves", f"{used:.0f} MB, limit {MEMORY_LIMIT_MB}", MEMORY_LIMIT_MB / max(used, 1.0)
+        "table of 1,000,000 moves",
+        f"{used:.0f} MB, limit {MEMORY_LIMIT_MB}",
+        MEMORY_LIMIT_MB / max(used, 1.0),
     )

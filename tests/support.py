@@ -29,9 +29,7 @@ def run(
     program = store.add_text(MAIN if chosen.form is Form.SINUMERIK else "MAIN", text)
     built = load_machine(machine or chosen.default_machine)
     toolpath = Toolpath(built.channel_axes(1), chunk_rows=chunk_rows)
-    channel = Channel(
-        chosen, built, parse_setup(setup), store, block_limit=block_limit, toolpath=toolpath
-    )
+    channel = Channel(chosen, built, parse_setup(setup), store, block_limit=block_limit, toolpath=toolpath)
     for _ in channel.run(program):
         pass
     return channel

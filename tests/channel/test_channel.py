@@ -73,7 +73,9 @@ def test_a_run_away_loop_of_moves_ends_too() -> None:
 def test_a_programmed_stop_hands_over_and_goes_on() -> None:
     channel = run("O1\nG0 X1.\nM0\nX2.\nM30\n")
     assert ends(channel) == [(1.0, 0.0, 0.0), (2.0, 0.0, 0.0)]
-    stops = [row.event.data["code"] for row in channel.toolpath.rows() if row.event and row.event.type == "stop"]
+    stops = [
+        row.event.data["code"] for row in channel.toolpath.rows() if row.event and row.event.type == "stop"
+    ]
     assert stops == ["M00"]
 
 
@@ -83,9 +85,7 @@ def test_a_move_without_way_gives_no_row_but_a_full_circle_does() -> None:
 
 
 def test_events_keep_their_place_between_moves_that_compensation_holds_back() -> None:
-    program = (
-        "O1\nG90 G17 G0 X0 Y0\nG41 G1 X10. D1 F100\nY20.\nM8\nX40.\nM9\nG40 X60. Y40.\nM30\n"
-    )
+    program = "O1\nG90 G17 G0 X0 Y0\nG41 G1 X10. D1 F100\nY20.\nM8\nX40.\nM9\nG40 X60. Y40.\nM30\n"
     channel = run(program, setup={"tools": {1: {"radius": 2}}})
     order = [row.event.data.get("code") if row.event else row.line for row in channel.toolpath.rows()]
     assert order == [3, 4, 8, 6, 9, 8, 30]

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from tests.compensation.support import G17, Recorder
 from polycnc.channel.path import Move
 from polycnc.compensation.corner import (
     FANUC_CORNERS,
@@ -24,6 +23,7 @@ from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.policies import FANUC_A
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Event, Kind
+from tests.compensation.support import G17, Recorder
 
 if TYPE_CHECKING:
     from polycnc.channel.path import PathStage

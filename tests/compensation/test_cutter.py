@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.compensation.support import CODES, Reader, run
 from polycnc.compensation import policies
 from polycnc.compensation.policies import Policy, Violation
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.messages import AlarmError
+from tests.compensation.support import CODES, Reader, run
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

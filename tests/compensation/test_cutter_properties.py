@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-
 from itertools import pairwise
 from math import cos, hypot, pi, sin
 
@@ -12,7 +11,6 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from shapely.geometry import LineString, Point, Polygon
 
-from tests.compensation.support import CODES, G17, Recorder
 from polycnc.channel.path import Move
 from polycnc.compensation import policies
 from polycnc.compensation.cutter import CutterCompensation
@@ -20,6 +18,7 @@ from polycnc.compensation.policies import Policy, Violation
 from polycnc.geometry import arcs
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Event, Kind
+from tests.compensation.support import CODES, G17, Recorder
 
 Corner = tuple[float, float]
 POLICIES = [

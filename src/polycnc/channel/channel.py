@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from contextlib import suppress
 from math import inf, nan
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.coordinates import Coordinates
 from polycnc.channel.mode import Mode, ModeTable
@@ -18,16 +18,17 @@ from polycnc.channel.path import Move, PathStage
 from polycnc.channel.stack import Executable, Level
 from polycnc.channel.waits import BLOCK, CHUNK, PREPROCESSING, PreprocessingStop, Wait
 from polycnc.messages import Alarm, AlarmError
-from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
+from polycnc.toolpath import NO_CURVE, Event, Kind, Toolpath
 from polycnc.toolpath.table import CHUNK_ROWS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from polycnc.channel.group import ChannelGroup
+    from polycnc.channel.interface import Control, MainRun, Zone
     from polycnc.channel.stack import Step
     from polycnc.geometry.frames import Vector
-    from polycnc.language.bulk.scanner import Bulk, Dialect, Scanner
+    from polycnc.language.bulk.scanner import Bulk, Scanner
     from polycnc.machine.model import Axis, Machine
     from polycnc.machine.setup import Setup
     from polycnc.program import Program
@@ -37,57 +38,6 @@ _SEQUENCE = re.compile(r"\s*(?:/\d*\s*)?([N:]\d+)", re.IGNORECASE)
 DEFAULT_BLOCK_LIMIT = 100_000_000
 #: Blocks that run between two looks at the block limit.
 BURST = range(4096)
-
-
-class Control(Protocol):
-    """What a channel asks of a control family."""
-
-    id: str
-
-    def compile(self, program: Program) -> Executable:
-        """Make a program ready to run."""
-
-    def start(self, channel: Channel) -> None:
-        """Bring a channel into the state of power-on and program start; sets `mode` and `memory`."""
-
-    def begin(self, channel: Channel) -> None:
-        """A main program begins in the state that the channel is in; its level is the running one."""
-
-    def end_of_program(self, channel: Channel) -> None:
-        """A level has run out of blocks."""
-
-    def context(self, channel: Channel) -> Context:
-        """The context that holds now."""
-
-    def over_travel(self, axis: str, direction: int) -> AlarmError:
-        """The alarm for a target beyond a limit of an axis; direction is 1 or -1."""
-
-    def plain_blocks(self, channel: Channel) -> Dialect | None:
-        """What a scanner must know of the control's plain blocks; None where every block is interpreted."""
-
-    def halts(self, channel: Channel, level: Level, step: Step) -> bool:
-        """Whether single block operation halts behind the block that `step` of `level` was."""
-
-    def block_limit(self) -> AlarmError:
-        """The alarm for a program that has run more blocks than allowed."""
-
-    def arithmetic_alarm(self, error: ArithmeticError) -> AlarmError:
-        """The alarm for a division by zero or an overflow in an expression."""
-
-
-class MainRun(Protocol):
-    """What executes the channel's rows, if anything does while the channel runs."""
-
-    @property
-    def has_caught_up(self) -> bool:
-        """Whether everything that the channel has written is executed."""
-
-
-class Zone(Protocol):
-    """A part of the machine's travel that a program has forbidden."""
-
-    def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:
-        """Raise the control's alarm where the way to a machine position (or its end, if not straight) is forbidden."""
 
 
 class Channel:
@@ -299,48 +249,13 @@ class Channel:
         self.flush()
 
     def _run_blocks(self) -> Iterator[Wait]:
-        """Run blocks until the channel has finished or has to hand over.
-
-        The inner loop is the hottest of the interpreter: whatever is rare (a call, a return, a wait, a stage in the
-        path, the end) sets `attention`, and only that is asked after every block.
-        """
+        """Run blocks until the channel has finished or has to hand over."""
         toolpath = self.toolpath
         self.mark = toolpath.mark()
         try:
             while not self._finished:
                 level = self._level
-                burst = self._burst(level)
-                steps, kinds, step = level.steps, toolpath.chunk.kind, None
-                self.attention = self._head is not None or self.single_block
-                for _ in burst:
-                    index = level.index
-                    step = steps[index] if index < len(steps) else None
-                    if step is None:
-                        level.current = index
-                        self.mark = len(kinds)
-                        step = level.code.step(index)
-                        if step is None:
-                            self._control.end_of_program(self)
-                            break
-                    if self.single_block:
-                        step = getattr(step, "alone", step)
-                    level.current = index
-                    level.index = index + 1
-                    self.mark = len(kinds)
-                    step(self)
-                    self.blocks += 1
-                    if self.attention:
-                        break
-                if self._head is not None:
-                    self._head.block()
-                if self.single_block and step is not None:
-                    if self._control.halts(self, level, step):
-                        self._wait = self._wait or Wait("single-block", self.sequence_of(level))
-                    elif self.block_by_block:
-                        self._wait = self._wait or BLOCK
-                if self.blocks >= self.block_limit:
-                    raise self._control.block_limit()
-                self.mark = toolpath.mark()
+                self._look_up(level, self._run_burst(level))
                 if self.mark >= CHUNK_ROWS:
                     toolpath.block_boundary()
                     self.mark = 0
@@ -360,6 +275,49 @@ class Channel:
         except RecursionError:
             self._take_back()
             self._alarm(AlarmError("PC0003"))
+
+    def _run_burst(self, level: Level) -> Step | None:
+        """Run blocks of a level until something asks for attention; gives the last one.
+
+        This loop is the hottest of the interpreter: whatever is rare (a call, a return, a wait, a stage in the path,
+        the end) sets `attention`, and only that is asked after every block.
+        """
+        burst = self._burst(level)
+        steps, kinds, step = level.steps, self.toolpath.chunk.kind, None
+        self.attention = self._head is not None or self.single_block
+        for _ in burst:
+            index = level.index
+            step = steps[index] if index < len(steps) else None
+            if step is None:
+                level.current = index
+                self.mark = len(kinds)
+                step = level.code.step(index)
+                if step is None:
+                    self._control.end_of_program(self)
+                    break
+            if self.single_block:
+                step = getattr(step, "alone", step)
+            level.current = index
+            level.index = index + 1
+            self.mark = len(kinds)
+            step(self)
+            self.blocks += 1
+            if self.attention:
+                break
+        return step
+
+    def _look_up(self, level: Level, step: Step | None) -> None:
+        """What must be seen to between bursts: stages that count blocks, single block, the block limit."""
+        if self._head is not None and level.counts(level.current):
+            self._head.block()
+        if self.single_block and step is not None:
+            if self._control.halts(self, level, step):
+                self._wait = self._wait or Wait("single-block", self.sequence_of(level))
+            elif self.block_by_block:
+                self._wait = self._wait or BLOCK
+        self.mark = self.toolpath.mark()
+        if self.blocks >= self.block_limit:
+            raise self._control.block_limit()
 
     def _burst(self, level: Level) -> range:
         """Scan plain blocks; gives as many numbers as blocks are to be interpreted now."""

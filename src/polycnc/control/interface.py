@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
-from polycnc.channel.channel import Control as ChannelControl
+from polycnc.channel.interface import Control as ChannelControl
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

@@ -85,4 +85,4 @@ def test_the_text_of_an_alarm_is_the_comment_behind_it() -> None:
 def test_printed_numbers_have_a_sign_place_and_blanks(value: str, form: str, printed: str) -> None:
     channel = run(f"#1={value.replace('-', '0-')}\nDPRNT[#1[{form}]]\nM30\n")
     events = [row.event for row in channel.toolpath.rows() if row.event and row.event.type == "print"]
-    assert [event.data["text"] for event in events if event] == [printed]
+    assert [event.data["text"] for event in events] == [printed]

@@ -12,7 +12,8 @@ from polycnc.control.word_address.extended import StrokeZone
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.channel.channel import Channel, Zone
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.interface import Zone
     from polycnc.control.word_address.words import Words
 
 #: Parameters of stored stroke checks 1 and 2: upper and lower limits.

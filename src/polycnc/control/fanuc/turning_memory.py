@@ -10,7 +10,8 @@ from polycnc.control.word_address.variables import MacroMemory
 from polycnc.geometry.frames import IDENTITY, Frame, scaling, translation
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel, Zone
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.interface import Zone
     from polycnc.control.fanuc.turning_drawing import OpenLine
     from polycnc.control.fanuc.turning_shape import Shape
     from polycnc.control.fanuc.turning_transform import Cylinder, PolarAxes

@@ -77,7 +77,9 @@ class WordAddressControl:
     def catalogue(self) -> Catalogue:
         """Texts of the control's alarms."""
         files = [file.split("/") for file in self.alarm_files]
-        return Catalogue(*(resources.files(f"polycnc.control.{folder}").joinpath(name) for folder, name in files))
+        return Catalogue(
+            *(resources.files(f"polycnc.control.{folder}").joinpath(name) for folder, name in files)
+        )
 
     def fail(self, mistake: str, **where: Any) -> AlarmError:
         """The control's alarm for a named mistake."""
@@ -89,7 +91,9 @@ class WordAddressControl:
 
     def over_travel(self, axis: str, direction: int) -> AlarmError:
         """The alarm for a target beyond a limit."""
-        return self.fail("over_travel_plus" if direction > 0 else "over_travel_minus", address=axis, axis=axis)
+        return self.fail(
+            "over_travel_plus" if direction > 0 else "over_travel_minus", address=axis, axis=axis
+        )
 
     def forbidden_zone(self, axis: str, direction: int) -> AlarmError:
         """The alarm for a way into a zone that the program has forbidden."""
@@ -105,7 +109,10 @@ class WordAddressControl:
 
     def halts(self, channel: Channel, level: Level, step: ProgramStep) -> bool:
         """Single block halts behind a block of words; macro statements, calls and returns do not count."""
-        words = step.signature if isinstance(step, WordBlock) else step.keys if isinstance(step, ExpressionBlock) else ()
+        if isinstance(step, WordBlock):
+            words = step.signature
+        else:
+            words = step.keys if isinstance(step, ExpressionBlock) else ()
         return bool(words) and channel.level is level and not channel.finished
 
     def untaken(self, address: str, _builder: Builder) -> AlarmError:
@@ -151,7 +158,7 @@ class WordAddressControl:
         """The state after reset, and after the end of a program."""
         reset(channel)
 
-    def start_codes(self, channel: Channel) -> dict[str, str]:
+    def start_codes(self, channel: Channel) -> dict[str, str]:  # noqa: ARG002 - parameters decide on a lathe
         """Code of every modal group at program start."""
         return dict(self.power_on)
 
@@ -272,7 +279,9 @@ class WordAddressControl:
         channel = builder.channel
         if channel.axis_data[axis].rotary:
             return angle_converter(form, builder.rules)
-        return length_converter(form, builder.rules, inch=builder.inch, diameter=self.is_diameter(channel, axis))
+        return length_converter(
+            form, builder.rules, inch=builder.inch, diameter=self.is_diameter(channel, axis)
+        )
 
     def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
         """The axis that an address names and whether the word is an increment; None for another address."""

@@ -165,7 +165,9 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
     told = targets_as_data(words)
     if told is None or polar or corner is not None:
         return move
-    first, second = (word_as_data(slot, convert) for (_, slot), convert in zip(offsets, converts, strict=True))
+    first, second = (
+        word_as_data(slot, convert) for (_, slot), convert in zip(offsets, converts, strict=True)
+    )
     radius_word = word_as_data(radius_slot, radius_of)
     return declare(move, Arc(ccw, (u, v, w), told, (first, second), radius_word, line_without_way=True))
 

@@ -192,7 +192,10 @@ class Builder:
             self.take(*row.addresses)
         plan.axis_words = self.axis_words()
         before, after = self._auxiliary_steps(plan)
-        steps = [*before, *(self.handled(r.handler, plan) for r in rows if r.handler and r.order < Order.MOTION)]
+        steps = [
+            *before,
+            *(self.handled(r.handler, plan) for r in rows if r.handler and r.order < Order.MOTION),
+        ]
         if not any(row.axis_words for row in rows):
             motion = self.control.plan_motion(self, plan)
             if motion is not None:
@@ -203,7 +206,7 @@ class Builder:
         return plan
 
     def _auxiliary_steps(self, plan: Plan) -> tuple[list[Step], list[Step]]:
-        """Steps of F, S, T, D and the like, and of M codes: those with the motion, in the order typed, and those after."""
+        """Steps of F, S, T, D and the like and of M codes: those with the motion in the order typed, those after."""
         before: list[Step] = []
         after: list[Step] = []
         if "*" in self._taken:

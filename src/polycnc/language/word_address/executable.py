@@ -29,7 +29,9 @@ _WORD = re.compile(r"([A-Z])([-+]?)([\d.]+)")
 _COMMENT = re.compile(r"\([^)]*\)?")
 _SEQUENCE = re.compile(r"^[ \t]*(?:/\d?[ \t]*)*N[ \t]*0*(\d+)")
 _STATEMENT = re.compile(rf"[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*(?:{KEYWORD.pattern})")
-_NUMBERS = re.compile(r"^[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*")
+_NUMBERS = re.compile(
+    r"^[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*"
+)
 _LOOP = re.compile(r"(?<![A-Z])(DO|END)[ \t]*(\d)")
 _HEAD = re.compile(r"[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?")
 _SKIP = re.compile(r"[ \t]*/[ \t]*(\d?)")
@@ -192,7 +194,7 @@ class WordAddressProgram:
     def compile(self, line: str, index: int) -> Step:
         """The step of one line."""
         text = line.strip()
-        if _PLAIN.fullmatch(text) and text[0] not in "O":
+        if _PLAIN.fullmatch(text) and text[0] != "O":
             return self._plain(text)
         if not text or text == "%":
             return empty_block
@@ -385,6 +387,7 @@ class SkippedBlock:
         self._on = on
 
     def __call__(self, channel: Channel) -> None:
+        """Run the step that the switches choose."""
         (self._on if channel.skip_levels & self._levels else self._off)(channel)
 
 

@@ -83,6 +83,7 @@ class Assignment:
         self._function = compile_statement(f"{target} = {source}")
 
     def __call__(self, channel: Channel) -> None:
+        """Run the statement."""
         self._function(channel.memory, self.literals)
 
 
@@ -98,6 +99,7 @@ class ConditionalJump:
         self.jump = jump
 
     def __call__(self, channel: Channel) -> None:
+        """Run the statement."""
         if self._condition(channel.memory, self.literals):
             self.jump(channel)
 
@@ -224,6 +226,7 @@ class Condition:
         self._function = compile_source(source)
 
     def __call__(self, channel: Channel) -> bool:
+        """Run the statement."""
         return bool(self._function(channel.memory, self.literals))
 
 
@@ -243,6 +246,7 @@ class LoopEnd:
         self._missing = missing
 
     def __call__(self, channel: Channel) -> None:
+        """Run the statement."""
         level = channel.level
         loop = level.data.get(self.number)
         if loop is None or loop.end != self._index:

@@ -61,6 +61,7 @@ class WordBlock:
         self.values = values
 
     def __call__(self, channel: Channel) -> None:
+        """Run the block."""
         mode = channel.mode
         plan = mode.plans.get(self.signature)
         if plan is None:
@@ -83,7 +84,10 @@ class ExpressionBlock:
     __slots__ = ("_computes_codes", "_evaluate", "keys", "literals")
 
     def __init__(
-        self, keys: tuple[str, ...], evaluate: Callable[[Any, list[float]], list[float | None]], literals: list[float]
+        self,
+        keys: tuple[str, ...],
+        evaluate: Callable[[Any, list[float]], list[float | None]],
+        literals: list[float],
     ) -> None:
         self.keys = keys
         self.literals = literals
@@ -91,6 +95,7 @@ class ExpressionBlock:
         self._computes_codes = "G" in keys or "M" in keys
 
     def __call__(self, channel: Channel) -> None:
+        """Run the block."""
         values: list[Any] = self._evaluate(channel.memory, self.literals)
         keys = self.keys
         if self._computes_codes or None in values:
