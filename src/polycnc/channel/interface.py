@@ -1,0 +1,64 @@
+"""What a channel asks of those around it: its control, the main run, zones that a program has forbidden."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Executable, Level, Step
+    from polycnc.language.bulk.scanner import Dialect
+    from polycnc.messages import AlarmError
+    from polycnc.program import Program
+    from polycnc.toolpath import Context
+
+
+class Control(Protocol):
+    """What a channel asks of a control family."""
+
+    id: str
+
+    def compile(self, program: Program) -> Executable:
+        """Make a program ready to run."""
+
+    def start(self, channel: Channel) -> None:
+        """Bring a channel into the state of power-on and program start; sets `mode` and `memory`."""
+
+    def begin(self, channel: Channel) -> None:
+        """A main program begins in the state that the channel is in; its level is the running one."""
+
+    def end_of_program(self, channel: Channel) -> None:
+        """A level has run out of blocks."""
+
+    def context(self, channel: Channel) -> Context:
+        """The context that holds now."""
+
+    def over_travel(self, axis: str, direction: int) -> AlarmError:
+        """The alarm for a target beyond a limit of an axis; direction is 1 or -1."""
+
+    def plain_blocks(self, channel: Channel) -> Dialect | None:
+        """What a scanner must know of the control's plain blocks; None where every block is interpreted."""
+
+    def halts(self, channel: Channel, level: Level, step: Step) -> bool:
+        """Whether single block operation halts behind the block that `step` of `level` was."""
+
+    def block_limit(self) -> AlarmError:
+        """The alarm for a program that has run more blocks than allowed."""
+
+    def arithmetic_alarm(self, error: ArithmeticError) -> AlarmError:
+        """The alarm for a division by zero or an overflow in an expression."""
+
+
+class MainRun(Protocol):
+    """What executes the channel's rows, if anything does while the channel runs."""
+
+    @property
+    def has_caught_up(self) -> bool:
+        """Whether everything that the channel has written is executed."""
+
+
+class Zone(Protocol):
+    """A part of the machine's travel that a program has forbidden."""
+
+    def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:
+        """Raise the control's alarm where the way to a machine position (or its end, if not straight) is forbidden."""
