@@ -9,7 +9,7 @@ from typing import Any
 from benchmarks.planner_paths import Path, paths
 from polycnc.machine import load_machine
 from polycnc.motion import plan
-from polycnc.motion.kernels.columns import ENTRY2, ROW, VECTORS
+from polycnc.motion.kernels.columns import ENTRY2, ROW, piece_width
 from polycnc.motion.planner import Planner
 from polycnc.toolpath import Context, Kind, Toolpath
 
@@ -36,7 +36,7 @@ def segments_per_second(rows: int = 600_000) -> float:
 def planned(path: Path) -> tuple[float, dict[int, float]]:
     """Seconds that the planner gives a path, and the bound on squared speed at the start of each row."""
     entries: dict[int, float] = {}
-    width = VECTORS + 4 * len(path.axes)
+    width = piece_width(len(path.axes))
 
     def note(pieces: Any, count: int) -> None:
         for at in range(0, count * width, width):

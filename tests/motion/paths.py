@@ -19,6 +19,7 @@ from polycnc.motion.kernels.columns import (
     STRAIGHT,
     TIME,
     VECTORS,
+    piece_width,
 )
 from polycnc.motion.planner import Planner
 from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
@@ -129,7 +130,7 @@ class Piece:
 def pieces_of(toolpath: Toolpath, machine: Machine, **options: Any) -> list[Piece]:
     """The planned pieces of a toolpath, a straight one with its direction at both ends."""
     n, found = len(toolpath.axes), list[Piece]()
-    width = VECTORS + 4 * n
+    width = piece_width(n)
 
     def note(records: Any, count: int) -> None:
         for at in range(0, count * width, width):

@@ -6,13 +6,18 @@ from array import array
 from math import inf
 from typing import TYPE_CHECKING
 
-from polycnc.motion.settings import EXACT_STOP_MODES, Settings
+from polycnc.motion.kernels.jerk import JERK_CORNER, STRAY_CORNER
+from polycnc.motion.settings import DRIVE, EXACT_STOP_MODES, SOFT, Settings
 
 if TYPE_CHECKING:
     from polycnc.machine import Axis, Machine, Spindle
     from polycnc.toolpath import Context
 
 MM_PER_INCH = 25.4
+#: Deviation that counts as none: what a control resolves.
+EXACT_MM = 0.001
+#: RAMP_S in terms of the time in which an axis builds up its acceleration.
+RAMPS = 1.5
 
 
 def channel_axes(machine: Machine, channel: int, names: tuple[str, ...]) -> tuple[Axis | None, ...]:
@@ -53,8 +58,9 @@ def axis_limits(machine: Machine, channel: int, names: tuple[str, ...], settings
         acceleration,
         [a * step for a in acceleration],
         [float(axis is not None and axis.rotary) for axis in axes],
+        numbers("jerk"),
         geometry,
-        (settings.rapid_by_axis, settings.rapid_stops),
+        (settings.rapid_stops,),
     )
     return array("d", [number for block in blocks for number in block])
 
@@ -65,9 +71,17 @@ def _limit(axis: Axis, field: str) -> float:
 
 
 def context_fields(
-    context: Context, axes: int, spindle: Spindle | None, station: int, settings: Settings
+    context: Context,
+    axes: int,
+    spindle: Spindle | None,
+    station: int,
+    settings: Settings,
+    averages: tuple[float, float] = (0.0, 0.0),
 ) -> list[float]:
-    """One row of the kernels' table of contexts, in the order of the constants in `kernels/columns.py`."""
+    """One row of the kernels' table of contexts, in the order of the constants in `kernels/columns.py`.
+
+    `averages` is what `averages` gave for the context; without them the jerk has no limit.
+    """
     highest = spindle.max_rpm if spindle else inf
     if context.spindle_limit_rpm > 0.0:
         highest = min(highest, context.spindle_limit_rpm)
@@ -81,15 +95,36 @@ def context_fields(
         highest,
         spindle.acceleration_rpm_s / 60.0 if spindle else inf,
         context.path_mode in EXACT_STOP_MODES,
-        _tolerance(context, settings),
+        _kept_tolerance(context, settings) if averages[0] > 0.0 else _tolerance(context, settings),
         rotary_weight(context, settings),
         station,
         not context.frame.is_identity,
         -1.0 if context.frame.mirrors else 1.0,
+        settings.rapid_by_axis or context.rapid_by_axis,
+        *averages,
+        settings.drive_speed if context.acceleration == DRIVE else 1.0,
+        settings.drive_reduction,
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),
     ]
+
+
+def averages(context: Context, machine: Machine, settings: Settings) -> tuple[float, float]:
+    """RAMP_S and BLEND_S of a context, seconds; zero without limited jerk.
+
+    RAMP_S is the time in which the slowest axis builds up its acceleration, and half as much again: then there
+    is a balance between short ways, which it delays, and long ones, which need acceleration. BLEND_S lets a corner use
+    up its parts of the tolerance and of the jerk alike (`kernels/jerk.py`).
+    """
+    axes = [axis for axis in machine.axes if axis.jerk > 0.0 and axis.acceleration > 0.0]
+    if (context.acceleration or settings.acceleration) != SOFT or not axes:
+        return 0.0, 0.0
+    ramp = RAMPS * max(axis.acceleration / axis.jerk for axis in axes)
+    tolerance = _kept_tolerance(context, settings)
+    jerk = min((axis.jerk for axis in axes if not axis.rotary), default=axes[0].jerk)
+    blend = (6.0 * STRAY_CORNER * tolerance / (JERK_CORNER * jerk)) ** (1.0 / 3.0)
+    return ramp, min(blend, ramp)
 
 
 def rotary_weight(context: Context, settings: Settings) -> float:
@@ -97,6 +132,13 @@ def rotary_weight(context: Context, settings: Settings) -> float:
     if not settings.rotary_in_feed:
         return 0.0
     return MM_PER_INCH if context.inch else 1.0
+
+
+def _kept_tolerance(context: Context, settings: Settings) -> float:
+    """How far averaged positions may leave the path."""
+    if context.tolerance_mm == 0.0 and context.path_mode in EXACT_STOP_MODES:
+        return EXACT_MM
+    return _tolerance(context, settings) or EXACT_MM
 
 
 def _tolerance(context: Context, settings: Settings) -> float:

@@ -10,14 +10,21 @@ chunks, and the cost stays in proportion to the rows.
 from __future__ import annotations
 
 from array import array
+from math import inf, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.motion.compiled import PLAIN, compiled_kernels
 from polycnc.motion.kernels.columns import (
+    ACCELERATION,
     BLOCKS,
     END2,
     GEOMETRY,
+    JERK,
+    LENGTH,
     LIMIT_BLOCKS,
+    LOW2,
+    LOW_PULL,
+    PAUSE,
     PIECES,
     POSITION,
     REACH2,
@@ -25,11 +32,14 @@ from polycnc.motion.kernels.columns import (
     SPEED2,
     STATE_BLOCKS,
     STOP,
-    VECTORS,
+    TOP2,
+    TOP_RAPID,
+    WINDOW,
     WITHOUT_FEED,
     Rows,
+    piece_width,
 )
-from polycnc.motion.limits import axis_limits, context_fields
+from polycnc.motion.limits import averages, axis_limits, context_fields
 from polycnc.motion.plan import Plan, Times, ToolTimes
 from polycnc.motion.settings import DEFAULT, Settings
 from polycnc.motion.waits import Waits
@@ -62,6 +72,11 @@ class Planner:
         on_pieces: Called with the buffer and the number of its pieces that have become final, before they are
             dropped.
         compiled: Use compiled kernels, or do not; None decides by the number of rows.
+
+    Attributes:
+        on_pieces: See above; can be set as long as nothing is planned.
+        on_wait: Called when a row must wait, with row number, share (a field of `Times`), context number and seconds;
+            before its pieces become final, but for what runs beside motion and outlasts it.
     """
 
     def __init__(
@@ -78,11 +93,13 @@ class Planner:
         compiled: bool | None = None,
     ) -> None:
         self._axes = len(toolpath.axes)
-        self._width = VECTORS + 4 * self._axes
+        self._width = piece_width(self._axes)
+        self._machine = machine
         self._toolpath = toolpath
         self._settings = settings
         self._keep_rows = keep_rows
-        self._on_pieces = on_pieces
+        self.on_pieces = on_pieces
+        self.on_wait: Callable[[int, str, int, float], None] | None = None
         self._compiled = compiled
         self._kernels = PLAIN
         self._limits = axis_limits(machine, channel, toolpath.axes, settings)
@@ -98,6 +115,29 @@ class Planner:
         self._next_row = 0
         self._waits = Waits(machine, toolpath.contexts, tool, self._wait)
 
+    @property
+    def facing(self) -> int:
+        """The column of X, -1 for none."""
+        return int(self._limits[LIMIT_BLOCKS * self._axes + GEOMETRY])
+
+    @property
+    def position(self) -> list[float]:
+        """Machine position behind the last row laid out; before the first, that of the start."""
+        first = STATE_BLOCKS + POSITION * self._axes
+        return list(self._state[first : first + self._axes])
+
+    def rpm(self, context: Context, radius_mm: float) -> float:
+        """Spindle speed of a context at a turning radius."""
+        return self._waits.rpm(context, radius_mm)
+
+    def rapids(self, ramp: float) -> list[tuple[float, float]]:
+        """Velocity and acceleration of each axis that runs a rapid by itself."""
+        n, limits = self._axes, self._limits
+        pulls = [limits[ACCELERATION * n + i] for i in range(n)]
+        if ramp > 0.0:
+            pulls = [min(pull, 0.5 * limits[JERK * n + i] * ramp) for i, pull in enumerate(pulls)]
+        return list(zip(limits[TOP_RAPID * n : TOP_RAPID * n + n], pulls, strict=True))
+
     def take(self, chunk: Chunk) -> bool:
         """Plan a chunk; true, for it is no longer needed."""
         if len(chunk) == 0:
@@ -106,7 +146,7 @@ class Planner:
         self._add_contexts()
         self._row_s.frombytes(bytes(8 * len(chunk)))
         self._next_row = chunk.first + len(chunk)
-        self._waits.take(chunk, int(self._limits[LIMIT_BLOCKS * self._axes + GEOMETRY]))
+        self._waits.take(chunk, self.facing)
         stops = array("B", [self._waits.stands_for(event) for event in chunk.events])
         see = self._kernels.see
         rows = Rows(
@@ -155,11 +195,13 @@ class Planner:
     def _look_ahead(self, *, finish: bool) -> None:
         """Find the speeds of all pieces that nothing still to come can change, and drop those pieces.
 
-        The last piece waits for the row behind it, for a spline bends there; the joint before it is taken as
-        a stop.
+        The last pieces wait for the rows behind them, for a spline bends there, and a bound on the speed may
+        reach back; the joint before them is taken as a stop.
         """
         count, width, see = int(self._state[PIECES]), self._width, self._kernels.see
-        last = count if finish else count - 1
+        last = count if finish else self._settled(count)
+        if last <= 0:
+            return
         final = self._kernels.backward(see(self._pieces), last, self._axes, see(self._limits))
         if finish:
             final = count
@@ -177,8 +219,8 @@ class Planner:
             see(self._row_s),
             self._first_row,
         )
-        if self._on_pieces is not None:
-            self._on_pieces(pieces, final)
+        if self.on_pieces is not None:
+            self.on_pieces(pieces, final)
         end2 = pieces[(final - 1) * width + END2]
         pieces[: len(rest)] = rest
         pieces[SPEED2] = end2
@@ -189,18 +231,34 @@ class Planner:
             del self._row_s[: planned_rows - self._first_row]
             self._first_row = planned_rows
 
+    def _settled(self, count: int) -> int:
+        """The number of pieces in the buffer that no row to come can change."""
+        state, pieces, width = self._state, self._pieces, self._width
+        reach = 0.5 * sqrt(state[TOP2]) * state[WINDOW]
+        last = count - 1
+        way = 0.0
+        while last > 0 and way < reach and pieces[last * width + PAUSE] == 0.0:
+            way += pieces[last * width + LENGTH]
+            last -= 1
+        return last
+
     # ---- rows and totals
     # -------------------------------------------------------------------------------------------
 
     def _add_contexts(self) -> None:
         for context in self._toolpath.contexts[len(self._slots) // 4 :]:
-            station = self._stations.setdefault(_station(context), len(self._stations))
+            smoothing = averages(context, self._machine, self._settings)
+            station = self._stations.setdefault((*_station(context), smoothing), len(self._stations))
             spindle = self._waits.spindle(context)
-            self._contexts.extend(context_fields(context, self._axes, spindle, station, self._settings))
+            self._contexts.extend(
+                context_fields(context, self._axes, spindle, station, self._settings, smoothing)
+            )
             self._slots.extend((0.0, 0.0, 0.0, 0.0))
 
     def _wait(self, row: int, share: str, context: int, seconds: float) -> None:
         """A row waits: called before its motion is planned."""
+        if self.on_wait is not None:
+            self.on_wait(row, share, context, seconds)
         self._row_s[row - self._first_row] += seconds
         shares = self._waited.setdefault(context, {})
         shares[share] = shares.get(share, 0.0) + seconds
@@ -240,6 +298,7 @@ def _station(context: Context) -> tuple[object, ...]:
 def _new_state(axes: int, start: Sequence[float]) -> array[float]:
     state = array("d", bytes(8 * (STATE_BLOCKS + BLOCKS * axes)))
     state[STOP] = 1.0
+    state[LOW2] = state[LOW_PULL] = inf
     for i, position in enumerate(start):
         state[STATE_BLOCKS + POSITION * axes + i] = position
     return state

@@ -8,6 +8,8 @@ from polycnc.motion.kernels.columns import (
     ACCELERATION,
     BASIS,
     BEND,
+    BENT,
+    BENT_BEFORE,
     CAP2,
     CCW,
     CURVE,
@@ -15,46 +17,57 @@ from polycnc.motion.kernels.columns import (
     DELTA,
     ENTRY2,
     EXIT2,
+    EXIT_PULL,
     FACING,
-    FORM,
     FRAME,
     GEOMETRY,
     GROWTH,
     HAS_FRAME,
     HELIX_CCW,
+    HOLD2,
+    HOLD_PULL,
+    JOINT_PULL,
     KIND,
     LENGTH,
     LIMIT_BLOCKS,
+    MARGIN,
     METRIC,
     MIRROR,
-    NUMBER,
     OFFSETS,
     PIECES,
     PIECES_PER_TURN,
+    PLACES,
     POSITION,
     PULL,
     RADIUS,
+    RAMP_S,
     RISE,
     ROTARY,
     ROTARY_WEIGHT,
-    ROW,
     ROW_LENGTH,
-    ROW_SLOT,
     SAME_POINT_MM,
-    SLOT,
     SMOOTH,
     STATE_BLOCKS,
     SWEEP,
     TANGENT,
     TARGET,
-    TOLERANCE,
     TOP_FEED,
     UNIT,
     VECTORS,
     Floats,
+    piece_width,
 )
 from polycnc.motion.kernels.corners import join
-from polycnc.motion.kernels.feeds import asked_speed, bounded, follows_radius, next_piece, norm
+from polycnc.motion.kernels.feeds import (
+    asked_speed,
+    bounded,
+    follows_radius,
+    next_piece,
+    norm,
+    open_joint,
+    place,
+)
+from polycnc.motion.kernels.jerk import arc_hold
 
 SAME2 = SAME_POINT_MM * SAME_POINT_MM
 
@@ -180,9 +193,9 @@ def lay_arc(
     larger of its end values by at most `5·d²/8` of the limit; tangents and curvature are stored larger by
     that much.
     """
-    width, sweep = VECTORS + 4 * n, state[SWEEP]
+    sweep, gentle = state[SWEEP], contexts[record + RAMP_S] > 0.0
     parts = ceil(sweep * PIECES_PER_TURN / (2.0 * pi) - 1e-9)
-    if (int(state[PIECES]) + parts) * width > len(pieces):
+    if (int(state[PIECES]) + parts) * piece_width(n) > len(pieces):
         return False
     step = sweep / parts
     margin, weight = 1.0 + 0.625 * step * step, contexts[record + ROTARY_WEIGHT]
@@ -193,26 +206,69 @@ def lay_arc(
         asked_speed(curves, contexts, record, state, length, facing_radius(0.0, n, limits, state)), state
     )
     entry2 = point_cap2(n, limits, state, margin)
-    entry2 = join(contexts[record + TOLERANCE], n, limits, state, length, weight, min(entry2, speed * speed))
+    pull = inf
+    if gentle:
+        cap2, pull = arc_hold(contexts, record, n, limits, state, curvature(n, limits, weight, state), speed)
+        entry2 = min(entry2, cap2)
+    entry2 = join(contexts, record, n, limits, state, length, weight, min(entry2, speed * speed))
+    state[JOINT_PULL] = min(state[JOINT_PULL], pull)
     for part in range(parts):
         if follows_radius(contexts, record):
             radius = facing_radius((part + 0.5) * step, n, limits, state)
             speed = asked_speed(curves, contexts, record, state, length, radius)
             speed = speed if speed > 0.0 else inf
-        at = next_piece(state, 0.0, width)
+        at = next_piece(pieces, state, BENT if gentle else CURVED, 0.0, n)
+        if part == 0:
+            open_joint(pieces, at, state, entry2)
+        pieces[at + MARGIN] = margin
+        place_arc(pieces, at, part * step, (part + 1) * step, n, limits, state)
+        bend = curvature(n, limits, weight, state)
         store_point(pieces, at + VECTORS, n, state, margin)
         next_way = arc_point((part + 1) * step, n, limits, weight, state)
         store_point(pieces, at + VECTORS + n, n, state, margin)
         bound_curve(pieces, at, n, limits, speed)
+        if gentle:
+            bend = max(bend, curvature(n, limits, weight, state))
+            cap2, pull = arc_hold(contexts, record, n, limits, state, bend, speed)
+            pieces[at + CAP2], pieces[at + PULL] = min(cap2, pieces[at + CAP2]), pull
+            pieces[at + HOLD2] = min(entry2, pieces[at + CAP2])
+            pieces[at + HOLD_PULL] = pull if part > 0 else min(state[JOINT_PULL], pull)
         pieces[at + LENGTH] = 0.5 * (way + next_way) * step
         pieces[at + ENTRY2] = min(entry2, pieces[at + CAP2])
-        pieces[at + FORM], pieces[at + ROW], pieces[at + SLOT] = CURVED, state[NUMBER], state[ROW_SLOT]
         entry2 = min(pieces[at + CAP2], point_cap2(n, limits, state, margin))
         way = next_way
     for i in range(n):
         state[STATE_BLOCKS + TANGENT * n + i] = state[STATE_BLOCKS + UNIT * n + i]
+        state[STATE_BLOCKS + BENT_BEFORE * n + i] = state[STATE_BLOCKS + BEND * n + i]
+    state[EXIT_PULL] = pull
     state[EXIT2], state[ROW_LENGTH], state[METRIC], state[SMOOTH] = entry2, length, weight, 0.0
     return True
+
+
+def curvature(n: int, limits: Floats, weight: float, state: Floats) -> float:
+    """Length of q'' at the point that `arc_point` has set, 1/mm."""
+    return max(norm(state, STATE_BLOCKS + BEND * n, n, limits, weight), 1e-12)
+
+
+def place_arc(
+    pieces: Floats, at: int, first: float, last: float, n: int, limits: Floats, state: Floats
+) -> None:
+    """Give a piece its ends: those of the arc at two angles."""
+    geometry, sweep = LIMIT_BLOCKS * n + GEOMETRY, state[SWEEP]
+    place(pieces, at, n, state, first / sweep, last / sweep)
+    here = at + VECTORS + PLACES * n
+    for j in range(3):
+        i = int(limits[geometry + j])
+        if i >= 0:
+            for end in range(2):
+                angle = last if end == 1 else first
+                radius = state[RADIUS] + state[GROWTH] / sweep * angle
+                c, s = radius * cos(angle) - state[RADIUS], radius * sin(angle)
+                pieces[here + end * n + i] = state[STATE_BLOCKS + POSITION * n + i] + (
+                    c * state[BASIS + j]
+                    + s * state[BASIS + 3 + j]
+                    + state[RISE] * angle / sweep * state[BASIS + 6 + j]
+                )
 
 
 def facing_radius(angle: float, n: int, limits: Floats, state: Floats) -> float:

@@ -41,32 +41,50 @@ class Rows(NamedTuple):
 
 
 # `limits`: blocks of n numbers (mm or degrees, s), then what is there once.
-TOP_RAPID, TOP_FEED, ACCELERATION, JUMP, ROTARY, LIMIT_BLOCKS = 0, 1, 2, 3, 4, 5
-#: Behind the blocks: the columns of X, Y, Z (-1 for a missing one); whether each axis runs a rapid alone;
-#: whether the axes stop between rapid and cutting.
-GEOMETRY, RAPID_BY_AXIS, RAPID_STOPS, LIMIT_TAIL = 0, 3, 4, 5
+TOP_RAPID, TOP_FEED, ACCELERATION, JUMP, ROTARY, JERK, LIMIT_BLOCKS = 0, 1, 2, 3, 4, 5, 6
+#: Behind the blocks: the columns of X, Y, Z (-1 for a missing one); whether the axes stop between rapid and
+#: cutting.
+GEOMETRY, RAPID_STOPS, LIMIT_TAIL = 0, 3, 4
 
-# `contexts`: one record a context. Behind OFFSETS stand n numbers.
+# `contexts`: one record a context. RAMP_S is the time over which the speed along the path is averaged (0: the
+# jerk has no limit), BLEND_S that over which the axes' positions are, twice; DRIVE_SPEED and DRIVE_REDUCTION
+# are those of the settings (1 and 0 without DRIVE). Behind OFFSETS stand n numbers.
 PER_REVOLUTION, INVERSE_TIME, RPM, SURFACE_MM_S, RPM_LIMIT, SPINDLE_REV_S2 = 0, 1, 2, 3, 4, 5
-EXACT_STOP, TOLERANCE, ROTARY_WEIGHT, STATION, HAS_FRAME, MIRROR, FRAME, OFFSETS = 6, 7, 8, 9, 10, 11, 12, 24
+EXACT_STOP, TOLERANCE, ROTARY_WEIGHT, STATION, HAS_FRAME, MIRROR = 6, 7, 8, 9, 10, 11
+RAPID_BY_AXIS, RAMP_S, BLEND_S, DRIVE_SPEED, DRIVE_REDUCTION, FRAME, OFFSETS = 12, 13, 14, 15, 16, 17, 29
 
 # `pieces`: one record a piece. CAP2 bounds x inside the piece, ENTRY2 at its start; REACH2 is what `backward`
 # finds there, SPEED2 what `forward` chooses, END2 the x that it leaves the piece with, TIME the seconds. PULL
-# is the acceleration along a straight piece, the seconds of a timed one. Behind VECTORS stand q' at start and
-# end and q'' at start and end, 4·n numbers.
-LENGTH, CAP2, PULL, ENTRY2, REACH2, SPEED2, END2, TIME, FORM, ROW, SLOT, VECTORS = range(12)
-STRAIGHT, CURVED, TIMED = 0, 1, 2
+# is the acceleration along a straight piece, the seconds of a timed one. `forward` also says how: up to PEAK2 and
+# down again at RATE. PAUSE are the seconds that the axes rest before the piece so that the averages come to
+# rest. HOLD2 and HOLD_PULL bound speed and acceleration along the path
+# on HOLD_WAY before and behind its start (`hold.py`). MARGIN is
+# the factor by which q' and q'' are stored larger than they are. Behind VECTORS stand q' at start and end, q''
+# at start and end, and the axes' positions at start and end: 6·n numbers.
+(
+    LENGTH, CAP2, PULL, ENTRY2, REACH2, SPEED2, END2, TIME, FORM, ROW, SLOT,
+    PEAK2, RATE, PAUSE, HOLD2, HOLD_PULL, HOLD_WAY, MARGIN, VECTORS,
+) = range(19)  # fmt: skip
+PLACES, PIECE_BLOCKS = 4, 6
+#: A line; a part of a curve under the limits of a line (with limited jerk); a part of a curve under limits that
+#: change along it; a rapid of every axis by itself.
+STRAIGHT, BENT, CURVED, TIMED = 0, 1, 2, 3
 
 # `state`: what is carried from row to row,
 STOP, EXIT2, ROW_LENGTH, METRIC, AT_STATION, SMOOTH, PIECES, WITHOUT_FEED = range(8)
+# for limited jerk: pull of the last row around its end; highest cap and pull since the axes last stood, lowest
+# holds within reach, way for which holds reach ahead; seconds that a change of speed is spread over,
+EXIT_PULL, TOP2, TOP_PULL, LOW2, LOW_PULL, AHEAD, WINDOW = range(8, 15)
+# the joint at hand: pull around it, seconds of rest,
+JOINT_PULL, REST = range(15, 17)
 # the row at hand (CURVE: where its record in `curves` begins, or -1; FACING: its end in X, work coordinates),
-KIND, NUMBER, ROW_SLOT, FEED, CURVE, FACING = range(8, 14)
+KIND, NUMBER, ROW_SLOT, FEED, CURVE, FACING = range(17, 23)
 # its arc (unit vectors to the start, along the way there, and of the axis; angle, radius, growth of the
 # radius, rise),
-BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 14, 23, 24, 25, 26, 27
+BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 23, 32, 33, 34, 35, 36
 # and blocks of n numbers: machine position before the row, q' at the end of the last piece; end of the row,
-# way there, and room for one q' and q''.
-POSITION, TANGENT, TARGET, DELTA, UNIT, BEND, BLOCKS = range(7)
+# way there, and room for one q' and q''; q'' at the end of the last piece.
+POSITION, TANGENT, TARGET, DELTA, UNIT, BEND, BENT_BEFORE, BLOCKS = range(8)
 
 #: Pieces of a full turn. Over 7.5° an axis exceeds what holds at both ends by little; `lay_arc` says by how
 #: much.
@@ -77,3 +95,8 @@ FACING_PIECES = 16
 SMOOTH_COS = 0.7
 #: Two ends of an arc nearer than this (mm) make it a full circle.
 SAME_POINT_MM = 1e-7
+
+
+def piece_width(n: int) -> int:
+    """Numbers of one record of `pieces` with n axes."""
+    return VECTORS + PIECE_BLOCKS * n

@@ -6,10 +6,15 @@ from math import inf, sqrt
 
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
+    BLEND_S,
     EXIT2,
+    EXIT_PULL,
+    JOINT_PULL,
     JUMP,
     KIND,
     METRIC,
+    RAMP_S,
+    REST,
     ROTARY,
     ROW_LENGTH,
     SMOOTH,
@@ -18,27 +23,42 @@ from polycnc.motion.kernels.columns import (
     STATE_BLOCKS,
     STOP,
     TANGENT,
+    TOLERANCE,
     UNIT,
+    WINDOW,
     Floats,
 )
+from polycnc.motion.kernels.jerk import corner_hold2
 
 #: Directions that differ by less count as one; a path whose turn has a cosine below this turns back.
 SAME_DIRECTION, TURNS_BACK = 1e-9, -0.999999
 
 
 def join(
-    tolerance: float, n: int, limits: Floats, state: Floats, length: float, weight: float, cap2: float
+    contexts: Floats,
+    record: int,
+    n: int,
+    limits: Floats,
+    state: Floats,
+    length: float,
+    weight: float,
+    cap2: float,
 ) -> float:
     """Largest x at the joint between the row before and this one, which starts along `unit` with `cap2`.
 
     Zero after a stop, where the path turns back, and where the feed counts another length than before. Where
     two chords of a spline meet without a corner, SMOOTH becomes 2, and the curvature decides instead of the
-    corner.
+    corner. With limited jerk JOINT_PULL becomes the pull around the joint, and REST the seconds until the averages
+    have come to rest.
     """
+    ramp = contexts[record + RAMP_S]
+    state[WINDOW] = ramp + 2.0 * contexts[record + BLEND_S]
+    state[REST], state[JOINT_PULL] = 0.0, state[EXIT_PULL]
     stopped = state[STOP] != 0.0 or state[METRIC] != weight
     smooth = state[KIND] == SPLINE and state[SMOOTH] != 0.0
     state[STOP] = state[SMOOTH] = 0.0
     if stopped:
+        state[REST], state[JOINT_PULL] = state[WINDOW], inf
         return 0.0
     unit, tangent = STATE_BLOCKS + UNIT * n, STATE_BLOCKS + TANGENT * n
     cosine = 0.0
@@ -46,15 +66,23 @@ def join(
         w = weight if limits[ROTARY * n + i] != 0.0 else 1.0
         cosine += w * w * state[unit + i] * state[tangent + i]
     if cosine <= TURNS_BACK:
+        state[REST], state[JOINT_PULL] = state[WINDOW], inf
         return 0.0
     cap2 = min(cap2, state[EXIT2])
     if smooth and cosine > SMOOTH_COS:
         state[SMOOTH] = 2.0
-        return cap2
+        if ramp == 0.0:
+            return cap2
     shorter = min(length, state[ROW_LENGTH])
-    if tolerance > 0.0:
-        return min(cap2, rounded2(tolerance, n, limits, state, shorter))
-    return min(cap2, jump2(n, limits, state, shorter))
+    tolerance = contexts[record + TOLERANCE]
+    if state[SMOOTH] != 2.0:
+        own2 = jump2(n, limits, state, shorter)
+        if tolerance > 0.0:
+            own2 = rounded2(tolerance, n, limits, state, shorter)
+        cap2 = min(cap2, own2)
+    if ramp > 0.0:
+        cap2 = corner_hold2(contexts, record, n, limits, state, length, cap2)
+    return cap2
 
 
 def jump2(n: int, limits: Floats, state: Floats, shorter: float) -> float:

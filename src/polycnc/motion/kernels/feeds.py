@@ -10,21 +10,36 @@ from polycnc.motion.kernels.columns import (
     DELTA,
     EXIT2,
     FEED,
+    FORM,
+    HOLD2,
+    HOLD_PULL,
     INVERSE_TIME,
+    JOINT_PULL,
     KIND,
+    MARGIN,
+    NUMBER,
+    PAUSE,
     PER_REVOLUTION,
     PIECES,
+    PLACES,
+    POSITION,
     RAPID,
     REF,
+    REST,
     ROTARY,
+    ROW,
+    ROW_SLOT,
     RPM,
     RPM_LIMIT,
+    SLOT,
     STATE_BLOCKS,
     SURFACE_MM_S,
     TAP,
     THREAD,
+    VECTORS,
     WITHOUT_FEED,
     Floats,
+    piece_width,
 )
 
 
@@ -103,9 +118,24 @@ def follows_radius(contexts: Floats, record: int) -> bool:
     return contexts[record + SURFACE_MM_S] != 0.0 and contexts[record + PER_REVOLUTION] != 0.0
 
 
-def next_piece(state: Floats, cap2: float, width: int) -> int:
-    """Take the next record of `pieces`; where it begins."""
-    at = int(state[PIECES]) * width
+def next_piece(pieces: Floats, state: Floats, form: int, cap2: float, n: int) -> int:
+    """Take the next record of `pieces` for the row at hand; where it begins."""
+    at = int(state[PIECES]) * piece_width(n)
     state[PIECES] += 1.0
     state[EXIT2] = cap2
+    pieces[at + FORM], pieces[at + ROW], pieces[at + SLOT] = form, state[NUMBER], state[ROW_SLOT]
+    pieces[at + HOLD2], pieces[at + HOLD_PULL], pieces[at + PAUSE], pieces[at + MARGIN] = inf, inf, 0.0, 1.0
     return at
+
+
+def open_joint(pieces: Floats, at: int, state: Floats, entry2: float) -> None:
+    """Give the first piece of a row what `join` has found."""
+    pieces[at + HOLD2], pieces[at + HOLD_PULL], pieces[at + PAUSE] = entry2, state[JOINT_PULL], state[REST]
+
+
+def place(pieces: Floats, at: int, n: int, state: Floats, first: float, last: float) -> None:
+    """Give a piece its ends: parts, 0 to 1, of the straight way of the row at hand."""
+    position, delta, here = STATE_BLOCKS + POSITION * n, STATE_BLOCKS + DELTA * n, at + VECTORS + PLACES * n
+    for i in range(n):
+        pieces[here + i] = state[position + i] + first * state[delta + i]
+        pieces[here + n + i] = state[position + i] + last * state[delta + i]

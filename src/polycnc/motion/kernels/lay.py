@@ -9,17 +9,23 @@ from polycnc.motion.kernels.columns import (
     ACCELERATION,
     AT_STATION,
     BEND,
+    BENT,
+    BENT_BEFORE,
+    BLEND_S,
     CAP2,
     CURVE,
     CURVE_WIDTH,
     CURVED,
     CW,
     DELTA,
+    DRIVE_REDUCTION,
+    DRIVE_SPEED,
     DWELL,
     ENTRY2,
     EVENT,
     EXACT_STOP,
     EXIT2,
+    EXIT_PULL,
     FACING,
     FACING_PIECES,
     FEED,
@@ -28,22 +34,25 @@ from polycnc.motion.kernels.columns import (
     GEOMETRY,
     HAS_FRAME,
     HELIX_CCW,
+    INVERSE_TIME,
+    JOINT_PULL,
     KIND,
     LENGTH,
     LIMIT_BLOCKS,
     METRIC,
     NUMBER,
     OFFSETS,
+    PAUSE,
+    PER_REVOLUTION,
     PIECES,
     POSITION,
     PULL,
+    RAMP_S,
     RAPID_BY_AXIS,
     RAPID_STOPS,
     ROTARY_WEIGHT,
-    ROW,
     ROW_LENGTH,
     ROW_SLOT,
-    SLOT,
     SMOOTH,
     SPINDLE_REV_S2,
     SPLINE,
@@ -54,14 +63,15 @@ from polycnc.motion.kernels.columns import (
     TANGENT,
     TAP,
     TARGET,
+    THREAD,
     TIMED,
-    TOLERANCE,
     TOP_FEED,
     TOP_RAPID,
     UNIT,
     VECTORS,
     Floats,
     Rows,
+    piece_width,
 )
 from polycnc.motion.kernels.corners import join
 from polycnc.motion.kernels.feeds import (
@@ -73,7 +83,11 @@ from polycnc.motion.kernels.feeds import (
     lead_of,
     next_piece,
     norm,
+    open_joint,
+    place,
 )
+from polycnc.motion.kernels.hold import hold
+from polycnc.motion.kernels.jerk import axis_pull, line_pull
 from polycnc.motion.kernels.speeds import straight_time
 
 
@@ -112,6 +126,8 @@ def lay(
             state[STOP] = 1.0
         else:
             record = rows.context[row] * (OFFSETS + n)
+            if kind == THREAD and state[KIND] != THREAD:
+                state[STOP] = 1.0  # the axes wait for the spindle's zero mark
             state[KIND], state[NUMBER], state[FEED] = kind, number + row, rows.feed[row]
             state[CURVE] = rows.curve[row] * CURVE_WIDTH
             state[ROW_SLOT] = 2 * rows.context[row] + (0 if is_rapid(state) else 1)
@@ -147,7 +163,7 @@ def lay_move(
     curves: Floats, contexts: Floats, record: int, n: int, limits: Floats, pieces: Floats, state: Floats
 ) -> bool:
     """Lay the row at hand out; false when the room ends: it can then be tried again."""
-    kind, rules = int(state[KIND]), LIMIT_BLOCKS * n
+    kind, rules, first = int(state[KIND]), LIMIT_BLOCKS * n, int(state[PIECES])
     rapid = is_rapid(state)
     stands = kind == TAP or (rapid and limits[rules + RAPID_STOPS] != 0.0)
     if stands or contexts[record + STATION] != state[AT_STATION]:
@@ -155,12 +171,14 @@ def lay_move(
     arc = CW <= kind <= HELIX_CCW and state[CURVE] >= 0.0
     if arc and find_arc(curves, contexts, record, n, limits, state):
         done = lay_arc(curves, contexts, record, n, limits, pieces, state)
-    elif rapid and limits[rules + RAPID_BY_AXIS] != 0.0:
-        done = lay_rapid_by_axis(n, limits, pieces, state)
+    elif rapid and contexts[record + RAPID_BY_AXIS] != 0.0:
+        done = lay_rapid_by_axis(contexts, record, n, limits, pieces, state)
     else:
         done = lay_straight(curves, contexts, record, n, limits, pieces, state)
     if not done:
         return False
+    if contexts[record + RAMP_S] > 0.0:
+        hold(pieces, first, n, state)
     for i in range(n):
         state[STATE_BLOCKS + POSITION * n + i] = state[STATE_BLOCKS + TARGET * n + i]
     state[AT_STATION] = contexts[record + STATION]
@@ -169,22 +187,26 @@ def lay_move(
     return True
 
 
-def lay_rapid_by_axis(n: int, limits: Floats, pieces: Floats, state: Floats) -> bool:
+def lay_rapid_by_axis(
+    contexts: Floats, record: int, n: int, limits: Floats, pieces: Floats, state: Floats
+) -> bool:
     """A rapid on which every axis runs alone, from rest to rest: as long as the slowest axis takes."""
-    width, delta = VECTORS + 4 * n, STATE_BLOCKS + DELTA * n
-    if (int(state[PIECES]) + 1) * width > len(pieces):
+    delta = STATE_BLOCKS + DELTA * n
+    if (int(state[PIECES]) + 1) * piece_width(n) > len(pieces):
         return False
     seconds = 0.0
     for i in range(n):
         way, top = abs(state[delta + i]), limits[TOP_RAPID * n + i]
         if way > 0.0:
-            seconds = max(seconds, straight_time(0.0, 0.0, top * top, limits[ACCELERATION * n + i], way))
+            pull = axis_pull(contexts, record, n, limits, i)
+            seconds = max(seconds, straight_time(0.0, 0.0, top * top, pull, way))
     if seconds > 0.0:
-        at = next_piece(state, 0.0, width)
+        at = next_piece(pieces, state, TIMED, 0.0, n)
+        place(pieces, at, n, state, 0.0, 1.0)
         pieces[at + LENGTH] = norm(state, delta, n, limits, 1.0)
         pieces[at + CAP2] = pieces[at + ENTRY2] = 0.0
         pieces[at + PULL] = seconds
-        pieces[at + FORM], pieces[at + ROW], pieces[at + SLOT] = TIMED, state[NUMBER], state[ROW_SLOT]
+        pieces[at + PAUSE] = contexts[record + RAMP_S] + 2.0 * contexts[record + BLEND_S]
         state[STOP] = 1.0
     return True
 
@@ -193,7 +215,7 @@ def lay_straight(
     curves: Floats, contexts: Floats, record: int, n: int, limits: Floats, pieces: Floats, state: Floats
 ) -> bool:
     """A line, or a chord of a spline; in parts where the spindle's speed follows the radius."""
-    delta, unit, width = STATE_BLOCKS + DELTA * n, STATE_BLOCKS + UNIT * n, VECTORS + 4 * n
+    delta, unit = STATE_BLOCKS + DELTA * n, STATE_BLOCKS + UNIT * n
     weight = contexts[record + ROTARY_WEIGHT]
     length = norm(state, delta, n, limits, weight)
     if length == 0.0:
@@ -207,9 +229,9 @@ def lay_straight(
         start_x -= state[delta + facing]
         if abs(end_x - start_x) > 0.02 * max(abs(end_x), abs(start_x)):
             parts = FACING_PIECES
-    if (int(state[PIECES]) + parts) * width > len(pieces):
+    if (int(state[PIECES]) + parts) * piece_width(n) > len(pieces):
         return False
-    top, pull = line_limits(n, limits, state, length)
+    top, pull = line_limits(contexts, record, n, limits, state, length)
     lead = lead_of(curves, state)
     if state[KIND] == TAP and lead > 0.0:
         pull = min(pull, lead * contexts[record + SPINDLE_REV_S2])
@@ -219,38 +241,76 @@ def lay_straight(
         asked = asked_speed(curves, contexts, record, state, length, radius)
         if part == 0:
             speed = min(top, bounded(asked, state))
-            entry2 = join(contexts[record + TOLERANCE], n, limits, state, length, weight, speed * speed)
+            entry2 = join(contexts, record, n, limits, state, length, weight, speed * speed)
+            state[JOINT_PULL] = min(state[JOINT_PULL], pull)
         else:
             speed = min(top, asked if asked > 0.0 else inf)
             entry2 = min(state[EXIT2], speed * speed)
-        at = next_piece(state, speed * speed, width)
+        at = next_piece(pieces, state, STRAIGHT, speed * speed, n)
+        place(pieces, at, n, state, part / parts, (part + 1) / parts)
+        if part == 0:
+            open_joint(pieces, at, state, entry2)
         pieces[at + LENGTH], pieces[at + CAP2], pieces[at + PULL] = length / parts, speed * speed, pull
-        pieces[at + ENTRY2], pieces[at + FORM] = entry2, STRAIGHT
-        pieces[at + ROW], pieces[at + SLOT] = state[NUMBER], state[ROW_SLOT]
+        pieces[at + ENTRY2] = entry2
         if state[KIND] == SPLINE:
-            lay_chord(pieces, at, n, limits, state, length, weight)
+            lay_chord(contexts, record, pieces, at, n, limits, state, length, weight)
     for i in range(n):
         state[STATE_BLOCKS + TANGENT * n + i] = state[unit + i]
+        state[STATE_BLOCKS + BENT_BEFORE * n + i] = state[STATE_BLOCKS + BEND * n + i]
+    state[EXIT_PULL] = pull
     state[ROW_LENGTH], state[METRIC], state[SMOOTH] = length, weight, 1.0 if state[KIND] == SPLINE else 0.0
     return True
 
 
-def line_limits(n: int, limits: Floats, state: Floats, length: float) -> tuple[float, float]:
-    """Speed and acceleration along the row at hand that its axes allow; sets UNIT to its direction."""
+def line_limits(
+    contexts: Floats, record: int, n: int, limits: Floats, state: Floats, length: float
+) -> tuple[float, float]:
+    """Speed and acceleration along the row at hand that its axes allow; sets UNIT to its direction.
+
+    DRIVE: a row on which an axis may become faster than DRIVE_SPEED of its velocity accelerates less all along.
+    """
     delta, unit = STATE_BLOCKS + DELTA * n, STATE_BLOCKS + UNIT * n
     top_block = (TOP_RAPID if is_rapid(state) else TOP_FEED) * n
     top, pull = inf, inf
     for i in range(n):
         state[unit + i] = state[delta + i] / length
+        state[STATE_BLOCKS + BEND * n + i] = 0.0
         share = abs(state[unit + i])
         if share > 0.0:
             top = min(top, limits[top_block + i] / share)
             pull = min(pull, limits[ACCELERATION * n + i] / share)
+    if contexts[record + RAMP_S] > 0.0:
+        alone = is_rapid(state) and limits[LIMIT_BLOCKS * n + RAPID_STOPS] != 0.0
+        pull = line_pull(contexts, record, n, limits, state, alone or state[KIND] == TAP)
+    elif contexts[record + DRIVE_SPEED] < 1.0:
+        pull = drive_pull(contexts, record, n, limits, state, top, pull)
     return top, pull
 
 
+def drive_pull(
+    contexts: Floats, record: int, n: int, limits: Floats, state: Floats, top: float, pull: float
+) -> float:
+    """Acceleration along a row under DRIVE, for the path speed `top` and the acceleration without it."""
+    if not is_rapid(state) and contexts[record + PER_REVOLUTION] == contexts[record + INVERSE_TIME] == 0.0:
+        top = min(top, state[FEED]) if state[FEED] > 0.0 else top
+    for i in range(n):
+        speed = top * abs(state[STATE_BLOCKS + UNIT * n + i])
+        block = TOP_RAPID if is_rapid(state) else TOP_FEED
+        if speed > contexts[record + DRIVE_SPEED] * limits[block * n + i]:
+            return pull * (1.0 - contexts[record + DRIVE_REDUCTION])
+    return pull
+
+
 def lay_chord(
-    pieces: Floats, at: int, n: int, limits: Floats, state: Floats, length: float, weight: float
+    contexts: Floats,
+    record: int,
+    pieces: Floats,
+    at: int,
+    n: int,
+    limits: Floats,
+    state: Floats,
+    length: float,
+    weight: float,
 ) -> None:
     """Give a spline's chord the tangents and the curvature of the curve through its points.
 
@@ -260,8 +320,8 @@ def lay_chord(
     """
     unit, tangent, bend = STATE_BLOCKS + UNIT * n, STATE_BLOCKS + TANGENT * n, STATE_BLOCKS + BEND * n
     here = at + VECTORS
-    before = here - (VECTORS + 4 * n)
-    pieces[at + FORM] = CURVED
+    before = here - piece_width(n)
+    pieces[at + FORM] = CURVED if contexts[record + RAMP_S] == 0.0 else BENT
     for i in range(n):
         pieces[here + i] = pieces[here + n + i] = state[unit + i]
         pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = 0.0

@@ -12,21 +12,25 @@ from math import inf, sqrt
 
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
+    BENT,
     CAP2,
     CURVED,
     END2,
     ENTRY2,
     FORM,
     LENGTH,
+    PAUSE,
+    PEAK2,
     PULL,
+    RATE,
     REACH2,
     ROW,
     SLOT,
     SPEED2,
-    STRAIGHT,
     TIME,
     VECTORS,
     Floats,
+    piece_width,
 )
 
 #: Tries for the speed in the middle of a curved piece, and steps to the crest of `highest2`.
@@ -39,11 +43,11 @@ def backward(pieces: Floats, count: int, n: int, limits: Floats) -> int:
     The last joint whose reach does not depend on what comes behind it, because its own cap bounds it; -1 for
     none.
     """
-    independent, width, x2 = -1, VECTORS + 4 * n, 0.0
+    independent, width, x2 = -1, piece_width(n), 0.0
     for p in range(count - 1, -1, -1):
         at = p * width
         cap2 = pieces[at + ENTRY2]
-        if pieces[at + FORM] == STRAIGHT:
+        if pieces[at + FORM] <= BENT:
             x2 += 2.0 * pieces[at + PULL] * pieces[at + LENGTH]
         elif x2 < cap2 and pieces[at + FORM] == CURVED:
             x2 = max(x2, highest2(pieces, at, n, limits, x2))
@@ -77,21 +81,25 @@ def forward(
         row_s: Seconds of every row from `first_row` on; the pieces' are added.
         first_row: Number of the first row in `row_s`.
     """
-    width = VECTORS + 4 * n
+    width = piece_width(n)
     x2 = pieces[SPEED2]
     for p in range(count):
         at = p * width
         length = pieces[at + LENGTH]
         next2 = pieces[at + width + REACH2] if p + 1 < count else end2
-        if pieces[at + FORM] == STRAIGHT:
-            next2 = min(next2, x2 + 2.0 * pieces[at + PULL] * length)
-            seconds = straight_time(x2, next2, pieces[at + CAP2], pieces[at + PULL], length)
+        peak2, rate = 0.0, pieces[at + PULL]
+        if pieces[at + FORM] <= BENT:
+            next2 = min(next2, x2 + 2.0 * rate * length)
+            peak2 = straight_peak2(x2, next2, pieces[at + CAP2], rate, length)
+            seconds = straight_time(x2, next2, pieces[at + CAP2], rate, length)
         elif pieces[at + FORM] == CURVED:
             next2 = min(next2, max(bound2(pieces, at, n, limits, x2, False)[0], 0.0))
-            seconds = curved_time(pieces, at, n, limits, x2, next2)
+            seconds, peak2, rate = curved_time(pieces, at, n, limits, x2, next2)
         else:
-            next2, seconds = 0.0, pieces[at + PULL]
+            next2, seconds = 0.0, rate
         pieces[at + SPEED2], pieces[at + END2], pieces[at + TIME] = x2, next2, seconds
+        pieces[at + PEAK2], pieces[at + RATE] = peak2, rate
+        seconds += pieces[at + PAUSE]
         x2 = next2
         slot = 2 * int(pieces[at + SLOT])
         slots[slot] += seconds
@@ -101,12 +109,17 @@ def forward(
 
 def straight_time(start2: float, end2: float, cap2: float, pull: float, length: float) -> float:
     """Seconds of a straight piece: up to the peak, along it, down to the end (a trapezoid, or a triangle)."""
-    peak2 = max(min(cap2, 0.5 * (start2 + end2) + pull * length), start2, end2)
+    peak2 = straight_peak2(start2, end2, cap2, pull, length)
     if peak2 <= 0.0:
         return 0.0
     peak = sqrt(peak2)
     level = length - (2.0 * peak2 - start2 - end2) / (2.0 * pull)
     return (2.0 * peak - sqrt(start2) - sqrt(end2)) / pull + max(level, 0.0) / peak
+
+
+def straight_peak2(start2: float, end2: float, cap2: float, pull: float, length: float) -> float:
+    """Highest x on a straight piece."""
+    return max(min(cap2, 0.5 * (start2 + end2) + pull * length), start2, end2)
 
 
 def bound2(
@@ -165,8 +178,10 @@ def highest2(pieces: Floats, at: int, n: int, limits: Floats, end2: float) -> fl
     return best
 
 
-def curved_time(pieces: Floats, at: int, n: int, limits: Floats, start2: float, end2: float) -> float:
-    """Seconds of a curved piece: under constant acceleration, or over a peak where that is quicker.
+def curved_time(
+    pieces: Floats, at: int, n: int, limits: Floats, start2: float, end2: float
+) -> tuple[float, float, float]:
+    """Seconds of a curved piece, highest x, and the acceleration to it: steady, or over a peak if quicker.
 
     A peak costs acceleration to the side; what is left at its height, at the worse end and for the worst
     axis, serves to go up and down. Half the height is tried where too little is left.
@@ -176,8 +191,9 @@ def curved_time(pieces: Floats, at: int, n: int, limits: Floats, start2: float, 
     if high2 > 0.0:
         seconds = 2.0 * length / (sqrt(start2) + sqrt(end2))
     peak2 = min(pieces[at + CAP2], high2 + pieces[at + PULL] * length)
+    steady = abs(end2 - start2) / (2.0 * length)
     if start2 + end2 >= 1.96 * peak2:
-        return seconds  # nearly level at the peak: nothing to win
+        return seconds, high2, steady  # nearly level at the peak: nothing to win
     first = at + VECTORS
     for _ in range(TRIES):
         left = inf
@@ -187,6 +203,9 @@ def curved_time(pieces: Floats, at: int, n: int, limits: Floats, start2: float, 
                 spent = abs(pieces[first + 2 * n + i]) * peak2
                 left = min(left, (limits[ACCELERATION * n + i % n] - spent) / share)
         if left > 0.0 and abs(end2 - start2) <= 2.0 * left * length:
-            return min(seconds, straight_time(start2, end2, peak2, left, length))
+            over = straight_time(start2, end2, peak2, left, length)
+            if over < seconds:
+                return over, straight_peak2(start2, end2, peak2, left, length), left
+            break
         peak2 = high2 + 0.5 * (peak2 - high2)
-    return seconds
+    return seconds, high2, steady

@@ -1,0 +1,131 @@
+"""Limited jerk: how much speed and acceleration along the path lines, corners and curves allow.
+
+The speed along the path is averaged over RAMP_S (T), then the position of every axis twice over BLEND_S (τ),
+symmetrically in time. The first makes the jerk along the path at most `2·pull/T`; the path stays as it is. The
+second turns what is left into bounded jerk: a jump of velocity, Δv at a corner, becomes a peak of acceleration
+`Δv/τ` with a jerk of `Δv/τ²`, and a deviation of `Δv·τ/6`; a jump of acceleration, Δa where the curvature
+changes, a jerk of `Δa/τ`; a steady acceleration a across the path deviates by `a·τ²/12`.
+
+Each of these gets a part of the axis's jerk and acceleration and of the contour tolerance; the parts that can
+come together add up to no more than one.
+"""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+
+from polycnc.motion.kernels.columns import (
+    ACCELERATION,
+    BASIS,
+    BEND,
+    BENT_BEFORE,
+    BLEND_S,
+    GEOMETRY,
+    JERK,
+    JOINT_PULL,
+    LIMIT_BLOCKS,
+    RAMP_S,
+    ROTARY,
+    ROW_LENGTH,
+    SMOOTH,
+    STATE_BLOCKS,
+    TANGENT,
+    TOLERANCE,
+    UNIT,
+    Floats,
+)
+
+#: Parts of the acceleration: along the path; across it; in corners.
+ALONG, ACROSS, CORNER = 0.7, 0.3, 0.3
+#: Parts of the jerk: of one corner; of a row of short lines; where the curvature changes; on a
+#: curve by its speed and by its change of speed; at a corner by the change of speed.
+JERK_CORNER, JERK_LINES, JERK_ENTRY, JERK_CURVE, JERK_BOTH, JERK_TURN = 0.5, 0.3, 0.4, 0.25, 0.2, 0.25
+#: Parts of the tolerance: of one corner, of the acceleration across the path.
+STRAY_CORNER, STRAY_CURVE = 0.5, 0.5
+#: Turns smaller than this count as none.
+NO_TURN = 1e-9
+
+
+def axis_pull(contexts: Floats, record: int, n: int, limits: Floats, i: int) -> float:
+    """Acceleration of an axis that neither exceeds its own limit nor, averaged over RAMP_S, that of jerk."""
+    pull, ramp = limits[ACCELERATION * n + i], contexts[record + RAMP_S]
+    if ramp > 0.0:
+        pull = min(pull, 0.5 * limits[JERK * n + i] * ramp)
+    return pull
+
+
+def line_pull(contexts: Floats, record: int, n: int, limits: Floats, state: Floats, alone: bool) -> float:
+    """Acceleration along the row at hand, from UNIT; `alone`: from rest to rest, so that nothing else needs a part.
+
+    Else it does not depend on the direction: then it is the same on both sides of most joints.
+    """
+    pull = inf
+    for i in range(n):
+        share = abs(state[STATE_BLOCKS + UNIT * n + i])
+        if share > 0.0:
+            own = axis_pull(contexts, record, n, limits, i)
+            pull = min(pull, own / share if alone else ALONG * own / max(share, 1.0))
+    return pull
+
+
+def corner_hold2(
+    contexts: Floats, record: int, n: int, limits: Floats, state: Floats, length: float, cap2: float
+) -> float:
+    """Largest x up to `cap2` at the joint between two rows; lowers JOINT_PULL, the acceleration around it.
+
+    Where SMOOTH is 2 the rows are chords of a spline, and the curve through their ends turns steadily.
+    """
+    smooth = state[SMOOTH] == 2.0
+    unit, tangent = STATE_BLOCKS + UNIT * n, STATE_BLOCKS + TANGENT * n
+    bend, before = STATE_BLOCKS + BEND * n, STATE_BLOCKS + BENT_BEFORE * n
+    blend, x2 = contexts[record + BLEND_S], cap2
+    shorter, mean = min(length, state[ROW_LENGTH]), 0.5 * (length + state[ROW_LENGTH])
+    turn, least = 0.0, inf
+    for i in range(n):
+        a, j = limits[ACCELERATION * n + i], limits[JERK * n + i]
+        step = abs(state[unit + i] - state[tangent + i])
+        if limits[ROTARY * n + i] == 0.0:
+            turn += step * step
+        if smooth:
+            state[bend + i] = (state[unit + i] - state[tangent + i]) / mean
+            if step > NO_TURN:
+                x2 = min(x2, ACROSS * a * mean / step)
+                least = min(least, j * mean / step)
+        elif step > NO_TURN:
+            jump = min(JERK_CORNER * j * blend * blend, CORNER * a * blend) / step
+            x2 = min(x2, jump * jump, min(ACROSS * a, JERK_LINES * j * blend) * shorter / step)
+            state[JOINT_PULL] = min(state[JOINT_PULL], JERK_TURN * j * blend / step)
+        change = abs(state[bend + i] - state[before + i])
+        if change > NO_TURN:
+            x2 = min(x2, JERK_ENTRY * j * blend / change)
+            if smooth:
+                x2 = min(x2, (JERK_CURVE * j * mean / change) ** (2.0 / 3.0))
+    turn = sqrt(turn)
+    if turn > NO_TURN:
+        stray = contexts[record + TOLERANCE] / (blend * turn)
+        x2 = min(x2, 12.0 * STRAY_CURVE * stray / blend * (mean if smooth else shorter))
+        if not smooth:
+            x2 = min(x2, (6.0 * STRAY_CORNER * stray) ** 2)
+    if smooth and least < inf and x2 > 0.0:
+        state[JOINT_PULL] = min(state[JOINT_PULL], JERK_BOTH * least / (3.0 * sqrt(x2)))
+    return x2
+
+
+def arc_hold(
+    contexts: Floats, record: int, n: int, limits: Floats, state: Floats, curvature: float, speed: float
+) -> tuple[float, float]:
+    """Largest x and acceleration along an arc of a curvature (1/mm) that is asked to run at a speed."""
+    geometry, blend = LIMIT_BLOCKS * n + GEOMETRY, contexts[record + BLEND_S]
+    a, j, pull = inf, inf, inf
+    for k in range(3):
+        i = int(limits[geometry + k])
+        if i >= 0:
+            pull = min(pull, ALONG * axis_pull(contexts, record, n, limits, i))
+            if state[BASIS + k] != 0.0 or state[BASIS + 3 + k] != 0.0:
+                a, j = min(a, limits[ACCELERATION * n + i]), min(j, limits[JERK * n + i])
+    tolerance = contexts[record + TOLERANCE]
+    cap2 = min(
+        speed * speed, ACROSS * a / curvature, 12.0 * STRAY_CURVE * tolerance / (blend * blend * curvature)
+    )
+    cap2 = min(cap2, (JERK_CURVE * j / (curvature * curvature)) ** (2.0 / 3.0))
+    return cap2, min(pull, JERK_BOTH * j / (3.0 * curvature * sqrt(cap2)))

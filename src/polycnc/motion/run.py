@@ -1,0 +1,225 @@
+"""A run: what the axes do from one standstill to the next, as a function of time.
+
+A run is made of planned pieces. Its time law along the path is exact: speeds are piecewise linear in time, so the
+way is piecewise quadratic and its integral piecewise cubic. The average of the way over RAMP_S is therefore the
+difference of two values of that integral. The average of an axis's position over BLEND_S, twice, has a second
+derivative that is a plain second difference of positions on the path (`kernels/jerk.py` says what the two
+averages are for).
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from polycnc.motion.kernels.columns import (
+    BENT,
+    CURVED,
+    END2,
+    FORM,
+    LENGTH,
+    MARGIN,
+    PEAK2,
+    PLACES,
+    RATE,
+    ROW,
+    SPEED2,
+    TIMED,
+    VECTORS,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+#: Parts of each half of the window over which positions are averaged by Simpson's rule; even.
+PARTS = 8
+
+
+class TimeLaw:
+    """Way along a path in time: phases of constant acceleration, one behind the other from time 0 and way 0.
+
+    Args:
+        seconds: Of each phase, (m,).
+        speed: At the start of each, (m,).
+        rate: Acceleration of each, (m,).
+    """
+
+    def __init__(self, seconds: Any, speed: Any, rate: Any) -> None:
+        keep = seconds > 0.0
+        self._speed, self._rate, seconds = speed[keep], rate[keep], seconds[keep]
+        self._start = np.concatenate([[0.0], np.cumsum(seconds)])
+        ways = seconds * (self._speed + 0.5 * self._rate * seconds)
+        self._way = np.concatenate([[0.0], np.cumsum(ways)])
+        sums = seconds * (self._way[:-1] + seconds * (0.5 * self._speed + self._rate * seconds / 6.0))
+        self._sum = np.concatenate([[0.0], np.cumsum(sums)])
+        # At rest behind the last phase.
+        self._speed, self._rate = np.append(self._speed, 0.0), np.append(self._rate, 0.0)
+
+    @property
+    def seconds(self) -> float:
+        """Duration."""
+        return float(self._start[-1])
+
+    def at(self, time: Any) -> tuple[Any, Any, Any, Any]:
+        """Integral of the way, way, speed, acceleration at times; at rest outside of the run."""
+        inside = time > 0.0
+        time = np.maximum(time, 0.0)
+        k = np.searchsorted(self._start, time, "right") - 1
+        dt, speed, rate = time - self._start[k], self._speed[k], self._rate[k]
+        way = self._way[k] + dt * (speed + 0.5 * rate * dt)
+        total = self._sum[k] + dt * (self._way[k] + dt * (0.5 * speed + rate * dt / 6.0))
+        return total, way, np.where(inside, speed + rate * dt, 0.0), np.where(inside, rate, 0.0)
+
+    def when(self, way: float) -> float:
+        """The time at which a way has been gone."""
+        k = min(max(int(np.searchsorted(self._way, way, "right")) - 1, 0), len(self._speed) - 1)
+        left, speed, rate = max(way - self._way[k], 0.0), self._speed[k], self._rate[k]
+        fast = sqrt(max(speed * speed + 2.0 * rate * left, 0.0)) + speed
+        return float(self._start[k] + (2.0 * left / fast if fast > 0.0 else 0.0))
+
+    def lag(self, speed: float) -> float:
+        """Seconds that getting up to a speed from rest costs against having had it."""
+        k = int(np.argmax(self._speed >= speed * (1.0 - 1e-9))) if speed > 0.0 else 0
+        return float(self._start[k] - self._way[k] / speed) if k else 0.0
+
+    def averaged(self, time: Any, window: float) -> tuple[Any, Any, Any]:
+        """Way, speed and acceleration, averaged over a window around each time."""
+        if window == 0.0:
+            return self.at(time)[1:]
+        before, after = self.at(time - 0.5 * window), self.at(time + 0.5 * window)
+        return tuple((b - a) / window for a, b in zip(before[:3], after[:3], strict=True))
+
+
+class Run:
+    """Positions of all axes over a run.
+
+    Args:
+        pieces: Records of planned pieces, (m, width), from rest to rest.
+        n: Number of axes.
+        ramp: RAMP_S of the run, seconds.
+        blend: BLEND_S of the run, seconds.
+        limits: For a rapid of each axis by itself: velocity and acceleration of every axis.
+    """
+
+    def __init__(
+        self, pieces: Any, n: int, ramp: float, blend: float, limits: Sequence[tuple[float, float]] = ()
+    ) -> None:
+        self._ramp, self._blend, self._n = ramp, blend, n
+        self.rows = pieces[:, ROW].astype(np.int64)
+        block = [pieces[:, VECTORS + k * n : VECTORS + (k + 1) * n] for k in range(PLACES + 2)]
+        self._start, self._end = block[PLACES], block[PLACES + 1]
+        self._length = np.maximum(pieces[:, LENGTH], 1e-300)
+        self._ways = np.concatenate([[0.0], np.cumsum(pieces[:, LENGTH])])
+        bent = np.isin(pieces[:, FORM], (BENT, CURVED))[:, None]
+        scale = (self._length / pieces[:, MARGIN])[:, None]
+        chord = self._end - self._start
+        self._leave = np.where(bent, block[0] * scale, chord)
+        self._arrive = np.where(bent, block[1] * scale, chord)
+        self._alone: list[TimeLaw] = []
+        if pieces[0, FORM] == TIMED:
+            self._alone = [_trapezoid(abs(way), *limit) for way, limit in zip(chord[0], limits, strict=True)]
+            self.law = max(self._alone, key=lambda law: law.seconds)
+        else:
+            self.law = TimeLaw(*_phases(pieces))
+
+    @property
+    def seconds(self) -> float:
+        """Duration, until the averages have come to rest."""
+        return self.law.seconds + self._ramp + 2.0 * self._blend
+
+    @property
+    def end(self) -> Any:
+        """Position of the axes at the end, (n,)."""
+        return self._end[-1]
+
+    @property
+    def main_axis(self) -> int:
+        """The axis with the longest way: the one along which a lead counts."""
+        return int(np.argmax(np.abs(self._end[-1] - self._start[0])))
+
+    def enters(self, row: int) -> float:
+        """When the axes come to the first piece of a row."""
+        way = self._ways[np.searchsorted(self.rows, row)]
+        return self.law.when(float(way)) + 0.5 * self._ramp + self._blend
+
+    def lag(self, axis_speed: float) -> float:
+        """Seconds by which the axes are behind one that has had its speed from the start of the run.
+
+        Args:
+            axis_speed: Speed of the main axis that is reached, mm/s.
+        """
+        share = abs(self._end[0] - self._start[0])[self.main_axis] / self._length[0]
+        return 0.5 * self._ramp + self._blend + self.law.lag(axis_speed / max(float(share), 1e-12))
+
+    def piece_at(self, time: Any) -> Any:
+        """Index of the piece at times from the start of the run."""
+        way = self.law.averaged(time - 0.5 * self._ramp - self._blend, self._ramp)[0]
+        return self._index(way)
+
+    def at(self, time: Any) -> tuple[Any, Any, Any]:
+        """Position, velocity and acceleration of the axes at times from the start of the run, each (k, n)."""
+        time = np.asarray(time) - 0.5 * self._ramp - self._blend
+        blend = self._blend
+        if blend == 0.0:
+            return self._on_path(time)
+        steps = blend / PARTS
+        places = np.stack([self._on_path(time + k * steps)[0] for k in range(-PARTS, PARTS + 1)])
+        simpson = np.array([1.0] + [4.0, 2.0] * (PARTS // 2 - 1) + [4.0, 1.0]) / (3.0 * PARTS)
+        before, after = (np.tensordot(simpson, places[k : k + PARTS + 1], 1) for k in (0, PARTS))
+        tent = np.concatenate([np.arange(PARTS), np.arange(PARTS, -1, -1)]) / PARTS**2
+        position = np.tensordot(tent, places, 1)
+        acceleration = (places[0] - 2.0 * places[PARTS] + places[-1]) / blend**2
+        return position, (after - before) / blend, acceleration
+
+    def _index(self, way: Any) -> Any:
+        return np.clip(np.searchsorted(self._ways, way, "right") - 1, 0, len(self._length) - 1)
+
+    def _on_path(self, time: Any) -> tuple[Any, Any, Any]:
+        """Position, velocity and acceleration on the path itself."""
+        if self._alone:
+            return self._each_alone(time)
+        way, speed, rate = (value[:, None] for value in self.law.averaged(time, self._ramp))
+        k = self._index(way[:, 0])
+        f = np.clip((way - self._ways[k][:, None]) / self._length[k][:, None], 0.0, 1.0)
+        start, chord, length = self._start[k], self._end[k] - self._start[k], self._length[k][:, None]
+        # A cubic through both ends with their tangents (Hermite); on a line it is the line.
+        leave, arrive = self._leave[k] - chord, self._arrive[k] - chord
+        position = start + f * (chord + (1.0 - f) * ((1.0 - f) * leave - f * arrive))
+        first = chord + (1.0 - f) * (1.0 - 3.0 * f) * leave + f * (3.0 * f - 2.0) * arrive
+        second = (6.0 * f - 4.0) * leave + (6.0 * f - 2.0) * arrive
+        return position, first * speed / length, second * (speed / length) ** 2 + first * rate / length
+
+    def _each_alone(self, time: Any) -> tuple[Any, Any, Any]:
+        """Every axis by its own time law."""
+        columns: list[tuple[Any, Any, Any]] = []
+        for i, law in enumerate(self._alone):
+            sense = 1.0 if self._end[0, i] >= self._start[0, i] else -1.0
+            way, speed, rate = law.averaged(time, self._ramp)
+            columns.append((self._start[0, i] + sense * way, sense * speed, sense * rate))
+        position, velocity, acceleration = (np.stack(values, axis=1) for values in zip(*columns, strict=True))
+        return position, velocity, acceleration
+
+
+def _phases(pieces: Any) -> tuple[Any, Any, Any]:
+    """Three phases a piece: to its peak, along it, and down."""
+    start, peak, end = (np.sqrt(pieces[:, field]) for field in (SPEED2, PEAK2, END2))
+    rate = np.where(pieces[:, RATE] > 0.0, pieces[:, RATE], 1.0)
+    up, down = (peak - start) / rate, (peak - end) / rate
+    level = pieces[:, LENGTH] - 0.5 * (up * (start + peak) + down * (end + peak))
+    level = np.maximum(level, 0.0) / np.where(peak > 0.0, peak, 1.0)
+    seconds = np.stack([up, level, down], axis=1).ravel()
+    speed = np.stack([start, peak, peak], axis=1).ravel()
+    rates = np.stack([rate, np.zeros_like(rate), -rate], axis=1).ravel()
+    return np.where(seconds > 0.0, seconds, 0.0), speed, rates
+
+
+def _trapezoid(way: float, top: float, pull: float) -> TimeLaw:
+    """From rest to rest."""
+    peak = min(top, sqrt(way * pull))
+    ramp = peak / pull
+    level = (way - peak * ramp) / peak if peak > 0.0 else 0.0
+    return TimeLaw(
+        np.array([ramp, max(level, 0.0), ramp]), np.array([0.0, peak, peak]), np.array([pull, 0.0, -pull])
+    )
