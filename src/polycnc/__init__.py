@@ -12,11 +12,21 @@
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from polycnc.mainrun import VirtualControl
     from polycnc.messages.catalogue import set_language
     from polycnc.session import Result, Session, SessionError, open_session, run
 
 __version__ = "0.1.0"
-__all__ = ["Result", "Session", "SessionError", "__version__", "open_session", "run", "set_language"]
+__all__ = [
+    "Result",
+    "Session",
+    "SessionError",
+    "VirtualControl",
+    "__version__",
+    "open_session",
+    "run",
+    "set_language",
+]
 
 
 def __getattr__(name: str) -> Any:
@@ -24,6 +34,10 @@ def __getattr__(name: str) -> Any:
         from polycnc.messages.catalogue import set_language
 
         return set_language
+    if name == "VirtualControl":
+        from polycnc.mainrun import VirtualControl
+
+        return VirtualControl
     if name in __all__:
         from polycnc import session
 

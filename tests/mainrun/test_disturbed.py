@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from itertools import pairwise
 from math import dist
 from random import Random
+from typing import TYPE_CHECKING
 
 import pytest
 
 from polycnc.mainrun import State, VirtualControl
 from tests.mainrun.support import MILL, power_on, recorded
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 SCRIPTS = 1000
 
@@ -126,11 +130,9 @@ def test_no_script_makes_an_axis_exceed_its_acceleration(text: str) -> None:
             positions.append(virtual.machine_position)
             if virtual.state is State.READY:
                 break
-        speeds = [
-            [(b - a) / cycle for a, b in zip(p, q, strict=True)] for p, q in zip(positions, positions[1:])
-        ]
+        speeds = [[(b - a) / cycle for a, b in zip(p, q, strict=True)] for p, q in pairwise(positions)]
         assert max(abs(v) for speed in speeds for v in speed) <= max(TOP, 24000.0 / 60.0) * 1.001
-        for before, after in zip(speeds, speeds[1:]):
+        for before, after in pairwise(speeds):
             for a, b in zip(before, after, strict=True):
                 assert abs(b - a) <= (PULL * cycle + jump) * 1.01, seed
 

@@ -283,7 +283,6 @@ def test_axes_moved_in_between_go_back_before_the_program_goes_on() -> None:
     virtual.select_mode("jog")
     assert virtual.state is State.HOLD
     virtual.run()
-    interrupted = virtual.machine_position
     virtual.jog("Y", 1)
     virtual.step(1.0)
     virtual.stop_jog()

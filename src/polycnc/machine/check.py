@@ -47,6 +47,7 @@ def contradictions(machine: Machine) -> Iterator[Mistake]:
     yield from _axes(machine)
     yield from _references(machine)
     yield from _spindles(machine)
+    yield from _rules(machine)
 
 
 def _channels(machine: Machine) -> Iterator[Mistake]:
@@ -112,3 +113,12 @@ def _spindles(machine: Machine) -> Iterator[Mistake]:
             yield (*path, "min_rpm"), "speeds-crossed", {"min": spindle.min_rpm, "max": spindle.max_rpm}
         if spindle.axis and spindle.axis not in machine.axis:
             yield (*path, "axis"), "unknown-axis", {"axis": spindle.axis}
+
+
+def _rules(machine: Machine) -> Iterator[Mistake]:
+    for number, rule in enumerate(machine.rules):
+        try:
+            rule.condition  # noqa: B018 - it is read when it is first asked for
+        except ValueError as error:
+            at = error.args[0] + 1
+            yield ("rule", number, "when"), "no-condition", {"when": rule.when, "character": at}

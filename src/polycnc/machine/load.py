@@ -25,6 +25,7 @@ from polycnc.machine.model import (
     Text,
 )
 from polycnc.machine.places import toml_error_place, toml_place
+from polycnc.machine.rules import Rule
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -172,6 +173,10 @@ def build(machine_id: str, data: Mapping[str, Any]) -> Machine:
         joints=_joints(data.get("joint", ()), channels, {axis.name: axis.rotary for axis in axes}),
         solids=tuple(_solid(table) for table in data.get("solid", ())),
         interpolation_cycle_s=float(data.get("interpolation_cycle_s", 0.004)),
+        rules=tuple(
+            Rule(table["when"], table["output"], float(table.get("after_s", 0.0)), table.get("latch", ""))
+            for table in data.get("rule", ())
+        ),
     )
 
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.geometry.frames import Vector
+    from polycnc.machine.rules import Rule
 
 Carries = Literal["tool", "work"]
 Timing = Literal["before", "with", "after"]
@@ -192,7 +193,7 @@ class Solid:
 
 @dataclass(frozen=True)
 class Machine:
-    """A machine, complete. `axes` are in the order of the channels that own them."""
+    """A machine, complete. `axes` are in the order of the channels that own them, `rules` in that of their scan."""
 
     id: str
     name: Text
@@ -205,6 +206,7 @@ class Machine:
     joints: tuple[Joint, ...]
     solids: tuple[Solid, ...]
     interpolation_cycle_s: float = 0.004
+    rules: tuple[Rule, ...] = ()
 
     @cached_property
     def axis(self) -> Mapping[str, Axis]:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from polycnc.machine.model import Axis, Channel, Joint, Machine, Magazine, MFunction, Solid, Spindle
+    from polycnc.machine.rules import Rule
 
 _SECONDS_PER_MINUTE = 60.0
 #: Comments of a table stand in one column, no further right than this.
@@ -92,6 +93,8 @@ def _tables(machine: Machine) -> Iterator[tuple[str, str, _Keys]]:
         yield "joint", "[[joint]]", _joint(joint)
     for solid in machine.solids:
         yield "solid", "[[solid]]", _solid(solid)
+    for rule in machine.rules:
+        yield "rule", "[[rule]]", _rule(rule)
 
 
 def _channel(channel: Channel) -> _Keys:
@@ -166,6 +169,11 @@ def _solid(solid: Solid) -> _Keys:
         ("direction", solid.direction if solid.shape == "cylinder" else None),
         ("moves_with", solid.moves_with),
     ]
+
+
+def _rule(rule: Rule) -> _Keys:
+    after = rule.after_s or None
+    return [("when", rule.when), ("output", rule.output), ("after_s", after), ("latch", rule.latch or None)]
 
 
 def _or_none(text: Text) -> Text | None:

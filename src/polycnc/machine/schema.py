@@ -146,6 +146,15 @@ class SolidTable(_Table):
     moves_with: str
 
 
+class RuleTable(_Table):
+    """`[[rule]]`."""
+
+    when: str
+    output: Annotated[str, StringConstraints(pattern=r"^[A-Za-z_$][A-Za-z0-9_$.\[\]]*$")]
+    after_s: NotNegative | None = None
+    latch: Literal["on", "off"] | None = None
+
+
 class MachineTable(_Table):
     """A whole file."""
 
@@ -161,6 +170,7 @@ class MachineTable(_Table):
     m_function: dict[Number, MFunctionTable] | None = None
     joint: list[JointTable] | None = None
     solid: list[SolidTable] | None = None
+    rule: list[RuleTable] | None = None
 
 
 #: Message of each kind of mistake, by the start of the name that pydantic gives it; the first fit counts.
@@ -224,6 +234,7 @@ def field_names() -> dict[str, set[str]]:
         "m_function": MFunctionTable,
         "joint": JointTable,
         "solid": SolidTable,
+        "rule": RuleTable,
     }
     return {name: set(table.model_fields) for name, table in tables.items()}
 

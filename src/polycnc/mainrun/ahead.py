@@ -102,7 +102,7 @@ class Ahead:
         self._stations: dict[tuple[object, ...], int] = {}
         self._laid_contexts = 0
         self._delays: dict[int, list[tuple[str, float]]] = {}
-        self._waits = Waits(machine, self.toolpath.contexts, (0, ""), self._delay)
+        self._waits = Waits(machine, self.toolpath.contexts, 0, self._delay)
         self._blocks: deque[tuple[tuple[int, int], str, Mapping[str, str]]] = deque()
         self._open: tuple[tuple[int, int], str] | None = None
         self._stopped = self._skips = False
@@ -134,15 +134,20 @@ class Ahead:
 
     def fill(self) -> bool:
         """Let the channel run ahead; false if it made nothing although it may go on."""
-        if len(self.items) > LOW or self.finished or self.waiting is not None:
+        if len(self.items) > LOW or self._rests():
             return True
         before = len(self.items)
         for _ in range(BLOCKS_A_CYCLE):
             self._step()
-            if self.finished or self.waiting is not None or len(self.items) >= FULL:
+            if self._rests() or len(self.items) >= FULL:
                 break
-        self.revised = self.revised or len(self.items) > before
-        return len(self.items) > before or self.finished or self.waiting is not None
+        made = len(self.items) > before
+        self.revised = self.revised or made
+        return made or self._rests()
+
+    def _rests(self) -> bool:
+        """Whether the channel does not go on by itself."""
+        return self.finished or self.waiting is not None
 
     def end_in_rest(self) -> None:
         """The axes come to rest behind what is prepared, for nobody knows when more will come."""

@@ -12,6 +12,7 @@ stands. The same commands at the same times give the same trace, bit for bit.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from math import ceil, inf
 from typing import TYPE_CHECKING, Any
@@ -167,6 +168,16 @@ class VirtualControl(Readings):
         elif self.state is State.EMERGENCY:
             self._brake(State.BRAKING)
 
+    def _press(self, key: str) -> None:
+        press = {
+            "CYCLE_START": self.cycle_start,
+            "FEED_HOLD": self.feed_hold,
+            "RESET": self.reset,
+            "EMERGENCY_STOP": self.emergency_stop,
+        }[key]
+        with suppress(CommandRefused):  # a key that cannot act now does nothing
+            press()
+
     # ---- by hand -------------------------------------------------------------------------------------------
 
     def select_mode(self, mode: Mode | str) -> None:
@@ -177,7 +188,9 @@ class VirtualControl(Readings):
             if self.state is State.RUNNING:
                 self.feed_hold()
             self._manual.brake_all(self.time)
+            self._signals[self.mode.upper()] = 0.0
             self.mode = wanted
+            self._signals[wanted.upper()] = 1.0
             self._report("mode", mode=wanted)
 
     def jog(self, axis: str, direction: int, *, rapid: bool = False) -> None:
@@ -301,6 +314,7 @@ class VirtualControl(Readings):
             limit_s: No longer than this.
             real_time: As fast as time really passes; else as fast as the computer can.
         """
+        self._settle()
         if real_time:
             return self._run_in_real_time(limit_s)
         cycle = self.machine.interpolation_cycle_s

@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 #: The input that ends a skip move.
 SKIP_SIGNAL = "SKIP"
+#: Keys of the panel that signals can press.
+KEYS = frozenset({"CYCLE_START", "FEED_HOLD", "RESET", "EMERGENCY_STOP"})
 #: What the reasons of a halt lead to; every other one stops.
 HALTS = {"end": State.READY, "alarm": State.ALARM}
 SINGLE_BLOCK_KINDS = ("", "SBL1", "SBL2", "SBL3")
@@ -79,6 +81,7 @@ class Core:
         self._hand: list[float] | None = None
         self._locked_at: list[float] | None = None
         self._collected: list[Happening] = []
+        self._pressed: list[str] = []
         self._build(start)
 
     def _build(self, setup: Setup) -> None:
@@ -88,7 +91,8 @@ class Core:
         self.channel, self._ahead = channel, ahead
         given = setup.switches.signals.items()
         signals = {name: float(value) for name, value in given if isinstance(value, int | float)}
-        self._signals = SignalImage(signals, self._on_edge, lambda: self.time)
+        cycle = self.machine.interpolation_cycle_s
+        self._signals = SignalImage(signals, self.machine.rules, self._on_edge, lambda: self.time, cycle)
         self._machinery = Machinery(
             self.machine,
             self._signals,
@@ -110,11 +114,12 @@ class Core:
         ahead.use(channel, self.control.motion_settings(channel))
         position = channel.coordinates.machine
         ahead.clear(position)
-        cycle = self.machine.interpolation_cycle_s
         self._automatic = Automatic(ahead, self._rates, self._machinery, position, cycle)
         self._manual = ManualAxes(channel.axis_data)
         self._display = MainRunDisplay(ahead.toolpath, self.machine, 1)
         self._show_channel()
+        self._signals[self.mode.upper()] = self._signals[self.state.upper()] = 1.0
+        self._signals.scan()
 
     # ---- time ----------------------------------------------------------------------------------------------
 
@@ -146,7 +151,9 @@ class Core:
         self._settle()
 
     def _settle(self) -> None:
-        """What follows when axes have come to rest."""
+        """What follows when keys were pressed by signals, or axes have come to rest."""
+        while self._pressed:
+            self._press(self._pressed.pop(0))
         if self._manual.moving:
             return
         if self._giving_up and not self._automatic.moving:
@@ -162,6 +169,10 @@ class Core:
         self._automatic.single_block = bool(self._switches.single_block)
         self._set_state(State.RUNNING)
         self._automatic.start()
+
+    def _press(self, key: str) -> None:
+        """A key of the panel, as a signal."""
+        raise NotImplementedError
 
     def _give_up(self) -> None:
         """The axes stand: the program is given up, the control is as after reset."""
@@ -225,6 +236,8 @@ class Core:
 
     def _on_edge(self, name: str, value: float) -> None:
         self._report("signal", name=name, value=value)
+        if name in KEYS and value:
+            self._pressed.append(name)
         if name == SKIP_SIGNAL and value:
             here = self._automatic.skip_signal()
             if here is not None:
@@ -259,7 +272,9 @@ class Core:
 
     def _set_state(self, state: State, **data: object) -> None:
         if state is not self.state:
+            self._signals[self.state.upper()] = 0.0
             self.state = state
+            self._signals[state.upper()] = 1.0
             self._report("state", state=state, **data)
 
     def _report(self, what: str, **data: object) -> None:

@@ -68,6 +68,8 @@ class Machinery:
     @property
     def due(self) -> float:
         """When a function is done, or a rule of the machine acts."""
+        if any(end == inf and self._signals.is_done(code) for code, end in self._running.items()):
+            return self._clock()
         return min(min(self._running.values(), default=inf), self._signals.due)
 
     def advance(self, time: float) -> None:
@@ -76,7 +78,7 @@ class Machinery:
         for code in [code for code, end in self._running.items() if end <= time]:
             del self._running[code]
             self._signals.finish(code)
-        for code in [code for code in self._running if self._signals.is_finished(code)]:
+        for code in [code for code in self._running if self._signals.is_done(code)]:
             del self._running[code]
             self._signals.finish(code)
 

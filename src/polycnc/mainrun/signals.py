@@ -1,4 +1,9 @@
-"""The signal image: inputs and outputs by name, with the time of their last edge."""
+"""The signal image: inputs and outputs by name with the time of their last edge, and the machine's rules on them.
+
+What the control puts out: `M8` while M8 waits to be done, the state and the mode in capitals (`RUNNING`, `JOG`). What
+it takes in: `FIN_M8` when M8 is done (only asked for where a rule of the machine gives it), the keys of the panel
+(`CYCLE_START`, `FEED_HOLD`, `RESET`, `EMERGENCY_STOP`), `SKIP`. Every other name belongs to the machine.
+"""
 
 from __future__ import annotations
 
@@ -6,28 +11,47 @@ from math import inf
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
+
+    from polycnc.machine.rules import Rule
+
+#: In front of the M function that a rule says is done.
+DONE = "FIN_"
+#: Rounds of the rules at one moment, after which outputs that chase each other wait for the next cycle.
+ROUNDS = 50
 
 
 class SignalImage:
-    """Signals between control and machine.
+    """Signals between control, machine and panel. A signal that nobody has set is 0.
 
     Args:
         start: Signals and their values at power-on.
+        rules: Rules of the machine, in the order of their scan.
         on_edge: Called with name and value when a signal changes.
         clock: Gives the simulated time.
+        cycle_s: How long outputs that chase each other wait.
     """
 
     def __init__(
         self,
         start: Mapping[str, float],
+        rules: Sequence[Rule],
         on_edge: Callable[[str, float], None],
         clock: Callable[[], float],
+        cycle_s: float,
     ) -> None:
         self._values: dict[str, float] = dict(start)
         self._edges: dict[str, float] = {}
+        self._rules = rules
+        self._held_since: list[float | None] = [None] * len(rules)
+        self._answered = frozenset(rule.output for rule in rules if rule.output.startswith(DONE))
         self._on_edge = on_edge
         self._clock = clock
+        self._cycle_s = cycle_s
+        self._scanning = False
+        self.due = inf
+
+    # ---- values --------------------------------------------------------------------------------------------
 
     @property
     def values(self) -> Mapping[str, float]:
@@ -38,33 +62,69 @@ class SignalImage:
         return self._values.get(name, 0.0)
 
     def __setitem__(self, name: str, value: float) -> None:
-        if self._values.get(name, 0.0) != value:
-            self._values[name] = value
+        changed = self._values.get(name, 0.0) != value
+        self._values[name] = float(value)
+        if changed:
             self._edges[name] = self._clock()
-            self._on_edge(name, value)
-        else:
-            self._values[name] = value
+            self._on_edge(name, float(value))
+            self.scan()
 
     def since(self, name: str) -> float:
         """When a signal last changed; 0 where it never has."""
         return self._edges.get(name, 0.0)
 
-    @property
-    def due(self) -> float:
-        """When a rule acts next."""
-        return inf
+    # ---- rules ---------------------------------------------------------------------------------------------
+
+    def scan(self) -> None:
+        """Let the rules act on the signals as they are now; `due` is when the next delay ends."""
+        if self._scanning or not self._rules:
+            return
+        self._scanning = True
+        try:
+            for _ in range(ROUNDS):
+                before = dict(self._values)
+                self.due = self._round()
+                if self._values == before:
+                    return
+            self.due = self._clock() + self._cycle_s
+        finally:
+            self._scanning = False
+
+    def _round(self) -> float:
+        now, due = self._clock(), inf
+        for number, rule in enumerate(self._rules):
+            holds = rule.condition(self.__getitem__)
+            since = self._held_since[number]
+            if not holds:
+                since = None
+            elif since is None:
+                since = now
+            self._held_since[number] = since
+            acts = since is not None and now >= since + rule.after_s
+            if since is not None and not acts:
+                due = min(due, since + rule.after_s)
+            if rule.latch:
+                if acts:
+                    self[rule.output] = float(rule.latch == "on")
+            else:
+                self[rule.output] = float(acts)
+        return due
 
     def advance(self, time: float) -> None:
-        """Let rules act that are due."""
+        """Let act what is due."""
+        if self.due <= time:
+            self.scan()
+
+    # ---- M functions ---------------------------------------------------------------------------------------
 
     def begin(self, code: int) -> bool:
         """An M function goes out; whether a rule of the machine says when it is done."""
         self[f"M{code}"] = 1.0
-        return False
+        return f"{DONE}M{code}" in self._answered
 
-    def is_finished(self, code: int) -> bool:
+    def is_done(self, code: int) -> bool:
         """Whether the machine has said that a function is done."""
-        return False
+        return bool(self[f"{DONE}M{code}"])
 
     def finish(self, code: int) -> None:
         """A function is done."""

@@ -1,0 +1,110 @@
+"""Rules of the machine's own controller (PLC): an output follows a condition over signals.
+
+A condition joins signals with `&`, `|` and `!`, in brackets where needed; a signal is on when it is not zero.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    Condition = Callable[[Callable[[str], float]], bool]
+
+Latch = Literal["", "on", "off"]
+_TOKEN = re.compile(r"\s*(?:(?P<name>[A-Za-z_$][\w$.\[\]]*)|(?P<sign>[&|!()]))")
+#: How deeply brackets and `!` may be nested.
+_DEEPEST = 50
+
+
+@dataclass(frozen=True)
+class Rule:
+    """One rule.
+
+    Attributes:
+        when: The condition.
+        output: The signal that it acts on.
+        after_s: How long the condition must have held.
+        latch: Empty: the output is on as long as the condition holds. `on`, `off`: the output is switched on or
+            off, and stays.
+    """
+
+    when: str
+    output: str
+    after_s: float = 0.0
+    latch: Latch = ""
+
+    @cached_property
+    def condition(self) -> Condition:
+        """The condition, asked with a function that gives the value of a signal.
+
+        Raises:
+            ValueError: The text is no condition; the argument is where it goes wrong, from 0.
+        """
+        return _Reader(self.when).read()
+
+
+class _Reader:
+    """Recursive descent over the tokens of a condition: or, and, not, signal or brackets."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._at = 0
+        self._depth = 0
+
+    def read(self) -> Condition:
+        condition = self._either()
+        if self._text[self._at :].strip():
+            raise ValueError(self._at)
+        return condition
+
+    def _next(self) -> re.Match[str] | None:
+        return _TOKEN.match(self._text, self._at)
+
+    def _takes(self, sign: str) -> bool:
+        match = self._next()
+        if match is None or match["sign"] != sign:
+            return False
+        self._at = match.end()
+        return True
+
+    def _either(self) -> Condition:
+        parts = [self._both()]
+        while self._takes("|"):
+            parts.append(self._both())
+        return parts[0] if len(parts) == 1 else lambda value: any(part(value) for part in parts)
+
+    def _both(self) -> Condition:
+        parts = [self._one()]
+        while self._takes("&"):
+            parts.append(self._one())
+        return parts[0] if len(parts) == 1 else lambda value: all(part(value) for part in parts)
+
+    def _one(self) -> Condition:
+        self._depth += 1
+        if self._depth > _DEEPEST:
+            raise ValueError(self._at)
+        try:
+            return self._signal()
+        finally:
+            self._depth -= 1
+
+    def _signal(self) -> Condition:
+        if self._takes("!"):
+            inner = self._one()
+            return lambda value: not inner(value)
+        if self._takes("("):
+            inner = self._either()
+            if not self._takes(")"):
+                raise ValueError(self._at)
+            return inner
+        match = self._next()
+        if match is None or not match["name"]:
+            raise ValueError(self._at)
+        self._at = match.end()
+        name = match["name"]
+        return lambda value: value(name) != 0.0
