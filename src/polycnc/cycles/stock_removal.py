@@ -145,6 +145,9 @@ def _cut(
         for piece in climb(contour, gap, level, former, towards):
             yield Cut(piece.stroke())
             last = piece.edge.end
-    off = (last[0] - onwards * lift, last[1] - towards * lift)
+    if not front:
+        last = (last[0], former)
+    # A relief has a flank behind the tool: straight up. In front of the open section nothing stands.
+    off = (last[0] - onwards * lift if front else last[0], last[1] - towards * lift)
     yield Cut(PlaneStroke(Kind.FEED, off))
     yield Cut(PlaneStroke(Kind.RAPID, (entry, off[1])))
