@@ -6,9 +6,12 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.parameters import has_option
+from polycnc.control.syntec.tip_control import TIP_CODES
 from polycnc.control.word_address import path
 from polycnc.control.word_address.path import CENTER_WORDS, PLANES
+from polycnc.control.word_address.plain import targets, word
 from polycnc.geometry import arcs
+from polycnc.language.bulk import Arc, declare
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -17,6 +20,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.frames import Frame, Vector
+    from polycnc.language.bulk import Word
 
 OPTION_THREE_POINT_ARC = 19
 THREE_POINT_CODES = ("G2.4", "G3.4")
@@ -55,6 +59,11 @@ class ArcWords:
         self.turns = builder.slot("L")
         self.off_plane = CENTER_WORDS[w] if self.radius is None and builder.has(CENTER_WORDS[w]) else ""
         self.given = self.radius is not None or any(slot is not None for slot in self.centers)
+
+    def centers_as_data(self) -> tuple[Word | None, Word | None]:
+        """The centre words, for the scanner."""
+        first, second = map(word, self.centers, self.converts)
+        return first, second
 
     def radius_mm(self, values: list[float]) -> float:
         """R in millimetres, signed; 0 without R."""
@@ -107,7 +116,21 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
             channel, programmed, center, (u, v, w), ccw=ccw, feed=channel.feed, turns=float((turns or 1) - 1)
         )
 
-    return move
+    ends = targets(plan.axis_words)
+    if ends is None or polar or words.turns is not None or builder.mode["scaling"] == "G51":
+        return move
+    return declare(
+        move,
+        Arc(
+            ccw,
+            words.plane,
+            ends,
+            words.centers_as_data(),
+            word(words.radius, words.radius_of),
+            needs_feed=False,
+            radius_tolerances=2.0,
+        ),
+    )
 
 
 def _end(channel: Channel, plan: Plan, values: list[float], *, polar: bool) -> list[float]:
@@ -182,6 +205,8 @@ def plan_three_point_arc(builder: Builder, plan: Plan) -> Step | None:
     forbidden = next((word for word in (",A", ",C", ",R", "R") if builder.has(word)), "")
     if forbidden:
         raise control.fail("three_point_word", address=forbidden)
+    if builder.mode["length"] in TIP_CODES:
+        raise control.fail("three_point_word", address=builder.mode["motion"])
     if not plan.axis_words:
         return None
     feed_named = builder.has("F")

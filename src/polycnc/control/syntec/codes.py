@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from polycnc.control.syntec import (
+    alignment,
     arcs,
     axis_groups,
     calls,
     cycles,
     interrupts,
-    length,
     motion,
     operation,
     polar,
@@ -16,6 +16,7 @@ from polycnc.control.syntec import (
     smoothing,
     spindles,
     tilted,
+    tip_control,
 )
 from polycnc.control.syntec import coordinates as frames
 from polycnc.control.word_address import auxiliary, coordinates, path, radius
@@ -68,9 +69,11 @@ G_CODES = table(
     GCode("G40", "compensation", cycles.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
     GCode("G41", "compensation", cycles.compensate_left, takes="D", order=Order.COMPENSATION),
     GCode("G42", "compensation", cycles.compensate_right, takes="D", order=Order.COMPENSATION),
-    GCode("G43", "length", length.compensate_length, takes="H", order=Order.LENGTH),
-    GCode("G44", "length", length.compensate_length, takes="H", order=Order.LENGTH),
-    GCode("G49", "length", length.cancel_length, order=Order.LENGTH),
+    GCode("G43", "length", tip_control.compensate_length, takes="H", order=Order.LENGTH),
+    GCode("G44", "length", tip_control.compensate_length, takes="H", order=Order.LENGTH),
+    GCode("G43.4", "length", tip_control.start, takes="H Q L I", order=Order.LENGTH),
+    GCode("G43.5", "length", tip_control.start, takes="H", order=Order.LENGTH),
+    GCode("G49", "length", tip_control.cancel, order=Order.LENGTH),
     GCode("G45", handler=motion.lengthened, takes="D I J K", axis_words=True, order=MOTION),
     GCode("G46", handler=motion.shortened, takes="D I J K", axis_words=True, order=MOTION),
     GCode("G47", handler=motion.lengthened_twice, takes="D I J K", axis_words=True, order=MOTION),
@@ -96,6 +99,9 @@ G_CODES = table(
     GCode("G69", "rotation", tilted.end_tilt),
     GCode("G68.2", "rotation", tilted.tilt_by_angles, takes="I J K", axis_words=True, order=MOTION),
     GCode("G68.3", "rotation", tilted.tilt_by_tool, takes="P R", axis_words=True, order=MOTION),
+    GCode("G53.1", handler=alignment.align_tool, takes="P", order=MOTION),
+    GCode("G53.3", handler=alignment.align_and_position, takes="H P", axis_words=True, order=MOTION),
+    GCode("G53.6", handler=alignment.align_about_tip, takes="H P R", order=MOTION),
     GCode("G54.4", handler=tilted.switch_work_rotation, takes="P"),
     GCode("G70", "unit", coordinates.note_context),
     GCode("G71", "unit", coordinates.note_context),
@@ -118,9 +124,8 @@ G_CODES = table(
     GCode("G99", "return"),
     not_yet(
         "G6.2", "G37",
-        "G37.2", "G37.3", "G40.1", "G41.1", "G42.1", "G41.2", "G42.2", "G41.6", "G42.6", "G43.4", "G43.5",
-        "G52.1", "G52.2", "G53.1", "G53.3", "G53.6",
-        "G80.2", "G81.1", "G81.2", "G84.48",
+        "G37.2", "G37.3", "G40.1", "G41.1", "G42.1", "G41.2", "G42.2", "G41.6", "G42.6",
+        "G52.1", "G52.2", "G80.2", "G81.1", "G81.2", "G84.48",
     ),
 )  # fmt: skip
 

@@ -7,7 +7,18 @@ from math import hypot
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.compensation.policies import SYNTEC, Policy
-from polycnc.control.syntec import arcs, axis_groups, calls, coordinates, cycles, interrupts, motion, polar
+from polycnc.control.syntec import (
+    arcs,
+    axis_groups,
+    calls,
+    coordinates,
+    cycles,
+    interrupts,
+    motion,
+    polar,
+    tilted,
+    tip_control,
+)
 from polycnc.control.syntec.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
@@ -16,6 +27,7 @@ from polycnc.control.syntec.parameters import decimals, parameter
 from polycnc.control.word_address import frames
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.numbers import Convert, NumberRules, length_converter
+from polycnc.geometry.frames import IDENTITY
 from polycnc.language.syntec import executable
 from polycnc.language.syntec.blocks import TypedBlock
 from polycnc.messages import AlarmError
@@ -115,9 +127,12 @@ class SyntecMill(WordAddressControl):
         return codes
 
     def reset(self, channel: Channel) -> None:
-        """The state after reset: polar interpolation ends as well."""
+        """The state after reset: polar interpolation ends, and the tilted plane where Pr3014 does not keep it."""
         polar.leave_plane(channel)
+        kept = channel.memory.tilt if parameter(channel.setup.parameters, 3014) else IDENTITY
         super().reset(channel)
+        channel.memory.posture_frame = parameter(channel.setup.parameters, 3057) == 1
+        tilted.set_tilt(channel, kept)
 
     def end_of_program(self, channel: Channel) -> None:
         """The text ends: as M30, in a subprogram as M99."""
@@ -193,7 +208,7 @@ class SyntecMill(WordAddressControl):
 
     def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
         """The step of the active motion code; G93 works out the feed of each block."""
-        step = super().plan_motion(builder, plan)
+        step = tip_control.plan_with_direction(builder, plan) or super().plan_motion(builder, plan)
         if builder.mode["cycle"] != "G80":
             return None if step is None else cycles.with_cycle_words(builder, step)
         before, after = builder.before["motion"], builder.mode["motion"]

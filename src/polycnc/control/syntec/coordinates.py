@@ -98,7 +98,7 @@ def renew_preset_frame(memory: SyntecMemory) -> None:
     turn = IDENTITY
     if memory.preset_angle != 0.0 and length != 0.0:
         turn = rotation_about((x / length, y / length, z / length), memory.preset_angle)
-    frame = turn @ memory.tilt
+    frame = turn @ memory.table_turn @ memory.tilt
     memory.zero_frame = IDENTITY if frame.is_identity else frame
 
 

@@ -46,8 +46,9 @@ class SyntecMemory(Memory):
         surface_axis: Reference axis of G96.
         speeds: Own S of each spindle; `reported` the speed last recorded.
         pairs: Spindles in step, by group K.
-        tilt: Frame of the tilted plane in the work system.
+        tilt: Frame of the tilted plane in the work system; `table_turn` how the table has turned it since.
         rotates_work: G54.4 P1 is active (#1849).
+        posture_frame: Directions of the tool refer to the work system under G43.4 (#1848).
         interrupt: What M96 has prepared.
         skip_groups: Groups of G31.10 that G31.11 will move; the step behind the last one.
         polar: Plane of G12.1; `plane_before` and `geometry_before` what G13.1 brings back.
@@ -86,6 +87,8 @@ class SyntecMemory(Memory):
         self.reported: dict[int, float] = {}
         self.pairs: dict[int, SpindlePair] = {}
         self.tilt = IDENTITY
+        self.table_turn = IDENTITY
+        self.posture_frame: bool = channel.setup.parameters.get(3057) == 1
         self.rotates_work: bool = False
         self.interrupt: Interrupt | None = None
         self.skip_groups: list[SkipGroup] = []

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.syntec import tip_control
 from polycnc.control.syntec.parameters import has_option
 
 if TYPE_CHECKING:
@@ -56,6 +57,8 @@ def high_precision(channel: Channel, words: Words) -> None:
     if switch not in (0, ON) or (error is not None and error <= 0.0):
         raise words.fail("smoothing_format", "P" if switch not in (0, ON) else "E")
     _check_axes(channel, words)
+    if switch == ON and tip_control.is_on(channel):
+        raise words.fail("tip_smoothing", "G5")
     if switch == ON and channel.mode["path"] in STOPPING_MODES:
         raise words.fail("smoothing_stops", "G5")
     channel.memory.contour_control = switch == ON

@@ -305,7 +305,7 @@ SYSTEM_VARIABLES = Registry(
         Space(1622, 1622, _line),
         Space(1624, 1624, _constant(1)),
         Space(1814, 1814, _diameter_mask),
-        Space(1848, 1848, _constant(0)),
+        Space(1848, 1848, lambda memory, _offset: int(memory.posture_frame)),
         Space(1849, 1849, lambda memory, _offset: int(memory.rotates_work)),
         Space(1880, 1896, _read_work_offset, _write_work_offset),
         Space(1901, 1918, _read_shift, _write_shift),

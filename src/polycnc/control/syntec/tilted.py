@@ -1,7 +1,7 @@
 """Tilted planes G68.2 and G68.3 and the switch of the work system's rotation G54.4 (manual 2.39, 2.44, 2.45).
 
 The tilted plane is a frame inside the work system: `machine = work offsets + G92.1 turn · tilt · program`. The tool
-is aligned by G53.1, G53.3 or G53.6, which polycnc does not execute.
+is aligned by G53.1, G53.3 or G53.6 (`alignment`).
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.syntec.coordinates import renew_preset_frame, rotation_about
 from polycnc.control.syntec.parameters import has_option
 from polycnc.control.word_address import frames as base_frames
+from polycnc.control.word_address import length
 from polycnc.control.word_address.coordinates import refresh_zero
 from polycnc.geometry.arcs import cross
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
@@ -29,7 +30,7 @@ def tilt_by_angles(channel: Channel, words: Words) -> None:
     """G68.2 X Y Z I J K: origin from the work zero, turned by I about Z, J about X', K about Z''."""
     origin = _origin(channel, words)
     i, j, k = (words.angle(letter) or 0.0 for letter in "IJK")
-    _set_tilt(channel, translation(*origin) @ rotation(2, i) @ rotation(0, j) @ rotation(2, k))
+    set_tilt(channel, translation(*origin) @ rotation(2, i) @ rotation(0, j) @ rotation(2, k))
 
 
 def tilt_by_tool(channel: Channel, words: Words) -> None:
@@ -52,14 +53,14 @@ def tilt_by_tool(channel: Channel, words: Words) -> None:
     if words.typed("P") != 1:
         turn = _square_on(turn.direct(0.0, 0.0, 1.0)) @ rotation(2, words.angle("R") or 0.0)
     origin = _origin(channel, words) if given else _position_in_work_system(channel)
-    _set_tilt(channel, translation(*origin) @ turn)
+    set_tilt(channel, translation(*origin) @ turn)
 
 
 def end_tilt(channel: Channel, words: Words) -> None:
     """G69: ends the rotation of G68 and the tilted plane."""
     base_frames.end_rotation(channel, words)
     if channel.memory.tilt is not IDENTITY:
-        _set_tilt(channel, IDENTITY)
+        set_tilt(channel, IDENTITY)
 
 
 def switch_work_rotation(channel: Channel, words: Words) -> None:
@@ -89,9 +90,16 @@ def _position_in_work_system(channel: Channel) -> Vector:
     return here
 
 
-def _set_tilt(channel: Channel, tilt: Frame) -> None:
-    channel.memory.tilt = tilt
-    renew_preset_frame(channel.memory)
+def set_tilt(channel: Channel, tilt: Frame) -> None:
+    """Another tilted plane, the tool not yet aligned with it; the machine stays."""
+    memory = channel.memory
+    if channel.coordinates.transformation is not None and not tilt.is_identity:
+        raise channel.control.not_yet("G68.2 G43.4")
+    memory.tilt, memory.table_turn = tilt, IDENTITY
+    renew_preset_frame(memory)
+    if memory.tool_direction is not None:
+        memory.tool_direction = None
+        length.renew_direction(channel)
     refresh_zero(channel)
 
 
