@@ -67,6 +67,23 @@ def _switch(name: str) -> tuple[Read, Write]:
     return read, write
 
 
+def _clock(name: str, unit: float) -> tuple[Read, Write]:
+    """A clock in units of so many seconds: programmed dwells count, moves do not, because macros are read ahead.
+
+    Each look takes a millisecond, so that a loop which waits for the clock ends.
+    """
+
+    def read(m: MacroMemory, _i: int) -> float:
+        value = round((m.waited - m.clock_zero.get(name, 0.0)) / unit, 9)
+        m.waited += 0.001
+        return value
+
+    def write(m: MacroMemory, _i: int, value: float | None, _text: str) -> None:
+        m.clock_zero[name] = m.waited - (value or 0.0) * unit
+
+    return read, write
+
+
 # ---- tool offsets ------------------------------------------------------------
 
 
@@ -271,8 +288,8 @@ COMMON_VARIABLES = [
     SystemRange(1100, 1115, _signal("UO"), _set_signal, name="_UO"),
     SystemRange(1132, 1132, _signal_word("UO"), _set_signal_word, name="_UOW"),
     SystemRange(3000, 3000, None, _raise_user_alarm, name="_ALM"),
-    SystemRange(3001, 3001, *_switch("clock1"), name="_CLOCK1"),
-    SystemRange(3002, 3002, *_switch("clock2"), name="_CLOCK2"),
+    SystemRange(3001, 3001, *_clock("clock1", 0.001), name="_CLOCK1"),
+    SystemRange(3002, 3002, *_clock("clock2", 3600.0), name="_CLOCK2"),
     SystemRange(3003, 3003, *_switch("cntl1"), name="_CNTL1"),
     SystemRange(3004, 3004, *_switch("cntl2"), name="_CNTL2"),
     SystemRange(3005, 3005, *_switch("settings"), name="_SETDT"),

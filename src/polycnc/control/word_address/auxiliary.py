@@ -130,12 +130,18 @@ def dwell(channel: Channel, words: Words) -> None:
             raise words.fail("address", word.address)
     milliseconds = words.integer("P")
     if milliseconds is not None:
-        channel.dwell(seconds=milliseconds / 1000.0)
+        stand(channel, milliseconds / 1000.0)
         return
     for address in ("X", "U"):
         if address in words:
-            channel.dwell(seconds=_seconds(words, address))
+            stand(channel, _seconds(words, address))
             return
+
+
+def stand(channel: Channel, seconds: float) -> None:
+    """A dwell, which the clocks of the macro variables count."""
+    channel.memory.waited += max(seconds, 0.0)
+    channel.dwell(seconds=seconds)
 
 
 def _seconds(words: Words, address: str) -> float:

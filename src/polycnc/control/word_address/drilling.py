@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.auxiliary import stand
 from polycnc.control.word_address.numbers import length_converter
 from polycnc.control.word_address.path import FEED_MODES, PLANES, target
 from polycnc.control.word_address.radius import suspended
@@ -326,7 +327,7 @@ def _perform(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> No
         if stroke.action is Action.SHIFT:
             _shift(channel, center, data, stroke.value)
         elif stroke.action is Action.DWELL:
-            channel.dwell(seconds=stroke.value)
+            stand(channel, stroke.value)
         elif stroke.action is Action.SPINDLE:
             rules.turn(channel, int(direction * stroke.value))
         elif stroke.action is Action.OUTPUT:

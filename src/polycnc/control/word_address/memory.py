@@ -90,6 +90,7 @@ class Memory:
         side: Side that G41/G42 ask for: 1, -1, 0 off.
         compensation: The stage that compensates, once it was needed.
         corners: The stage that chamfers and rounds corners, once it was needed.
+        waited: Seconds that the clocks which a program reads (#3001) have counted.
         cycle_data: What the active drilling cycle remembers.
         intermediate: Intermediate point of the last G28/G30 (programmed coordinates), for G29.
     """
@@ -129,6 +130,7 @@ class Memory:
         self.contour_control = False
         self.exact_stop_block = False
         self.modal_calls: list[ModalCall] = []
+        self.waited = 0.0
         self.spindle_speed = 0.0
         self.spindle_direction = 0
         self.spindle_limit_rpm = 0.0

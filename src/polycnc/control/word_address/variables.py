@@ -77,7 +77,6 @@ class MacroMemory(Memory):
         signals: Interface signals between macro and machine by name (UI000 …, UO000 …).
         control_switches: Settings by #3003 to #3005, #3901, #3902.
         clock_zero: Simulated second at which each clock (#3001, #3002) read zero.
-        waited: Seconds that looks at the clocks have taken.
         date: Date of the simulated clock, YYYYMMDD; `time` HHMMSS. The clock does not depend on the host's, so that
             the same input gives the same output.
     """
@@ -96,7 +95,6 @@ class MacroMemory(Memory):
         }
         self.control_switches: dict[str, int] = {}
         self.clock_zero: dict[str, float] = {}
-        self.waited = 0.0
         self.date = 20000101
         self.time = 0
         self.angle_range_signed = self.parameters.bit(6004, 0)
