@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from polycnc.messages import Alarm
     from polycnc.motion.plan import Plan, ToolTimes
     from polycnc.motion.planner import Planner
+    from polycnc.motion.samples import Sampler, Samples
     from polycnc.program import Program, ProgramStore
     from polycnc.toolpath.table import Chunk
 
@@ -263,6 +264,21 @@ class Session:
         for consume in self.consumers:
             consume(self.channel.toolpath.chunk)
         return self.result
+
+    def sample(self, period_s: float, give: Callable[[Samples], None]) -> Sampler:
+        """Have the motion sampled while it is planned (`keep=False`). Needs NumPy.
+
+        When the result is planned to its end (`result.plan`), `close` of what this returns gives the last samples.
+        """
+        from polycnc.motion.samples import Sampler
+
+        result = self.result
+        if result.planner is None:
+            raise ValueError("only a session that keeps no toolpath is planned while it runs")
+        settings = result.lead["settings"]
+        sampler = Sampler(result.toolpath, result.machine, result.planner, settings, period_s, give)
+        self.consumers.append(sampler.take)
+        return sampler
 
     def _take(self, chunk: Chunk) -> bool:
         for consume in self.consumers:

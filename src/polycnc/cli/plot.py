@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -15,7 +16,7 @@ from polycnc.cli.diagnostics import diagnostics_of
 from polycnc.messages import text
 
 if TYPE_CHECKING:
-    from polycnc.session import Result
+    from polycnc.session import Result, Session
 
 app = typer.Typer(add_completion=False, rich_markup_mode=None)
 
@@ -37,6 +38,7 @@ def plot(
         Path, typer.Option("--output", "-o", metavar="X.svg|X.png", help=text("help.plot.output"))
     ],
     view: Annotated[ViewName | None, typer.Option(help=text("help.plot.view"), show_default=False)] = None,
+    profile: Annotated[bool, typer.Option("--profile", help=text("help.plot.profile"))] = False,
     control: options.Control = None,
     machine: options.Machine = None,
     setup: options.Setup = None,
@@ -52,11 +54,13 @@ def plot(
     suffix = output.suffix.lower()
     if suffix not in (".svg", ".png"):
         return fail(text("plot.suffix", file=output), 2)
-    result = open_session(
+    if profile and find_spec("numpy") is None:
+        return fail(text("run.no-samples"), 2)
+    session = open_session(
         file, control=control, machine=machine, setup=setup, search=search or (), encoding=encoding,
-        block_limit=block_limit,
-    ).run()  # fmt: skip
-    drawing = _drawing(result, view, file.name)
+        block_limit=block_limit, keep=not profile,
+    )  # fmt: skip
+    result, drawing = _profile(session, file.name) if profile else _path(session, view, file.name)
     if suffix == ".svg":
         write_whole(output, drawing)
     else:
@@ -64,6 +68,25 @@ def plot(
     for diagnostic in diagnostics_of(result, str(file)):
         note(str(diagnostic))
     return 0 if result.ok else 1
+
+
+def _path(session: Session, view: ViewName | None, title: str) -> tuple[Result, str]:
+    result = session.run()
+    return result, _drawing(result, view, title)
+
+
+def _profile(session: Session, title: str) -> tuple[Result, str]:
+    """Run and draw speed and acceleration over time."""
+    from polycnc.motion.profile import Profile
+
+    machine, axes = session.result.machine, session.result.toolpath.axes
+    rotary = {i for i, axis in enumerate(machine.channel(1).axes) if machine.axis[axis].rotary}
+    profile = Profile(axes, rotary)
+    sampler = session.sample(machine.interpolation_cycle_s, profile.take)
+    result = session.run()
+    result.plan  # noqa: B018 - planning to the end gives the last samples
+    sampler.close()
+    return result, profile.svg(title)
 
 
 def _drawing(result: Result, view: ViewName | None, title: str) -> str:

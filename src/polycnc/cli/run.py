@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from contextlib import ExitStack
+from importlib.util import find_spec
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Annotated, Any
 
@@ -27,6 +29,12 @@ app = typer.Typer(add_completion=False, rich_markup_mode=None)
 PATIENCE_S = 0.7
 #: Suffixes of trace files; `toolpath.export` has a writer for each.
 TRACES = (".jsonl", ".csv", ".parquet")
+#: Suffixes of sample files; `motion.sample_file` has a writer for each.
+SAMPLES = (".parquet", ".csv")
+#: Units of a sampling period, in seconds; the shortest period.
+_UNITS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "": 1.0}
+_SHORTEST_S = 1e-6
+_PERIOD = re.compile(r"(\d+\.?\d*|\.\d+)(us|ms|s|)", re.ASCII)
 
 
 @app.command(help=text("help.run"))
@@ -34,6 +42,9 @@ def run(
     file: Annotated[str, typer.Argument(metavar="FILE", help=text("help.run.file"))],
     trace: Annotated[
         Path | None, typer.Option(metavar="OUT.jsonl|csv|parquet", help=text("help.run.trace"))
+    ] = None,
+    sample: Annotated[
+        tuple[str, Path] | None, typer.Option(metavar="PERIOD OUT.parquet|csv", help=text("help.run.sample"))
     ] = None,
     state: Annotated[Path | None, typer.Option(metavar="OUT.json", help=text("help.run.state"))] = None,
     print_to: Annotated[
@@ -53,6 +64,11 @@ def run(
 
     if trace is not None and trace.suffix.lower() not in TRACES:
         return fail(text("run.suffix", file=trace, known=", ".join(TRACES)), 2)
+    period = period_s(sample[0]) if sample is not None else 0.0
+    if sample is not None and find_spec("pyarrow") is None:
+        return fail(text("run.no-samples"), 2)
+    if sample is not None and (period is None or sample[1].suffix.lower() not in SAMPLES):
+        return fail(text("run.sample", period=sample[0], file=sample[1], known=", ".join(SAMPLES)), 2)
     is_stdin = file == "-"
     session = open_session(
         sys.stdin.buffer.read() if is_stdin else Path(file), control=control, machine=machine, setup=setup,
@@ -65,8 +81,11 @@ def run(
             session.consumers.append(_Prints(_whole(files, print_to, "w"), session.result.display).take)
         if trace is not None:
             _trace_to(trace, session, files)
+        sampled = sample and _sample_to(sample[1], period or 0.0, session, files)
         progress = files.enter_context(_Progress(session))
         result = session.run(progress)
+        if sampled:
+            sampled(result)
     if state is not None:
         _write_state(state, result)
     show(as_text(result, happenings, "<stdin>" if is_stdin else file))
@@ -88,6 +107,30 @@ def _trace_to(path: Path, session: Session, files: ExitStack) -> None:
     writer = writer_of(_whole(files, path, mode), result.display, result.metadata)
     files.callback(writer.close)
     session.consumers.append(writer.take)
+
+
+def period_s(written: str) -> float | None:
+    """Seconds of a period as `1ms`, `0.5 s` or `250us`; None where it is none."""
+    match = _PERIOD.fullmatch(written.strip().lower().replace(" ", ""))
+    seconds = float(match[1]) * _UNITS[match[2]] if match else 0.0
+    return seconds if seconds >= _SHORTEST_S else None
+
+
+def _sample_to(path: Path, period: float, session: Session, files: ExitStack) -> Callable[[Result], None]:
+    """Sample the motion while it is planned; gives what ends it."""
+    from polycnc.motion.sample_file import SAMPLE_WRITERS
+
+    mode, writer_of = SAMPLE_WRITERS[path.suffix.lower()]
+    result = session.result
+    writer = writer_of(_whole(files, path, mode), result.toolpath.axes, result.toolpath.programs, result.metadata)
+    files.callback(writer.close)
+    sampler = session.sample(period, writer.take)
+
+    def end(result: Result) -> None:
+        result.plan  # noqa: B018 - planning to the end gives the last samples
+        sampler.close()
+
+    return end
 
 
 def _write_state(path: Path, result: Result) -> None:

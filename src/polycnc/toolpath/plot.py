@@ -180,17 +180,17 @@ def _grid(frame: _Frame, across: float, upward: float) -> Iterator[str]:
     `across` and `upward` are the factors from what is drawn to the numbers that are written.
     """
     bottom, right = frame.top + frame.height, frame.left + frame.width
-    for value in _ticks(frame.low[0] * across, frame.high[0] * across):
+    for value in ticks(frame.low[0] * across, frame.high[0] * across):
         x, colour = frame.x(value / across), "#888888" if value == 0 else GRID_COLOUR
         yield f'<path d="M{x:.2f},{frame.top:.2f} V{bottom:.2f}" stroke="{colour}" stroke-width="0.7"/>'
         yield f'<text x="{x:.2f}" y="{bottom + 15:.2f}" text-anchor="middle">{value:g}</text>'
-    for value in _ticks(frame.low[1] * upward, frame.high[1] * upward):
+    for value in ticks(frame.low[1] * upward, frame.high[1] * upward):
         y, colour = frame.y(value / upward), "#888888" if value == 0 else GRID_COLOUR
         yield f'<path d="M{frame.left:.2f},{y:.2f} H{right:.2f}" stroke="{colour}" stroke-width="0.7"/>'
         yield f'<text x="{frame.left - 5:.2f}" y="{y + 4:.2f}" text-anchor="end">{value:g}</text>'
 
 
-def _ticks(low: float, high: float, most: int = 8) -> list[float]:
+def ticks(low: float, high: float, most: int = 8) -> list[float]:
     """Round values between two bounds, in steps of 1, 2 or 5 of a power of ten."""
     rough = (high - low) / most
     power = 10.0 ** floor(log10(rough))
