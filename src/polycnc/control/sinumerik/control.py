@@ -8,11 +8,13 @@ from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.control.sinumerik import (
+    access,
     axis_exchange,
     coordination,
     frames,
     functions,
     gcodes,
+    init_programs,
     interrupts,
     limits,
     positions,
@@ -32,6 +34,7 @@ from polycnc.control.sinumerik.spindles import Spindle, Spindles
 from polycnc.control.sinumerik.system_variables import SystemVariables
 from polycnc.control.sinumerik.tools import tools_of_setup
 from polycnc.language.sinumerik.executable import SinumerikProgram
+from polycnc.language.sinumerik.initialisation import RESET, initialise
 from polycnc.language.sinumerik.interface import LanguageMemory
 from polycnc.language.sinumerik.nc_frame import GEOMETRY_AXES, NEUTRAL, ctrans
 from polycnc.language.sinumerik.sections import end_of_subprogram
@@ -100,13 +103,16 @@ class Sinumerik:
             for name, value in channel.setup.variables.items():
                 self.write_variable(channel, name, value)
         interrupts.watch(channel)
+        init_programs.call(channel)
 
     def begin(self, channel: Channel) -> None:
         """A main program begins in the state that the channel is in."""
 
     def reset(self, channel: Channel) -> None:
         """The state after reset, and after the end of a program."""
-        reset(channel, _start_codes(channel, channel.memory.data))
+        memory: Memory = channel.memory
+        reset(channel, _start_codes(channel, memory.data))
+        initialise(memory.language, RESET, keep_values=memory.data.keeps_first_values)
 
     def _memory(self, channel: Channel) -> Memory:
         names = axis_names(channel)
@@ -130,6 +136,8 @@ class Sinumerik:
                 names,
                 exact_order=bool(data.integer("$MN_PROG_FUNCTION_MASK") & 1),
                 main_variables_everywhere=bool(data.integer("$MN_LUD_EXTENDED_SCOPE")),
+                access_level=access.operator_level(channel),
+                directory_levels=access.directory_levels(data),
                 nck_variables=shared.setdefault("user variables", {}),
                 global_variables={
                     name: Variable(name, Type.INT, store=[value])

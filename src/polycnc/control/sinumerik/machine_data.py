@@ -38,6 +38,11 @@ DELIVERED: dict[str, Datum] = {
     "$MN_FRAME_ANGLE_INPUT_MODE": Datum(10600, 1),
     "$MN_IGNORE_SINGLEBLOCK_MASK": Datum(10702, 0),
     "$MN_UPLOAD_MD_CHANGES_ONLY": Datum(11210, 0),
+    "$MN_ACCESS_EXEC_CST": Datum(11160, 7),
+    "$MN_ACCESS_EXEC_CMA": Datum(11161, 7),
+    "$MN_ACCESS_EXEC_CUS": Datum(11162, 7),
+    "$MN_DEFAULT_VALUES_MEM_MASK": Datum(11270, 1),
+    "$MN_WPD_INI_MODE": Datum(11280, 0),
     "$MN_LUD_EXTENDED_SCOPE": Datum(11120, False),
     "$MN_LEN_PROTOCOL_FILE": Datum(11420, 0),
     "$MN_MM_MAX_CUTTING_EDGE_NO": Datum(18105, 9),
@@ -197,6 +202,16 @@ class MachineData:
     def write(self, name: str, indices: tuple[object, ...], value: object) -> None:
         """Set a datum."""
         self._values[name, tuple(self._index(index) for index in indices)] = value
+
+    @property
+    def keeps_first_values(self) -> bool:
+        """MD11270 bit 0: user variables go back to the values of their definition, not to zero."""
+        return bool(self.integer("$MN_DEFAULT_VALUES_MEM_MASK") & 1)
+
+    def forget_settings(self) -> None:
+        """Setting data take their delivered values."""
+        for key in [key for key in self._values if key[0].startswith("$S")]:
+            del self._values[key]
 
     def is_set(self, name: str, *indices: object) -> bool:
         """Whether the setup or a program gave a datum a value of its own."""

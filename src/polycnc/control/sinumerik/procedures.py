@@ -19,6 +19,7 @@ from polycnc.control.sinumerik import (
 )
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.language.sinumerik import keywords
+from polycnc.language.sinumerik.initialisation import NEW_CONFIGURATION, initialise
 from polycnc.language.sinumerik.nc_frame import NEUTRAL
 from polycnc.messages import Alarm, AlarmError
 
@@ -154,8 +155,11 @@ def renumber(channel: Channel, args: Arguments) -> None:
 
 
 def new_configuration(channel: Channel, _args: Arguments) -> None:
-    """NEWCONF: machine data that the program has written act."""
+    """NEWCONF: machine data that the program has written act; variables with INICF begin anew."""
+    channel.flush()
+    memory: Memory = channel.memory
     limits.refresh(channel)
+    initialise(memory.language, NEW_CONFIGURATION, keep_values=memory.data.keeps_first_values)
 
 
 def transformation_off(channel: Channel, _args: Arguments) -> None:
@@ -166,6 +170,20 @@ def transformation_off(channel: Channel, _args: Arguments) -> None:
 def workpiece(channel: Channel, args: Arguments) -> None:
     """WORKPIECE(…): the blank that pictures show; WORKPIECE() takes it away. No motion."""
     channel.memory.values["WORKPIECE", ()] = args or None
+
+
+def channel_data(channel: Channel, args: Arguments) -> None:
+    """CHANDATA(n): in a program it only makes sure that the channel is the right one (job planning 2.2)."""
+    if len(args) != 1 or arguments.whole(args[0]) != channel.number:
+        raise AlarmError("14020", text="CHANDATA")
+
+
+def section_of_program(channel: Channel, args: Arguments) -> None:
+    """SEFORM(name, level, icon): a section for the step editor; the name is kept for the operator interface."""
+    if len(args) != 3 or not isinstance(args[0], str) or not isinstance(args[2], str):
+        raise AlarmError("14020", text="SEFORM")
+    arguments.whole(args[1])
+    channel.memory.values["SEFORM", ()] = args[0]
 
 
 def editor_mark(_channel: Channel, _args: Arguments) -> None:
@@ -200,6 +218,8 @@ PROCEDURES: dict[str, Callable[[Channel, Arguments], None]] = {
     "DZERO": d_numbers.invalidate,
     "DELDL": d_numbers.delete_additive,
     "NEWCONF": new_configuration,
+    "CHANDATA": channel_data,
+    "SEFORM": section_of_program,
     "TRAFOOF": transformation_off,
     "DRFOF": no_overlay,
     "WORKPIECE": workpiece,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.language.sinumerik import calls, definitions, files, flow, keywords, runtime, vocabulary
+from polycnc.language.sinumerik import calls, definitions, files, flow, keywords, rights, runtime, vocabulary
 from polycnc.language.sinumerik.emitter import Emitter, provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, syntax
 from polycnc.language.sinumerik.expressions import ExpressionReader
@@ -175,6 +175,7 @@ class BlockCompiler(ExpressionReader):
 
     def procedure(self, token: Token, letters: str) -> None:
         """A predefined procedure; its name has been read."""
+        rights.check_word(self, token)
         arguments = self.scope.arguments(self, token, letters)
         self.emitter.knows_place = self.emitter.has_text = True
         self.emitter.line(f"channel.control.procedure(channel, {token.text!r}, {arguments}, {token.column})")

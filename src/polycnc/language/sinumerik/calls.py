@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from polycnc.language.sinumerik import keywords
+from polycnc.language.sinumerik import keywords, rights
 from polycnc.language.sinumerik.emitter import provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, unknown
 from polycnc.language.sinumerik.places import ElementPlace
@@ -98,6 +98,7 @@ def _inherit(level: Level, caller: Level, header: Header) -> None:
 def program_call(compiler: BlockCompiler) -> None:
     """A program by its name, with parameters and number of passes: `NAME(1,2) P3`, `L123 P=R1`."""
     token = compiler.take()
+    rights.check_word(compiler, token)
     program = find_program(compiler.channel, token.text)
     if program is None:
         if token.text in keywords.CYCLES:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.language.sinumerik.initialisation import remember_first_values
 from polycnc.messages import AlarmError
 from polycnc.program.names import DEF_DIR
 
@@ -27,6 +28,7 @@ def load_definitions(channel: Channel) -> None:
             error.column = 0
             raise
     memory: LanguageMemory = channel.memory.language
+    remember_first_values(memory)
     for name, variable in memory.global_variables.items():
         if variable.range == "NCK":
             memory.global_variables[name] = memory.nck_variables.setdefault(name, variable)

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import Emitter
-from polycnc.language.sinumerik.errors import NcSyntaxError
+from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
 from polycnc.language.sinumerik.runtime import default_value
 from polycnc.language.sinumerik.values import MAX_STRING, Type
 from polycnc.language.sinumerik.variables import Variable, element_count
 from polycnc.messages import AlarmError
+from polycnc.program.names import CYCLE_DIRS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -287,19 +288,51 @@ def _inside(value: Any, low: float | None, high: float | None) -> bool:
 
 
 def _redefine_control(compiler: BlockCompiler, token: Token) -> None:
-    attributes: list[str] = []
-    while compiler.token.kind != "end":
-        part = compiler.take()
-        if part.kind == "name" and part.text in (_RIGHTS | _INIT_TIMES | {"LLI", "ULI", "PHU"} | set(_STOPS)):
-            attributes.append(repr(part.text))
-        elif part.text == "(":
-            compiler.place -= 1
-            attributes.append(f"({', '.join(compiler.value_list(Type.REAL))},)")
-        else:
-            compiler.place -= 1
-            attributes.append(compiler.value(Type.REAL))
-    arguments = f"({token.text!r}, {''.join(each + ', ' for each in attributes)})"
-    compiler.emitter.line(f"channel.control.procedure(channel, 'REDEF', {arguments}, {token.column})")
+    """Rights and first values of system variables, R parameters and words of the language (1.1.6, 1.1.11)."""
+    name, scope = token.text, compiler.scope
+    is_variable = name[0] == "$" or name == "R"
+    if name[0] == "$":
+        scope.control.system_variable(name)
+    elif not is_variable and not _is_executable(compiler, token):
+        raise unknown(token.column, name)
+    attributes = _attributes(compiler)
+    for right, level in (attributes.rights or {}).items():
+        if (right == "APX") is is_variable:
+            raise NcSyntaxError("12490", token.column, name)
+        if level < scope.level:
+            raise NcSyntaxError("12490", token.column, str(level))
+        scope.memory.rights.setdefault(name, {})[right] = level
+    if compiler.token.kind != "end":
+        if not attributes.init_time or not is_variable:
+            raise compiler.error()
+        _first_values_of_control(compiler, name)
+
+
+def _is_executable(compiler: BlockCompiler, token: Token) -> bool:
+    """Whether a name is a function, a procedure, or a cycle."""
+    name, scope = token.text, compiler.scope
+    if token.kind == "word":
+        name = f"{token.letter}{token.value}"
+    return (
+        name in scope.control.g_groups
+        or any(name in table for table in (keywords.PROCEDURES, keywords.CONTROL_FUNCTIONS, keywords.CYCLES))
+        or compiler.channel.store.find_sinumerik(name, CYCLE_DIRS[0]) is not None
+    )
+
+
+def _first_values_of_control(compiler: BlockCompiler, name: str) -> None:
+    """`REDEF name INIRE value` or `(value, …)`: the values of the first elements, from power-on."""
+    listed = compiler.at("(")
+    values = compiler.value_list(Type.REAL) if listed else [compiler.assigned(Type.REAL)]
+    codes = f"({''.join(code + ', ' for code in values)})"
+    if name == "R":
+        items = compiler.emitter.object(compiler.scope.memory.r)
+        fill = f"set_elements({items}, 0, {codes})" if listed else f"repeat_element({items}, 0, {values[0]})"
+        compiler.emitter.line(fill)
+        return
+    variable = compiler.emitter.object(compiler.scope.control.system_variable(name))
+    write = f"lambda at, value: {variable}.write(channel, at, value)"
+    compiler.emitter.line(f"set_system_elements({write}, (0,), {codes})")
 
 
 # ---- programs and macros -----------------------------------------------------------------------------------

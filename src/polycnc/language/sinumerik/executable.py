@@ -10,6 +10,7 @@ import re
 from array import array
 from typing import TYPE_CHECKING, Any
 
+from polycnc.language.sinumerik import rights
 from polycnc.language.sinumerik.blocks import CompiledBlock, compile_block, compile_text, expanded
 from polycnc.language.sinumerik.definition_files import load_definitions
 from polycnc.language.sinumerik.definitions import NO_HEADER, Header, read_header
@@ -203,6 +204,9 @@ class SinumerikProgram:
             if memory.main_variables_everywhere and whole is not self and isinstance(whole, SinumerikProgram):
                 main = whole.scope_of(channel)
             self._scope = Scope(memory, self.control, main)
+            if not self.is_definition_file:
+                own = memory.directory_levels.get(self.program.directory, rights.LOWEST)
+                self._scope.level = min(memory.access_level, own)
             memory.programs.append(self)
             if not memory.definitions_loaded:
                 memory.definitions_loaded = True

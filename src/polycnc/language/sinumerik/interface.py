@@ -78,16 +78,20 @@ class LanguageMemory:
     """What the NC language keeps for one channel: the control puts it into `channel.memory.language`.
 
     Attributes:
-        r: R parameters. Compiled blocks hold this very list: change it in place only. axes: Every axis and
-        spindle identifier of the channel (channel, geometry and machine axes, `S1`…), upper case.
+        r: R parameters. Compiled blocks hold this very list: change it in place only.
+        axes: Every axis and spindle identifier of the channel (channel, geometry and machine axes, `S1`…), upper case.
         exact_order: `<` and `>` compare exactly (MD10280 bit 0); otherwise equal within 1E-12 is neither.
         main_variables_everywhere: Variables of the main program are known in subprograms (MD11120).
-        global_variables: User variables of the definition files (GUD), upper case. macros: Texts of DEFINE …
-        AS of the definition files, and names of channels, upper case. nck_variables: Those of the
-        global_variables that all channels share. call_path: Directory of CALLPATH, or empty. modal_call:
-        What MCALL has set: called after every block with path motion. definitions_loaded: The definition
-        files have been read. programs: Every compiled program; they forget what they have resolved when files
-        or search paths change.
+        global_variables: User variables of the definition files (GUD), upper case.
+        access_level: Protection level of programs.
+        directory_levels: Protection level of programs in some directories, which holds if it is the higher one.
+        rights: What REDEF has made of the rights of system variables, R parameters and words, by name and keyword.
+        nck_variables: Those of the global variables that all channels share.
+        macros: Texts of DEFINE … AS of the definition files, and names of channels, upper case.
+        call_path: Directory of CALLPATH, or empty.
+        modal_call: What MCALL has set: called after every block with path motion.
+        definitions_loaded: The definition files have been read.
+        programs: Every compiled program; they forget what they have resolved when files or search paths change.
     """
 
     r: list[float]
@@ -95,6 +99,9 @@ class LanguageMemory:
     exact_order: bool = False
     main_variables_everywhere: bool = False
     global_variables: dict[str, Any] = field(default_factory=dict)
+    access_level: int = 0
+    directory_levels: dict[str, int] = field(default_factory=dict)
+    rights: dict[str, dict[str, int]] = field(default_factory=dict)
     nck_variables: dict[str, Any] = field(default_factory=dict)
     macros: dict[str, str] = field(default_factory=dict)
     call_path: str = ""

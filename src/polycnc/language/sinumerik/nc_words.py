@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.language.sinumerik import keywords
+from polycnc.language.sinumerik import keywords, rights
 from polycnc.language.sinumerik.emitter import provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
 from polycnc.language.sinumerik.values import Axis, Type
@@ -74,6 +74,7 @@ class WordReader:
     # ---- G functions ---------------------------------------------------------------------------------------
 
     def _g_function(self, token: Token, code: str) -> None:
+        rights.check_word(self.compiler, token)
         group = self.compiler.scope.control.g_groups[code]
         if group in self.groups:
             raise NcSyntaxError("12060", token.column, token.text)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
-from polycnc.language.sinumerik import keywords
+from polycnc.language.sinumerik import keywords, rights
 from polycnc.language.sinumerik.errors import NcSyntaxError
 from polycnc.language.sinumerik.expressions import Expr
 from polycnc.language.sinumerik.values import Type
@@ -54,12 +54,14 @@ class SinglePlace:
         self.container = container
         self.code = f"{container}[{variable.slot}]"
 
-    def read(self, reader: ExpressionReader) -> Expr:  # noqa: ARG002
+    def read(self, reader: ExpressionReader) -> Expr:
         """Code of the value."""
+        rights.check(reader, self.variable.name, self.variable.rights, rights.READ)
         return Expr(self.code + ".value" if self.variable.by_reference else self.code, self.type)
 
     def write(self, reader: ExpressionReader, code: str) -> None:
         """Store; a parameter by reference checks by the rules of the caller's variable."""
+        rights.check(reader, self.variable.name, self.variable.rights, rights.WRITE)
         if self.variable.by_reference:
             reader.emitter.line(f"{self.code}.value = {code}")
         else:
@@ -67,6 +69,7 @@ class SinglePlace:
 
     def reference(self, reader: ExpressionReader) -> str:
         """A reference; one that came from further out is handed on."""
+        rights.check(reader, self.variable.name, self.variable.rights, rights.WRITE)
         if self.variable.by_reference:
             return self.code
         return f"Reference({self.container}, {self.variable.slot}, {reader.emitter.object(self.variable)})"
@@ -119,24 +122,28 @@ class ElementPlace:
         if not self.offset:
             raise NcSyntaxError("12400", 0, self.variable.name)
 
-    def read(self, reader: ExpressionReader) -> Expr:  # noqa: ARG002
+    def read(self, reader: ExpressionReader) -> Expr:
         """Code of the element."""
         self._need_index()
+        rights.check(reader, self.variable.name, self.variable.rights, rights.READ)
         return Expr(self.code, self.type)
 
     def write(self, reader: ExpressionReader, code: str) -> None:
         """Store the element."""
         self._need_index()
+        rights.check(reader, self.variable.name, self.variable.rights, rights.WRITE)
         reader.emitter.line(f"{self.code} = {_stored(reader, self.variable, code)}")
 
     def reference(self, reader: ExpressionReader) -> str:
         """The array itself, or a reference to one element."""
+        rights.check(reader, self.variable.name, self.variable.rights, rights.WRITE)
         if not self.offset:
             return self.array
         return f"Reference({self.array}.items, {self.offset}, {reader.emitter.object(self.variable)})"
 
     def elements(self, reader: ExpressionReader, token: Token) -> tuple[str, str]:  # noqa: ARG002
         """From this element on."""
+        rights.check(reader, self.variable.name, self.variable.rights, rights.WRITE)
         return f"{self.array}.items", self.offset or "0"
 
 
@@ -245,12 +252,14 @@ class RPlace:
         values = reader.scope.memory.r
         return cls(reader.emitter.object(values), checked_index(reader, index, str(len(values)), "R"))
 
-    def read(self, reader: ExpressionReader) -> Expr:  # noqa: ARG002
+    def read(self, reader: ExpressionReader) -> Expr:
         """Code of the parameter."""
+        rights.check(reader, "R", reader.scope.memory.rights.get("R", {}), rights.READ)
         return Expr(f"{self.values}[{self.index}]", Type.REAL)
 
     def write(self, reader: ExpressionReader, code: str) -> None:
         """Store the parameter."""
+        rights.check(reader, "R", reader.scope.memory.rights.get("R", {}), rights.WRITE)
         reader.emitter.line(f"{self.values}[{self.index}] = {code}")
 
     def reference(self, reader: ExpressionReader) -> str:
@@ -265,14 +274,15 @@ class RPlace:
 class SystemPlace:
     """A system variable with its indices."""
 
-    def __init__(self, variable: SystemVariable, code: str, indices: str, type_: Type) -> None:
+    def __init__(self, name: str, variable: SystemVariable, code: str, indices: str, type_: Type) -> None:
+        self.name = name
         self.variable = variable
         self.code = code
         self.indices = indices
         self.type = type_
 
     @classmethod
-    def read_indices(cls, reader: ExpressionReader, token: Token, variable: SystemVariable) -> SystemPlace:  # noqa: ARG003
+    def read_indices(cls, reader: ExpressionReader, token: Token, variable: SystemVariable) -> SystemPlace:
         """The variable with the indices that come next; a frame with a component is a REAL."""
         codes: list[str] = []
         type_ = variable.type
@@ -291,14 +301,16 @@ class SystemPlace:
         if variable.stop:
             reader.emitter.uses_stop = True
         indices = f"({''.join(code + ', ' for code in codes)})"
-        return cls(variable, reader.emitter.object(variable), indices, type_)
+        return cls(token.text, variable, reader.emitter.object(variable), indices, type_)
 
-    def read(self, reader: ExpressionReader) -> Expr:  # noqa: ARG002
+    def read(self, reader: ExpressionReader) -> Expr:
         """Code that asks the control."""
+        rights.check(reader, self.name, reader.scope.memory.rights.get(self.name, {}), rights.READ)
         return Expr(f"{self.code}.read(channel, {self.indices})", self.type)
 
     def write(self, reader: ExpressionReader, code: str) -> None:
         """Code that tells the control."""
+        rights.check(reader, self.name, reader.scope.memory.rights.get(self.name, {}), rights.WRITE)
         reader.emitter.acts = True
         reader.emitter.line(f"{self.code}.write(channel, {self.indices}, {code})")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from polycnc.language.sinumerik import keywords
+from polycnc.language.sinumerik import keywords, rights
 from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
 from polycnc.language.sinumerik.expressions import Expr
 from polycnc.language.sinumerik.level_variables import LEVEL_VARIABLES
@@ -35,6 +35,7 @@ class Scope:
         variables: Local variables and parameters of the program, upper case.
         macros: Texts of DEFINE … AS of the program.
         main: The main program's scope, where its variables are known here too (MD11120).
+        level: Protection level of the program, 0 the highest.
     """
 
     def __init__(self, memory: LanguageMemory, control: LanguageControl, main: Scope | None = None) -> None:
@@ -46,6 +47,7 @@ class Scope:
         self.externals: dict[str, tuple[tuple[bool, Type], ...]] = {}
         self.execute = control.execute
         self.slots = 0
+        self.level = 0
 
     def find(self, name: str) -> Variable | None:
         """The user variable of this name."""
@@ -150,6 +152,7 @@ class Scope:
         for caller, functions in _FUNCTION_CALLERS:
             function = functions.get(token.text)
             if function is not None:
+                rights.check_word(reader, token)
                 arguments = self.arguments(reader, token, function.arguments)
                 reader.emitter.knows_place = True
                 call = caller.format(name=repr(token.text), arguments=arguments, column=token.column)

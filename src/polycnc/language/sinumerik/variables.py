@@ -37,6 +37,7 @@ class Variable:
         unit: Physical unit (PHU).
         rights: Access rights by keyword (APRP, APWP, APRB, APWB).
         init_time: INIPO, INIRE, INICF or PRLOC, empty for none.
+        first: The value of the definition file, where an init time may bring it back.
         range: NCK for one that all channels share, CHAN or empty for one of its own in each channel.
     """
 
@@ -54,6 +55,7 @@ class Variable:
     rights: dict[str, int] = field(default_factory=dict)
     init_time: str = ""
     range: str = ""
+    first: Any = None
 
     @property
     def is_plain(self) -> bool:
