@@ -261,6 +261,7 @@ class Ahead:
             turning = (context.spindle, context.spindle_rpm, context.spindle_direction, context.surface_speed)
             key = (context.tool, context.tool_name, *turning)
             station = self._stations.setdefault(key, len(self._stations))
+            # Without averages: changes of speed that a command brings cannot wait for an average over time.
             self._contexts.extend(context_fields(context, self._axes, spindle, station, self._settings))
             self._laid_contexts += 1
 
