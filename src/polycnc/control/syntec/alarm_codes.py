@@ -27,6 +27,7 @@ ALARMS: dict[str, str] = {
     "radius_too_small": "COR-006",
     "three_point_word": "COR-133",
     "three_point_format": "COR-134",
+    "curve_format": SEMANTIC,
     "inverse_time_feed": "COR-085",
     "no_intermediate": SEMANTIC,
     "stroke_pair": "COR-109",

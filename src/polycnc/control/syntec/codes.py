@@ -7,6 +7,7 @@ from polycnc.control.syntec import (
     arcs,
     axis_groups,
     calls,
+    curves,
     cycles,
     interrupts,
     motion,
@@ -34,6 +35,7 @@ G_CODES = table(
     GCode("G3", "motion", planner=arcs.plan_arc_ccw, ends="cycle"),
     GCode("G2.4", "motion", planner=arcs.plan_three_point_arc, ends="cycle"),
     GCode("G3.4", "motion", planner=arcs.plan_three_point_arc, ends="cycle"),
+    GCode("G6.2", "motion", planner=curves.plan_nurbs, ends="cycle"),
     GCode("G33", "motion", planner=motion.plan_thread, ends="cycle"),
     GCode("G4", handler=frames.dwell, takes="X P Q", axis_words=True, order=MOTION),
     GCode("G4.1", handler=axis_groups.meet, takes="P Q", axis_words=True, order=MOTION),
@@ -123,8 +125,7 @@ G_CODES = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G6.2", "G37",
-        "G37.2", "G37.3", "G40.1", "G41.1", "G42.1", "G41.2", "G42.2", "G41.6", "G42.6",
+        "G37", "G37.2", "G37.3", "G40.1", "G41.1", "G42.1", "G41.2", "G42.2", "G41.6", "G42.6",
         "G52.1", "G52.2", "G80.2", "G81.1", "G81.2", "G84.48",
     ),
 )  # fmt: skip

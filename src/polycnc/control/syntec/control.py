@@ -12,6 +12,7 @@ from polycnc.control.syntec import (
     axis_groups,
     calls,
     coordinates,
+    curves,
     cycles,
     interrupts,
     motion,
@@ -144,6 +145,7 @@ class SyntecMill(WordAddressControl):
     def finish(self, channel: Channel) -> None:
         """The main program is over."""
         arcs.check_pair_complete(channel)
+        curves.check_complete(channel)
         interrupts.check_off(channel)
         channel.end()
 

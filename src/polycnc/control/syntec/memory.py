@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.curves import Curve
     from polycnc.control.syntec.interrupts import Interrupt
     from polycnc.control.syntec.polar import PolarPlane
     from polycnc.control.syntec.skips import SkipGroup
@@ -39,7 +40,7 @@ class SyntecMemory(Memory):
         bits: Bits I, O, A, C of the PLC interface by name.
         skip_flags: #1608; `skip_machine` the machine position of the last skip.
         last_center: Centre vector of the last arc.
-        mid_point: Mid point of a G02.4 whose end point is still to come.
+        mid_point: Mid point of a G02.4 whose end point is still to come; `curve` a G06.2 with knots to come.
         scale_factors: Factors of the active G51.
         lead: F of G33, mm; `retract_feed` F2 of G81, in the unit of the feed, 0 for a rapid.
         feeds: The last feed of each feed mode that was left.
@@ -75,6 +76,7 @@ class SyntecMemory(Memory):
         self.skip_machine: list[float] | None = None
         self.last_center = (0.0, 0.0, 0.0)
         self.mid_point: list[float] | None = None
+        self.curve: Curve | None = None
         self.preset_angle = 0.0
         self.preset_axis = [0.0, 0.0, 1.0]
         self.scale_factors = (1.0, 1.0, 1.0)
