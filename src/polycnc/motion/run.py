@@ -173,6 +173,10 @@ class Run:
         acceleration = (places[0] - 2.0 * places[PARTS] + places[-1]) / blend**2
         return position, (after - before) / blend, acceleration
 
+    def on_path(self, time: Any) -> Any:
+        """Positions on the path itself, before they are averaged, at times from the start of the run, (k, n)."""
+        return self._on_path(np.asarray(time) - 0.5 * self._ramp - self._blend)[0]
+
     def _index(self, way: Any) -> Any:
         return np.clip(np.searchsorted(self._ways, way, "right") - 1, 0, len(self._length) - 1)
 

@@ -1,0 +1,206 @@
+"""With limited jerk no axis exceeds a limit at any sample, and no rounded path leaves its tolerance."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import replace
+from math import cos, sin
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from polycnc.motion import Settings
+from polycnc.motion.kernels.columns import LENGTH, SPEED2, piece_width
+from polycnc.motion.limits import EXACT_MM, averages
+from polycnc.motion.planner import Planner
+from polycnc.motion.run import Run
+from polycnc.toolpath import Context
+from tests.motion.paths import MILL, Build
+from tests.motion.test_limits import UNEVEN, arc, build, line, spiral, spline
+
+if TYPE_CHECKING:
+    from polycnc.machine import Machine
+
+SOFT = Settings(acceleration="SOFT", without_deviation=frozenset({"G64"}))
+PERIOD = 0.001
+#: Sampled values come from sums of many terms.
+SLACK = 1.0 + 1e-6
+
+short = st.floats(-2.0, 2.0)
+contexts = st.sampled_from(
+    [
+        Context(path_mode="G64"),
+        Context(path_mode="G61"),
+        Context(path_mode="G642", tolerance_mm=0.005),
+        Context(path_mode="G642", tolerance_mm=0.1),
+    ]
+)
+machines = st.sampled_from([MILL, UNEVEN])
+
+
+def runs(rows: Build, machine: Machine, lead: Settings = SOFT) -> tuple[float, list[Run]]:
+    """Planned time, and the runs of a toolpath under one context."""
+    n, found = len(rows.toolpath.axes), list[Any]()
+    width = piece_width(n)
+    planner = Planner(
+        rows.toolpath,
+        machine,
+        settings=lead,
+        compiled=False,
+        on_pieces=lambda pieces, count: found.append(np.array(pieces[: count * width]).reshape(count, width)),
+    )
+    total = planner.finish().total_s
+    if not found:
+        return total, []
+    pieces = np.concatenate(found)
+    starts = [*np.flatnonzero(pieces[:, SPEED2] == 0.0).tolist(), len(pieces)]
+    smoothing = averages(rows.context, machine, lead)
+    return total, [Run(pieces[a:b], n, *smoothing) for a, b in itertools.pairwise(starts)]
+
+
+def check(rows: Build, machine: Machine) -> None:
+    """Every axis within velocity, acceleration and jerk; planned time and time of the runs agree."""
+    total, found = runs(rows, machine)
+    assert sum(run.seconds for run in found) == pytest.approx(total, rel=1e-6)
+    for run in found:
+        times = np.arange(0.0, min(run.seconds, 20.0), PERIOD)
+        _, velocity, acceleration = run.at(times)
+        jerk = np.diff(acceleration, axis=0) / PERIOD
+        for i, axis in enumerate(machine.axes):
+            assert np.abs(velocity[:, i]).max() <= axis.max_feed * SLACK
+            assert np.abs(acceleration[:, i]).max() <= axis.acceleration * SLACK
+            assert np.abs(jerk[:, i]).max(initial=0.0) <= axis.jerk * SLACK
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(st.one_of(line, arc, spiral, spline), min_size=1, max_size=6), contexts, machines)
+def test_axes_keep_their_limits_at_every_sample(
+    steps: list[tuple[str, float, float, float, float]], context: Context, machine: Machine
+) -> None:
+    check(build(steps, context), machine)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(st.tuples(short, short, short), min_size=1, max_size=40), contexts, machines)
+def test_axes_keep_their_limits_on_short_lines(
+    ways: list[tuple[float, float, float]], context: Context, machine: Machine
+) -> None:
+    rows = Build(context=context)
+    for way in ways:
+        rows.feed(*(round(a + b, 3) for a, b in zip(rows.end, way, strict=True)), feed=150.0)
+    check(rows, machine)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.floats(1.0, 30.0), st.floats(0.002, 0.3), st.floats(0.0, 0.02), st.integers(0, 9), contexts)
+def test_axes_keep_their_limits_on_facets_of_a_circle(
+    radius: float, angle: float, noise: float, seed: int, context: Context
+) -> None:
+    check(facets(radius, angle, noise, seed, context), UNEVEN)
+
+
+def facets(radius: float, angle: float, noise: float, seed: int, context: Context) -> Build:
+    """A circle in short lines, as a CAM system writes it, a little off."""
+    off = np.random.default_rng(seed).uniform(-noise, noise, (120, 2))
+    rows = Build(context=context)
+    for k, (dx, dy) in enumerate(off.tolist(), start=1):
+        rows.feed(radius * sin(k * angle) + dx, radius * (1.0 - cos(k * angle)) + dy, 0.01 * k, feed=200.0)
+    return rows
+
+
+def stray(run: Run, blend: float) -> float:
+    """Largest distance (mm) of the run's samples from its path."""
+    times = np.arange(0.0, min(run.seconds, 10.0), 5.0 * PERIOD)
+    near = np.linspace(-blend, blend, 61)
+    exact = run.on_path((times[:, None] + near[None, :]).ravel()).reshape(len(times), len(near), -1)
+    chord, way = exact[:, 1:] - exact[:, :-1], run.at(times)[0][:, None, :] - exact[:, :-1]
+    share = np.clip((chord * way).sum(-1) / np.maximum((chord**2).sum(-1), 1e-300), 0.0, 1.0)
+    return float(np.sqrt(((way - share[..., None] * chord) ** 2).sum(-1)).min(1).max())
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(st.one_of(line, arc, spiral, spline), min_size=2, max_size=6), contexts, machines)
+def test_a_rounded_path_never_leaves_its_tolerance(
+    steps: list[tuple[str, float, float, float, float]], context: Context, machine: Machine
+) -> None:
+    tolerance = context.tolerance_mm or EXACT_MM
+    blend = averages(context, machine, SOFT)[1]
+    for run in runs(build(steps, context), machine)[1]:
+        assert stray(run, blend) <= tolerance * SLACK
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.lists(st.tuples(short, short, short), min_size=2, max_size=30), st.sampled_from([0.002, 0.02, 0.2]))
+def test_short_lines_are_rounded_within_their_tolerance(
+    ways: list[tuple[float, float, float]], tolerance: float
+) -> None:
+    rows = Build(context=Context(path_mode="G642", tolerance_mm=tolerance))
+    for way in ways:
+        rows.feed(*(round(a + b, 3) for a, b in zip(rows.end, way, strict=True)), feed=150.0)
+    blend = averages(rows.context, MILL, SOFT)[1]
+    for run in runs(rows, MILL)[1]:
+        assert stray(run, blend) <= tolerance * SLACK
+
+
+def test_a_corner_is_rounded_at_all() -> None:
+    rows = Build(context=Context(path_mode="G642", tolerance_mm=0.1))
+    rows.feed(20.0, 0.0, 0.0).feed(20.0, 20.0, 0.0)
+    (run,) = runs(rows, MILL)[1]
+    assert 0.01 < stray(run, averages(rows.context, MILL, SOFT)[1]) <= 0.1
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(st.one_of(line, arc, spiral), min_size=1, max_size=6), contexts)
+def test_limited_jerk_never_saves_time(
+    steps: list[tuple[str, float, float, float, float]], context: Context
+) -> None:
+    rows = build(steps, context)
+    brisk = replace(SOFT, acceleration="BRISK")
+    assert rows.plan(UNEVEN, settings=SOFT).total_s >= rows.plan(UNEVEN, settings=brisk).total_s * (
+        1.0 - 1e-9
+    )
+
+
+def test_a_long_way_takes_its_ramps_longer() -> None:
+    """From rest to rest: as without limited jerk, at the acceleration that the average allows, and the average."""
+    rows = Build(context=Context(path_mode="G61")).rapid(400.0, 0.0, 0.0)
+    ramp, blend = averages(rows.context, MILL, SOFT)
+    x = MILL.axis["X"]
+    pull = min(x.acceleration, 0.5 * x.jerk * ramp)
+    expected = 400.0 / x.rapid + x.rapid / pull + ramp + 2.0 * blend
+    assert rows.plan(MILL, settings=SOFT).total_s == pytest.approx(expected)
+
+
+def test_the_context_chooses_brisk_or_soft() -> None:
+    brisk = Build(context=Context(acceleration="BRISK")).feed(20.0, 0.0, 0.0).plan(MILL, settings=SOFT)
+    soft = Build(context=Context(acceleration="SOFT")).feed(20.0, 0.0, 0.0).plan(MILL)
+    assert soft.total_s > brisk.total_s + 0.05
+
+
+def test_drive_accelerates_less_where_an_axis_may_become_fast() -> None:
+    lead = Settings(drive_speed=0.5, drive_reduction=0.5)
+    top = MILL.axis["X"].max_feed
+
+    def seconds(feed: float, acceleration: str) -> float:
+        rows = Build(context=Context(acceleration=acceleration)).feed(100.0, 0.0, 0.0, feed=feed)
+        return rows.plan(MILL, settings=lead).total_s
+
+    pull = MILL.axis["X"].acceleration
+    assert seconds(0.4 * top, "DRIVE") == seconds(0.4 * top, "BRISK")
+    assert seconds(0.8 * top, "DRIVE") - seconds(0.8 * top, "BRISK") == pytest.approx(0.8 * top / pull)
+
+
+def test_the_pieces_of_a_cut_line_make_up_the_line() -> None:
+    rows = Build(context=Context(path_mode="G64")).feed(30.0, 0.0, 0.0).feed(30.0, 30.0, 0.0)
+    lengths: list[float] = []
+    width = piece_width(3)
+
+    def note(pieces: Any, count: int) -> None:
+        lengths.extend(pieces[k * width + LENGTH] for k in range(count))
+
+    rows.plan(MILL, settings=SOFT, on_pieces=note)
+    assert len(lengths) > 2
+    assert sum(lengths) == pytest.approx(60.0)
