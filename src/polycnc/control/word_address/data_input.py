@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 WORK_SYSTEMS = (EXTERNAL, "G54", "G55", "G56", "G57", "G58", "G59")
 #: L number of a tool offset to the field of the offset memory that it sets.
 TOOL_FIELDS = {1: "length_wear", 10: "length", 11: "length_wear", 12: "radius", 13: "radius_wear"}
+#: Largest offset value, mm or inch (Hartford manual 3.3.2).
+LARGEST_OFFSET = {False: 999.999, True: 99.999}
 
 
 def input_data(channel: Channel, words: Words) -> None:
@@ -55,5 +57,7 @@ def _set_tool_offset(channel: Channel, words: Words, number: int, field: str) ->
     tool = channel.memory.offset_number(number)
     if channel.mode["distance"] == "G91":
         value += getattr(tool, field)
+    if abs(channel.memory.to_program_unit(value)) > LARGEST_OFFSET[words.plan.inch] + 1e-6:
+        raise words.fail("g10_value", "R")
     setattr(tool, field, value)
     renew_length(channel)
