@@ -11,6 +11,7 @@ from polycnc.control.syntec import (
     cycles,
     interrupts,
     motion,
+    normal_direction,
     operation,
     polar,
     skips,
@@ -68,6 +69,9 @@ G_CODES = table(
     GCode("G29", handler=coordinates.return_from_reference, axis_words=True, order=MOTION),
     GCode("G30", handler=frames.return_to_further_reference, takes="P", axis_words=True, order=MOTION),
     GCode("G31", handler=motion.skip_move, takes="P Q", axis_words=True, order=MOTION),
+    GCode("G40.1", normal_direction.NORMAL, normal_direction.cancel),
+    GCode("G41.1", normal_direction.NORMAL, normal_direction.start, takes="Q P E R", order=MOTION),
+    GCode("G42.1", normal_direction.NORMAL, normal_direction.start, takes="Q P E R", order=MOTION),
     GCode("G40", "compensation", cycles.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
     GCode("G41", "compensation", cycles.compensate_left, takes="D", order=Order.COMPENSATION),
     GCode("G42", "compensation", cycles.compensate_right, takes="D", order=Order.COMPENSATION),
@@ -75,7 +79,7 @@ G_CODES = table(
     GCode("G44", "length", tip_control.compensate_length, takes="H", order=Order.LENGTH),
     GCode("G43.4", "length", tip_control.start, takes="H Q L I", order=Order.LENGTH),
     GCode("G43.5", "length", tip_control.start, takes="H", order=Order.LENGTH),
-    GCode("G49", "length", tip_control.cancel, order=Order.LENGTH),
+    GCode("G49", "length", tip_control.cancel, order=Order.LENGTH, ends=normal_direction.NORMAL),
     GCode("G45", handler=motion.lengthened, takes="D I J K", axis_words=True, order=MOTION),
     GCode("G46", handler=motion.shortened, takes="D I J K", axis_words=True, order=MOTION),
     GCode("G47", handler=motion.lengthened_twice, takes="D I J K", axis_words=True, order=MOTION),
@@ -125,7 +129,7 @@ G_CODES = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G37", "G37.2", "G37.3", "G40.1", "G41.1", "G42.1", "G41.2", "G42.2", "G41.6", "G42.6",
+        "G37", "G37.2", "G37.3", "G41.2", "G42.2", "G41.6", "G42.6",
         "G52.1", "G52.2", "G80.2", "G81.1", "G81.2", "G84.48",
     ),
 )  # fmt: skip
@@ -175,5 +179,6 @@ POWER_ON = {
     "rotation": "G69",
     "polar": "G15",
     polar.POLAR: "G13.1",
+    normal_direction.NORMAL: normal_direction.OFF,
     "mirror": "G50.1",
 }

@@ -16,6 +16,7 @@ from polycnc.control.syntec import (
     cycles,
     interrupts,
     motion,
+    normal_direction,
     polar,
     tilted,
     tip_control,
@@ -129,6 +130,7 @@ class SyntecMill(WordAddressControl):
 
     def reset(self, channel: Channel) -> None:
         """The state after reset: polar interpolation ends, and the tilted plane where Pr3014 does not keep it."""
+        normal_direction.end(channel)
         polar.leave_plane(channel)
         kept = channel.memory.tilt if parameter(channel.setup.parameters, 3014) else IDENTITY
         super().reset(channel)
@@ -196,6 +198,7 @@ class SyntecMill(WordAddressControl):
         mode = channel.mode
         builder = SyntecBuilder(channel, self, signature)
         polar.check_block(builder)
+        normal_direction.check_block(builder)
         plan = mode.plans[signature] = builder.build()
         return plan
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.syntec.curves import Curve
     from polycnc.control.syntec.interrupts import Interrupt
+    from polycnc.control.syntec.normal_stage import NormalStage
     from polycnc.control.syntec.polar import PolarPlane
     from polycnc.control.syntec.skips import SkipGroup
     from polycnc.control.syntec.spindles import SpindlePair
@@ -52,6 +53,7 @@ class SyntecMemory(Memory):
         posture_frame: Directions of the tool refer to the work system under G43.4 (#1848).
         interrupt: What M96 has prepared.
         skip_groups: Groups of G31.10 that G31.11 will move; the step behind the last one.
+        normal: Stage of G41.1 in the path.
         polar: Plane of G12.1; `plane_before` and `geometry_before` what G13.1 brings back.
         diameters: Axes switched by G10.9: programmed in diameter or not.
     """
@@ -96,6 +98,7 @@ class SyntecMemory(Memory):
         self.skip_groups: list[SkipGroup] = []
         self.skip_groups_end = 0
         self.diameters: dict[int, bool] = {}
+        self.normal: NormalStage | None = None
         self.polar: PolarPlane | None = None
         self.plane_before = "G17"
         self.geometry_before = channel.coordinates.geometry

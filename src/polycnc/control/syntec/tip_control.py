@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec import length as tool_length
+from polycnc.control.syntec import normal_direction
 from polycnc.control.word_address import tool_center_point
 from polycnc.control.word_address.words import Words
 
@@ -46,7 +47,8 @@ def compensate_length(channel: Channel, words: Words) -> None:
 
 
 def cancel(channel: Channel, words: Words) -> None:
-    """G49: ends every kind of length compensation; the frame of directions is that of Pr3057 again."""
+    """G49: ends every kind of length compensation, and normal direction control."""
+    normal_direction.end(channel)
     end(channel)
     tool_length.cancel_length(channel, words)
 
