@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import pairwise
-from math import hypot
+from math import cos, hypot, pi, sin
 
 import pytest
 from hypothesis import given
@@ -204,6 +204,22 @@ def test_a_spigot_is_never_cut_into(half_length: float, half_width: float, part:
         if w < 0.0:
             inside = max(abs(x) - (half_length - corner), 0.0), max(abs(y) - (half_width - corner), 0.0)
             assert hypot(*inside) >= corner + 5.0 - 1e-6
+
+
+@given(st.integers(3, 9), st.floats(5.0, 40.0), st.floats(0.0, 1.0), st.booleans())
+def test_a_polygon_is_never_cut_into(count: int, inner: float, part: float, ccw: bool) -> None:
+    shape = spigots.Polygon(
+        Place(), count, inner, part * inner, 2.0 * inner + 3.0, 5.0, 1.0, ccw, 500.0, 2.0, 10.0
+    )  # fmt: skip
+    strokes = list(spigots.mill_polygon(shape, [-3.0]))
+    assert is_true_arc(strokes)
+    sides = [2.0 * pi * k / count for k in range(count)]
+    corner = part * inner
+    for x, y, w, _ in walk(strokes):
+        if w < 0.0:
+            # The distance from the polygon shrunk by its corner radius is that radius and the tool's.
+            assert max(x * cos(side) + y * sin(side) for side in sides) >= inner - corner - 1e-6
+            assert hypot(x, y) >= inner + 5.0 - 1e-6
 
 
 def contour() -> list[Piece]:

@@ -1,8 +1,12 @@
-"""Rectangular and circular spigots (SINUMERIK CYCLE76, CYCLE77): on a half circle in, once round, out, per level."""
+"""Rectangular, circular and polygonal spigots: on a half circle in, once round, out, level by level.
+
+Source: SINUMERIK milling cycles (CYCLE76, CYCLE77, CYCLE79).
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import pi, tan
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.mill_stroke import Place, arc, cut, rapid, ring
@@ -64,3 +68,63 @@ def mill(spigot: Spigot, levels: Sequence[float]) -> Iterator[MillStroke]:
         )
         yield arc(spigot.feed, begin, middle, not spigot.ccw)
     yield rapid(w=spigot.retract)
+
+
+FEWEST_EDGES = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Polygon:
+    """A spigot with equal edges; the middle of one of them lies on the place's x axis. Fields as in `Spigot`.
+
+    `inner` is the radius of the circle that touches all edges.
+    """
+
+    place: Place
+    count: int
+    inner: float
+    corner: float
+    blank: float
+    radius: float
+    clearance: float
+    ccw: bool
+    feed: float
+    safe: float
+    retract: float
+
+
+def inner_radius(count: int, edge: float) -> float:
+    """Radius of the circle that touches all edges of a regular polygon, from the length of an edge."""
+    return edge / (2.0 * tan(pi / count))
+
+
+def mill_polygon(polygon: Polygon, levels: Sequence[float]) -> Iterator[MillStroke]:
+    """All levels: on a half circle in, once round with arcs about the corners, out."""
+    side = polygon.inner + polygon.radius
+    beside = max(polygon.blank, polygon.inner) + polygon.clearance + polygon.radius
+    reach = max(0.5 * (beside - side), 0.5 * polygon.radius)
+    begin, middle = polygon.place(side + 2.0 * reach, 0.0), polygon.place(side + reach, 0.0)
+    yield rapid(begin)
+    yield rapid(w=polygon.safe)
+    for level in levels:
+        yield cut(polygon.feed, w=level)
+        yield arc(polygon.feed, polygon.place(side, 0.0), middle, not polygon.ccw)
+        yield from _edges(polygon, side)
+        yield arc(polygon.feed, begin, middle, not polygon.ccw)
+    yield rapid(w=polygon.retract)
+
+
+def _edges(polygon: Polygon, side: float) -> Iterator[MillStroke]:
+    """Once round, from the middle of the first edge and back there."""
+    sense = 1.0 if polygon.ccw else -1.0
+    pitch = 360.0 / polygon.count
+    half = (polygon.inner - polygon.corner) * tan(pi / polygon.count)
+    around = polygon.inner - polygon.corner
+    for k in range(polygon.count):
+        first = Place(polygon.place.origin, polygon.place.angle_deg + sense * k * pitch)
+        second = Place(polygon.place.origin, polygon.place.angle_deg + sense * (k + 1) * pitch)
+        yield cut(polygon.feed, first(side, sense * half))
+        if polygon.corner + polygon.radius > 0.0:
+            center = first(around, sense * half)
+            yield arc(polygon.feed, second(side, -sense * half), center, polygon.ccw)
+    yield cut(polygon.feed, polygon.place(side, 0.0))

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from polycnc.channel.stack import Level
 from polycnc.control.sinumerik import (
     auxiliary,
+    cycles_contour,
     cycles_drilling,
     cycles_milling,
     cycles_patterns,
@@ -115,6 +116,7 @@ CYCLES: dict[str, Cycle] = {
     "CYCLE61": Cycle(
         f"{_MILL} _PA _PO _LENG _WID _MID _MIDA _FALD _FFP1 _VARI _LIM _DMODE _AMODE", cycles_surfaces.face
     ),
+    "CYCLE62": Cycle("_KNAME _TYPE _LAB1 _LAB2", cycles_contour.choose),
     "CYCLE71": Cycle(
         f"{_MILL} _PA _PO _LENG _WID _STA _MID _MIDA _FDP _FALD _FFP1 _VARI _FDP1", cycles_surfaces.face
     ),
@@ -130,6 +132,10 @@ CYCLES: dict[str, Cycle] = {
     "CYCLE77": Cycle(
         f"{_HOLE} _PRAD _PA _PO _MID _FAL _FALD _FFP1 _FFD _CDIR _VARI _AP1 _FS _ZFS {_SL}",
         cycles_surfaces.spigot,
+    ),
+    "CYCLE79": Cycle(
+        f"{_MILL} _NUM _SWL _PA _PO _STA _RC _AP1 _MIDA _MID _FAL _FALD _FFP1 _CDIR _VARI _FS _ZFS {_SL}",
+        cycles_surfaces.polygon,
     ),
     "CYCLE90": Cycle(f"{_HOLE} DIATH KDIAM PIT FFR CDIR TYPTH CPA CPO", cycles_surfaces.thread),
     "CYCLE95": Cycle("NPP MID FALZ FALX FAL FF1 FF2 FF3 VARI DT DAM _VRT", cycles_turning.stock_removal),

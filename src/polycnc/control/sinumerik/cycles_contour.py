@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import nan
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.contour import Contour, Piece
 from polycnc.geometry import offset
 from polycnc.language.sinumerik.calls import call_section, call_without_arguments, named_program
@@ -17,10 +18,11 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Generator
+    from collections.abc import Generator, Iterator
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.path import Move, PathStage
+    from polycnc.control.sinumerik.cycles_arguments import Arguments
     from polycnc.control.sinumerik.cycles_moves import Moves
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.control.sinumerik.stages import Stages
@@ -79,13 +81,64 @@ class _State:
         memory.previous = self.previous
 
 
-def read(moves: Moves, name: str) -> Generator[None, None, Contour]:
-    """The contour that a name means, in the plane of the cycle: "NAME", or "LABEL1:LABEL2" of the calling program.
+class Place(NamedTuple):
+    """Where a contour stands: in a program (empty for the calling one), all of it or from one label to another."""
 
-    The first block leads to its first point.
+    program: str
+    first: str = ""
+    last: str = ""
+
+
+#: Types of CYCLE62 that name labels: of the calling program, and of another one.
+LABELS_HERE, LABELS_IN_PROGRAM = 2, 3
+_CHOSEN = ("CYCLE62", ())
+
+
+def choose(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE62: the contour of the cycle that follows, by program or by labels; a second call in a row is PC0001.
 
     Raises:
-        AlarmError: 14011 for a program that does not exist, 14082 for a label, 61605 for a contour without moves.
+        AlarmError: 61002 for a type that does not exist.
+    """
+    kind = a.integer("_TYPE")
+    if kind not in (0, 1, LABELS_HERE, LABELS_IN_PROGRAM):
+        raise AlarmError("61002")
+    values = channel.memory.values
+    if values.get(_CHOSEN) is not None:
+        raise not_supported("CYCLE62: two contours")
+    labels = (a.text("_LAB1").upper(), a.text("_LAB2").upper()) if kind >= LABELS_HERE else ("", "")
+    values[_CHOSEN] = Place("" if kind == LABELS_HERE else a.text("_KNAME"), *labels)
+    yield
+
+
+def _place(channel: Channel, name: str) -> Place:
+    """What "NAME" and "LABEL1:LABEL2" mean; an empty name is what CYCLE62 has chosen, once."""
+    if not name.strip():
+        chosen: Place | None = channel.memory.values.pop(_CHOSEN, None)
+        return chosen if chosen is not None else Place("")
+    first, _, last = (part.strip() for part in name.partition(":"))
+    return Place("", first.upper(), last.upper()) if last else Place(first)
+
+
+def _call(channel: Channel, place: Place) -> None:
+    """Go on with the contour as a program level.
+
+    Raises:
+        AlarmError: 61605 where no contour is named, 14011 for a program that does not exist, 14082 for a label.
+    """
+    if place.first:
+        call_section(channel, place.program, place.first, place.last)
+    elif place.program:
+        call_without_arguments(channel, named_program(channel, place.program))
+    else:
+        raise AlarmError("61605")
+
+
+def read(moves: Moves, name: str) -> Generator[None, None, Contour]:
+    """The contour that a name means, in the plane of the cycle; the first block leads to its first point.
+
+    Raises:
+        AlarmError: As `_call`, and 61605 for a contour without moves.
     """
     channel = moves.channel
     memory: Memory = channel.memory
@@ -104,11 +157,7 @@ def read(moves: Moves, name: str) -> Generator[None, None, Contour]:
     for column in moves.columns[:2]:
         if column >= 0:
             begin[column] += AWAY_MM
-    start, _, end = (part.strip() for part in name.partition(":"))
-    if end:
-        call_section(channel, "", start.upper(), end.upper())
-    else:
-        call_without_arguments(channel, named_program(channel, start))
+    _call(channel, _place(channel, name))
     channel.coordinates.arrive(begin)
     channel.feed = channel.feed if channel.feed > 0.0 else 1.0
     memory.stages = None

@@ -94,21 +94,25 @@ def pause(value: float, mode: int) -> float:
 
 
 def _tip_per_radius(moves: Moves) -> float:
-    """Height of the tool's tip for each mm of radius; 61000 without a tip angle."""
+    """Height of the tool's tip for each mm of radius; 0 for a tool without tip angle: it is flat."""
     edge = moves.memory.tools.edge
     angle = edge.values[DP_TIP_ANGLE] if edge is not None else 0.0
-    if not 0.0 < angle < 180.0:
-        raise AlarmError("61000")
-    return 1.0 / tan(radians(angle / 2.0))
+    return 1.0 / tan(radians(angle / 2.0)) if 0.0 < angle < 180.0 else 0.0
 
 
 def levels_of_drill(moves: Moves, a: Arguments) -> Levels | None:
-    """Levels as _GMODE (tens) means the depth: of the tip, of the full diameter, or as a diameter to be centred."""
+    """Levels as _GMODE (tens) means the depth: of the tip, of the full diameter, or as a diameter to be centred.
+
+    Raises:
+        AlarmError: 61000 for a diameter to be centred with a tool that has no tip angle.
+    """
     if a.digit("_GMODE", 1) != 1:
         return levels(moves, a)
     if a.cycle == "CYCLE81":
         retract, reference = a["RTP"], a["RFP"]
         up = _sign(retract - reference) or 1.0
+        if not _tip_per_radius(moves):
+            raise AlarmError("61000")
         depth = reference - up * abs(a["DP"]) / 2.0 * _tip_per_radius(moves)
         return Levels(retract, reference, reference + up * abs(a["SDIS"]), depth)
     found = levels(moves, a)

@@ -1,4 +1,4 @@
-"""Faces, contours, spigots and milled threads: CYCLE61, CYCLE71, CYCLE72, CYCLE76, CYCLE77, CYCLE90."""
+"""Faces, contours, spigots and milled threads: CYCLE61, CYCLE71, CYCLE72, CYCLE76, CYCLE77, CYCLE79, CYCLE90."""
 
 from __future__ import annotations
 
@@ -203,6 +203,39 @@ def spigot(channel: Channel, a: Arguments) -> Iterator[None]:
     )
     total = abs(found.depth - found.reference) - (abs(a["_FALD"]) if rough else 0.0)
     yield from perform(moves, spigots.mill(shape, levels_below(found, total, a["_MID"])))
+
+
+def polygon(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE79: spigot with NUM edges; SWL is the width across flats, or an edge where NUM is odd."""
+    moves = Moves(channel)
+    radius = require_tool(moves)
+    kind = variant(a, "_VARI", (ROUGHING, FINISHING))
+    count, size = abs(a.integer("_NUM")), abs(a["_SWL"])
+    if count < spigots.FEWEST_EDGES or not size:
+        raise AlarmError("61118")
+    found = milling_levels(moves, a, abs(a["_FALD"]), "_MID")
+    if found is None:
+        return
+    rough = kind == ROUGHING
+    inner = size / 2.0 if count % 2 == 0 else spigots.inner_radius(count, size)
+    feed = feed_of(a, "_FFP1")
+    shape = spigots.Polygon(
+        Place(reference_point(moves, a), a["_STA"]),
+        count,
+        inner,
+        abs(a["_RC"]),
+        abs(a["_AP1"]) / 2.0,
+        radius + (abs(a["_FAL"]) if rough else 0.0),
+        abs(a["SDIS"]),
+        is_ccw(moves, a.integer("_CDIR"), inside=False),
+        feed,
+        found.safe,
+        found.retract,
+    )
+    if shape.corner > inner:
+        raise AlarmError("61113")
+    total = abs(found.depth - found.reference) - (abs(a["_FALD"]) if rough else 0.0)
+    yield from perform(moves, spigots.mill_polygon(shape, levels_below(found, total, a["_MID"])))
 
 
 # ---- threads
