@@ -20,6 +20,7 @@ from polycnc.control.sinumerik import (
     repositioning,
     smooth_approach,
     spindle_speed,
+    splines,
     stages,
     tables,
     words,
@@ -45,6 +46,10 @@ MOTIONS: dict[str, Callable[[Draft], Step | None]] = {
     "G2": circles.circle,
     "G3": circles.circle,
     "CIP": circles.through_point,
+    "ASPLINE": splines.through_points,
+    "BSPLINE": splines.control_points,
+    "CSPLINE": splines.through_points,
+    "POLY": splines.polynomial,
     "CT": circles.tangential,
     "G33": motion.thread,
     "G34": motion.thread,
@@ -206,6 +211,8 @@ def _motion(draft: Draft) -> Step | None:
         raise AlarmError("12080", text="ANG")
     if draft.mode["motion"] not in LINEAR and not _may_move(draft):
         return None
+    if draft.mode["motion"] in LINEAR and draft.has("PO"):
+        return splines.straight_to_ends(draft)
     return maker(draft)
 
 

@@ -16,6 +16,7 @@ from polycnc.control.sinumerik import (
     limits,
     retraction,
     sections,
+    splines,
 )
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.language.sinumerik import keywords
@@ -187,7 +188,7 @@ def section_of_program(channel: Channel, args: Arguments) -> None:
 
 
 def editor_mark(_channel: Channel, _args: Arguments) -> None:
-    """GROUP_BEGIN, GROUP_END: marks of the editor."""
+    """GROUP_BEGIN, GROUP_END, GROUP_ADDEND: marks of the editor."""
 
 
 def no_overlay(_channel: Channel, _args: Arguments) -> None:
@@ -225,9 +226,11 @@ PROCEDURES: dict[str, Callable[[Channel, Arguments], None]] = {
     "WORKPIECE": workpiece,
     "GROUP_BEGIN": editor_mark,
     "GROUP_END": editor_mark,
+    "GROUP_ADDEND": editor_mark,
     "CORROF": no_overlay,
     **interrupts.PROCEDURES,
     **coordination.PROCEDURES,
     **axis_exchange.PROCEDURES,
     **retraction.PROCEDURES,
+    **splines.PROCEDURES,
 }

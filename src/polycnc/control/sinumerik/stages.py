@@ -22,6 +22,7 @@ from polycnc.compensation.policies import (
     Violation,
 )
 from polycnc.control.sinumerik.smooth_stage import SmoothApproach
+from polycnc.control.sinumerik.spline_stage import SplineStage
 from polycnc.control.sinumerik.tables import PLANES
 from polycnc.control.sinumerik.tools import DP_TIP
 from polycnc.messages import AlarmError
@@ -66,22 +67,23 @@ class Stages:
         self.cutter = CutterCompensation(self.plane, SINUMERIK_NORM_G450, VIOLATIONS, channel.table)
         self.corner = CornerStage(self.plane, SINUMERIK_CORNERS, CORNER_VIOLATIONS, self.cutter)
         self.approach = SmoothApproach(self.plane, self.corner)
+        self.spline = SplineStage(self.approach)
         self.side = 0
 
     @property
     def active(self) -> bool:
         """Whether moves are held back or changed."""
-        return self.approach.active or self.corner.active or self.cutter.active
+        return any(stage.active for stage in (self.spline, self.approach, self.corner, self.cutter))
 
-    def into_path(self, channel: Channel) -> None:
+    def into_path(self, channel: Channel, *, collects: bool = False) -> None:
         """Put the stages that have something to do in front of the path, and no others.
 
-        While a cycle reads a contour, its moves end in the recorder.
+        While a cycle reads a contour, its moves end in the recorder. `collects`: control points of a spline come.
         """
-        chain: tuple[SmoothApproach | CornerStage | CutterCompensation, ...]
-        chain = (self.approach, self.corner, self.cutter)
+        chain: tuple[SplineStage | SmoothApproach | CornerStage | CutterCompensation, ...]
+        chain = (self.spline, self.approach, self.corner, self.cutter)
         memory: Memory = channel.memory
-        head = next((stage for stage in chain if stage.active), memory.recorder)
+        head = self.spline if collects else next((stage for stage in chain if stage.active), memory.recorder)
         watch = memory.watch if memory.recorder is None else None
         if watch is not None:
             watch.after = head or channel.table

@@ -461,7 +461,7 @@ MODIFIED = {
 }
 #: Words that only mean something together with others; alone they are a mistake of the block.
 COMPANIONS = frozenset(
-    "I J K I1 J1 K1 IP CR AR TURN AP RP RPL ANG SF FB FRC FP DISR DISCL FAD DISPR".split()  # noqa: SIM905 - a table
+    "I J K I1 J1 K1 IP CR AR TURN AP RP RPL ANG SF FB FRC FP DISR DISCL FAD DISPR PO PW SD PL".split()  # noqa: SIM905 - a table
 )
 
 

@@ -228,7 +228,7 @@ class WordReader:
             if modifier == "GP":
                 return self._general_position(token, address, index, index_code)
             compiler.expect("(")
-            code = self._list() if modifier == "FPO" else self._value(address)
+            code = self._list() if modifier in ("FPO", "PO") else self._value(address)
             compiler.expect(")")
         elif value.text == "(" and address in keywords.LIST_ADDRESSES:
             compiler.take()

@@ -1,0 +1,107 @@
+"""The stage that collects the control points of a B spline until it ends, and makes its curve out of them.
+
+The curve begins at the first and ends at the last control point, and touches the control polygon there (job planning
+4.2). It is cut into chords that stay within `TOLERANCE_MM` of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from polycnc.geometry.nurbs import nurbs_chords
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from polycnc.channel.path import Move, PathStage
+    from polycnc.toolpath import Event
+
+TOLERANCE_MM = 0.001
+#: A weight of zero takes a control point away; the curve's formula needs a number.
+_LEAST_WEIGHT = 1e-6
+_SAME = 1e-9
+
+
+class SplineStage:
+    """Collects moves to control points: their parameters are weight, degree and knot distance.
+
+    Attributes:
+        after: The next stage.
+        columns: Axes of the spline group; the others move evenly from point to point. None for all.
+    """
+
+    def __init__(self, after: PathStage) -> None:
+        self.after = after
+        self.columns: frozenset[int] | None = None
+        self._held: list[Move] = []
+        self._events: list[tuple[int, Event, int, int, int]] = []
+
+    @property
+    def active(self) -> bool:
+        """Whether control points are held."""
+        return bool(self._held)
+
+    def move(self, move: Move) -> None:
+        """Hold a control point; any other move ends the spline."""
+        if move.kind is Kind.SPLINE and move.parameters:
+            self._held.append(move)
+        else:
+            self._finish()
+            self.after.move(move)
+
+    def event(self, event: Event, program: int, line: int, context: int) -> None:
+        """An event keeps its place behind the control point of its block."""
+        if self._held:
+            self._events.append((len(self._held), event, program, line, context))
+        else:
+            self.after.event(event, program, line, context)
+
+    def block(self) -> None:
+        """Pass the end of a block on."""
+        self.after.block()
+
+    def flush(self) -> None:
+        """The spline ends with the last control point that is known."""
+        self._finish()
+        self.after.flush()
+
+    def _finish(self) -> None:
+        held, events = self._held, self._events
+        self._held, self._events = [], []
+        if not held:
+            return
+        done, before = 0, held[0].start
+        for place, point in self._curve(held):
+            while events and events[0][0] <= min(done, place):
+                self.after.event(*events.pop(0)[1:])
+            move = held[min(place, len(held) - 1)]
+            if any(abs(a - b) > _SAME for a, b in zip(before, point, strict=True)):
+                self.after.move(replace(move, start=before, end=point, parameters=()))
+            before, done = point, place + 1
+        for event in events:
+            self.after.event(*event[1:])
+
+    def _curve(self, held: list[Move]) -> Iterator[tuple[int, list[float]]]:
+        """Points of the curve behind its first one, each with the block that it counts to."""
+        points = [held[0].start, *(move.end for move in held)]
+        degree = min(int(held[0].parameters[1]), len(held))
+        spans = len(points) - degree
+        inner = [0.0]
+        for move in held[:spans]:
+            inner.append(inner[-1] + move.parameters[2])
+        knots = [0.0] * degree + inner + [inner[-1]] * degree
+        weights = [1.0, *(max(move.parameters[0], _LEAST_WEIGHT) for move in held)]
+        poles = [tuple(point) for point in points]
+        chords = list(nurbs_chords(degree + 1, knots, poles, weights, TOLERANCE_MM))[1:]
+        for k, chord in enumerate(chords, 1):
+            share = k / len(chords) * len(held)
+            place = min(int(share - _SAME), len(held) - 1)
+            point = list(chord) if k < len(chords) else held[-1].end
+            if self.columns is not None:
+                along = held[place]
+                for i, (a, b) in enumerate(zip(along.start, along.end, strict=True)):
+                    if i not in self.columns:
+                        point[i] = a + (b - a) * (share - place)
+            yield place, point
