@@ -41,6 +41,11 @@ ALARMS: dict[str, str] = {
     "polar_diameter": "COR-325",
     "diameter_switch": "COR-326",
     "surface_axis": "COR-383",
+    # axis groups
+    "axis_borrowing": "COR-363",
+    "axes_not_borrowed": "COR-364",
+    "axis_not_held": "COR-365",
+    "axis_borrowing_type": "COR-146",
     # normal direction control
     "normal_linear_axes": "COR-180-1",
     "normal_rotary_axis": "COR-180-2",

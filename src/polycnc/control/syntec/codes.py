@@ -5,6 +5,7 @@ from __future__ import annotations
 from polycnc.control.syntec import (
     alignment,
     arcs,
+    axis_borrowing,
     axis_groups,
     calls,
     curves,
@@ -89,6 +90,8 @@ G_CODES = table(
     GCode("G50.1", "mirror", base_frames.end_mirror, axis_words=True),
     GCode("G51.1", "mirror", frames.mirror, axis_words=True),
     GCode("G52", handler=coordinates.set_local_system, axis_words=True),
+    GCode("G52.1", handler=axis_borrowing.release, takes="P Q R", order=MOTION),
+    GCode("G52.2", handler=axis_borrowing.borrow, takes="P Q R I J K", order=MOTION),
     GCode("G53", handler=motion.move_in_machine_system, takes="P F1 Q", axis_words=True, order=MOTION),
     GCode("G54", "wcs", frames.select_work_system, takes="P"),
     *(GCode(f"G{number}", "wcs", frames.select_work_system) for number in range(55, 60)),
@@ -130,7 +133,7 @@ G_CODES = table(
     GCode("G99", "return"),
     not_yet(
         "G37", "G37.2", "G37.3", "G41.2", "G42.2", "G41.6", "G42.6",
-        "G52.1", "G52.2", "G80.2", "G81.1", "G81.2", "G84.48",
+        "G80.2", "G81.1", "G81.2", "G84.48",
     ),
 )  # fmt: skip
 

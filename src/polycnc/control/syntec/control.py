@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from polycnc.compensation.policies import SYNTEC, Policy
 from polycnc.control.syntec import (
     arcs,
+    axis_borrowing,
     axis_groups,
     calls,
     coordinates,
@@ -59,7 +60,7 @@ class SyntecMill(WordAddressControl):
     """SYNTEC milling controls of the 900M … 220MA-5 family."""
 
     id: ClassVar[str] = "syntec-mill"
-    alarm_files: ClassVar[tuple[str, ...]] = ("syntec/alarms.toml",)
+    alarm_files: ClassVar[tuple[str, ...]] = ("syntec/alarms.toml", "syntec/alarms_special.toml")
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
@@ -216,6 +217,8 @@ class SyntecMill(WordAddressControl):
         step = tip_control.plan_with_direction(builder, plan) or super().plan_motion(builder, plan)
         if builder.mode["cycle"] != "G80":
             return None if step is None else cycles.with_cycle_words(builder, step)
+        if step is not None:
+            step = axis_borrowing.guarded(builder, plan, step)
         before, after = builder.before["motion"], builder.mode["motion"]
         if step is not None and builder.mode["feed"] == "G93" and after in ("G1", "G2", "G3"):
             step = motion.with_inverse_time(builder, plan, step)

@@ -53,6 +53,7 @@ class SyntecMemory(Memory):
         posture_frame: Directions of the tool refer to the work system under G43.4 (#1848).
         interrupt: What M96 has prepared.
         skip_groups: Groups of G31.10 that G31.11 will move; the step behind the last one.
+        borrow_tries: How often the running G52.2 has waited.
         normal: Stage of G41.1 in the path.
         polar: Plane of G12.1; `plane_before` and `geometry_before` what G13.1 brings back.
         diameters: Axes switched by G10.9: programmed in diameter or not.
@@ -98,6 +99,7 @@ class SyntecMemory(Memory):
         self.skip_groups: list[SkipGroup] = []
         self.skip_groups_end = 0
         self.diameters: dict[int, bool] = {}
+        self.borrow_tries = 0
         self.normal: NormalStage | None = None
         self.polar: PolarPlane | None = None
         self.plane_before = "G17"
