@@ -59,7 +59,7 @@ class Record(NamedTuple):
 
 
 def record_of(channel: Channel, name: str) -> Record:
-    """The record that _TC names; empty for the only one.
+    """The record that _TC names, as the machine or as $TC_CARR34[1]; empty for the only one.
 
     Raises:
         AlarmError: 61180 on a machine without two rotary axes, 61182 for a name that is not known.
@@ -70,7 +70,8 @@ def record_of(channel: Channel, name: str) -> Record:
     names = [axis.name for axis in channel.axis_data]
     if len(axes) != 2 or any(axis not in names for axis in axes):
         raise AlarmError("61180")
-    if name and name.upper() != machine.id.upper():
+    own = str(channel.memory.values.get(("$TC_CARR34", (1,)), ""))
+    if name and name.upper() not in (machine.id.upper(), own.upper()):
         raise AlarmError("61182", name=name)
     first, second = axes
     return Record(kinematics, (first, second), (names.index(first), names.index(second)))
@@ -212,7 +213,10 @@ def _in_range(channel: Channel, record: Record, angles: dict[str, float]) -> dic
             turns = [machine[column] + signed(angles[name] - machine[column])]
         else:
             turns.sort(key=abs)
-        within = [angle for angle in turns if axis.limit_minus - 1e-9 <= angle <= axis.limit_plus + 1e-9]
+        low, high = _range(channel, column)
+        first, last = _record_range(channel, record.axes.index(name))
+        low, high = max(low, first), min(high, last)
+        within = [angle for angle in turns if low - 1e-9 <= angle <= high + 1e-9]
         if not within:
             return None
         placed[name] = within[0]
@@ -272,18 +276,29 @@ def _to_limits(channel: Channel, axes: tuple[int, ...]) -> None:
         if column < 0:
             continue
         stored = memory.values.get((f"$TC_CARR{38 + axis}", (1,)))
-        limit = _upper_limit(channel, column) if stored is None else float(stored)
+        limit = _range(channel, column)[1] if stored is None else float(stored)
         if limit < inf:
             machine[column] = limit
     motion.line(channel, Kind.RAPID, coordinates.from_machine(machine), nan)
 
 
-def _upper_limit(channel: Channel, column: int) -> float:
+def _range(channel: Channel, column: int) -> tuple[float, float]:
+    """Software limits of an axis: of the machine, and of machine data 36100 and 36110."""
     memory: Memory = channel.memory
-    limit = channel.axis_data[column].limit_plus
-    if memory.data.is_set("$MA_POS_LIMIT_PLUS", channel.axes[column]):
-        limit = min(limit, memory.data.number("$MA_POS_LIMIT_PLUS", channel.axes[column]))
-    return limit
+    axis, name = channel.axis_data[column], channel.axes[column]
+    low, high = axis.limit_minus, axis.limit_plus
+    if memory.data.is_set("$MA_POS_LIMIT_MINUS", name):
+        low = max(low, memory.data.number("$MA_POS_LIMIT_MINUS", name))
+    if memory.data.is_set("$MA_POS_LIMIT_PLUS", name):
+        high = min(high, memory.data.number("$MA_POS_LIMIT_PLUS", name))
+    return low, high
+
+
+def _record_range(channel: Channel, number: int) -> tuple[float, float]:
+    """Angle range of a rotary axis in the record ($TC_CARR30 to 33); two zeros are none."""
+    values = channel.memory.values
+    low, high = (float(values.get((f"$TC_CARR{n + number}", (1,)), 0.0)) for n in (30, 32))
+    return (low, high) if low or high else (-inf, inf)
 
 
 def _along_tool(channel: Channel, kinematics: Kinematics, way: float | None) -> None:
@@ -294,7 +309,7 @@ def _along_tool(channel: Channel, kinematics: Kinematics, way: float | None) -> 
     direction = kinematics.tool_on_machine(names)
     if way is None:
         rooms = [
-            (_upper_limit(channel, column) - machine[column]) / part
+            (_range(channel, column)[1] - machine[column]) / part
             for column, part in zip(coordinates.geometry, direction, strict=True)
             if column >= 0 and part > 1e-9
         ]

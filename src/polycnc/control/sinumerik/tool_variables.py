@@ -84,7 +84,8 @@ def _set_cutting_edge(channel: Channel, indices: Indices, value: int) -> None:
 
 def _carrier(number: int) -> Row:
     """`$TC_CARRn[m]`: data of a tool carrier, kept."""
-    type_ = {21: Type.AXIS, 22: Type.AXIS, 23: Type.STRING}.get(number, Type.REAL)
+    texts = dict.fromkeys((23, 34, 35, 36), Type.STRING)
+    type_ = {21: Type.AXIS, 22: Type.AXIS, **texts}.get(number, Type.REAL)
     name = f"$TC_CARR{number}"
     empty: Any = {Type.AXIS: Axis("X"), Type.STRING: ""}.get(type_, 0.0)
 
