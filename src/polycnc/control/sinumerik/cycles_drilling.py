@@ -391,9 +391,17 @@ def rigid_tapping(channel: Channel, a: Arguments) -> Iterator[None]:
         retract=None if variant != 1 else a["_VRT"] if a["_VRT"] > 0.0 else CHIP_BREAKING_MM,
         limit=a["_VRT"] if a["_VRT"] > 0.0 else CHIP_BREAKING_MM,
     )
-    moves.orient(a["POSS"])
+    moves.orient(_start_angle(moves, a["POSS"]))
     acts = Acts(channel.feed, tap=lambda level: moves.special(Kind.TAP, lead, level), spindle=spindle)
     yield from perform(moves, strokes, acts)
+
+
+def _start_angle(moves: Moves, position: float) -> float:
+    """POSS; below 0 the start angle of threads of setting datum 42000."""
+    datum, data = "$SC_THREAD_START_ANGLE", moves.memory.data
+    if position >= 0.0:
+        return position
+    return data.number(datum) if data.is_set(datum) else 0.0
 
 
 #: ENC of CYCLE840: with the encoder of the spindle, without dwell and with it; without encoder, with the programmed

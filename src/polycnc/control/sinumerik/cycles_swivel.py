@@ -12,7 +12,7 @@ from __future__ import annotations
 from math import inf, nan
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.control.sinumerik import auxiliary, frames, motion, stages, tables
+from polycnc.control.sinumerik import auxiliary, frames, motion, tables
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frame_codes import crots
 from polycnc.geometry.frames import IDENTITY, Frame, rotation
@@ -39,6 +39,7 @@ OF_THE_BUILDER = frozenset((3, 6, 7, 8))
 AXIS_BY_AXIS, SOLID, PROJECTION, DIRECT = range(4)
 #: Order of rotations where _MODE names none: X, Y, Z.
 DEFAULT_ORDER = 57
+#: Plane whose third axis the tool stands on, by _DMODE; else that of the caller.
 PLANES = {1: "G17", 2: "G18", 3: "G19"}
 HALF_TURN = 180.0
 
@@ -87,7 +88,6 @@ def swivel(channel: Channel, a: Arguments) -> Iterator[None]:
     record = record_of(channel, a.text("_TC").strip())
     _check(a)
     yield from _retract(channel, a, record.kinematics)
-    _choose_plane(channel, a)
     memory: Memory = channel.memory
     state = memory.frames
     adds = a.digit("_ST", 0) == 1
@@ -120,15 +120,6 @@ def deselect(channel: Channel) -> None:
         memory.frames.system[name] = NEUTRAL
     memory.tools.carrier = None
     auxiliary.tool_changed(channel)
-
-
-def _choose_plane(channel: Channel, a: Arguments) -> None:
-    """_DMODE: the plane, which stays."""
-    plane = PLANES.get(a.digit("_DMODE", 0))
-    if plane is not None and plane != channel.mode["plane"]:
-        channel.mode = channel.mode.with_code("plane", plane)
-        stages.change_plane(channel)
-        auxiliary.tool_changed(channel)
 
 
 # ---- the plane
@@ -175,7 +166,8 @@ def _angles(channel: Channel, a: Arguments, record: Record, frame: NcFrame) -> d
         return dict(zip(record.axes, (a["_A"], a["_B"]), strict=True))
     state = memory.frames
     outer = frames.chain([state.system["$P_SETFRAME"], state.actual_base(), state.active_settable])
-    index = tables.PLANES[channel.mode["plane"]][2]
+    plane = PLANES.get(a.digit("_DMODE", 0), channel.mode["plane"])
+    index = tables.PLANES[plane][2]
     square = [1.0 if i == index else 0.0 for i in range(3)]
     normal = (outer @ frame).frame.direct(square[0], square[1], square[2])
     found = [
