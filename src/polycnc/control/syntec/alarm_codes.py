@@ -41,6 +41,12 @@ ALARMS: dict[str, str] = {
     "polar_diameter": "COR-325",
     "diameter_switch": "COR-326",
     "surface_axis": "COR-383",
+    # tool presetting
+    "setting_place": "MAR-330",
+    "setting_start": "MAR-333",
+    "setting_without_length": "MAR-334",
+    "setting_too_early": "MAR-335",
+    "setting_no_signal": "MAR-336",
     # axis groups
     "axis_borrowing": "COR-363",
     "axes_not_borrowed": "COR-364",

@@ -20,6 +20,7 @@ from polycnc.control.syntec import (
     spindles,
     tilted,
     tip_control,
+    tool_setting,
 )
 from polycnc.control.syntec import coordinates as frames
 from polycnc.control.word_address import auxiliary, coordinates, path, radius
@@ -70,6 +71,9 @@ G_CODES = table(
     GCode("G29", handler=coordinates.return_from_reference, axis_words=True, order=MOTION),
     GCode("G30", handler=frames.return_to_further_reference, takes="P", axis_words=True, order=MOTION),
     GCode("G31", handler=motion.skip_move, takes="P Q", axis_words=True, order=MOTION),
+    GCode("G37", handler=tool_setting.measure_length, takes="R D F P", axis_words=True, order=MOTION),
+    GCode("G37.2", handler=tool_setting.measure_into_work_system, takes="K R F P Q", axis_words=True, order=MOTION),
+    GCode("G37.3", handler=tool_setting.measure_into_length, takes="H R F P Q", axis_words=True, order=MOTION),
     GCode("G40.1", normal_direction.NORMAL, normal_direction.cancel),
     GCode("G41.1", normal_direction.NORMAL, normal_direction.start, takes="Q P E R", order=MOTION),
     GCode("G42.1", normal_direction.NORMAL, normal_direction.start, takes="Q P E R", order=MOTION),
@@ -132,7 +136,7 @@ G_CODES = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G37", "G37.2", "G37.3", "G41.2", "G42.2", "G41.6", "G42.6",
+        "G41.2", "G42.2", "G41.6", "G42.6",
         "G80.2", "G81.1", "G81.2", "G84.48",
     ),
 )  # fmt: skip

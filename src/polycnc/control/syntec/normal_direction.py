@@ -33,7 +33,7 @@ FORBIDDEN = {
     **dict.fromkeys(("G41", "G42", "G43.4", "G43.5"), "normal_compensation"),
     **dict.fromkeys(("G53", "G28", "G29", "G30"), "normal_machine"),
     **dict.fromkeys(("G2.4", "G3.4"), "normal_three_point"),
-    **dict.fromkeys(("G31", "G31.10", "G31.11"), "normal_skip"),
+    **dict.fromkeys(("G31", "G31.10", "G31.11", "G37", "G37.2", "G37.3"), "normal_skip"),
     **dict.fromkeys(("G33", "G34"), "normal_thread"),
     **dict.fromkeys(("G81.1", "G81.2"), "normal_oscillation"),
     **dict.fromkeys(("G12.1", "G68.2", "G68.3", "G92.1"), "normal_frame"),
