@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from benchmarks import interpreter, sinumerik, startup
+from benchmarks import interpreter, planner, sinumerik, startup
 
 BENCHMARKS = (
     interpreter.plain_blocks,
@@ -14,6 +14,8 @@ BENCHMARKS = (
     startup.small_run,
     sinumerik.loop,
     sinumerik.blocks,
+    planner.speed,
+    planner.optimum,
 )
 
 

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from math import cos, pi, sin, sqrt
-from time import perf_counter
 from typing import Any
 
+from benchmarks.measure import Figure, best_of, rate, skipped
 from benchmarks.planner_paths import Path, paths
 from polycnc.machine import load_machine
-from polycnc.motion import plan
+from polycnc.motion import Settings, plan
 from polycnc.motion.kernels.columns import ENTRY2, ROW, piece_width
 from polycnc.motion.planner import Planner
+from polycnc.motion.settings import DEFAULT
 from polycnc.toolpath import Context, Kind, Toolpath
 
 SEGMENTS_PER_SECOND = 300_000
 WORST_RATIO = 1.03
+#: Part of the rate of short programs that long ones keep.
+LINEAR = 0.8
 
 
-def segments_per_second(rows: int = 600_000) -> float:
+def segments_per_second(rows: int = 600_000, settings: Settings = DEFAULT) -> float:
     """Rows planned a second: a spiral of short cuts over a wavy surface, kernels compiled and warm."""
     toolpath = Toolpath(("X", "Y", "Z"))
     number = toolpath.context_number(Context(tolerance_mm=0.01))
@@ -27,10 +31,8 @@ def segments_per_second(rows: int = 600_000) -> float:
         toolpath.append(Kind.FEED, 0, k + 1, number, 80.0, end)
         toolpath.block_boundary()
     machine = load_machine("mill3")
-    plan(toolpath, machine)
-    begin = perf_counter()
-    plan(toolpath, machine)
-    return rows / (perf_counter() - begin)
+    plan(toolpath, machine, settings=settings)
+    return rows / best_of(lambda: plan(toolpath, machine, settings=settings))
 
 
 def planned(path: Path) -> tuple[float, dict[int, float]]:
@@ -129,21 +131,23 @@ def ratios() -> dict[str, float]:
     return result
 
 
-def main() -> None:
-    """Print each measure beside its limit."""
-    speed = segments_per_second()
-    print(f"planner: {speed:,.0f} segments/s, {speed / SEGMENTS_PER_SECOND:.2f} times the limit")
+def speed() -> Iterator[Figure]:
+    """Segments a second, without and with limited jerk, and the growth of the cost with their number."""
+    yield rate("planner", segments_per_second(), SEGMENTS_PER_SECOND, "segments/s")
+    soft = Settings(acceleration="SOFT")
+    yield rate("planner, limited jerk", segments_per_second(settings=soft), SEGMENTS_PER_SECOND, "segments/s")
+    few, many = segments_per_second(100_000), segments_per_second(1_000_000)
+    said = f"1e6 segments at {many / few:.2f} of the rate of 1e5, limit {LINEAR}"
+    yield Figure("planner, cost by length", said, many / few / LINEAR)
+
+
+def optimum() -> Iterator[Figure]:
+    """Time against the bound that toppra computes, path by path."""
     try:
         import toppra  # noqa: F401
     except ImportError:
-        print("planner: no comparison with the time-optimal bound, for toppra is not installed")
+        yield skipped("time-optimal bound", "toppra is not installed (extra `bench`)")
         return
-    found = ratios()
-    for name, ratio in found.items():
-        print(f"planner: {name}: {ratio:.4f} of the time-optimal bound")
-    worst = max(found.values())
-    print(f"planner: worst of {len(found)} paths {worst:.4f}, limit {WORST_RATIO}")
-
-
-if __name__ == "__main__":
-    main()
+    for name, ratio in ratios().items():
+        said = f"{ratio:.4f} of the time-optimal bound, limit {WORST_RATIO}"
+        yield Figure(f"planned time, {name}", said, WORST_RATIO / ratio)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from array import array
 from math import cos, nan, sin
 from typing import TYPE_CHECKING
 
 import pytest
 
-from polycnc.motion import Plan
+from polycnc.motion import Plan, Settings
 from polycnc.motion import planner as planner_module
 from polycnc.motion.planner import Planner
 from polycnc.toolpath import Context, Kind, Toolpath
@@ -142,3 +143,29 @@ def test_a_short_program_loads_no_array_library() -> None:
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_a_feed_profile_takes_the_place_of_programmed_feeds() -> None:
+    def half(chunk: Chunk) -> array[float]:
+        return array("d", [0.5 * feed for feed in chunk.feed])
+
+    def rows(feed: float) -> Build:
+        build = Build(context=Context(tolerance_mm=0.01))
+        return build.feed(40.0, 0.0, 0.0, feed=feed).rapid(0.0, 0.0, 0.0).feed(0.0, 30.0, 0.0, feed=feed)
+
+    assert rows(80.0).plan(MILL, feed_profile=half).total_s == rows(40.0).plan(MILL).total_s
+
+
+@pytest.mark.parametrize("acceleration", ["BRISK", "SOFT"])
+def test_chunks_give_the_same_bits_with_limited_jerk(acceleration: str) -> None:
+    lead = Settings(acceleration=acceleration)
+    whole = varied(400).plan(MILL, settings=lead, compiled=False)
+    assert varied(400, chunk_rows=1).plan(MILL, settings=lead, compiled=False).row_s == whole.row_s
+    assert varied(400, chunk_rows=7).plan(MILL, settings=lead, compiled=True).row_s == whole.row_s
+
+
+def test_a_small_buffer_gives_almost_the_same_time_with_limited_jerk(monkeypatch: pytest.MonkeyPatch) -> None:
+    lead = Settings(acceleration="SOFT")
+    whole = varied(600).plan(MILL, settings=lead, compiled=False).total_s
+    monkeypatch.setattr(planner_module, "FULL_ROOM", 256)
+    assert varied(600).plan(MILL, settings=lead, compiled=False).total_s == pytest.approx(whole, rel=1e-9)

@@ -71,6 +71,8 @@ class Planner:
         keep_rows: Keep the seconds of every row (8 bytes each).
         on_pieces: Called with the buffer and the number of its pieces that have become final, before they are
             dropped.
+        feed_profile: Called with each chunk; gives the feed of every row, in the unit of the row, in place of the
+            programmed ones: an override, or a profile block by block. Threads and taps keep their lead.
         compiled: Use compiled kernels, or do not; None decides by the number of rows.
 
     Attributes:
@@ -90,6 +92,7 @@ class Planner:
         settings: Settings = DEFAULT,
         keep_rows: bool = True,
         on_pieces: Callable[[array[float], int], None] | None = None,
+        feed_profile: Callable[[Chunk], array[float]] | None = None,
         compiled: bool | None = None,
     ) -> None:
         self._axes = len(toolpath.axes)
@@ -101,6 +104,7 @@ class Planner:
         self.on_pieces = on_pieces
         self.on_wait: Callable[[int, str, int, float], None] | None = None
         self._compiled = compiled
+        self._feed_profile = feed_profile
         self._kernels = PLAIN
         self._limits = axis_limits(machine, channel, toolpath.axes, settings)
         self._state = _new_state(self._axes, start)
@@ -149,8 +153,9 @@ class Planner:
         self._waits.take(chunk, self.facing)
         stops = array("B", [self._waits.stands_for(event) for event in chunk.events])
         see = self._kernels.see
+        feed = chunk.feed if self._feed_profile is None else self._feed_profile(chunk)
         rows = Rows(
-            see(chunk.kind), see(chunk.context), see(chunk.feed), see(chunk.end), see(chunk.curve), see(stops)
+            see(chunk.kind), see(chunk.context), see(feed), see(chunk.end), see(chunk.curve), see(stops)
         )
         fixed = see(chunk.curves), chunk.first, see(self._contexts), see(self._limits)
         row = 0
@@ -186,8 +191,9 @@ class Planner:
     def _make_room(self) -> None:
         room = len(self._pieces) // self._width
         if room >= self._room:
+            before = self._state[PIECES]
             self._look_ahead(finish=False)
-            if 2 * self._state[PIECES] <= room:
+            if self._state[PIECES] < before and 2 * self._state[PIECES] <= room:
                 return
             self._room = 2 * room
         self._pieces.frombytes(bytes(8 * self._width * room))

@@ -34,7 +34,6 @@ from polycnc.motion.kernels.columns import (
     METRIC,
     MIRROR,
     OFFSETS,
-    PIECES,
     PIECES_PER_TURN,
     PLACES,
     POSITION,
@@ -55,13 +54,13 @@ from polycnc.motion.kernels.columns import (
     UNIT,
     VECTORS,
     Floats,
-    piece_width,
 )
 from polycnc.motion.kernels.corners import join
 from polycnc.motion.kernels.feeds import (
     asked_speed,
     bounded,
     follows_radius,
+    has_room,
     next_piece,
     norm,
     open_joint,
@@ -195,7 +194,7 @@ def lay_arc(
     """
     sweep, gentle = state[SWEEP], contexts[record + RAMP_S] > 0.0
     parts = ceil(sweep * PIECES_PER_TURN / (2.0 * pi) - 1e-9)
-    if (int(state[PIECES]) + parts) * piece_width(n) > len(pieces):
+    if not has_room(pieces, contexts, record, state, parts, n):
         return False
     step = sweep / parts
     margin, weight = 1.0 + 0.625 * step * step, contexts[record + ROTARY_WEIGHT]

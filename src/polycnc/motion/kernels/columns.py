@@ -86,6 +86,8 @@ BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 23, 32, 33, 34, 35, 36
 # way there, and room for one q' and q''; q'' at the end of the last piece.
 POSITION, TANGENT, TARGET, DELTA, UNIT, BEND, BENT_BEFORE, BLOCKS = range(8)
 
+#: With limited jerk lines are cut: room for so many pieces more than a row has, and for each of its pieces.
+SPARE_PIECES, CUTS_PER_PIECE = 64, 3
 #: Pieces of a full turn. Over 7.5° an axis exceeds what holds at both ends by little; `lay_arc` says by how
 #: much.
 PIECES_PER_TURN = 48

@@ -7,6 +7,7 @@ from math import inf, pi, sqrt
 from polycnc.motion.kernels.columns import (
     BLOCKS,
     CURVE,
+    CUTS_PER_PIECE,
     DELTA,
     EXIT2,
     FEED,
@@ -23,6 +24,7 @@ from polycnc.motion.kernels.columns import (
     PIECES,
     PLACES,
     POSITION,
+    RAMP_S,
     RAPID,
     REF,
     REST,
@@ -32,6 +34,7 @@ from polycnc.motion.kernels.columns import (
     RPM,
     RPM_LIMIT,
     SLOT,
+    SPARE_PIECES,
     STATE_BLOCKS,
     SURFACE_MM_S,
     TAP,
@@ -116,6 +119,13 @@ def bounded(asked: float, state: Floats) -> float:
 def follows_radius(contexts: Floats, record: int) -> bool:
     """Whether the feed changes with the turning radius: per revolution, under constant surface speed."""
     return contexts[record + SURFACE_MM_S] != 0.0 and contexts[record + PER_REVOLUTION] != 0.0
+
+
+def has_room(pieces: Floats, contexts: Floats, record: int, state: Floats, parts: int, n: int) -> bool:
+    """Whether so many more pieces, and what they may be cut into, fit in the buffer."""
+    if contexts[record + RAMP_S] > 0.0:
+        parts = CUTS_PER_PIECE * parts + SPARE_PIECES
+    return (int(state[PIECES]) + parts) * piece_width(n) <= len(pieces)
 
 
 def next_piece(pieces: Floats, state: Floats, form: int, cap2: float, n: int) -> int:

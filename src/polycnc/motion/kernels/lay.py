@@ -79,6 +79,7 @@ from polycnc.motion.kernels.feeds import (
     axes_of,
     bounded,
     follows_radius,
+    has_room,
     is_rapid,
     lead_of,
     next_piece,
@@ -192,7 +193,7 @@ def lay_rapid_by_axis(
 ) -> bool:
     """A rapid on which every axis runs alone, from rest to rest: as long as the slowest axis takes."""
     delta = STATE_BLOCKS + DELTA * n
-    if (int(state[PIECES]) + 1) * piece_width(n) > len(pieces):
+    if not has_room(pieces, contexts, record, state, 1, n):
         return False
     seconds = 0.0
     for i in range(n):
@@ -229,7 +230,7 @@ def lay_straight(
         start_x -= state[delta + facing]
         if abs(end_x - start_x) > 0.02 * max(abs(end_x), abs(start_x)):
             parts = FACING_PIECES
-    if (int(state[PIECES]) + parts) * piece_width(n) > len(pieces):
+    if not has_room(pieces, contexts, record, state, parts, n):
         return False
     top, pull = line_limits(contexts, record, n, limits, state, length)
     lead = lead_of(curves, state)
