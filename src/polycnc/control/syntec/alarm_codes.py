@@ -41,6 +41,12 @@ ALARMS: dict[str, str] = {
     "polar_diameter": "COR-325",
     "diameter_switch": "COR-326",
     "surface_axis": "COR-383",
+    # oscillation
+    "oscillation_move": "COR-339",
+    "oscillation_frame": "COR-340",
+    "oscillation_axis": "COR-341",
+    "oscillation_kinematics": "COR-342",
+    "oscillation_repeated": "COR-370",
     # tool presetting
     "setting_place": "MAR-330",
     "setting_start": "MAR-333",

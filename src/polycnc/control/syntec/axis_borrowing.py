@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.waits import Wait
+from polycnc.control.syntec.axis_names import CODES, axis_of_code
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -18,10 +19,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.words import Words
 
 HOLDERS = "roaming_axes"
-ROAMING, AXIS_NAMES, GROUPS = 742, 321, 701
-NAME_CODES = range(100, 1000)
-#: Hundreds of an axis name code.
-LETTERS = {letter: 100 * (i + 1) for i, letter in enumerate("XYZABCUVW")}
+ROAMING, GROUPS = 742, 701
 WAITS, ALARMS, GOES_ON = 0, 1, 2
 RESULTS = range(27, 401)
 LONGEST_WAIT_S = 9999.999
@@ -108,20 +106,12 @@ def _axes(channel: Channel, words: Words) -> list[int]:
     codes = [words.typed(letter) for letter in "PQR" if letter in words]
     if any(code is not None and code != int(code) for code in codes):
         raise words.fail("axis_borrowing_type", "P")
-    names = {_name_code(channel, axis): axis for axis in range(len(channel.axes))}
     memory = channel.memory
     bound = channel.coordinates.transformation is not None or not memory.tilt.is_identity
-    axes = [names.get(int(code), -1) for code in codes if code is not None and int(code) in NAME_CODES]
+    axes = [axis_of_code(channel, code) for code in codes if code is not None and code in CODES]
     if not axes or len(axes) != len(codes) or bound or any(a < 0 or not roams(channel, a) for a in axes):
         raise words.fail("axis_borrowing", "P")
     return axes
-
-
-def _name_code(channel: Channel, axis: int) -> int:
-    """Pr321 on, or what the axis' name stands for."""
-    named = channel.memory.parameter(AXIS_NAMES + axis)
-    name = channel.axes[axis]
-    return named or LETTERS.get(name[0], 0) + int(name[1:] if name[1:].isdigit() else 0)
 
 
 def _answers(words: Words) -> tuple[int, int | None, bool]:

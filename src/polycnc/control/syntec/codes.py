@@ -14,6 +14,7 @@ from polycnc.control.syntec import (
     motion,
     normal_direction,
     operation,
+    oscillation,
     polar,
     skips,
     smoothing,
@@ -118,7 +119,10 @@ G_CODES = table(
     GCode("G54.4", handler=tilted.switch_work_rotation, takes="P"),
     GCode("G70", "unit", coordinates.note_context),
     GCode("G71", "unit", coordinates.note_context),
-    GCode("G80", "cycle"),
+    GCode("G80", "cycle", oscillation.end, ends=oscillation.OSCILLATION),
+    GCode("G81.1", oscillation.OSCILLATION, oscillation.start, takes="Q R", axis_words=True, order=MOTION),
+    GCode("G81.2", oscillation.OSCILLATION, oscillation.start_precise, takes="P Q R L", order=MOTION),
+    GCode("G80.2", oscillation.OSCILLATION, oscillation.end_precise, takes="Q", order=MOTION),
     *(GCode(code, "cycle") for code in cycles.CYCLES),
     GCode("G134", handler=cycles.circle_of_holes, takes="I J K", axis_words=True, order=MOTION),
     GCode("G135", handler=cycles.line_of_holes, takes="I J K", axis_words=True, order=MOTION),
@@ -137,7 +141,7 @@ G_CODES = table(
     GCode("G99", "return"),
     not_yet(
         "G41.2", "G42.2", "G41.6", "G42.6",
-        "G80.2", "G81.1", "G81.2", "G84.48",
+        "G84.48",
     ),
 )  # fmt: skip
 
@@ -187,5 +191,6 @@ POWER_ON = {
     "polar": "G15",
     polar.POLAR: "G13.1",
     normal_direction.NORMAL: normal_direction.OFF,
+    oscillation.OSCILLATION: oscillation.OFF,
     "mirror": "G50.1",
 }

@@ -18,6 +18,7 @@ from polycnc.control.syntec import (
     interrupts,
     motion,
     normal_direction,
+    oscillation,
     polar,
     tilted,
     tip_control,
@@ -200,6 +201,7 @@ class SyntecMill(WordAddressControl):
         builder = SyntecBuilder(channel, self, signature)
         polar.check_block(builder)
         normal_direction.check_block(builder)
+        oscillation.check_block(builder)
         plan = mode.plans[signature] = builder.build()
         return plan
 

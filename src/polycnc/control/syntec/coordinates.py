@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.syntec.axis_names import map_virtual_axis
 from polycnc.control.syntec.parameters import WORK_SYSTEMS, decimals
 from polycnc.control.word_address import frames as base_frames
 from polycnc.control.word_address.coordinates import go_to_reference, refresh_zero
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 REFERENCE_POINTS = (1, 2, 3, 4)
 MACHINING_CONDITIONS = frozenset({*range(10), 21, 22, 23})
-REGISTER_INPUT = 1000
+REGISTER_INPUT, VIRTUAL_AXIS = 1000, 801
 LAST_REGISTER = 65535
 
 
@@ -247,7 +248,7 @@ def dwell(channel: Channel, words: Words) -> None:
 
 
 def input_data(channel: Channel, words: Words) -> None:
-    """G10 L10 to L13 P R: tool data; G91 adds (2.14). G10 L1000 P R: an R register."""
+    """G10 L10 to L13 P R: tool data; G91 adds (2.14). G10 L1000 P R: an R register; G10 L801: virtual axes."""
     kind, number = words.typed("L"), words.typed("P")
     if kind == REGISTER_INPUT:
         value = words.typed("R")
@@ -256,6 +257,9 @@ def input_data(channel: Channel, words: Words) -> None:
         if not 0 <= number <= LAST_REGISTER:
             raise words.fail("argument", "P")
         channel.memory.globals.registers[int(number)] = to_long(value)
+        return
+    if kind == VIRTUAL_AXIS:
+        map_virtual_axis(channel, words)
         return
     if kind not in TOOL_FIELDS or kind == 1:
         raise channel.control.not_yet("G10" if kind is None else f"G10 L{kind:g}", "G10")

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from polycnc.control.syntec.curves import Curve
     from polycnc.control.syntec.interrupts import Interrupt
     from polycnc.control.syntec.normal_stage import NormalStage
+    from polycnc.control.syntec.oscillation import Oscillation
     from polycnc.control.syntec.polar import PolarPlane
     from polycnc.control.syntec.skips import SkipGroup
     from polycnc.control.syntec.spindles import SpindlePair
@@ -53,6 +54,8 @@ class SyntecMemory(Memory):
         posture_frame: Directions of the tool refer to the work system under G43.4 (#1848).
         interrupt: What M96 has prepared.
         skip_groups: Groups of G31.10 that G31.11 will move; the step behind the last one.
+        oscillation: The axis that oscillates; `precise` by G81.2, `was_precise` that there was one, on `precise_axis`.
+        virtual_axes: Axes that move with a name that is none of theirs.
         borrow_tries: How often the running G52.2 has waited.
         normal: Stage of G41.1 in the path.
         polar: Plane of G12.1; `plane_before` and `geometry_before` what G13.1 brings back.
@@ -100,6 +103,10 @@ class SyntecMemory(Memory):
         self.skip_groups_end = 0
         self.diameters: dict[int, bool] = {}
         self.borrow_tries = 0
+        self.virtual_axes: dict[str, list[int]] = {}
+        self.oscillation: Oscillation | None = None
+        self.precise = self.was_precise = False
+        self.precise_axis = 0
         self.normal: NormalStage | None = None
         self.polar: PolarPlane | None = None
         self.plane_before = "G17"

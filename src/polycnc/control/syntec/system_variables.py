@@ -6,6 +6,7 @@ from math import isnan
 from typing import TYPE_CHECKING, cast
 
 from polycnc.control.syntec.coordinates import renew_preset_frame
+from polycnc.control.syntec.oscillation import check_frame
 from polycnc.control.syntec.parameters import WORK_SYSTEMS
 from polycnc.control.syntec.variables import Read, Registry, Space, Write, stored
 from polycnc.control.word_address.coordinates import refresh_zero
@@ -180,6 +181,7 @@ def _read_shift(memory: SyntecMemory, offset: int) -> Value:
 def _write_shift(memory: SyntecMemory, offset: int, value: Value) -> None:
     if offset >= len(memory.preset_shift):
         raise AlarmError("COR-016", variable=f"#{1901 + offset}")
+    check_frame(memory)
     memory.preset_shift[offset] = meant(memory, offset, value)
     refresh_zero(memory.channel)
 
@@ -232,6 +234,7 @@ def _write_work_offset(memory: SyntecMemory, offset: int, value: Value) -> None:
     values = memory.work_offset(name)
     if axis >= len(values):
         raise AlarmError("COR-016", variable=f"#{20001 + offset}")
+    check_frame(memory)
     values[axis] = meant(memory, axis, value)
     refresh_zero(memory.channel)
 

@@ -111,7 +111,8 @@ def _length(channel: Channel, words: Words, address: str, number: int) -> float:
     value = words.length(address)
     if value is not None:
         return value
-    return channel.memory.parameter(number) * float(10.0 ** -decimals(channel.memory.parameters, inch=False))
+    least: int = channel.memory.parameter(number)
+    return least * float(10.0 ** -decimals(channel.memory.parameters, inch=False))
 
 
 def _feed(channel: Channel, words: Words) -> float:
