@@ -84,6 +84,7 @@ class Watch:
         self._held: list[Move] = []
         self._stands: list[float] | None = None
         self._moved = False
+        self._lifts = False
 
     # ---- the path
 
@@ -97,7 +98,7 @@ class Watch:
             self._held.append(move)
             return
         way = Way(move, self._channel.coordinates.geometry)
-        part = self._first_input(way)
+        part = self._first_input(way) if not self._lifts else None
         if part is None:
             self.after.move(move)
             return
@@ -169,12 +170,15 @@ class Watch:
         if not self._moved:
             self._inputs_that_came_standing()
         self._moved = False
-        if self.running and not any(level is self.running[-1].level for level in channel.stack):
+        while self._cut is None and self.running and not self._runs_still(self.running[-1]):
             self._ended(self.running.pop())
         if self._cut is not None:
             way, part = self._cut
             self._cut = None
             self._interrupt(way, part)
+
+    def _runs_still(self, interrupted: Interrupted) -> bool:
+        return any(level is interrupted.level for level in self._channel.stack)
 
     def _inputs_that_came_standing(self) -> None:
         """Inputs whose position the channel has when a block without motion runs."""
@@ -204,7 +208,9 @@ class Watch:
         channel = self._channel
         _, assignment = self._pending.pop(0)
         if assignment.lifts:
+            self._lifts = True
             retraction.lift(channel, way.direction(part) if way is not None else (0.0, 0.0, 0.0))
+            self._lifts = False
         if assignment.program is None:
             channel.stop("LIFTFAST")
             raise AlarmError("PC0004")
