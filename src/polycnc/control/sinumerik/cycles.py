@@ -138,6 +138,12 @@ CYCLES: dict[str, Cycle] = {
         cycles_surfaces.polygon,
     ),
     "CYCLE90": Cycle(f"{_HOLE} DIATH KDIAM PIT FFR CDIR TYPTH CPA CPO", cycles_surfaces.thread),
+    "CYCLE93": Cycle(
+        "SPD SPL WIDG DIAG STA1 ANG1 ANG2 RCO1 RCO2 RCI1 RCI2 FAL1 FAL2 IDEP DTB VARI _VRT _DN",
+        cycles_turning.groove,
+    ),
+    "CYCLE94": Cycle("SPD SPL FORM _VARI", cycles_turning.undercut),
+    "CYCLE96": Cycle("DIATH SPL FORM _VARI", cycles_turning.undercut),
     "CYCLE95": Cycle("NPP MID FALZ FALX FAL FF1 FF2 FF3 VARI DT DAM _VRT", cycles_turning.stock_removal),
     "CYCLE97": Cycle(
         "PIT MPIT SPL FPL DM1 DM2 APP ROP TDEP FAL IANG NSP NRC NID VARI NUMT _VRT", cycles_turning.thread

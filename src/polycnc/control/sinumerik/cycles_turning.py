@@ -13,6 +13,7 @@ from polycnc.control.sinumerik.cycles_drilling import METRIC_PITCHES, pitch
 from polycnc.control.sinumerik.cycles_milling import feed_of
 from polycnc.control.sinumerik.cycles_moves import Moves, require_tool
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.tools import DP_TIP
 from polycnc.cycles import thread_turning
 from polycnc.cycles.contour import Contour, parallel, shifted, swapped, swapped_stroke, turned_round
 from polycnc.cycles.plane_stroke import PlaneStroke
@@ -226,3 +227,48 @@ def _finish(work: Work, a: Arguments, contour: Contour) -> Iterator[None]:
 
 def _at_feed(stroke: PlaneStroke) -> PlaneStroke:
     return replace(stroke, kind=Kind.FEED) if stroke.kind is Kind.RAPID else stroke
+
+
+# ---- undercuts and grooves: their calls are checked, their cuts are not made
+
+#: Forms of an undercut by cycle.
+FORMS = {"CYCLE94": ("E", "F"), "CYCLE96": ("A", "B", "C", "D")}
+#: Cutting edge positions that can turn an undercut.
+CORNERS = (1, 2, 3, 4)
+#: VARI of CYCLE93: outside or inside, lengthwise or across, side of the start; 10 more for the other kind of chamfer.
+GROOVES = (*range(1, 9), *range(11, 19))
+
+
+def undercut(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE94, CYCLE96: an undercut of a form.
+
+    Raises:
+        AlarmError: 61000 without tool offset, 61608 for a tool point that cannot, 61609 for a form that does not
+            exist, 61601 for a diameter that is not above zero; else PC0001.
+    """
+    yield from ()  # a cycle is a generator
+    require_tool(Moves(channel))
+    if a.text("FORM").strip().upper() not in FORMS[a.cycle]:
+        raise AlarmError("61609", text=a.text("FORM"))
+    edge = channel.memory.tools.edge
+    if int(edge.values[DP_TIP]) not in CORNERS:
+        raise AlarmError("61608")
+    if not a["SPD" if a.cycle == "CYCLE94" else "DIATH"] > 0.0:
+        raise AlarmError("61601")
+    raise not_supported(a.cycle)
+
+
+def groove(channel: Channel, a: Arguments) -> Iterator[None]:
+    """CYCLE93: a groove.
+
+    Raises:
+        AlarmError: 61000 without tool offset, 61002 for VARI, 61603 for a groove without width or depth; else
+            PC0001.
+    """
+    yield from ()  # a cycle is a generator
+    require_tool(Moves(channel))
+    if a.integer("VARI") not in GROOVES:
+        raise AlarmError("61002")
+    if not abs(a["WIDG"]) or not abs(a["DIAG"]):
+        raise AlarmError("61603")
+    raise not_supported(a.cycle)
