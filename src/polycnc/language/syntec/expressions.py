@@ -341,6 +341,8 @@ def _depth(source: str) -> int:
 def number_value(token: Token) -> int | float:
     """The value of a number: a Long without decimal point, a Double with one."""
     text = token.text
+    if not text.isascii():
+        raise fault(token)
     if text[:2] in ("0x", "0X"):
         if len(text) > MAX_LITERAL_DIGITS:
             raise fault(token)
