@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from pathlib import Path
 
 import pytest
 
@@ -211,15 +212,33 @@ def test_jog_runs_while_the_key_is_pressed() -> None:
     assert virtual.machine_position[0] == pytest.approx(25.0, abs=0.1)
 
 
-def test_jog_ends_at_the_limit() -> None:
-    virtual = power_on(machine="lathe2", control="fanuc-0i-tf", text="O1\nM30\n")
-    axis = virtual.machine.axis["Z"]
-    if axis.limit_plus == float("inf"):
-        pytest.skip("this machine has no limit")
+def test_jog_ends_at_the_limit(tmp_path: Path) -> None:
+    file = tmp_path / "machine.toml"
+    limits = "limit_minus = -10\nlimit_plus = 60\n"
+    file.write_text(f'base = "mill3"\n\n[axis.X]\n{limits}', encoding="utf-8")
+    virtual = power_on(machine=file)
     virtual.select_mode("jog")
-    virtual.jog("Z", 1, rapid=True)
+    virtual.jog("X", 1, rapid=True)
     virtual.run()
-    assert virtual.machine_position[1] == axis.limit_plus
+    assert virtual.machine_position[0] == 60.0
+    virtual.jog("X", -1)
+    virtual.run()
+    assert virtual.machine_position[0] == -10.0
+
+
+def test_real_time_paces_the_clock(monkeypatch: pytest.MonkeyPatch) -> None:
+    now, slept = [100.0], [0.0]
+
+    def sleep(seconds: float) -> None:
+        slept[0] += seconds
+        now[0] += seconds
+
+    monkeypatch.setattr("time.monotonic", lambda: now[0])
+    monkeypatch.setattr("time.sleep", sleep)
+    virtual = power_on("O1\nG1 X10. F600\nM30\n")
+    virtual.cycle_start()
+    assert virtual.run(real_time=True) is State.READY
+    assert slept[0] == pytest.approx(virtual.time)
 
 
 def test_an_override_of_zero_lets_a_jog_wait() -> None:

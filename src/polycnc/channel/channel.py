@@ -141,6 +141,8 @@ class Channel:
     def head(self, stage: PathStage | None) -> None:
         self._head = stage
         self.attention = True
+        if stage is None:
+            self.table.end = []  # moves no longer come this way
 
     @property
     def finished(self) -> bool:

@@ -12,6 +12,7 @@ from math import inf, nan
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.waits import PREPROCESSING, Wait
+from polycnc.mainrun.frames import carried, real_of
 from polycnc.mainrun.geometry import arc_laid, line_laid, way_along
 from polycnc.mainrun.items import Block, BlockEnd, Happening, Item, Piece, Rates, Standing
 from polycnc.motion.kernels.arcs import facing_radius
@@ -43,7 +44,7 @@ from polycnc.motion.kernels.lay import lay
 from polycnc.motion.kernels.speeds import backward
 from polycnc.motion.limits import axis_limits, context_fields
 from polycnc.motion.waits import ORIENT, Waits
-from polycnc.toolpath import Kind, Toolpath
+from polycnc.toolpath import Context, Kind, Toolpath
 from polycnc.toolpath.kinds import ARC_KINDS
 from polycnc.toolpath.table import CURVE_WIDTH
 
@@ -106,6 +107,8 @@ class Ahead:
         self._blocks: deque[tuple[tuple[int, int], str, Mapping[str, str]]] = deque()
         self._open: tuple[tuple[int, int], str] | None = None
         self._stopped = self._skips = False
+        self._geometry = machine.geometry_indices(number)
+        self._last_context = Context()
 
     # ---- the channel ---------------------------------------------------------------------------------------
 
@@ -128,6 +131,7 @@ class Ahead:
         self._blocks.clear()
         self._open = None
         self._state[PIECES] = 0.0
+        self._last_context = Context()
         self.stand_at(position)
         self._run = iter(())
         self.waiting, self.finished = None, True
@@ -162,6 +166,12 @@ class Ahead:
         """Machine position behind everything prepared."""
         first = STATE_BLOCKS + POSITION * self._axes
         return list(self._state[first : first + self._axes])
+
+    def arrived(self, position: Sequence[float]) -> None:
+        """Tell the channel that the axes have come to rest elsewhere than its rows have led them."""
+        self.stand_at(position)
+        real = real_of(position, self._last_context, self._geometry)
+        self.channel.coordinates.arrive_machine(real)
 
     def stand_at(self, position: Sequence[float]) -> None:
         """The axes stand elsewhere than the rows have led them."""
@@ -268,6 +278,7 @@ class Ahead:
     def _lay(self, chunk: Chunk, row: int) -> None:
         """Lay a move out as pieces. Its feed is left out there, so that the pieces know what the axes allow."""
         n, state = self._axes, self._state
+        self._enter_context(self.toolpath.contexts[chunk.context[row]])
         end = chunk.end[row * n : (row + 1) * n]
         rows = Rows([chunk.kind[row]], [chunk.context[row]], [nan], end, [chunk.curve[row]], [])
         first = STATE_BLOCKS + POSITION * n
@@ -311,6 +322,12 @@ class Ahead:
                     by_axis=self._pieces[at + FORM] == TIMED,
                 )
             )
+
+    def _enter_context(self, context: Context) -> None:
+        """Where a transformation begins or ends, the path goes on from where the real axes are."""
+        last, self._last_context = self._last_context, context
+        if context.transformation is not last.transformation:
+            self.stand_at(carried(self.position, last, context, self._geometry))
 
     def _radius(self, record: int, part: int, parts: int, *, is_arc: bool) -> float:
         """Turning radius in the middle of a part of the row laid last, as the planner takes it."""

@@ -66,7 +66,7 @@ class Automatic:
         single_block: Halt behind every block.
         block: The block in execution.
         context: What holds in it.
-        position: Machine position where the axes last stood at a joint.
+        position: Where on the path the axes last were at a joint, and `place` what held there.
     """
 
     def __init__(
@@ -88,6 +88,7 @@ class Automatic:
         self.modal: Mapping[str, str] = {}
         self.motion: Motion | None = None
         self.position = list(position)
+        self.place = Context()
         self._machinery = machinery
         self._x2 = 0.0
         self._cap2 = inf
@@ -218,8 +219,7 @@ class Automatic:
             return self._waiting
         if self._moved_on:
             self._moved_on = False
-            self.ahead.stand_at(self.position)
-            self.ahead.channel.coordinates.arrive_machine(list(self.position))
+            self.ahead.arrived(self.position)
         if waiting.reason == "preprocessing":
             self._machinery.synchronise()
             self._until = self.time + self._cycle_s
@@ -261,7 +261,8 @@ class Automatic:
             return False
         ahead = self.ahead
         record = ahead.pop_piece()
-        self.context, self._cap2 = piece.context, cap2
+        self.context = self.place = piece.context
+        self._cap2 = cap2
         if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
             self._enter(Block(piece.program, piece.line, self.modal))
         if piece.by_axis:

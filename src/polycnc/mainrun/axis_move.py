@@ -34,6 +34,8 @@ class AxisMove:
 
     def after(self, time: float) -> tuple[float, float]:
         """Position and velocity at a time."""
+        if time >= self.end:
+            return self.target, 0.0
         position, seconds = self.start, time - self.since
         for phase in self.phases:
             if seconds < phase.seconds:

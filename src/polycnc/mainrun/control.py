@@ -109,7 +109,8 @@ class VirtualControl(Readings):
             self._give_up()
             raise CommandRefused("mainrun.search", target=target)
         self._hand, self._automatic.position = here, found.position
-        self._automatic.context, self._automatic.modal = found.context, found.modal
+        self._automatic.context = self._automatic.place = found.context
+        self._automatic.modal = found.modal
         self._collected = found.functions
         self._set_state(State.STOPPED, halt="search")
 
@@ -140,7 +141,8 @@ class VirtualControl(Readings):
                 self._machinery.perform(happening)
             self._collected = []
             self._returning = True
-            for axis, target in enumerate(self._automatic.machine):
+            waiting = self._display.real(self._automatic.machine, self._automatic.place)
+            for axis, target in enumerate(waiting):
                 self._manual.towards(axis, self._hand[axis], target, self._jog_speed(axis), self.time)
         else:
             self._resume()
@@ -237,7 +239,7 @@ class VirtualControl(Readings):
         if self._automatic.moving:
             raise CommandRefused("mainrun.moving")
         if self._hand is None:
-            self._hand = self._automatic.machine
+            self._hand = self.machine_position
         return self._manual.positions(self._hand, self.time)
 
     def _jog_speed(self, axis: int) -> float:

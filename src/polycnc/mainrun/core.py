@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +20,7 @@ from polycnc.mainrun.signals import SignalImage
 from polycnc.mainrun.snapshot import PanelSwitches, Record
 from polycnc.mainrun.states import Mode, State
 from polycnc.messages import Alarm, AlarmError
+from polycnc.toolpath import Context
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -40,7 +42,7 @@ HALTS = {"end": State.READY, "alarm": State.ALARM}
 SINGLE_BLOCK_KINDS = ("", "SBL1", "SBL2", "SBL3")
 
 
-class Core:
+class Core(ABC):
     """The parts of a virtual control and the events between them; commands and readings stand above it.
 
     Attributes:
@@ -130,10 +132,10 @@ class Core:
 
     @property
     def machine_position(self) -> list[float]:
-        """Commanded machine position of all axes, mm (radius) and degrees."""
+        """Commanded position of the real axes, mm (radius) and degrees."""
         if self._hand is not None:
             return self._manual.positions(self._hand, self.time)
-        return self._automatic.machine
+        return self._display.real(self._automatic.machine, self._automatic.place)
 
     def _due(self) -> float:
         return min(self._automatic.next_event, self._manual.due)
@@ -170,9 +172,9 @@ class Core:
         self._set_state(State.RUNNING)
         self._automatic.start()
 
+    @abstractmethod
     def _press(self, key: str) -> None:
         """A key of the panel, as a signal."""
-        raise NotImplementedError
 
     def _give_up(self) -> None:
         """The axes stand: the program is given up, the control is as after reset."""
@@ -189,7 +191,7 @@ class Core:
     def _stand_at(self, position: Sequence[float]) -> None:
         """The axes stand here and no program runs."""
         self._hand = None
-        self._automatic.position = list(position)
+        self._automatic.position, self._automatic.place = list(position), Context()
         self._prepare_channel()
         self._ahead.clear(position)
         self._show_channel()

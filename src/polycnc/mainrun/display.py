@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.mainrun.frames import real_of, work_of
 from polycnc.mainrun.snapshot import Positions
 from polycnc.toolpath.trace import AxisLayout, Display
 
@@ -31,7 +32,7 @@ class MainRunDisplay:
             modulo=frozenset(i for i, axis in enumerate(axes) if axis.modulo),
         )
         self.axes = toolpath.axes
-        self._geometry = layout.geometry
+        self.geometry = layout.geometry
         self._display = Display(toolpath, layout)
 
     def positions(
@@ -40,7 +41,7 @@ class MainRunDisplay:
         """All displays.
 
         Args:
-            machine: Where the axes are commanded to be.
+            machine: Where on the path the axes are commanded to be.
             end: Where the move in execution ends.
             real: Where the axes of the machine are.
             context: What holds now.
@@ -59,15 +60,12 @@ class MainRunDisplay:
         )
 
     def work_of(self, machine: Sequence[float], context: Context) -> list[float]:
-        """The position of the absolute display at a machine position, internal units."""
-        offsets = context.offsets or (0.0,) * len(machine)
-        position = [value - offset for value, offset in zip(machine, offsets, strict=True)]
-        if not context.frame.is_identity:
-            inner = context.frame.inverse().apply(*(position[i] if i >= 0 else 0.0 for i in self._geometry))
-            for i, value in zip(self._geometry, inner, strict=True):
-                if i >= 0:
-                    position[i] = value
-        return position
+        """The position of the absolute display at a position of the path, internal units."""
+        return work_of(machine, context, self.geometry)
+
+    def real(self, laid: Sequence[float], context: Context) -> list[float]:
+        """The real axes at a position of the path."""
+        return real_of(laid, context, self.geometry)
 
     def machine_factor(self, axis: int, context: Context) -> float:
         """Units of the machine display in an internal one."""

@@ -81,7 +81,8 @@ class PathMotion:
         self.end2 = profile.end2
 
     def _after(self, time: float) -> tuple[float, float]:
-        way, speed = self._profile.after(time - self._since)
+        over = time >= min(self.end, self.rest)
+        way, speed = self._profile.after(inf if over else time - self._since)
         return min(self._done + way, self._record[LENGTH]), speed
 
     def machine(self, time: float) -> list[float]:

@@ -6,6 +6,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun.core import Core
+from polycnc.mainrun.frames import carried, without_transformation
 from polycnc.mainrun.programs import text_of
 from polycnc.mainrun.snapshot import (
     ActiveBlock,
@@ -38,10 +39,16 @@ class Readings(Core):
     @property
     def positions(self) -> Positions:
         """Positions as the displays show them."""
-        here = self.machine_position
-        end = self._automatic.row_end if self._hand is None else here
-        real = here if self._locked_at is None else self._locked_at
-        return self._display.positions(here, end, real, self._automatic.context)
+        axes, context = self.machine_position, self._automatic.context
+        real = axes if self._locked_at is None else self._locked_at
+        if self._hand is not None:
+            return self._display.positions(axes, axes, real, without_transformation(context))
+        automatic = self._automatic
+        here, end = (
+            carried(place, automatic.place, context, self._display.geometry)
+            for place in (automatic.machine, automatic.row_end)
+        )
+        return self._display.positions(here, end, real, context)
 
     @property
     def modal(self) -> Mapping[str, str]:

@@ -22,6 +22,10 @@ SAME, NO_WAY_MM = 1e-12, 1e-12
 TRIES = 16
 
 
+#: A phase shorter than this is rounding: it has no acceleration worth the name.
+LEAST_PHASE_S = 1e-12
+
+
 class Phase(NamedTuple):
     """Constant acceleration `pull` for `seconds` from `speed` on, over `way`."""
 
@@ -65,7 +69,7 @@ def ramp(way: float, start2: float, end2: float) -> Phase:
     """The phase that leads over a way from one squared speed to another."""
     start, end = sqrt(start2), sqrt(end2)
     seconds = 2.0 * way / (start + end) if way > 0.0 else 0.0
-    return Phase(seconds, way, start, (end - start) / seconds if seconds > 0.0 else 0.0)
+    return Phase(seconds, way, start, (end - start) / seconds if seconds > LEAST_PHASE_S else 0.0)
 
 
 def straight_profile(length: float, start2: float, aim2: float, cap2: float, pull: float) -> Profile:

@@ -8,7 +8,7 @@ unrolled; inside the path C is a length on the surface, the last stage turns it 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import atan2, degrees, hypot, pi
+from math import atan2, cos, degrees, hypot, pi, radians, sin
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.path import PLANES
@@ -49,6 +49,13 @@ class PolarAxes:
         moved[self.linear] = hypot(first, second)
         moved[self.rotary] = self.start_deg + degrees(atan2(second, first))
         return moved
+
+    def display(self, real: list[float]) -> list[float]:
+        """The point of the plane for work coordinates of the real axes."""
+        distance, angle = real[self.linear], radians(real[self.rotary] - self.start_deg)
+        shown = list(real)
+        shown[self.linear], shown[self.rotary] = distance * cos(angle), distance * sin(angle)
+        return shown
 
 
 # ---- polar -------------------------------------------------------------------------------------------------------

@@ -1,0 +1,68 @@
+"""Between work coordinates, the coordinates in which the path is laid out, and the real axes.
+
+The path is laid out in machine coordinates of the axes that the program sees. Without a transformation these are
+the real axes; under one (polar interpolation, tool centre point) they are those that the control makes of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.toolpath import Context
+
+Geometry = tuple[int, int, int]
+
+
+def work_of(machine: Sequence[float], context: Context, geometry: Geometry) -> list[float]:
+    """Work coordinates (absolute display, internal units) at machine coordinates."""
+    offsets = context.offsets or (0.0,) * len(machine)
+    position = [value - offset for value, offset in zip(machine, offsets, strict=True)]
+    if not context.frame.is_identity:
+        inner = context.frame.inverse().apply(*(position[i] if i >= 0 else 0.0 for i in geometry))
+        for i, value in zip(geometry, inner, strict=True):
+            if i >= 0:
+                position[i] = value
+    return position
+
+
+def machine_of(work: Sequence[float], context: Context, geometry: Geometry) -> list[float]:
+    """Machine coordinates at work coordinates."""
+    position = list(work)
+    if not context.frame.is_identity:
+        image = context.frame.apply(*(work[i] if i >= 0 else 0.0 for i in geometry))
+        for i, value in zip(geometry, image, strict=True):
+            if i >= 0:
+                position[i] = value
+    offsets = context.offsets or (0.0,) * len(position)
+    return [value + offset for value, offset in zip(position, offsets, strict=True)]
+
+
+def real_of(laid: Sequence[float], context: Context, geometry: Geometry) -> list[float]:
+    """The real axes at a position of the path."""
+    if context.transformation is None:
+        return list(laid)
+    return machine_of(context.transformation.real(work_of(laid, context, geometry)), context, geometry)
+
+
+def laid_of(real: Sequence[float], context: Context, geometry: Geometry) -> list[float]:
+    """The position of the path at which the real axes are."""
+    shows = getattr(context.transformation, "display", None)
+    if shows is None:
+        return list(real)
+    return machine_of(shows(work_of(real, context, geometry)), context, geometry)
+
+
+def carried(laid: Sequence[float], last: Context, context: Context, geometry: Geometry) -> list[float]:
+    """A position of the path under another context, the real axes being the same."""
+    if context.transformation is last.transformation:
+        return list(laid)
+    return laid_of(real_of(laid, last, geometry), context, geometry)
+
+
+def without_transformation(context: Context) -> Context:
+    """The context for displays of real axes."""
+    return context if context.transformation is None else replace(context, transformation=None)

@@ -1,0 +1,44 @@
+"""Real axes under a transformation."""
+
+from __future__ import annotations
+
+from math import hypot
+
+import pytest
+
+import polycnc
+from polycnc.mainrun import State
+from tests.mainrun.support import power_on
+
+POLAR = "O1\nG98 G0 X60. Z5. C0\nG12.1\nG1 X30. F600\nC15.\nX-30.\nG13.1\nG0 X80.\nM30\n"
+
+
+def test_polar_interpolation_moves_the_real_axes() -> None:
+    virtual = power_on(POLAR, "fanuc-0i-tf", machine="lathe-c-transmit")
+    final = polycnc.run(POLAR, control="fanuc-0i-tf", machine="lathe-c-transmit").final
+    x, c = (virtual.channel.axis_index[name] for name in "XC")
+    virtual.cycle_start()
+    before = virtual.machine_position
+    while virtual.state is State.RUNNING:
+        virtual.step()
+        now = virtual.machine_position
+        assert max(abs(a - b) for a, b in zip(now, before, strict=True)) < 5.0, "no axis jumps"
+        if virtual.active_block.line == 6:
+            assert 15.0 - 1e-9 <= now[x] <= hypot(30.0, 15.0) + 1e-9
+            assert now[c] > 0.0
+        before = now
+    assert virtual.state is State.READY
+    assert virtual.positions.machine == pytest.approx(final["machine"])
+
+
+def test_reset_under_polar_interpolation_leaves_the_axes_where_they_are() -> None:
+    virtual = power_on(POLAR, "fanuc-0i-tf", machine="lathe-c-transmit")
+    virtual.cycle_start()
+    assert virtual.run_until(lambda control: control.active_block.line == 6, limit_s=100.0)
+    virtual.step(0.2)
+    virtual.feed_hold()
+    virtual.run()
+    here = virtual.machine_position
+    virtual.reset()
+    assert virtual.machine_position == pytest.approx(here)
+    assert virtual.positions.work["C"] == pytest.approx(virtual.positions.machine["C"])
