@@ -47,6 +47,16 @@ ALARMS: dict[str, str] = {
     "oscillation_axis": "COR-341",
     "oscillation_kinematics": "COR-342",
     "oscillation_repeated": "COR-370",
+    # 3D radius compensation
+    "spatial_without_tip": "COR-601",
+    "spatial_motion": "COR-602",
+    "spatial_frame": "COR-603",
+    "spatial_plane": "COR-604",
+    "spatial_mixed": "COR-605",
+    "spatial_mode": "COR-606",
+    "spatial_offset": "COR-607",
+    "spatial_idle": "COR-609",
+    "normal_spatial": "COR-182",
     # tool presetting
     "setting_place": "MAR-330",
     "setting_start": "MAR-333",

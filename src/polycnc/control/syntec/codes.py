@@ -18,6 +18,7 @@ from polycnc.control.syntec import (
     polar,
     skips,
     smoothing,
+    spatial,
     spindles,
     tilted,
     tip_control,
@@ -81,6 +82,7 @@ G_CODES = table(
     GCode("G40", "compensation", cycles.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
     GCode("G41", "compensation", cycles.compensate_left, takes="D", order=Order.COMPENSATION),
     GCode("G42", "compensation", cycles.compensate_right, takes="D", order=Order.COMPENSATION),
+    *(GCode(code, "compensation", spatial.start, takes="D", order=Order.COMPENSATION) for code in spatial.SIDES),
     GCode("G43", "length", tip_control.compensate_length, takes="H", order=Order.LENGTH),
     GCode("G44", "length", tip_control.compensate_length, takes="H", order=Order.LENGTH),
     GCode("G43.4", "length", tip_control.start, takes="H Q L I", order=Order.LENGTH),
@@ -140,7 +142,6 @@ G_CODES = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G41.2", "G42.2", "G41.6", "G42.6",
         "G84.48",
     ),
 )  # fmt: skip

@@ -20,6 +20,7 @@ from polycnc.control.syntec import (
     normal_direction,
     oscillation,
     polar,
+    spatial,
     tilted,
     tip_control,
 )
@@ -133,6 +134,7 @@ class SyntecMill(WordAddressControl):
     def reset(self, channel: Channel) -> None:
         """The state after reset: polar interpolation ends, and the tilted plane where Pr3014 does not keep it."""
         normal_direction.end(channel)
+        spatial.end(channel)
         polar.leave_plane(channel)
         kept = channel.memory.tilt if parameter(channel.setup.parameters, 3014) else IDENTITY
         super().reset(channel)
@@ -202,6 +204,7 @@ class SyntecMill(WordAddressControl):
         polar.check_block(builder)
         normal_direction.check_block(builder)
         oscillation.check_block(builder)
+        spatial.check_block(builder)
         plan = mode.plans[signature] = builder.build()
         return plan
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.axis_names import map_virtual_axis
 from polycnc.control.syntec.parameters import WORK_SYSTEMS, decimals
+from polycnc.control.syntec.spatial import choose_corners
 from polycnc.control.word_address import frames as base_frames
 from polycnc.control.word_address.coordinates import go_to_reference, refresh_zero
 from polycnc.control.word_address.data_input import TOOL_FIELDS
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 
 REFERENCE_POINTS = (1, 2, 3, 4)
 MACHINING_CONDITIONS = frozenset({*range(10), 21, 22, 23})
-REGISTER_INPUT, VIRTUAL_AXIS = 1000, 801
+REGISTER_INPUT, VIRTUAL_AXIS, SPATIAL_CORNERS = 1000, 801, 450
 LAST_REGISTER = 65535
 
 
@@ -257,6 +258,9 @@ def input_data(channel: Channel, words: Words) -> None:
         if not 0 <= number <= LAST_REGISTER:
             raise words.fail("argument", "P")
         channel.memory.globals.registers[int(number)] = to_long(value)
+        return
+    if kind == SPATIAL_CORNERS:
+        choose_corners(channel, words)
         return
     if kind == VIRTUAL_AXIS:
         map_virtual_axis(channel, words)

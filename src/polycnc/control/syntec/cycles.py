@@ -6,6 +6,7 @@ from functools import partial
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.control.syntec import spatial
 from polycnc.control.syntec.parameters import decimals, parameter
 from polycnc.control.word_address import radius
 from polycnc.control.word_address.drilling import DrillCycle, Drilling, drill_here, is_active, lead_from_feed
@@ -145,7 +146,13 @@ def _unless_drilling(handler: Handler, channel: Channel, words: Words) -> None:
     channel.mode = channel.mode.with_code("compensation", side)
 
 
-cancel_compensation: Handler = partial(_unless_drilling, radius.cancel_compensation)
+def _cancel(channel: Channel, words: Words) -> None:
+    """G40 ends compensation in the plane and in space."""
+    spatial.end(channel)
+    radius.cancel_compensation(channel, words)
+
+
+cancel_compensation: Handler = partial(_unless_drilling, _cancel)
 compensate_left: Handler = partial(_unless_drilling, radius.compensate_left)
 compensate_right: Handler = partial(_unless_drilling, radius.compensate_right)
 

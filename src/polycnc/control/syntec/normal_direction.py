@@ -31,6 +31,7 @@ CONTROL_PLANES = {0: ("G19", 0.0), 1: ("G18", 90.0), 2: ("G17", 0.0)}
 #: What each code is called in the table of mistakes while the control is on.
 FORBIDDEN = {
     **dict.fromkeys(("G41", "G42", "G43.4", "G43.5"), "normal_compensation"),
+    **dict.fromkeys(("G41.2", "G42.2", "G41.6", "G42.6"), "normal_spatial"),
     **dict.fromkeys(("G53", "G28", "G29", "G30"), "normal_machine"),
     **dict.fromkeys(("G2.4", "G3.4"), "normal_three_point"),
     **dict.fromkeys(("G31", "G31.10", "G31.11", "G37", "G37.2", "G37.3"), "normal_skip"),
