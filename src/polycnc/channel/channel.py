@@ -95,7 +95,8 @@ class Channel:
         self.stack: list[Level] = []
         self._level: Level
         self._head: PathStage | None = None
-        self.table: PathStage = TableStage(self)
+        self.rows = TableStage(self)
+        self.table: PathStage = self.rows
         self.memory: Any = None
         self.alarms: list[Alarm] = []
         self._finished = False
@@ -142,7 +143,7 @@ class Channel:
         self._head = stage
         self.attention = True
         if stage is None:
-            self.table.end = []  # moves no longer come this way
+            self.rows.end = []  # moves no longer come this way
 
     @property
     def finished(self) -> bool:

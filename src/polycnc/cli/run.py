@@ -122,7 +122,9 @@ def _sample_to(path: Path, period: float, session: Session, files: ExitStack) ->
 
     mode, writer_of = SAMPLE_WRITERS[path.suffix.lower()]
     result = session.result
-    writer = writer_of(_whole(files, path, mode), result.toolpath.axes, result.toolpath.programs, result.metadata)
+    writer = writer_of(
+        _whole(files, path, mode), result.toolpath.axes, result.toolpath.programs, result.metadata
+    )
     files.callback(writer.close)
     sampler = session.sample(period, writer.take)
 

@@ -29,6 +29,7 @@ from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.memory import SyntecMemory
 from polycnc.control.syntec.parameters import decimals, parameter
+from polycnc.control.syntec.plain import SyntecPlainBlocks
 from polycnc.control.word_address import frames
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.numbers import Convert, NumberRules, length_converter
@@ -80,6 +81,10 @@ class SyntecMill(WordAddressControl):
     def compile(self, program: Program) -> Executable:
         """Make a program ready to run: macro language where its file says so."""
         return executable(program, macro=program.form is Form.MACRO)
+
+    def plain_blocks(self, _channel: Channel) -> SyntecPlainBlocks:
+        """What a scanner must know of plain blocks."""
+        return SyntecPlainBlocks()
 
     def find_program(self, _channel: Channel, number: int) -> Program:
         """A program by its number."""

@@ -28,6 +28,7 @@ from polycnc.language.bulk.layout import (
     FORMS_COUNT,
     FULL,
     GRAMMAR,
+    HEXADECIMAL,
     KEY_COUNT,
     KEYS,
     LAST_CODE,
@@ -53,7 +54,7 @@ from polycnc.language.bulk.layout import (
 from polycnc.language.bulk.moves import Columns, act
 
 NEWLINE, BLANK, TAB = 10, 32, 9
-ZERO, NINE, LETTER_A, LETTER_G, LETTER_N, LETTER_Z = 48, 57, 65, 71, 78, 90
+ZERO, NINE, LETTER_A, LETTER_G, LETTER_N, LETTER_X, LETTER_Z = 48, 57, 65, 71, 78, 88, 90
 PLUS, MINUS, POINT, EQUALS_SIGN, OPEN, CLOSE, SEMICOLON, SLASH = 43, 45, 46, 61, 40, 41, 59, 47
 #: Longer lines are for the interpreter, which has an alarm for them.
 LONGEST_LINE = 4096
@@ -166,6 +167,8 @@ def read_word(text: Any, place: int, grammar: int, most_digits: int) -> tuple[in
         place += 1
     place, value, decimals = read_number(text, place, most_digits)
     if place < 0:
+        return place, NO_KEY, 0.0
+    if grammar & HEXADECIMAL and text[place] == LETTER_X and text[place - 1] == ZERO and value == 0.0:
         return place, NO_KEY, 0.0
     if decimals >= 0 and grammar & FORMS_COUNT:
         form = 1 if decimals <= 3 else 2 if decimals == 4 else 3

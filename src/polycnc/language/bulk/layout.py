@@ -80,6 +80,8 @@ ROUND_COMMENTS, OPEN_COMMENTS, SLASH_COMMENTS = 1, 2, 4
 SEMICOLON_COMMENTS, EQUALS = 8, 16
 #: How a number was written is part of a block's shape; lines without a block are no blocks.
 FORMS_COUNT, BLANK_LINES_ARE_NONE = 32, 64
+#: `0X1` may be a hexadecimal number.
+HEXADECIMAL = 128
 
 #: Keys of words: letter and form (four each), then G codes below `LAST_CODE`.
 FORMS = 4

@@ -139,6 +139,7 @@ class Spelling:
         semicolon_comments: `;` to the end of the line; else `;` ends the block.
         equals: `X=1` is a word.
         forms_count: How a number was written is part of a block's shape.
+        hexadecimal: `0X1` may be a hexadecimal number.
         blank_lines_are_blocks: A line without a block counts as one.
     """
 
@@ -149,6 +150,7 @@ class Spelling:
     semicolon_comments: bool = False
     equals: bool = False
     forms_count: bool = True
+    hexadecimal: bool = False
     blank_lines_are_blocks: bool = True
 
     @property
@@ -161,6 +163,7 @@ class Spelling:
             | self.semicolon_comments * layout.SEMICOLON_COMMENTS
             | self.equals * layout.EQUALS
             | self.forms_count * layout.FORMS_COUNT
+            | self.hexadecimal * layout.HEXADECIMAL
             | (not self.blank_lines_are_blocks) * layout.BLANK_LINES_ARE_NONE
         )
 

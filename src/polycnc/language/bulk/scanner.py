@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 #: Limits are widened by this much, as the channel does it.
 LIMIT_SLACK = 1e-9
-#: A run of so many blocks is worth its beginning; blocks between two tries are never more than this.
-WORTHWHILE, MOST_PATIENCE = 16, 4096
+#: A run of so many blocks is worth its beginning.
+WORTHWHILE = 16
 #: Programs shorter than this are left to the interpreter: with the kernel ready, and when it must be compiled.
 READY_LINES, COMPILE_LINES = 5_000, 200_000
 
@@ -34,11 +34,13 @@ class Bulk:
         fewest_lines: Shorter programs are left to the interpreter; None decides by whether the kernel is ready.
         scan: The kernel; None for the compiled one.
         rooms: Rows that one call of the kernel may give.
+        most_patience: Blocks that are interpreted at the most between two tries.
     """
 
     fewest_lines: int | None = None
     scan: Callable[..., int] | None = None
     rooms: int = CHUNK_ROWS
+    most_patience: int = 4096
 
     def pays(self, lines: int) -> bool:
         """Whether a program is long enough."""
@@ -59,7 +61,7 @@ class Bulk:
             if NATIVE.function is None:
                 return None
             scan = compiled_scan
-        return Scanner(dialect, scan, axes, self.rooms)
+        return Scanner(dialect, scan, axes, self)
 
 
 class Scannable(Protocol):
@@ -131,10 +133,11 @@ class Scanner:
         dialect: The control's part.
         scan: The kernel.
         axes: Number of the channel's axes.
-        rooms: Rows that one call of the kernel may give.
+        settings: Rooms and patience.
     """
 
-    def __init__(self, dialect: Dialect, scan: Callable[..., int], axes: int, rooms: int) -> None:
+    def __init__(self, dialect: Dialect, scan: Callable[..., int], axes: int, settings: Bulk) -> None:
+        rooms = settings.rooms
         self._dialect = dialect
         self._scan = scan
         self._axes = axes
@@ -143,6 +146,7 @@ class Scanner:
         self._generation = 0
         self._window = Window()
         self._patience = 1
+        self._most_patience = settings.most_patience
         self._ints = array("q", bytes(8 * layout.INTS))
         self._floats = array("d", bytes(8 * (layout.VECTORS + layout.VECTOR_COUNT * axes)))
         self._columns = (
@@ -157,7 +161,7 @@ class Scanner:
         Where hardly any block is plain, tries become rare.
         """
         taken = self.run(channel)
-        self._patience = 1 if taken >= WORTHWHILE else min(2 * self._patience, MOST_PATIENCE)
+        self._patience = 1 if taken >= WORTHWHILE else min(2 * self._patience, self._most_patience)
         return range(self._patience)
 
     def run(self, channel: Channel) -> int:
@@ -263,6 +267,8 @@ class Scanner:
             channel.toolpath.chunk.extend(rows, program, context, ints[layout.CURVES], self._columns)
         c.position = self._get(layout.POSITION)
         c.programmed = c.position if c.direct else self._get(layout.PROGRAMMED)
+        if channel.head is not None:
+            channel.rows.end = c.position  # the moves have gone past a stage that had nothing to do
         if ints[layout.OWES]:
             c.pending = self._get(layout.PENDING)
         moves, arcs = ints[layout.MOVES], ints[layout.ARCS]

@@ -1,0 +1,28 @@
+"""Plain blocks of SYNTEC ISO programs, for the scanner."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.plain import PlainBlocks
+from polycnc.language.bulk import Spelling
+from polycnc.language.syntec.blocks import MAX_DIGITS
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.language.bulk.scanner import LastMoves
+
+SPELLING = Spelling(MAX_DIGITS, round_comments=True, slash_comments=True, hexadecimal=True)
+
+
+class SyntecPlainBlocks(PlainBlocks):
+    """What the scanner asks of a SYNTEC control."""
+
+    def __init__(self) -> None:
+        super().__init__(SPELLING)
+
+    def moved(self, channel: Channel, last: LastMoves) -> None:
+        """The centre of the last arc can be read as a system variable."""
+        if last.arcs:
+            x, y, z = last.center
+            channel.memory.last_center = (x, y, z)

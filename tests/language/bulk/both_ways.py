@@ -1,0 +1,75 @@
+"""Runs a program with the scanner and without it, and says where the results differ."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+from polycnc.channel.channel import Channel
+from polycnc.control.registry import control
+from polycnc.language.bulk.compiled import plain_scan
+from polycnc.language.bulk.scanner import Bulk
+from polycnc.machine import load_machine
+from polycnc.machine.setup_file import parse_setup
+from polycnc.program import Form, ProgramStore
+
+#: The kernel as it is written, from the first line on.
+PLAIN = Bulk(fewest_lines=0, scan=plain_scan, rooms=200, most_patience=1)
+machine = cache(load_machine)
+COLUMNS = ("kind", "program", "line", "context", "feed", "end", "curve", "curves")
+
+
+def run(
+    text: str,
+    control_id: str,
+    setup: Mapping[str, Any] | None = None,
+    bulk: Bulk | None = None,
+    **limits: Any,
+) -> Channel:
+    """Run a program to its end; programmed stops are started again."""
+    built = control(control_id)
+    store = ProgramStore(form=built.form)
+    name = "/_N_WKS_DIR/_N_TEST_WPD/_N_MAIN_MPF" if built.form is Form.SINUMERIK else "MAIN"
+    program = store.add_text(name, text)
+    start = parse_setup(setup or {})
+    channel = Channel(
+        built, machine(start.machine or built.default_machine), start, store, bulk=bulk, **limits
+    )
+    for _ in channel.run(program):
+        pass
+    return channel
+
+
+def bits(numbers: Any) -> list[str]:
+    """Numbers so that equal ones are equal bit for bit."""
+    return [float(number).hex() for number in numbers]
+
+
+def outcome(channel: Channel) -> dict[str, Any]:
+    """All that a run leaves behind."""
+    toolpath, c = channel.toolpath, channel.coordinates
+    told: dict[str, Any] = {
+        name: b"".join(getattr(chunk, name).tobytes() for chunk in toolpath.chunks) for name in COLUMNS
+    }
+    told |= {
+        "events": [event for chunk in toolpath.chunks for event in chunk.events],
+        "contexts": toolpath.contexts,
+        "programs": toolpath.programs,
+        "alarms": channel.alarms,
+        "position": bits(c.position),
+        "programmed": bits(c.programmed),
+        "pending": bits(c.pending),
+        "feed": bits([channel.feed]),
+        "mode": channel.mode.codes,
+    }
+    return told
+
+
+def differences(
+    text: str, control_id: str, setup: Mapping[str, Any] | None = None, bulk: Bulk = PLAIN, **limits: Any
+) -> list[str]:
+    """Names of what differs between both ways."""
+    one = outcome(run(text, control_id, setup, **limits))
+    other = outcome(run(text, control_id, setup, bulk, **limits))
+    return [name for name in one if one[name] != other[name]]
