@@ -20,6 +20,7 @@ from polycnc.control.syntec import (
     normal_direction,
     oscillation,
     polar,
+    quiet,
     spatial,
     tilted,
     tip_control,
@@ -138,6 +139,7 @@ class SyntecMill(WordAddressControl):
 
     def reset(self, channel: Channel) -> None:
         """The state after reset: polar interpolation ends, and the tilted plane where Pr3014 does not keep it."""
+        quiet.switch_quiet(channel, on=False)
         normal_direction.end(channel)
         spatial.end(channel)
         polar.leave_plane(channel)

@@ -12,6 +12,7 @@ from polycnc.control.word_address.coordinates import go_to_reference, refresh_ze
 from polycnc.control.word_address.data_input import TOOL_FIELDS
 from polycnc.control.word_address.extended import StrokeZone
 from polycnc.control.word_address.length import renew_length
+from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.path import PLANES
 from polycnc.geometry.frames import IDENTITY, Frame, about, cos_sin_deg, rotation, scaling
 from polycnc.language.syntec.values import to_long
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 REFERENCE_POINTS = (1, 2, 3, 4)
 MACHINING_CONDITIONS = frozenset({*range(10), 21, 22, 23})
-REGISTER_INPUT, VIRTUAL_AXIS, SPATIAL_CORNERS = 1000, 801, 450
+WORK_OFFSET, SPATIAL_CORNERS, VIRTUAL_AXIS, REGISTER_INPUT = 2, 450, 801, 1000
 LAST_REGISTER = 65535
 
 
@@ -249,7 +250,7 @@ def dwell(channel: Channel, words: Words) -> None:
 
 
 def input_data(channel: Channel, words: Words) -> None:
-    """G10 L10 to L13 P R: tool data; G91 adds (2.14). G10 L1000 P R: an R register; G10 L801: virtual axes."""
+    """G10 L2 work offsets, L10 to L13 tool data (2.14), L450 corners, L801 virtual axes, L1000 registers; G91 adds."""
     kind, number = words.typed("L"), words.typed("P")
     if kind == REGISTER_INPUT:
         value = words.typed("R")
@@ -258,6 +259,9 @@ def input_data(channel: Channel, words: Words) -> None:
         if not 0 <= number <= LAST_REGISTER:
             raise words.fail("argument", "P")
         channel.memory.globals.registers[int(number)] = to_long(value)
+        return
+    if kind == WORK_OFFSET:
+        _input_work_offset(channel, words)
         return
     if kind == SPATIAL_CORNERS:
         choose_corners(channel, words)
@@ -276,6 +280,17 @@ def input_data(channel: Channel, words: Words) -> None:
         length += getattr(tool, field)
     setattr(tool, field, length)
     renew_length(channel)
+
+
+def _input_work_offset(channel: Channel, words: Words) -> None:
+    """G10 L2 P X Y Z: zero of work system P, 0 the external one; G91 adds."""
+    number = words.typed("P")
+    if number is None or number != int(number) or not 0 <= number <= len(WORK_SYSTEMS):
+        raise words.fail("argument", "P" if number is not None else "G10")
+    offset = channel.memory.work_offset(WORK_SYSTEMS[int(number) - 1] if number else EXTERNAL)
+    for axis, value, incremental in words.axes():
+        offset[axis] = offset[axis] + value if incremental else value
+    refresh_zero(channel)
 
 
 def cutting_mode(channel: Channel, words: Words) -> None:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from polycnc.control.syntec.normal_stage import NormalStage
     from polycnc.control.syntec.oscillation import Oscillation
     from polycnc.control.syntec.polar import PolarPlane
+    from polycnc.control.syntec.quiet import QuietStage
     from polycnc.control.syntec.skips import SkipGroup
     from polycnc.control.syntec.spatial_stage import SpatialStage
     from polycnc.control.syntec.spindles import SpindlePair
@@ -58,6 +59,7 @@ class SyntecMemory(Memory):
         oscillation: The axis that oscillates; `precise` by G81.2, `was_precise` that there was one, on `precise_axis`.
         virtual_axes: Axes that move with a name that is none of theirs.
         spatial: Stage of G41.2 in the path; `corner_way` P of G10 L450.
+        quiet: Stage of quiet mode (#1500) in the path.
         borrow_tries: How often the running G52.2 has waited.
         normal: Stage of G41.1 in the path.
         polar: Plane of G12.1; `plane_before` and `geometry_before` what G13.1 brings back.
@@ -105,6 +107,7 @@ class SyntecMemory(Memory):
         self.skip_groups_end = 0
         self.diameters: dict[int, bool] = {}
         self.borrow_tries = 0
+        self.quiet: QuietStage | None = None
         self.spatial: SpatialStage | None = None
         self.corner_way = 0
         self.virtual_axes: dict[str, list[int]] = {}

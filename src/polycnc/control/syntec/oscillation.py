@@ -141,6 +141,8 @@ def check_block(builder: Builder) -> None:
     for row in builder.codes:
         if row.code in FRAME_CODES:
             raise fail("oscillation_frame", address=row.code)
+    if any(row.code == "G10" for row in builder.codes) and builder.has(axis):
+        raise fail("oscillation_frame", address=axis)
     if builder.has(axis) and not any(
         row.code in (SIMPLE, "G4", "G65", "G66", "G66.1") for row in builder.codes
     ):
