@@ -421,3 +421,17 @@ def test_the_spindle_turns_as_the_override_says() -> None:
     virtual.step(2.0)
     assert virtual.spindle.rpm == pytest.approx(1200.0)
     assert virtual.spindle.direction == 1
+
+
+def test_machine_lock_and_block_search_wait_until_an_axis_moved_by_hand_stands() -> None:
+    machine = VirtualControl("fanuc-m")
+    machine.load("O1\nN10 G0 X10.\nM30\n")
+    machine.select_mode("jog")
+    machine.jog("X", 1)
+    machine.step(0.1)
+    with pytest.raises(CommandRefused):
+        machine.set_switches(machine_lock=True)
+    machine.stop_jog()
+    machine.step(5.0)
+    machine.set_switches(machine_lock=True)
+    assert machine.switches.machine_lock

@@ -95,6 +95,8 @@ class VirtualControl(Readings):
             CommandRefused: The program ends before it.
         """
         self._ask(Command.BLOCK_SEARCH)
+        if self._manual.moving:
+            raise CommandRefused("mainrun.moving")
         program = self._programs.main
         line = self._programs.line_of(target)
         if program is None:
@@ -296,6 +298,8 @@ class VirtualControl(Readings):
 
     def _lock(self, *, on: bool) -> None:
         """Machine lock: the axes stand while the display runs on; when it ends, the display shows the axes again."""
+        if self._manual.moving:
+            raise CommandRefused("mainrun.moving")
         position = self.machine_position
         if not on and self._locked_at is not None:
             self._stand_at(self._locked_at)
