@@ -85,3 +85,9 @@ def test_brackets_nested_a_thousand_deep_in_a_short_block(control: str) -> None:
 @pytest.mark.parametrize("control", ["fanuc-m", "meldas-m", "syntec-mill", "fanuc-0i-tf"])
 def test_a_program_that_calls_itself(control: str) -> None:
     assert run("O1\nM98 P1\nM30\n", control, block_limit=LIMIT).alarms
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("name", ["#NOPE", "NOPE", "R", ""])
+def test_a_setup_that_names_no_variable_of_the_control(control: str, name: str) -> None:
+    assert run("G0 X1.\nM30\n", control, setup={"variables": {name: 3}}, block_limit=LIMIT).alarms

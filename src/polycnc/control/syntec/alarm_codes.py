@@ -9,6 +9,7 @@ from __future__ import annotations
 
 SEMANTIC = "COR-023"
 ALARMS: dict[str, str] = {
+    "variable_number": "COR-016",
     # words of a block
     "address": SEMANTIC,
     "argument": SEMANTIC,

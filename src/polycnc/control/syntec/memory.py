@@ -121,8 +121,6 @@ class SyntecMemory(Memory):
         self.colour = 0
         self.print_file = ""
         self.functions: dict[str, Callable[..., Value]] = functions.bound(self)
-        for name, value in channel.setup.variables.items():
-            self.write_text(name, value)
 
     # ---- what generated expressions call -----------------------------------------------------------------
 

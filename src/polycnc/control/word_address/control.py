@@ -19,7 +19,7 @@ from polycnc.language.bulk import Spelling
 from polycnc.language.word_address import Grammar, WordAddressProgram
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock
 from polycnc.machine.motion_settings import SOFT, MotionSettings
-from polycnc.messages import AlarmError, Catalogue
+from polycnc.messages import AlarmError, Catalogue, text
 from polycnc.program import Form
 from polycnc.toolpath import Context
 
@@ -149,7 +149,10 @@ class WordAddressControl:
             channel.feed = self.FEED_AT_START
         coordinates.refresh_zero(channel)
         for name, value in channel.setup.variables.items():
-            self.write_variable(channel, name, value)
+            try:
+                self.write_variable(channel, name, value)
+            except (KeyError, ValueError):
+                raise self.fail("variable_number", detail=text("setup.no-variable", name=name)) from None
 
     def begin(self, channel: Channel) -> None:
         """A main program begins in the state that the channel is in."""

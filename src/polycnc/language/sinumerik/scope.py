@@ -86,7 +86,7 @@ class Scope:
         name = token.text
         if name == "R" or name == "$R":
             return RPlace.indexed(reader, token)
-        if name[0] == "$":
+        if name.startswith("$"):
             if name.startswith("$R") and name[2:].isdecimal():
                 return RPlace.numbered(reader, token._replace(text=name[1:], value=int(name[2:])))
             return SystemPlace.read_indices(reader, token, self._system_variable(token))
