@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
 from polycnc.channel.group import ChannelGroup
+from polycnc.language.bulk.scanner import Bulk
 from polycnc.messages import text
 from polycnc.toolpath import Toolpath
 from polycnc.toolpath.trace import AxisLayout, Display
@@ -90,7 +91,8 @@ class Result:
         alarms: In order.
         lead: What the planner must know of the start: machine position (mm, radius, degrees), and how the
             control leads the axes.
-        planner: Has planned the chunks that are no longer held; None where all are.
+        planner: Has planned the chunks that are no longer held; None where all are, or none is planned.
+        timed: Whether there is a cycle time.
         stops: Where the run halted in single block mode, as N words.
     """
 
@@ -101,6 +103,7 @@ class Result:
     display: Display
     lead: Mapping[str, Any]
     planner: Planner | None = None
+    timed: bool = True
     stops: list[str] = field(default_factory=list)
 
     @property
@@ -137,7 +140,9 @@ class Result:
 
     @cached_property
     def plan(self) -> Plan:
-        """The planned cycle time, in total and by tool."""
+        """The planned cycle time, in total and by tool; `ValueError` where the run was not `timed`."""
+        if not self.timed:
+            raise ValueError("the motion of this run was dropped and not planned")
         if self.planner is not None:
             return self.planner.finish()
         from polycnc.motion.plan import plan
@@ -218,6 +223,8 @@ class Session:
         program: The main program.
         block_limit: The run ends with the control's alarm after so many blocks.
         keep: Keep the whole toolpath; without it, each chunk is planned, consumed and dropped.
+        timed: Plan chunks before they are dropped; without it, there is no cycle time.
+        bulk: Scan plain blocks of long programs in bulk: faster, with the same result.
 
     Attributes:
         consumers: Called with each chunk of the toolpath, in order, while the program runs.
@@ -234,10 +241,16 @@ class Session:
         *,
         block_limit: int = DEFAULT_BLOCK_LIMIT,
         keep: bool = True,
+        timed: bool = True,
+        bulk: bool = True,
     ) -> None:
         self.consumers: list[Callable[[Chunk], object]] = []
         toolpath = Toolpath(machine.channel_axes(1), on_full=self._take)
-        self.channel = Channel(control, machine, setup, store, block_limit=block_limit, toolpath=toolpath)
+        self.channel = Channel(
+            control, machine, setup, store, block_limit=block_limit, toolpath=toolpath,
+            bulk=Bulk() if bulk else None,
+        )  # fmt: skip
+        self._keep = keep
         self.group = ChannelGroup(self.channel)
         display = Display(toolpath, axis_layout(machine, 1), self._event_text)
         lead: dict[str, Any] = {
@@ -245,7 +258,8 @@ class Session:
             "settings": control.motion_settings(self.channel),
         }
         self.result = Result(program, control, machine, self.channel, display, lead)
-        if not keep:
+        self.result.timed = keep or timed
+        if self.result.timed and not keep:
             from polycnc.motion.planner import Planner
 
             self.result.planner = Planner(toolpath, machine, keep_rows=False, **self.result.lead)
@@ -283,8 +297,9 @@ class Session:
     def _take(self, chunk: Chunk) -> bool:
         for consume in self.consumers:
             consume(chunk)
-        planner = self.result.planner
-        return planner is not None and planner.take(chunk)
+        if self.result.planner is not None:
+            self.result.planner.take(chunk)
+        return not self._keep
 
     def _event_text(self, data: Mapping[str, Any]) -> str:
         """The text of an alarm event."""
@@ -334,6 +349,8 @@ def open_session(
     folder: Path | None = None,
     block_limit: int = DEFAULT_BLOCK_LIMIT,
     keep: bool = True,
+    timed: bool = True,
+    bulk: bool = True,
 ) -> Session:
     """Find everything that a run needs: program, control, machine, setup.
 
@@ -349,6 +366,8 @@ def open_session(
         folder: Where a machine file that `setup` names is looked up, if `setup` is no file.
         block_limit: See `Session`.
         keep: See `Session`.
+        timed: See `Session`.
+        bulk: See `Session`.
 
     Raises:
         SessionError: The control is unknown, or cannot be told from the program.
@@ -369,7 +388,9 @@ def open_session(
     for key, text_of_file in (files or {}).items():
         store.add_text(key, text_of_file)
     built, start = _machine_and_setup(machine, setup, folder, chosen.default_machine)
-    return Session(chosen, built, start, store, program, block_limit=block_limit, keep=keep)
+    return Session(
+        chosen, built, start, store, program, block_limit=block_limit, keep=keep, timed=timed, bulk=bulk
+    )
 
 
 #: Where a SINUMERIK program lies that comes as a text.
@@ -446,6 +467,7 @@ def run(
     encoding: str | None = None,
     block_limit: int = DEFAULT_BLOCK_LIMIT,
     print_to: str | Path | None = None,
+    bulk: bool = True,
 ) -> Result:
     """Run a program and give what came of it.
 
@@ -454,7 +476,7 @@ def run(
     """
     session = open_session(
         source, control=control, machine=machine, setup=setup, search=search, encoding=encoding,
-        block_limit=block_limit,
+        block_limit=block_limit, bulk=bulk,
     )  # fmt: skip
     result = session.run()
     if print_to is not None:

@@ -56,6 +56,7 @@ class Channel:
         main_run: What executes the rows while the channel runs; None where nobody waits for that.
         group: The channels of the control, which the first one belongs to as well; None where it runs alone.
         memory: The control's own state (variables, offsets, tools), set by `Control.start`.
+        bulk: Whether and how plain blocks are scanned in bulk; None interprets every block.
     """
 
     def __init__(
@@ -118,7 +119,7 @@ class Channel:
         limits = tuple((axis.limit_minus, axis.limit_plus) for axis in self.axis_data)
         self._limits = limits if any(low > -inf or high < inf for low, high in limits) else ()
         self._executables: dict[int, Executable] = {}
-        self._bulk = bulk
+        self.bulk = bulk
         self._scanner: Scanner | None = None
 
     # ---- what the inner loop must notice --------------------------------------------------------------------------
@@ -193,12 +194,12 @@ class Channel:
 
     def _scanner_for(self, level: Level) -> Scanner | None:
         """What scans the plain blocks of a program; None where that does not pay."""
-        if self._bulk is None or not self._bulk.pays(len(level.steps)):
+        if self.bulk is None or not self.bulk.pays(len(level.steps)):
             return None
         if self._scanner is None:
             dialect = self._control.plain_blocks(self)
             if dialect is not None:
-                self._scanner = self._bulk.scanner(dialect, len(self.axes))
+                self._scanner = self.bulk.scanner(dialect, len(self.axes))
         return self._scanner if hasattr(level.code, "step_of_line") else None
 
     def pop(self) -> Level:

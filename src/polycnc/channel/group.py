@@ -96,7 +96,8 @@ class ChannelGroup:
                 raise KeyError(number)
             first = self.first
             channel = Channel(
-                first.control, first.machine, first.setup, first.store, number=number, block_limit=first.block_limit
+                first.control, first.machine, first.setup, first.store, number=number,
+                block_limit=first.block_limit, bulk=first.bulk,
             )  # fmt: skip
             channel.group = self
             channel.alarms = first.alarms

@@ -46,6 +46,7 @@ def check(
     search: options.Search = None,
     encoding: options.Encoding = None,
     block_limit: options.BlockLimit = DEFAULT_BLOCK_LIMIT,
+    no_bulk: options.NoBulk = False,
     _lang: options.Lang = None,
 ) -> int:
     """Run each program without keeping its motion, and tell what alarmed."""
@@ -56,7 +57,7 @@ def check(
     def session(source: bytes | Path, name: str) -> Session:
         return open_session(
             source, name=name, control=control, machine=machine, setup=setup, search=search or (),
-            encoding=encoding, block_limit=block_limit, keep=False,
+            encoding=encoding, block_limit=block_limit, keep=False, timed=False, bulk=not no_bulk,
         )  # fmt: skip
 
     found: list[diagnostics.Diagnostic] = []

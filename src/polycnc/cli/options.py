@@ -29,4 +29,5 @@ Search = Annotated[list[Path] | None, _option("search", "--search", metavar="DIR
 Encoding = Annotated[str | None, _option("encoding", "--encoding", metavar="NAME")]
 Lang = Annotated[Language | None, _option("lang", "--lang", metavar="en|zh-TW")]
 BlockLimit = Annotated[int, typer.Option("--block-limit", min=1, help=text("help.option.block-limit"))]
+NoBulk = Annotated[bool, typer.Option("--no-bulk", help=text("help.option.no-bulk"))]
 Output = Annotated[Path | None, _option("output", "--output", "-o", metavar="FILE")]

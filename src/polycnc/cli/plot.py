@@ -45,6 +45,7 @@ def plot(
     search: options.Search = None,
     encoding: options.Encoding = None,
     block_limit: options.BlockLimit = DEFAULT_BLOCK_LIMIT,
+    no_bulk: options.NoBulk = False,
     _lang: options.Lang = None,
 ) -> int:
     """Draw the path of a program; an alarm ends the path where it came."""
@@ -58,7 +59,7 @@ def plot(
         return fail(text("run.no-samples"), 2)
     session = open_session(
         file, control=control, machine=machine, setup=setup, search=search or (), encoding=encoding,
-        block_limit=block_limit, keep=not profile,
+        block_limit=block_limit, keep=not profile, bulk=not no_bulk,
     )  # fmt: skip
     result, drawing = _profile(session, file.name) if profile else _path(session, view, file.name)
     if suffix == ".svg":

@@ -62,6 +62,8 @@ def _lines(result: Result, happenings: Happenings, file: str) -> Iterator[str]:
         yield text(f"run.{record['type']}", line=record["line"], text=told)
     if happenings.more:
         yield text("run.more", count=happenings.more)
+    if not result.timed:
+        return
     times = result.plan.times
     yield text("run.time", time=clock(result.time), shares=_shares(times) or "-")
     yield text("run.travel", cutting=f"{times.cutting_mm:,.1f}", rapid=f"{times.rapid_mm:,.1f}")
@@ -100,7 +102,7 @@ def as_state(result: Result) -> str:
     """The state at the end of the run as JSON: positions, modal codes, variables, alarms, times."""
     import json
 
-    state = {
+    state: dict[str, Any] = {
         **result.metadata,
         "alarms": [
             {
@@ -115,7 +117,8 @@ def as_state(result: Result) -> str:
         "final": result.final,
         "modes": dict(result.channel.mode.codes),
         "variables": dict(result.variables),
-        "time_s": result.time,
-        "tools": [{"tool": tool.name or tool.tool, "time_s": tool.times.total_s} for tool in result.tools],
     }
+    if result.timed:
+        tools = [{"tool": tool.name or tool.tool, "time_s": tool.times.total_s} for tool in result.tools]
+        state |= {"time_s": result.time, "tools": tools}
     return json.dumps(state, ensure_ascii=False, indent=1, default=str) + "\n"

@@ -50,12 +50,14 @@ def run(
     print_to: Annotated[
         Path | None, typer.Option("--print", metavar="FILE", help=text("help.run.print"))
     ] = None,
+    no_time: Annotated[bool, typer.Option("--no-time", help=text("help.run.no-time"))] = False,
     control: options.Control = None,
     machine: options.Machine = None,
     setup: options.Setup = None,
     search: options.Search = None,
     encoding: options.Encoding = None,
     block_limit: options.BlockLimit = DEFAULT_BLOCK_LIMIT,
+    no_bulk: options.NoBulk = False,
     _lang: options.Lang = None,
 ) -> int:
     """Run a program once, as the control would."""
@@ -73,6 +75,7 @@ def run(
     session = open_session(
         sys.stdin.buffer.read() if is_stdin else Path(file), control=control, machine=machine, setup=setup,
         search=search or (), encoding=encoding, block_limit=block_limit, keep=False,
+        timed=not no_time or sample is not None, bulk=not no_bulk,
     )  # fmt: skip
     happenings = Happenings(session.result.display)
     session.consumers.append(happenings.take)
