@@ -6,7 +6,7 @@ Normal format: two blocks; the first, without shape or end point, stores amounts
 
 from __future__ import annotations
 
-from math import nan
+from math import copysign, nan
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import Level
@@ -17,6 +17,7 @@ from polycnc.control.fanuc.turning_shape import Section, contour_of, read_shape
 from polycnc.control.fanuc.turning_single import runout
 from polycnc.control.fanuc.turning_strokes import emit, enter_compensation, is_compensated, leave_compensation
 from polycnc.control.fanuc.turning_threads import start_angle
+from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.cycles.contour import reversal, swapped, swapped_stroke
 from polycnc.cycles.threading import ThreadCuts, multiple_threading
 from polycnc.cycles.turning_pattern import repeat_pattern as pattern_strokes
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from polycnc.cycles.plane_stroke import PlaneStroke
 
 #: All words that a cycle block may hold beside axis words.
-WORDS = "P Q U V W R D I J K A"
+WORDS = "P Q U V W R D I J K A E"
 #: Increment words of the plane's first and second axis.
 INCREMENTS = {"G18": ("W", "U"), "G17": ("U", "V"), "G19": ("V", "W")}
 #: Centre words of the plane's first and second axis.
@@ -44,6 +45,7 @@ PATTERN_SECOND, PATTERN_FIRST, PATTERN_PASSES = 5135, 5136, 5137
 RETURN = 5139
 THREAD_LEAST, THREAD_ALLOWANCE, THREAD_FINISHING, THREAD_ANGLE = 5140, 5141, 5142, 5143
 CHAMFER = 5130
+MAX_TIP_ANGLE = 120.0
 TIP_ANGLES = (80, 60, 55, 30, 29, 0)
 
 
@@ -113,7 +115,7 @@ def _rough(channel: Channel, words: Words, *, along: int) -> None:
     pockets = axes[along] in (shape.first_axes or ())
     _check_monotone(channel, contour, along, pockets=pockets)
     bit = memory.parameters.bit
-    allowance, extra = _allowance(channel, words), _extra(channel, words)
+    allowance, extra = _allowance(channel, words), _extra(channel, words, contour)
     cuts = Roughing(
         depth,
         memory.cycle_parameter(ESCAPE),
@@ -215,14 +217,20 @@ def _allowance(channel: Channel, words: Words) -> tuple[float, float]:
     return found[0], found[1]
 
 
-def _extra(channel: Channel, words: Words) -> tuple[float, float]:
-    """Rough-finishing allowances of the Series 15 format, on the side of the finishing allowance (II.6.4.1)."""
+def _extra(channel: Channel, words: Words, contour: Contour) -> tuple[float, float]:
+    """Rough-finishing allowances of the Series 15 format (II.6.4.1).
+
+    They have no sign: they lie on the side of the finishing allowance, or without one on that of the start point.
+    """
     if not is_series_15(channel):
         return (0.0, 0.0)
+    start, infeed, last = contour[0].edge.start, contour[0].edge.end, contour[-1].edge.end
+    sides = [s - i or s - e for s, i, e in zip(start, infeed, last, strict=True)]
     extra = []
-    for amount, address in zip(_allowance(channel, words), CENTERS[channel.mode["plane"]], strict=True):
-        value = abs(words.length(address) or 0.0)
-        extra.append(-value if amount < 0.0 else value)
+    for amount, side, address in zip(
+        _allowance(channel, words), sides, CENTERS[channel.mode["plane"]], strict=True
+    ):
+        extra.append(copysign(words.length(address) or 0.0, amount or side))
     return extra[0], extra[1]
 
 
@@ -296,13 +304,17 @@ def thread(channel: Channel, words: Words) -> None:
     axes = plane_axes(channel)
     start, end = _corner(channel, words, axes)
     series_15 = is_series_15(channel)
-    forms = ("A", "D", *CENTERS[channel.mode["plane"]]) if series_15 else ("R",)
+    forms = ("A", "D", "E", *CENTERS[channel.mode["plane"]]) if series_15 else ("R",)
     _check_words(words, ("P", "Q", *INCREMENTS[channel.mode["plane"]]), forms)
     if series_15:
         taper = words.length(CENTERS[channel.mode["plane"]][1]) or 0.0
         height = abs(words.length(CENTERS[channel.mode["plane"]][0]) or 0.0)
-        first, angle = _series_15_depth(words), abs(words.typed("A") or 0.0)
+        first, angle = _series_15_depth(words), words.typed("A") or 0.0
         method = words.integer("P") or 0 if "P" in words else 0
+        if not 0.0 <= angle <= MAX_TIP_ANGLE or method not in range(5):
+            raise words.fail("thread_words", "P" if method not in range(5) else "A")
+        if "Q" in words and words.form("Q") not in ("", "#"):
+            raise words.fail("point", "Q")
         turn = start_angle(words.typed("Q") or 0.0)
         finishing = max(int(memory.cycle_parameter(THREAD_FINISHING)), 1)
     else:
@@ -310,7 +322,7 @@ def thread(channel: Channel, words: Words) -> None:
         height, first = _increments(words, "P"), _increments(words, "Q")
         angle, method, turn = memory.cycle_parameter(THREAD_ANGLE), 1, 0.0
         finishing = max(int(memory.cycle_parameter(THREAD_FINISHING)), 1)
-    lead = feed_number(channel)
+    lead = INCH_MM / _threads_per_inch(words) if "E" in words else feed_number(channel)
     if not lead > 0.0:
         raise words.fail("no_feed", "F")
     if not height > 0.0 or not first > 0.0:
@@ -348,6 +360,14 @@ def _store_thread(channel: Channel, words: Words) -> None:
         values[THREAD_LEAST] = _increments(words, "Q")
     if "R" in words:
         values[THREAD_ALLOWANCE] = abs(words.length("R") or 0.0)
+
+
+def _threads_per_inch(words: Words) -> float:
+    """E of an inch thread in the Series 15 format."""
+    count = words.typed("E") or 0.0
+    if not count > 0.0:
+        raise words.fail("thread_words", "E")
+    return count
 
 
 def _check_words(words: Words, common: tuple[str, ...], of_format: tuple[str, ...]) -> None:

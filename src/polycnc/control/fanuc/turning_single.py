@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc import turning_grinding
-from polycnc.control.fanuc.turning_coordinates import feed_number, plane_axes
+from polycnc.control.fanuc.turning_coordinates import feed_number
 from polycnc.control.fanuc.turning_drilling import is_series_15
 from polycnc.control.fanuc.turning_strokes import compensated_cycle, emit
 from polycnc.control.fanuc.turning_threads import start_angle
@@ -28,7 +28,9 @@ def plan_single_cycle(builder: Builder, plan: Plan) -> Step | None:
     """A block in the mode of G90, G92 or G94: take over its words, and run the cycle (II.4.1.5)."""
     control = builder.control
     code = builder.mode["motion"]
-    first, second = plane_axes(builder.channel)
+    u, v, _ = PLANES[builder.mode["plane"]]
+    geometry = builder.channel.coordinates.geometry
+    first, second = geometry[u], geometry[v]
     for word in plan.axis_words:
         if word.axis not in (first, second):
             raise control.fail("cycle_axis", address=word.address)
