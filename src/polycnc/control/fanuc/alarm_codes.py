@@ -56,6 +56,7 @@ ALARMS: dict[str, str] = {
     "rigid_between": "PS0203",
     "rigid_m29": "PS0204",
     "rigid_plane": "PS0206",
+    "rigid_pulses": "PS0202",
     "parameter_words": "PS0231",
     "zone_plus": "OT0502",
     "zone_minus": "OT0503",

@@ -14,6 +14,7 @@ from polycnc.control.fanuc import (
     turning_reset,
     turning_shape,
     turning_single,
+    turning_tapping,
     turning_tools,
     turning_transform,
 )
@@ -198,7 +199,7 @@ class FanucTurning(CustomMacroControl):
         """The step of the active motion code, or of the active drilling cycle."""
         if builder.mode["cycle"] != "G80":
             return turning_drilling.plan(builder, plan)
-        turning_drilling.plan_waiting(builder, plan)
+        turning_tapping.plan_waiting(builder, plan)
         turning_drilling.give_way(builder)
         motion = builder.mode["motion"]
         row = next(code for code in self.g_table(builder.channel).values() if _is_motion(code, motion))
@@ -209,7 +210,7 @@ class FanucTurning(CustomMacroControl):
         further = (
             turning_shape.plan_note(builder, plan),
             turning_single.plan_clearing(builder),
-            turning_drilling.plan_leaving(builder),
+            turning_tapping.plan_leaving(builder),
             turning_drawing.plan_check(builder, plan),
         )
         return [*super().after_motion(builder, plan), *(step for step in further if step is not None)]

@@ -25,13 +25,8 @@ from polycnc.control.fanuc import (
     turning_tools,
     turning_transform,
 )
-from polycnc.control.fanuc.turning_drilling import (
-    NORMAL_CYCLES,
-    RIGID,
-    RIGID_OFF,
-    SERIES_15_CYCLES,
-    rigid_tapping,
-)
+from polycnc.control.fanuc.turning_drilling import NORMAL_CYCLES, SERIES_15_CYCLES
+from polycnc.control.fanuc.turning_tapping import RIGID, RIGID_OFF, rigid_tapping
 from polycnc.control.word_address import (
     auxiliary,
     coordinates,

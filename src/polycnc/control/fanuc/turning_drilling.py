@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import TYPE_CHECKING
 
+from polycnc.control.fanuc import turning_tapping
 from polycnc.control.word_address import drilling as base
-from polycnc.control.word_address.drilling import DrillCycle, Drilling, third_axis
+from polycnc.control.word_address.drilling import DrillCycle, Drilling
 from polycnc.control.word_address.path import PLANES
 from polycnc.cycles import drilling, drilling_lathe
 
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from polycnc.channel.channel import Channel
+    from polycnc.channel.mode import Mode
     from polycnc.control.word_address.codes import Handler, Step
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
@@ -25,9 +27,6 @@ BORE = partial(drilling.bore, out=2.0)
 NORMAL_CYCLES = ("G83", "G83.5", "G83.6", "G84", "G85", "G87", "G87.5", "G87.6", "G88", "G89")
 #: Series 15 format (II.6.5).
 SERIES_15_CYCLES = ("G81", "G82", "G83", "G83.1", "G84", "G84.2", "G85", "G89")
-#: Modal group of M29.
-RIGID, RIGID_ON, RIGID_OFF = "rigid", "M29", "off"
-TAPS = frozenset({"G84", "G88", "G84.2"})
 _RELIEF = {
     "G83.1": 5114,
     "G83.5": 5114,
@@ -114,18 +113,30 @@ def _rules(choice: _Choice) -> Drilling:
 
 
 def _axis(builder: Builder) -> int:
+    """The axis of the block's cycle where its row names none."""
+    return _free_axis(builder.channel, builder.mode)
+
+
+def _free_axis(channel: Channel, mode: Mode) -> int:
     """Taps: the plane's first (G84) or second (G88) axis, by 5209#0 RTX always Z or X (II.4.5.1).
 
     Series 15: Z, or the axis on the plane by 5101#0 FXY.
     """
-    channel, code = builder.channel, builder.mode["cycle"]
-    if not drills_in_series_15(channel):
-        if channel.setup.parameters.bit(5209, 0):
-            return channel.coordinates.geometry[2 if code == "G84" else 0]
-        return channel.coordinates.geometry[PLANES[builder.mode["plane"]][0 if code == "G84" else 1]]
-    if builder.channel.setup.parameters.bit(5101, 0):
-        return third_axis(builder)
-    return builder.channel.coordinates.geometry[2]
+    plane, geometry = PLANES[mode["plane"]], channel.coordinates.geometry
+    if drills_in_series_15(channel):
+        return geometry[plane[2] if channel.setup.parameters.bit(5101, 0) else 2]
+    is_face = mode["cycle"] == "G84"
+    if channel.setup.parameters.bit(5209, 0):
+        return geometry[2 if is_face else 0]
+    return geometry[plane[0 if is_face else 1]]
+
+
+def _drilling_axis(builder: Builder, mode: Mode) -> int:
+    """The axis along which the cycle of a modal state drills; -1 without a cycle."""
+    cycle = rules(builder.channel).cycles.get(mode["cycle"])
+    if cycle is None:
+        return -1
+    return builder.channel.axis_index[cycle.axis] if cycle.axis else _free_axis(builder.channel, mode)
 
 
 def _relief(channel: Channel, code: str) -> float:
@@ -144,11 +155,9 @@ def _relief(channel: Channel, code: str) -> float:
 
 def plan(builder: Builder, plan: Plan) -> Step:
     """A block while a drilling cycle is active."""
-    if builder.before["cycle"] in TAPS and builder.before[RIGID] == RIGID_ON:
-        if 29 in builder.m_codes:
-            raise builder.control.fail("rigid_m29", address="M29")
-        if builder.mode["plane"] != builder.before["plane"]:
-            raise builder.control.fail("rigid_plane", address=builder.mode["plane"])
+    turning_tapping.check_block(
+        builder, _drilling_axis(builder, builder.before), _drilling_axis(builder, builder.mode)
+    )
     return base.plan_drilling(builder, plan)
 
 
@@ -164,7 +173,7 @@ def _turn(channel: Channel, direction: int) -> None:
     """A reversal goes to the machine as M03 or M04, by 5105#3 M5T with M05 in front; rigid tapping sends none."""
     memory = channel.memory
     base.turn_spindle(channel, direction)
-    if is_rigid(channel):
+    if turning_tapping.is_rigid(channel):
         return
     if memory.parameters.bit(5105, 3):
         channel.event("m", code=5)
@@ -172,22 +181,14 @@ def _turn(channel: Channel, direction: int) -> None:
         channel.event("m", code=3 if direction > 0 else 4)
 
 
-def is_rigid(channel: Channel) -> bool:
-    """Whether a tap is cut in step with a servo spindle: M29, 5200#0, or G84.2."""
-    memory = channel.memory
-    return bool(
-        channel.mode[RIGID] == RIGID_ON or memory.parameters.bit(5200, 0) or channel.mode["cycle"] == "G84.2"
-    )
-
-
 # ---- what the machine adds ---------------------------------------------------------------------------------------
 
 
 def _dress(channel: Channel, code: str, hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
     """Clamping of the C axis about the hole, and the speed of a rigid tap on its way out."""
-    if code in TAPS:
-        check_tap(channel)
-        strokes = drilling_lathe.with_extraction(strokes, hole, extraction(channel))
+    if code in turning_tapping.TAPS:
+        turning_tapping.check(channel, channel.memory.cycle_data)
+        strokes = drilling_lathe.with_extraction(strokes, hole, turning_tapping.extraction(channel))
     clamp = channel.memory.clamp
     if clamp:
         seconds = channel.memory.parameters.number(5111) / 1000.0
@@ -220,58 +221,3 @@ def note_clamp(number: int) -> Handler:
         channel.memory.clamp = number
 
     return note
-
-
-def check_tap(channel: Channel) -> None:
-    """A rigid tap needs a speed, and no constant surface speed."""
-    if not is_rigid(channel):
-        return
-    if channel.mode["surface_speed"] == "G96":
-        raise channel.control.fail("rigid_speed", address="S")
-    if not channel.feed > 0.0:
-        raise channel.control.fail("rigid_feed", address="F")
-
-
-def extraction(channel: Channel) -> float:
-    """How much faster a rigid tap comes out (5200#4 DOV, 5201#4 OV3, 5211, J; II.4.5.4)."""
-    memory = channel.memory
-    parameters = memory.parameters
-    if not is_rigid(channel) or not parameters.bit(5200, 4):
-        return 1.0
-    data, speed = memory.cycle_data, memory.spindle_speed
-    if "J" in data and parameters.bit(5201, 4) and speed > 0.0:
-        rpm = data.amount("J") * (1.0 if channel.control.number_rules(channel).calculator else 1000.0)
-        percent = 100.0 * rpm / speed
-        return percent / 100.0 if 100.0 <= percent <= 200.0 else 1.0
-    percent = parameters.number(5211) * (10.0 if parameters.bit(5201, 3) else 1.0)
-    return percent / 100.0 if percent > 0.0 else 1.0
-
-
-def plan_waiting(builder: Builder, plan: Plan) -> None:
-    """Between M29 and its tapping cycle neither S nor a move of axes is allowed."""
-    if builder.before[RIGID] != RIGID_ON or builder.before["cycle"] != "G80" or builder.mode["cycle"] in TAPS:
-        return
-    if builder.has("S") or plan.axis_words:
-        raise builder.control.fail(
-            "rigid_between", address="S" if builder.has("S") else plan.axis_words[0].address
-        )
-
-
-def rigid_tapping(channel: Channel, _words: Words) -> None:
-    """M29: the next tapping cycle locks spindle and axis."""
-    channel.mode = channel.mode.with_code(RIGID, RIGID_ON)
-
-
-def plan_leaving(builder: Builder) -> Step | None:
-    """The end of a drilling cycle: clamp code, rigid tapping and its S are forgotten."""
-    if builder.before["cycle"] == "G80" or builder.mode["cycle"] != "G80":
-        return None
-
-    def leave(channel: Channel, _values: list[float]) -> None:
-        channel.memory.clamp = 0
-        if channel.mode[RIGID] == RIGID_ON:
-            channel.mode = channel.mode.with_code(RIGID, RIGID_OFF)
-            channel.memory.spindle_speed = 0.0
-            channel.context_changed()
-
-    return leave

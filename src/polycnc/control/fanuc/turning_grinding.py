@@ -28,15 +28,49 @@ _AXIS_PARAMETERS = {TRAVERSE: 5176, TRAVERSE_GAUGED: 5177, OSCILLATE: 5178, OSCI
 CODES = frozenset(_AXIS_PARAMETERS)
 _GAUGED = frozenset({TRAVERSE_GAUGED, OSCILLATE_GAUGED})
 _OSCILLATING = frozenset({OSCILLATE, OSCILLATE_GAUGED})
+#: P of a gauged cycle; another number switches the skip off.
+_GAUGES = frozenset({1.0, 2.0, 3.0, 4.0})
+#: M codes of the control itself: blocks with them do not repeat a cycle.
+_PROGRAM_CODES = frozenset({2, 30, 98, 99, 198})
 #: Words that live on; H always, and B of the oscillating cycles, hold in their block only.
 _WORDS = "ABWUIKHP"
 
 
-def plan_grinding(builder: Builder, _plan: Plan) -> Step:
+def plan_grinding(builder: Builder, plan: Plan) -> Step | None:
     """A block in the mode of a grinding cycle: take over its words, and run the cycle, even for an empty block."""
-    code, control, channel = builder.mode["motion"], builder.control, builder.channel
+    code, control = builder.mode["motion"], builder.control
     named = [address for address in _WORDS if builder.has(address)]
     builder.take(*named)
+    infeed, along = _axes(builder, code)
+    slots = {address: builder.slots[address] for address in named}
+    for word in plan.axis_words:
+        if word.address in named:
+            continue
+        if word.axis != along:
+            raise control.fail("grinding_axis", address=word.address)
+        # The grinding axis may be named instead of W; it is an increment all the same.
+        slots["W"] = (word.slot, builder.slots[word.address][1])
+    if not slots and _PROGRAM_CODES.intersection(builder.m_codes):
+        return None
+    once = ("H", "P", "B") if code in _OSCILLATING else ("H", "P")
+
+    def run(channel: Channel, values: list[float]) -> None:
+        words = {
+            a: _value(builder, a, form, values[slot], infeed, along) for a, (slot, form) in slots.items()
+        }
+        data: dict[str, float] = channel.memory.grinding
+        data.update({a: v for a, v in words.items() if a not in once})
+        if not data.get("W"):
+            raise control.fail("grinding_axis", address="W")
+        kept = {a: v for a, v in data.items() if a not in once}
+        _run(channel, code, {**kept, **words}, infeed, along)
+
+    return run
+
+
+def _axes(builder: Builder, code: str) -> tuple[int, int]:
+    """The cutting axis and the grinding axis of a cycle."""
+    control, channel = builder.control, builder.channel
     infeed = plane_axes(channel)[0] if channel.setup.parameters.bit(5101, 0) else 0
     along = int(channel.setup.parameters.number(_AXIS_PARAMETERS[code])) - 1
     if along < 0:
@@ -45,22 +79,7 @@ def plan_grinding(builder: Builder, _plan: Plan) -> Step:
         raise control.fail("grinding_axis", address="W")
     if along == infeed:
         raise control.fail("grinding_same_axis", address="W")
-    slots = {address: builder.slots[address] for address in named}
-
-    def run(channel: Channel, values: list[float]) -> None:
-        words = {
-            a: _value(builder, a, form, values[slot], infeed, along) for a, (slot, form) in slots.items()
-        }
-        data: dict[str, float] = channel.memory.grinding
-        once = ("H", "P", "B") if code in _OSCILLATING else ("H", "P")
-        data.update({a: v for a, v in words.items() if a not in once})
-        if code in _GAUGED and "P" in words and words["P"] not in (1.0, 2.0, 3.0, 4.0):
-            raise control.fail("gauge_number", address="P")
-        if not data.get("W"):
-            raise control.fail("grinding_axis", address="W")
-        _run(channel, code, {**data, **words}, infeed, along)
-
-    return run
+    return infeed, along
 
 
 def _value(builder: Builder, address: str, form: str, value: float, infeed: int, along: int) -> float:
@@ -84,25 +103,34 @@ def _run(channel: Channel, code: str, words: Mapping[str, float], infeed: int, a
     strokes = oscillate(cycle) if code in _OSCILLATING else traverse(cycle)
     begin = channel.coordinates.position[infeed]
     unit = 60.0 if channel.mode["feed"] == "G98" else 1.0
+    gauged = code in _GAUGED and words.get("P", 1.0) in _GAUGES
+    back = words.get("K" if code in _OSCILLATING else "I", words.get("K", 0.0))
     for stroke in strokes:
         if stroke.dwell_s:
             channel.dwell(seconds=stroke.dwell_s)
-        elif _stroke(channel, stroke, words, (infeed, along), unit) and code in _GAUGED:
+        elif _stroke(channel, stroke, words, (infeed, along), unit, gauged=gauged):
             end = channel.coordinates.position[:]
             end[infeed] = begin
-            _move(channel, end, words.get("I", 0.0) / unit)
+            _move(channel, end, back / unit)
             return
 
 
 def _stroke(
-    channel: Channel, stroke: GrindStroke, words: Mapping[str, float], axes: tuple[int, int], unit: float
+    channel: Channel,
+    stroke: GrindStroke,
+    words: Mapping[str, float],
+    axes: tuple[int, int],
+    unit: float,
+    *,
+    gauged: bool,
 ) -> bool:
     """One stroke; whether the gauge's signal came in it. An infeed stops where the signal comes."""
     start = channel.coordinates.position
     end = start[:]
     end[axes[0]] += stroke.infeed
     end[axes[1]] += stroke.along
-    reached = signal_position(channel, start, end, channel.setup.switches.skip_signal_at)
+    at = channel.setup.switches.skip_signal_at if gauged else None
+    reached = signal_position(channel, start, end, at)
     if reached is not None and not stroke.along:
         end = reached
     _move(channel, end, words.get("I" if stroke.at_infeed_rate else "K", 0.0) / unit)

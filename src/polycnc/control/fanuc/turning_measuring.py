@@ -14,8 +14,14 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.words import Words
 
 
+#: P of G31: the signals of multi-step skip, and torque limit skip.
+_SKIP_INPUTS = frozenset({1, 2, 3, 4, 98, 99})
+
+
 def skip_move(channel: Channel, words: Words) -> None:
-    """G31: straight at F to the target or to where the skip signal comes."""
+    """G31: straight at F to the target or to where the skip signal comes; P1 to P4 choose the signal."""
+    if "P" in words and words.integer("P") not in _SKIP_INPUTS:
+        raise words.fail("gauge_number", "P")
     skip.skip_move(channel, words)
 
 
