@@ -28,7 +28,11 @@ def placeholders(text: str) -> set[str]:
 @pytest.mark.parametrize("path", CATALOGUES, ids=lambda path: path.relative_to(SOURCE).as_posix())
 def test_every_text_exists_in_both_languages_with_the_same_values_in_it(path: Path) -> None:
     for key, entry in tomllib.loads(path.read_text(encoding="utf-8")).items():
-        for english, chinese, optional in (("en", "zh-TW", False), ("remedy", "remedy-zh-TW", True)):
+        for english, chinese, optional in (
+            ("en", "zh-TW", False),
+            ("cause", "cause-zh-TW", True),
+            ("remedy", "remedy-zh-TW", True),
+        ):
             texts = [entry.get(english, ""), entry.get(chinese, "")]
             assert all(texts) or (optional and not any(texts)), f"{key}: one language only: {texts}"
             assert placeholders(texts[0]) == placeholders(texts[1]), f"{key}: {texts}"

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+import json
+from enum import StrEnum
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -15,11 +17,22 @@ if TYPE_CHECKING:
 
 app = typer.Typer(add_completion=False, rich_markup_mode=None)
 
+#: What the catalogue may tell about an alarm beside its text.
+NOTES: tuple[Literal["cause", "remedy"], ...] = ("cause", "remedy")
+
+
+class Format(StrEnum):
+    """How the alarms are printed."""
+
+    TEXT = "text"
+    JSON = "json"
+
 
 @app.command(help=text("help.alarms"))
 def alarms(
     code: Annotated[str | None, typer.Argument(metavar="CODE", help=text("help.alarms.code"))] = None,
     control: options.Control = None,
+    form: Annotated[Format, typer.Option("--format", help=text("help.alarms.format"))] = Format.TEXT,
     _lang: options.Lang = None,
 ) -> int:
     """Explain one alarm, or list all of a control."""
@@ -29,24 +42,32 @@ def alarms(
         return fail(text("session.control-unknown", control=control, known=", ".join(ids())), 2)
     if code is None and control is None:
         return fail(text("alarms.control-wanted", known=", ".join(ids())), 2)
-    told = [line for each in ([control] if control else ids()) for line in _lines(each, code)]
-    if not told:
+    found = [alarm for each in ([control] if control else ids()) for alarm in _alarms(each, code)]
+    if not found:
         return fail(text("alarms.unknown", code=code, control=control or ", ".join(ids())), 2)
-    for line in told:
-        say(line)
+    if form is Format.JSON:
+        say(json.dumps(found, ensure_ascii=False, indent=1))
+    else:
+        for alarm in found:
+            for line in _explained(alarm) if code else [f"{alarm['code']:10} {alarm['text']}"]:
+                say(line)
     return 0
 
 
-def _lines(control: str, code: str | None) -> Iterator[str]:
-    """All alarms of a control, or one with its remedy."""
+def _alarms(control: str, code: str | None) -> Iterator[dict[str, str]]:
+    """All alarms of a control, or those that a user may mean by a code."""
     from polycnc.cases.compare import alarm_key
-    from polycnc.cli.diagnostics import remedy_of
     from polycnc.control import registry
 
     catalogue = registry.control(control).catalogue
     for known in catalogue:
-        if code is not None and alarm_key(control, known) != alarm_key(control, code):
-            continue
-        yield f"{control} {known} {catalogue.text(known)}" if code else f"{known:10} {catalogue.text(known)}"
-        if code is not None and (remedy := remedy_of(catalogue.entry(known))):
-            yield f"  {text('alarms.remedy')}: {remedy}"
+        if code is None or alarm_key(control, known) == alarm_key(control, code):
+            notes: dict[str, str] = {kind: catalogue.note(known, kind) for kind in NOTES}
+            yield {"control": control, "code": known, "text": catalogue.text(known), **notes}
+
+
+def _explained(alarm: dict[str, str]) -> Iterator[str]:
+    yield f"{alarm['control']} {alarm['code']} {alarm['text']}"
+    for kind in NOTES:
+        if alarm[kind]:
+            yield f"  {text(f'alarms.{kind}')}: {alarm[kind]}"

@@ -9,7 +9,7 @@ from polycnc.messages import Alarm, text
 from polycnc.messages.catalogue import language
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable
 
     from polycnc.session import Result
 
@@ -41,6 +41,7 @@ class Diagnostic:
         source: Text of the line.
         calls: The calls that led there, outermost first.
         summary: What the rule is about, without the values of this case.
+        cause: Why it comes, where the catalogue tells it.
         remedy: What to do about it, where the catalogue tells it.
     """
 
@@ -52,6 +53,7 @@ class Diagnostic:
     source: str = ""
     calls: tuple[Place, ...] = ()
     summary: str = ""
+    cause: str = ""
     remedy: str = ""
 
     def __str__(self) -> str:
@@ -68,7 +70,7 @@ def diagnostics_of(result: Result, main: str) -> list[Diagnostic]:
 
 def _of_alarm(result: Result, alarm: Alarm, main: str) -> Diagnostic:
     catalogue = result.control.catalogue
-    entry = catalogue.entry(alarm.code) if alarm.code in catalogue else {}
+    known = alarm.code in catalogue
     program = result.program_of(alarm)
     index = alarm.line - program.first_line if program is not None else -1
     source = program.lines[index] if program is not None and 0 <= index < len(program.lines) else ""
@@ -80,19 +82,15 @@ def _of_alarm(result: Result, alarm: Alarm, main: str) -> Diagnostic:
         rule=f"{alarm.control.partition('-')[0]}/{alarm.code}",
         source=source,
         calls=calls,
-        summary=entry.get(language(), ""),
-        remedy=remedy_of(entry),
+        summary=catalogue.entry(alarm.code)[language()] if known else "",
+        cause=catalogue.note(alarm.code, "cause") if known else "",
+        remedy=catalogue.note(alarm.code, "remedy") if known else "",
     )
 
 
 def _shown_file(file: str, result: Result, main: str) -> str:
     """The main file as the user named it, others by their path."""
     return main if not file or file == result.program.path else file
-
-
-def remedy_of(entry: Mapping[str, str]) -> str:
-    """What to do about an alarm, in the language of the run; empty where the catalogue does not tell."""
-    return entry.get("remedy" if language() == "en" else f"remedy-{language()}", "")
 
 
 def _of_texts(result: Result, main: str) -> Iterable[Diagnostic]:

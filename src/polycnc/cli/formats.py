@@ -19,7 +19,7 @@ def as_text(found: Sequence[Diagnostic]) -> str:
 
 
 def as_json(found: Sequence[Diagnostic]) -> str:
-    """A list of objects with `file`, `line`, `column`, `code`, `message`, `rule`, `severity`, `calls`."""
+    """A list of objects: `file`, `line`, `column`, `code`, `message`, `rule`, `severity`, `cause`, `remedy`, `calls`."""
     entries = [
         {
             "file": d.place.file,
@@ -29,6 +29,8 @@ def as_json(found: Sequence[Diagnostic]) -> str:
             "message": d.message,
             "rule": d.rule,
             "severity": d.severity,
+            "cause": d.cause,
+            "remedy": d.remedy,
             "calls": [{"file": call.file, "line": call.line} for call in d.calls],
         }
         for d in found

@@ -45,7 +45,7 @@ def as_sarif(found: Sequence[Diagnostic], exit_code: int) -> str:
 
 def _rule(diagnostic: Diagnostic) -> dict[str, Any]:
     summary = diagnostic.summary or diagnostic.message
-    more = diagnostic.remedy or summary
+    more = " ".join(filter(None, (diagnostic.cause, diagnostic.remedy))) or summary
     return {
         "id": diagnostic.rule,
         "name": diagnostic.code,

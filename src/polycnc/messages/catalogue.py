@@ -6,7 +6,7 @@ import os
 import tomllib
 from functools import cache
 from importlib import resources
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -62,6 +62,11 @@ class Catalogue:
     def entry(self, key: str) -> dict[str, str]:
         """All fields of one text: `en`, `zh-TW` and, for alarms, `cause`/`remedy` in both languages."""
         return self._load()[key]
+
+    def note(self, key: str, kind: Literal["cause", "remedy"], lang: str | None = None) -> str:
+        """Why an alarm comes, or what to do about it; empty where the catalogue does not tell."""
+        lang = lang or _active
+        return self._load()[key].get(kind if lang == "en" else f"{kind}-{lang}", "")
 
     def text(self, key: str, lang: str | None = None, **args: object) -> str:
         """The text of `key` with its placeholders filled; a placeholder without a value is shown as it stands."""

@@ -66,12 +66,6 @@ def test_every_group_has_a_code_at_power_on_and_each_such_code_is_known(control_
     assert {chosen.power_on[group] for group in groups} <= set(chosen.g_codes)
 
 
-def test_the_machine_of_the_manual_has_all_its_alarms() -> None:
-    numbers = {int(code) for code in FANUC.catalogue if code.isdigit()}
-    assert len(numbers) == 70
-    assert {1001, 1046, 1105, 2001, 2031, 2102} <= numbers
-
-
 def test_a_negative_number_registers_a_modal_call() -> None:
     channel = run("M30\n", setup={"parameters": {"6050": -150, "6051": 65, "6080": 30, "6079": 40}})
     calls = registered_codes(channel)

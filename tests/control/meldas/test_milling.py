@@ -20,13 +20,6 @@ def test_its_own_codes_are_not_those_of_fanuc() -> None:
     assert own.isdisjoint(FANUC.g_codes)
 
 
-def test_the_machine_of_the_manual_has_all_its_alarms_and_messages() -> None:
-    numbers = {int(code) for code in MELDAS.catalogue if code.isdigit()}
-    assert set(range(1000, 1024)) <= numbers
-    assert set(range(4000, 4010)) <= numbers
-    assert {3000, 3017, 3075} <= numbers
-
-
 def test_arc_and_interference_alarms_have_their_own_numbers() -> None:
     assert codes(run("G2 X10. Y5. I2. F10\nM30\n", "meldas-m")) == ["P70"]
 

@@ -32,7 +32,12 @@ class FanucMilling(MillingControl):
     """FANUC 0i-M / 18M class with custom macro B."""
 
     id: ClassVar[str] = "fanuc-m"
-    alarm_files: ClassVar[tuple[str, ...]] = ("fanuc/alarms.toml", "fanuc/milling_alarms.toml")
+    alarm_files: ClassVar[tuple[str, ...]] = (
+        "fanuc/alarms.toml",
+        "fanuc/milling_alarms.toml",
+        "fanuc/machine_alarms.toml",
+        "fanuc/machine_messages.toml",
+    )
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
     m_codes: ClassVar[Mapping[int, MCode]] = hartford.FANUC_M_CODES
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES

@@ -29,7 +29,13 @@ class MeldasMilling(MillingControl):
     """MELDAS M64, M70, M500, M720 class."""
 
     id: ClassVar[str] = "meldas-m"
-    alarm_files: ClassVar[tuple[str, ...]] = ("fanuc/alarms.toml", "meldas/alarms.toml")
+    alarm_files: ClassVar[tuple[str, ...]] = (
+        "fanuc/alarms.toml",
+        "meldas/alarms.toml",
+        "meldas/f00_f49_alarms.toml",
+        "meldas/f50_f99_alarms.toml",
+        "meldas/operation_messages.toml",
+    )
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
