@@ -10,6 +10,7 @@ from polycnc.control.word_address import (
     code_calls,
     coordinates,
     corner_vectors,
+    cylinder,
     data_input,
     extended,
     frames,
@@ -17,6 +18,8 @@ from polycnc.control.word_address import (
     macro_calls,
     parameter_input,
     path,
+    planes,
+    polar_interpolation,
     position_offset,
     radius,
     skip,
@@ -25,7 +28,7 @@ from polycnc.control.word_address import (
     tool_center_point,
     tool_measuring,
 )
-from polycnc.control.word_address.codes import GCode, Order, not_yet, table
+from polycnc.control.word_address.codes import GCode, Order, not_yet, table, with_aliases
 from polycnc.control.word_address.drilling import is_active
 from polycnc.control.word_address.interlocks import guarded_speed
 
@@ -70,7 +73,9 @@ def moves(code: str, handler: Handler, takes: str = "", **fields: Any) -> GCode:
     return GCode(code, handler=handler, takes=takes, axis_words=True, order=Order.MOTION, **fields)
 
 
-G_CODES = table(
+#: Second ways to write codes.
+ALIASES = {"G107": "G7.1", "G112": "G12.1", "G113": "G13.1"}
+ROWS = table(
     GCode("G0", "motion", ends="cycle", planner=path.plan_rapid),
     GCode("G1", "motion", ends="cycle", planner=path.plan_line),
     GCode("G2", "motion", ends="cycle", planner=path.plan_arc_cw),
@@ -84,9 +89,12 @@ G_CODES = table(
     GCode("G11", handler=parameter_input.end),
     GCode("G15", "polar"),
     GCode("G16", "polar", frames.start_polar),
-    GCode("G17", "plane", coordinates.note_context),
-    GCode("G18", "plane", coordinates.note_context),
-    GCode("G19", "plane", coordinates.note_context),
+    GCode("G7.1", handler=cylinder.cylinder, axis_words=True, order=Order.MOTION),
+    GCode("G12.1", polar_interpolation.GROUP, polar_interpolation.start_polar),
+    GCode("G13.1", polar_interpolation.GROUP, polar_interpolation.end_polar),
+    GCode("G17", "plane", planes.select_plane),
+    GCode("G18", "plane", planes.select_plane),
+    GCode("G19", "plane", planes.select_plane),
     GCode("G20", "unit", coordinates.note_context),
     GCode("G21", "unit", coordinates.note_context),
     GCode(
@@ -146,10 +154,11 @@ G_CODES = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G5.4", "G6.2", "G7.1", "G107", "G12.1", "G13.1", "G112", "G113", "G40.1", "G41.1", "G42.1",
+        "G5.4", "G6.2", "G40.1", "G41.1", "G42.1",
         "G53.6", "G54.2", "G54.4", "G68.3", "G68.4", "G10.9",
     ),
 )  # fmt: skip
+G_CODES = with_aliases(ROWS, ALIASES)
 
 
 def plan_guarded_speed(builder: Builder) -> Step:
@@ -186,6 +195,8 @@ POWER_ON = {
     "path": "G64",
     "rotation": "G69",
     "polar": "G15",
+    polar_interpolation.GROUP: "G13.1",
+    cylinder.GROUP: "",
     "mirror": "G50.1",
     "calls": macro_calls.ALL_CALLS,
     "interruption": "M97",

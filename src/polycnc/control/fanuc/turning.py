@@ -16,7 +16,6 @@ from polycnc.control.fanuc import (
     turning_single,
     turning_tapping,
     turning_tools,
-    turning_transform,
 )
 from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.fanuc.turning_codes import ADDRESSES, M_CODES, POWER_ON, g_table, written_codes
@@ -25,7 +24,6 @@ from polycnc.control.fanuc.turning_variables import TURNING_VARIABLES
 from polycnc.control.word_address import path
 from polycnc.control.word_address.codes import MCode
 from polycnc.control.word_address.custom_macro import CustomMacroControl
-from polycnc.control.word_address.numbers import length_converter
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -36,17 +34,13 @@ if TYPE_CHECKING:
     from polycnc.compensation.policies import Policy
     from polycnc.control.word_address.codes import GCode, Planner, Step
     from polycnc.control.word_address.drilling import Drilling
-    from polycnc.control.word_address.numbers import Convert
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.geometry.arcs import Point
     from polycnc.machine.motion_settings import MotionSettings
     from polycnc.messages import AlarmError
-    from polycnc.toolpath import Context
 
 #: M codes that cannot be passed over in a shape.
 _CALLS = frozenset({2, 30, 98, 99, 198})
-#: Letters of 1022: the basic axes X, Y, Z and their parallels.
-_BASIC_ROLES = {"X": 1, "Y": 2, "Z": 3}
 
 
 class FanucTurning(CustomMacroControl):
@@ -62,6 +56,12 @@ class FanucTurning(CustomMacroControl):
     foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
     EXTENDED_WORK_SYSTEMS: ClassVar[int] = 48
     DIAMETER_PROGRAMMING: ClassVar[bool] = True
+    POLAR_CODES: ClassVar[frozenset[str]] = CustomMacroControl.POLAR_CODES | {"G98", "G99"}
+    REFUSED_ON_CYLINDER: ClassVar[frozenset[str]] = CustomMacroControl.REFUSED_ON_CYLINDER | {
+        "G50",
+        "G90",
+        "G94",
+    }
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z", "H": "C"}
 
     # ---- state -----------------------------------------------------------------------------------------------
@@ -149,41 +149,12 @@ class FanucTurning(CustomMacroControl):
             return False
         return bool(channel.setup.parameters.bit(1006, 3, channel.axes[axis], delivered)) and not data.rotary
 
-    def axis_converter(self, builder: Builder, axis: int, form: str) -> Convert | None:
-        """Words of C are lengths in polar coordinate interpolation, and angles of a surface on a cylinder."""
-        channel = builder.channel
-        memory = channel.memory
-        if memory.polar is not None and axis == memory.polar.rotary:
-            return length_converter(form, builder.rules, inch=builder.inch)
-        convert = super().axis_converter(builder, axis, form)
-        if memory.cylinder is None or axis != memory.cylinder.axis:
-            return convert
-        return lambda value: turning_transform.unroll(channel, axis, convert(value) if convert else value)
-
-    def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
-        """Programs called by codes; codes that a transformation refuses."""
-        turning_transform.check_block(builder)
-        return super().call_by_code(builder, plan)
-
-    def context(self, channel: Channel) -> Context:
-        """The context that holds now, with the transformation that is on."""
-        context = super().context(channel)
-        polar = channel.memory.polar
-        return context if polar is None else replace(context, transformation=polar)
-
     def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
         """X/U, Z/W, Y/V, C/H in system A; G90/G91 in B and C."""
         if self.system(channel) != "A":
             index = channel.axis_index.get(address)
             return None if index is None else (index, builder.mode["distance"] == "G91")
         return super().axis_of_address(channel, address, builder)
-
-    def axis_role(self, channel: Channel, axis: int) -> int:
-        """1, 2, 3 for the basic axes, 5, 6, 7 for their parallels, 0 for others (1022)."""
-        name = channel.axes[axis]
-        parallel = _BASIC_ROLES.get(channel.axis_data[axis].parallel_to, -4) + 4
-        delivered = _BASIC_ROLES.get(name, parallel)
-        return int(channel.setup.parameters.number(1022, name, delivered))
 
     def reference_point(self, channel: Channel, axis: int, number: int) -> float:
         """Machine position of a reference point; the parameter of a diameter axis is a diameter."""

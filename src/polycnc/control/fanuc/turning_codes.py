@@ -23,17 +23,18 @@ from polycnc.control.fanuc import (
     turning_single,
     turning_threads,
     turning_tools,
-    turning_transform,
 )
 from polycnc.control.fanuc.turning_drilling import NORMAL_CYCLES, SERIES_15_CYCLES
 from polycnc.control.fanuc.turning_tapping import RIGID, RIGID_OFF, rigid_tapping
 from polycnc.control.word_address import (
     auxiliary,
     coordinates,
+    cylinder,
     extended,
     frames,
     macro_calls,
     path,
+    polar_interpolation,
     subprograms,
 )
 from polycnc.control.word_address.codes import GCode, MCode, Order, m_table
@@ -89,9 +90,9 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G9", handler=extended.exact_stop_block)),
     *same(_point("G10", turning_data.input_data, "L P R Q C E F")),
     *same(GCode("G11")),
-    *same(GCode("G7.1", handler=turning_transform.cylinder, axis_words=True, order=Order.MOTION), "G107"),
-    *same(GCode("G12.1", "polar_interpolation", turning_transform.start_polar), "G112"),
-    *same(GCode("G13.1", "polar_interpolation", turning_transform.end_polar), "G113"),
+    *same(GCode("G7.1", handler=cylinder.cylinder, axis_words=True, order=Order.MOTION), "G107"),
+    *same(GCode("G12.1", polar_interpolation.GROUP, polar_interpolation.start_polar), "G112"),
+    *same(GCode("G13.1", polar_interpolation.GROUP, polar_interpolation.end_polar), "G113"),
     *same(GCode("G17", "plane", turning_coordinates.select_plane)),
     *same(GCode("G18", "plane", turning_coordinates.select_plane)),
     *same(GCode("G19", "plane", turning_coordinates.select_plane)),

@@ -6,7 +6,7 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.turning_tools import refresh
-from polycnc.control.word_address import coordinates, extended
+from polycnc.control.word_address import coordinates, extended, planes
 from polycnc.control.word_address.path import PLANES
 from polycnc.control.word_address.radius import suspended
 from polycnc.geometry.frames import about, rotation
@@ -143,14 +143,7 @@ def select_plane(channel: Channel, words: Words) -> None:
     if memory.plane != code:
         memory.single_cycle.clear()
     memory.plane = code
-    c, control = channel.coordinates, channel.control
-    basic = list(channel.memory.basic_geometry)
-    for axis, _, _ in words.axes():
-        role = control.axis_role(channel, axis)
-        if role in (5, 6, 7):
-            basic[role - 5] = axis
-    c.geometry = (basic[0], basic[1], basic[2])
-    channel.context_changed()
+    planes.lay_axes(channel, words)
 
 
 def select_work_offset(channel: Channel, words: Words) -> None:

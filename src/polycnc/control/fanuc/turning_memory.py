@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from polycnc.channel.interface import Zone
     from polycnc.control.fanuc.turning_drawing import OpenLine
     from polycnc.control.fanuc.turning_shape import Shape
-    from polycnc.control.fanuc.turning_transform import Cylinder, PolarAxes
     from polycnc.control.word_address.variables import Registry
     from polycnc.machine.setup import Offsets, Tool
 
@@ -88,14 +87,10 @@ class TurningMemory(MacroMemory):
         clamp: M code that clamps the C axis in drilling cycles, 0 for none.
         thread_step: Step of the last block that cut a thread.
         plane: Plane code given last.
-        polar: Axes of polar coordinate interpolation while it is on, and `plane_before` it.
-        cylinder: The cylinder of cylindrical interpolation while it is on.
-        table: The last stage of the path when nothing is unrolled.
         open_line: Line of drawing dimensions that waits for the next block.
         rotation_angle: Angle of the last G68.1, degrees.
         increment_limits: Largest increment of axes (G91.1).
         zone: Forbidden zone of G22, or the barrier.
-        basic_geometry: Axes X, Y, Z, whatever parallel ones a plane has chosen.
         reading_shape: Blocks are read for their shape only: T, S, M do nothing.
         shape: What has been read of it.
     """
@@ -121,15 +116,10 @@ class TurningMemory(MacroMemory):
         self.clamp = 0
         self.rotation_angle = 0.0
         self.open_line: OpenLine | None = None
-        self.polar: PolarAxes | None = None
-        self.cylinder: Cylinder | None = None
         self.thread_step = -1
         self.plane = ""
-        self.plane_before = ""
-        self.table = channel.table
         self.increment_limits: dict[int, float] = {}
         self.zone: Zone | None = None
-        self.basic_geometry = channel.coordinates.geometry
         self.reading_shape = False
         self.shape: Shape | None = None
         for name in self.work_offsets:

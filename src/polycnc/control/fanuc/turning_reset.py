@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.fanuc import turning_limits, turning_single, turning_tools, turning_transform
+from polycnc.control.fanuc import turning_limits, turning_single, turning_tools
+from polycnc.control.word_address import cylinder, polar_interpolation
 from polycnc.control.word_address.variables import LOCALS
 from polycnc.geometry.frames import IDENTITY
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 #: Groups that a reset never touches.
 _KEPT = ("unit", "stroke")
 #: Groups that every reset brings back.
-_CLEARED = ("polar_interpolation", turning_transform.CYLINDER, "shape", "macro")
+_CLEARED = (polar_interpolation.GROUP, cylinder.GROUP, "shape", "macro")
 
 
 def reset(channel: Channel) -> None:
@@ -22,9 +23,10 @@ def reset(channel: Channel) -> None:
     memory, c = channel.memory, channel.coordinates
     bit = memory.parameters.bit
     clears = bool(bit(3402, 6))
-    turning_transform.end_all(channel)
+    polar_interpolation.leave_polar(channel)
+    cylinder.end_cylinder(channel)
     machine = c.machine
-    channel.head, channel.table = None, memory.table
+    channel.head = None
     before = channel.mode.codes
     fresh = channel.control.start_codes(channel)
     codes = {**fresh, **{group: before[group] for group in _KEPT}} if clears else dict(before)

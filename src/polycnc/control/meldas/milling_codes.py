@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from polycnc.control.fanuc.milling_codes import G_CODES as FANUC_G_CODES
-from polycnc.control.fanuc.milling_codes import moves
+from polycnc.control.fanuc.milling_codes import ALIASES, ROWS, moves
 from polycnc.control.word_address import (
     circle_cutting,
     coordinates,
@@ -12,16 +11,15 @@ from polycnc.control.word_address import (
     skip,
     tool_measuring,
 )
-from polycnc.control.word_address.codes import GCode, not_yet, table
+from polycnc.control.word_address.codes import GCode, not_yet, table, with_aliases
 
 #: Codes of FANUC that the manual's table does not have.
 FOREIGN = frozenset({
     "G5.4", "G10.9", "G25", "G26", "G43.5", "G53.6", "G54.2", "G54.4", "G68.3", "G68.4", "G84.2", "G84.3",
-    "G107", "G112", "G113",
 })  # fmt: skip
 
-G_CODES = table(
-    tuple(row for code, row in FANUC_G_CODES.items() if code not in FOREIGN),
+_ROWS = table(
+    tuple(row for code, row in ROWS.items() if code not in FOREIGN),
     moves("G2.1", circle_cutting.spiral_cw, "I J K P"),
     moves("G3.1", circle_cutting.spiral_ccw, "I J K P"),
     GCode("G5", handler=extended.high_speed_mode, takes="P"),
@@ -43,3 +41,4 @@ G_CODES = table(
     GCode("G61.1", "path", coordinates.note_context),
     not_yet("G7", "G70", "G71", "G72", "G75", "G77", "G78", "G79"),
 )
+G_CODES = with_aliases(_ROWS, ALIASES)

@@ -34,6 +34,7 @@ from polycnc.control.syntec.plain import SyntecPlainBlocks
 from polycnc.control.word_address import frames
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.numbers import Convert, NumberRules, length_converter
+from polycnc.control.word_address.polar_interpolation import is_length
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.syntec import executable
 from polycnc.language.syntec.blocks import TypedBlock
@@ -271,7 +272,7 @@ class SyntecMill(WordAddressControl):
 
     def axis_converter(self, builder: Builder, axis: int, form: str) -> Convert | None:
         """What turns a word of an axis into internal units; C is a length in polar interpolation."""
-        if polar.is_length(builder.channel, axis):
+        if is_length(builder.channel, axis):
             return length_converter(form, builder.rules, inch=builder.inch)
         return super().axis_converter(builder, axis, form)
 

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from polycnc.control.syntec.interrupts import Interrupt
     from polycnc.control.syntec.normal_stage import NormalStage
     from polycnc.control.syntec.oscillation import Oscillation
-    from polycnc.control.syntec.polar import PolarPlane
     from polycnc.control.syntec.quiet import QuietStage
     from polycnc.control.syntec.skips import SkipGroup
     from polycnc.control.syntec.spatial_stage import SpatialStage
@@ -62,7 +61,6 @@ class SyntecMemory(Memory):
         quiet: Stage of quiet mode (#1500) in the path.
         borrow_tries: How often the running G52.2 has waited.
         normal: Stage of G41.1 in the path.
-        polar: Plane of G12.1; `plane_before` and `geometry_before` what G13.1 brings back.
         diameters: Axes switched by G10.9: programmed in diameter or not.
     """
 
@@ -115,9 +113,6 @@ class SyntecMemory(Memory):
         self.precise = self.was_precise = False
         self.precise_axis = 0
         self.normal: NormalStage | None = None
-        self.polar: PolarPlane | None = None
-        self.plane_before = "G17"
-        self.geometry_before = channel.coordinates.geometry
         self.colour = 0
         self.print_file = ""
         self.functions: dict[str, Callable[..., Value]] = functions.bound(self)

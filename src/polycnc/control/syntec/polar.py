@@ -6,18 +6,17 @@ centre, the rotary one by the angle. The angle of C at G12.1 is the direction of
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import atan2, cos, degrees, hypot, radians, sin
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address import coordinates
+from polycnc.control.word_address.polar_interpolation import GROUP, PolarPlane
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.plan import Builder
     from polycnc.control.word_address.words import Words
 
-POLAR = "polar_interpolation"
+POLAR = GROUP
 LINEAR, ROTARY = "X", "C"
 #: What must not come inside: it would change the coordinate system or leave it (2.15.2, notes 5, 12 and 16).
 FORBIDDEN = frozenset({
@@ -25,42 +24,6 @@ FORBIDDEN = frozenset({
     "G53.3", "G53.6", "G54", "G54.4", "G55", "G56", "G57", "G58", "G59", *(f"G59.{i}" for i in range(1, 10)), "G68",
     "G68.2", "G68.3", "G92", "G92.1", "G43.4", "G43.5",
 })  # fmt: skip
-
-
-@dataclass(frozen=True, slots=True)
-class PolarPlane:
-    """How the real axes follow a point of the plane.
-
-    Attributes:
-        geometry: Columns of the plane's first axis (the linear one), its second (the rotary one), and Z.
-        start_deg: Work coordinate of the rotary axis where the plane was chosen.
-        eccentricity: Program zero against the rotation centre, mm.
-        side: -1 where the linear axis stands on the negative side of the centre.
-    """
-
-    geometry: tuple[int, int, int]
-    start_deg: float
-    eccentricity: tuple[float, float]
-    side: float
-
-    def real(self, end: list[float]) -> list[float]:
-        """Work coordinates of the real axes at a point of the plane."""
-        linear, rotary, _ = self.geometry
-        first = self.side * (end[linear] + self.eccentricity[0])
-        second = self.side * (end[rotary] + self.eccentricity[1])
-        moved = list(end)
-        moved[linear] = self.side * hypot(first, second)
-        moved[rotary] = self.start_deg + degrees(atan2(second, first))
-        return moved
-
-    def display(self, real: list[float]) -> list[float]:
-        """The point of the plane for work coordinates of the real axes."""
-        linear, rotary, _ = self.geometry
-        distance, angle = real[linear], radians(real[rotary] - self.start_deg)
-        shown = list(real)
-        shown[linear] = distance * cos(angle) - self.eccentricity[0]
-        shown[rotary] = distance * sin(angle) - self.eccentricity[1]
-        return shown
 
 
 def start_polar(channel: Channel, words: Words) -> None:
@@ -77,7 +40,9 @@ def start_polar(channel: Channel, words: Words) -> None:
     machine, here = c.machine, c.position
     eccentricity = (words.length("X") or 0.0, words.length("C") or 0.0)
     side = -1.0 if here[linear] < 0.0 else 1.0
-    memory.polar = PolarPlane((linear, rotary, c.geometry[2]), here[rotary], eccentricity, side)
+    memory.polar = PolarPlane(
+        linear, rotary, (linear, rotary, c.geometry[2]), here[rotary], eccentricity, side
+    )
     memory.plane_before, memory.geometry_before = channel.mode["plane"], c.geometry
     memory.diameters[linear] = False
     channel.mode = channel.mode.with_code("plane", "G17")
@@ -104,7 +69,7 @@ def leave_plane(channel: Channel) -> None:
     if memory.polar is None:
         return
     machine = c.machine
-    memory.diameters.pop(memory.polar.geometry[0], None)
+    memory.diameters.pop(memory.polar.linear, None)
     memory.polar = None
     c.transformation = None
     c.geometry = memory.geometry_before
@@ -117,12 +82,6 @@ def select_plane(channel: Channel, words: Words) -> None:
     if channel.memory.polar is not None:
         channel.mode = channel.mode.with_code("plane", "G17")
     coordinates.note_context(channel, words)
-
-
-def is_length(channel: Channel, axis: int) -> bool:
-    """Whether words of a rotary axis are lengths now."""
-    plane: PolarPlane | None = channel.memory.polar
-    return plane is not None and axis == plane.geometry[1]
 
 
 def check_block(builder: Builder) -> None:

@@ -7,7 +7,7 @@ stand in its tables only where a program can see them (#4001).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any
@@ -100,6 +100,11 @@ def table(*rows: GCode | tuple[GCode, ...]) -> dict[str, GCode]:
     """A G table by code; a later row replaces an earlier one of the same code."""
     flat = [row for item in rows for row in (item if isinstance(item, tuple) else (item,))]
     return {row.code: row for row in flat}
+
+
+def with_aliases(rows: Mapping[str, GCode], aliases: Mapping[str, str]) -> dict[str, GCode]:
+    """A G table in which codes can also be written another way: alias to the code that it stands for."""
+    return {**rows, **{alias: rows[code] for alias, code in aliases.items()}}
 
 
 def m_table(*rows: MCode) -> dict[int, MCode]:

@@ -314,7 +314,7 @@ class WordAddressControl:
             path_mode=mode.codes.get("path", "G64"),
             diameter_axes=diameters,
             wcs=memory.wcs,
-            transformation=c.transformation,
+            transformation=None if memory.cylinder is not None else c.transformation,
         )
 
     def motion_settings(self, _channel: Channel) -> MotionSettings:

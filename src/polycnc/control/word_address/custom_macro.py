@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from polycnc.control.word_address import code_calls, interruption, macro_calls
+from polycnc.control.word_address import code_calls, cylinder, interruption, macro_calls, polar_interpolation
 from polycnc.control.word_address.control import WordAddressControl
-from polycnc.control.word_address.numbers import NumberRules
+from polycnc.control.word_address.numbers import NumberRules, length_converter
 from polycnc.program import ProgramFileError
 
 if TYPE_CHECKING:
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.code_calls import CodeCalls
     from polycnc.control.word_address.codes import GCode, MCode, Step
+    from polycnc.control.word_address.numbers import Convert
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.messages import AlarmError
     from polycnc.program import Program
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 _MACRO_KINDS = ("macro", "modal", "g-macro", "m-macro", "b-macro")
 #: Levels of macros, of subprograms, and together (FANUC macro B reference §5.1).
 MACRO_LEVELS, SUBPROGRAM_LEVELS, LEVELS = 5, 10, 15
+#: Letters of 1022: the basic axes X, Y, Z; their parallels count four more.
+_BASIC_ROLES = {"X": 1, "Y": 2, "Z": 3}
 
 
 class CustomMacroControl(WordAddressControl):
@@ -32,12 +35,20 @@ class CustomMacroControl(WordAddressControl):
         EXTENDED_WORK_SYSTEMS: How many G54.1 P systems there are.
         REFERENCE_PARAMETERS: Parameter that holds each reference point.
         ARC_TOLERANCE_PARAMETER: Parameter with the allowed difference of radii, and its delivered value (mm).
+        POLAR_CODES: G codes that polar coordinate interpolation allows.
+        REFUSED_ON_CYLINDER: G codes that cylindrical interpolation refuses, beside cycles.
     """
 
     FURTHER_REFERENCES: ClassVar[tuple[int, ...]] = (2, 3, 4)
     EXTENDED_WORK_SYSTEMS: ClassVar[int] = 300
     REFERENCE_PARAMETERS: ClassVar[dict[int, int]] = {1: 1240, 2: 1241, 3: 1242, 4: 1243}
     ARC_TOLERANCE_PARAMETER: ClassVar[tuple[int, float]] = (3410, 0.03)
+    POLAR_CODES: ClassVar[frozenset[str]] = frozenset({
+        "G1", "G2", "G3", "G4", "G9", "G13.1", "G40", "G41", "G42", "G65", "G66", "G66.1", "G67",
+    })  # fmt: skip
+    REFUSED_ON_CYLINDER: ClassVar[frozenset[str]] = frozenset({
+        "G0", "G12.1", "G27", "G28", "G29", "G30", "G52", "G53", "G54", "G55", "G56", "G57", "G58", "G59", "G92",
+    })  # fmt: skip
 
     # ---- numbers -------------------------------------------------------------------------------------
 
@@ -52,6 +63,24 @@ class CustomMacroControl(WordAddressControl):
         if form == "" and mode == "G95" and not self.number_rules(_builder.channel).calculator:
             return 0.0001 if _builder.inch else 0.01
         return 1.0
+
+    def axis_converter(self, builder: Builder, axis: int, form: str) -> Convert | None:
+        """Words of a rotary axis are lengths in polar coordinate interpolation, angles of a surface on a cylinder."""
+        channel = builder.channel
+        if polar_interpolation.is_length(channel, axis):
+            return length_converter(form, builder.rules, inch=builder.inch)
+        convert = super().axis_converter(builder, axis, form)
+        unrolled = channel.memory.cylinder
+        if unrolled is None or axis != unrolled.axis:
+            return convert
+        return lambda value: cylinder.unroll(channel, axis, convert(value) if convert else value)
+
+    def axis_role(self, channel: Channel, axis: int) -> int:
+        """1, 2, 3 for the basic axes, 5, 6, 7 for their parallels, 0 for others (1022)."""
+        name = channel.axes[axis]
+        parallel = _BASIC_ROLES.get(channel.axis_data[axis].parallel_to, -4) + 4
+        delivered = _BASIC_ROLES.get(name, parallel)
+        return int(channel.setup.parameters.number(1022, name, delivered))
 
     def forbidden_zone(self, axis: str, direction: int) -> AlarmError:
         """Stored stroke check 2."""
@@ -115,7 +144,12 @@ class CustomMacroControl(WordAddressControl):
     # ---- calls ---------------------------------------------------------------------------------------
 
     def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
-        """G66.1 takes every block as arguments; M codes may be registered as macro calls."""
+        """G66.1 takes every block as arguments; M codes may be registered as macro calls.
+
+        Codes that a transformation refuses are alarms before anything else.
+        """
+        polar_interpolation.check_block(builder, self.POLAR_CODES)
+        cylinder.check_block(builder, self.REFUSED_ON_CYLINDER)
         return code_calls.plan_m_macro(builder, plan) or macro_calls.plan_argument_block(builder, plan)
 
     def code_calls(self, _channel: Channel) -> CodeCalls:

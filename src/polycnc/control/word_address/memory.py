@@ -11,9 +11,11 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.compensation import CutterCompensation
     from polycnc.compensation.corner import CornerStage
+    from polycnc.control.word_address.cylinder import Cylinder
     from polycnc.control.word_address.drilling import CycleData
     from polycnc.control.word_address.interruption import Interruptions
     from polycnc.control.word_address.macro_calls import ModalCall
+    from polycnc.control.word_address.polar_interpolation import PolarPlane
     from polycnc.geometry.frames import Vector
 
 #: Name of the offset that is added to every work coordinate system.
@@ -93,6 +95,9 @@ class Memory:
         waited: Seconds that the clocks which a program reads (#3001) have counted.
         cycle_data: What the active drilling cycle remembers.
         intermediate: Intermediate point of the last G28/G30 (programmed coordinates), for G29.
+        basic_geometry: Axes X, Y, Z, whatever parallel ones a plane has chosen.
+        polar: Plane of polar coordinate interpolation while it is on; `cylinder` the same for cylindrical.
+        plane_before: Plane code that the end of one of them brings back; `geometry_before` its axes.
     """
 
     def __init__(self, channel: Channel) -> None:
@@ -141,6 +146,11 @@ class Memory:
         self.polar_pole = (0.0, 0.0)
         self.polar_radius = 0.0
         self.polar_angle = 0.0
+        self.basic_geometry = channel.coordinates.geometry
+        self.polar: PolarPlane | None = None
+        self.cylinder: Cylinder | None = None
+        self.plane_before = "G17"
+        self.geometry_before = channel.coordinates.geometry
         self._count = count
 
     def work_offset(self, name: str) -> list[float]:

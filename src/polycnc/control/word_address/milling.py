@@ -38,6 +38,10 @@ class MillingControl(CustomMacroControl):
     interlocks: ClassVar[tuple[Interlock, ...]] = ()
     OVERRUN_PARAMETER: ClassVar[int] = 5440
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
+    POLAR_CODES: ClassVar[frozenset[str]] = CustomMacroControl.POLAR_CODES | {"G90", "G91", "G94", "G95"}
+    REFUSED_ON_CYLINDER: ClassVar[frozenset[str]] = CustomMacroControl.REFUSED_ON_CYLINDER | {
+        "G51", "G51.1", "G68", "G68.2", "G43.4", "G43.5",
+    }  # fmt: skip
 
     # ---- motion --------------------------------------------------------------------------------------
 

@@ -54,8 +54,8 @@ class PlainBlocks:
         self.spelling = spelling
 
     def ready(self, channel: Channel) -> bool:
-        """Single blocks are watched one by one, forbidden zones are the interpreter's, and so are held moves."""
-        if channel.single_block or channel.stroke_zone is not None:
+        """Single blocks are watched; forbidden zones, unrolled surfaces and held moves are the interpreter's."""
+        if channel.single_block or channel.stroke_zone is not None or channel.table is not channel.rows:
             return False
         stage = channel.head
         while stage is not None and stage is not channel.table:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address import cylinder, polar_interpolation
 from polycnc.control.word_address.coordinates import refresh_zero
 from polycnc.geometry.frames import IDENTITY
 
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 CLEARED = (
     "locals", "wcs", "length_offset", "h", "d", "side", "engaged_side", "compensation", "corners", "modal_calls",
     "cycle_data", "intermediate", "interruptions", "armed_tapping", "exact_stop_block", "contour_control",
-    "single_cycle", "grinding", "polar", "cylinder", "open_line", "shape", "reading_shape", "zone", "stack",
+    "single_cycle", "grinding", "open_line", "shape", "reading_shape", "zone", "stack",
     "mid_point", "tilt", "rotates_work", "scale_factors", "modal_longs", "modal_doubles", "skip_groups",
     "feeds", "feed_mode", "interrupt",
 )  # fmt: skip
@@ -23,6 +24,8 @@ CLEARED = (
 
 def reset(channel: Channel) -> None:
     """Modal codes of power-on, compensations and programmed frames off; the axes stay where they are."""
+    polar_interpolation.leave_polar(channel)
+    cylinder.end_cylinder(channel)
     memory = channel.memory
     fresh = channel.control.make_memory(channel)
     for name in CLEARED:

@@ -127,7 +127,7 @@ def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
 def end_following(channel: Channel) -> None:
     """G49 or another length code: the axes are named themselves again; nothing moves."""
     c = channel.coordinates
-    if c.transformation is None:
+    if not isinstance(c.transformation, TipFollowing):
         return
     machine = c.machine
     c.transformation = None

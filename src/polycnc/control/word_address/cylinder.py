@@ -1,0 +1,157 @@
+"""Cylindrical interpolation G07.1: the surface of a cylinder is unrolled into a plane.
+
+Words of the rotary axis stay degrees. Inside the path the axis is a length on the surface, so that arcs and radius
+compensation see a plane; the last stage turns it back into degrees.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import pi
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.path import PLANES
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.path import Move, PathStage
+    from polycnc.control.word_address.plan import Builder
+    from polycnc.control.word_address.words import Words
+    from polycnc.toolpath import Event
+
+#: Modal group that holds `G7.1` while a cylinder is unrolled.
+GROUP = "cylinder"
+_CUTS = frozenset({"G1", "G2", "G3"})
+
+
+@dataclass(frozen=True, slots=True)
+class Cylinder:
+    """An unrolled cylinder, and how its axis follows a length on the surface.
+
+    Attributes:
+        axis: Column of the rotary axis.
+        mm_per_degree: Length of a degree on the surface.
+        geometry: Columns of X, Y and Z.
+    """
+
+    axis: int
+    mm_per_degree: float
+    geometry: tuple[int, int, int]
+
+    def real(self, end: list[float]) -> list[float]:
+        """Degrees for a length on the surface."""
+        return self._scaled(end, 1.0 / self.mm_per_degree)
+
+    def display(self, real: list[float]) -> list[float]:
+        """Length on the surface for degrees."""
+        return self._scaled(real, self.mm_per_degree)
+
+    def _scaled(self, point: list[float], factor: float) -> list[float]:
+        scaled = list(point)
+        scaled[self.axis] *= factor
+        return scaled
+
+
+def cylinder(channel: Channel, words: Words) -> None:
+    """G07.1 C r (G107): C is unrolled at the radius r; r = 0 ends the mode."""
+    named = words.plan.axis_words
+    if len(named) != 1 or not channel.axis_data[named[0].axis].rotary:
+        raise words.fail("cylinder_axis", "G7.1")
+    radius = abs(words.length(named[0].address) or 0.0)
+    memory = channel.memory
+    if not radius:
+        end_cylinder(channel)
+        return
+    if memory.cylinder is not None:
+        raise words.fail("cylinder_axis", "G7.1")
+    if channel.mode["motion"] not in _CUTS or memory.side or memory.polar is not None:
+        raise words.fail("cylinder_code", "G7.1")
+    axis, c = named[0].axis, channel.coordinates
+    channel.flush()
+    machine = c.machine
+    memory.cylinder = c.transformation = Cylinder(axis, radius * pi / 180.0, c.geometry)
+    memory.geometry_before = c.geometry
+    lay_axis_into_plane(channel)
+    channel.mode = channel.mode.with_code(GROUP, "G7.1")
+    channel.table = CylinderStage(memory.cylinder, channel.rows)
+    channel.head = channel.table
+    memory.compensation = None
+    c.arrive(c.from_machine(machine))
+
+
+def lay_axis_into_plane(channel: Channel) -> None:
+    """The unrolled axis takes the place of a plane axis: by 1022, else of the one that the cylinder's own is not."""
+    memory, c = channel.memory, channel.coordinates
+    if memory.cylinder is None:
+        return
+    axis, plane = memory.cylinder.axis, channel.mode["plane"]
+    u, v, _ = PLANES[plane]
+    role = channel.control.axis_role(channel, axis)
+    own = _turns_about(channel, axis)
+    # Where neither plane axis is the cylinder's own (a plane across it), 1022 should have said which one gives way.
+    slot = role - 5 if role in (5, 6, 7) else u if v == own or (own < 0 and plane == "G19") else v
+    geometry = list(memory.geometry_before)
+    geometry[slot] = axis
+    c.geometry = (geometry[0], geometry[1], geometry[2])
+
+
+def _turns_about(channel: Channel, axis: int) -> int:
+    """Geometry axis (0 to 2) that a rotary axis turns about, by the machine's joints; -1 where they do not say."""
+    machine = channel.machine
+    for joint in (*machine.tool_chain, *machine.work_chain):
+        if joint.axis == channel.axes[axis]:
+            return next((i for i in range(3) if abs(joint.direction[i]) > 1.0 - 1e-9), -1)
+    return -1
+
+
+def end_cylinder(channel: Channel) -> None:
+    """The axis turns by degrees again (also at reset); nothing moves."""
+    memory, c = channel.memory, channel.coordinates
+    if memory.cylinder is None:
+        return
+    channel.flush()
+    machine = c.machine
+    channel.table = channel.rows
+    channel.head = None
+    memory.compensation = memory.cylinder = c.transformation = None
+    c.geometry = memory.geometry_before
+    channel.mode = channel.mode.with_code(GROUP, "")
+    c.arrive(c.from_machine(machine))
+
+
+class CylinderStage:
+    """The last stage of the path on a cylinder: lengths on its surface become degrees."""
+
+    def __init__(self, cylinder: Cylinder, after: PathStage) -> None:
+        self.after = after
+        self._cylinder = cylinder
+
+    def move(self, move: Move) -> None:
+        """Take the next move; see `PathStage`."""
+        real = self._cylinder.real
+        self.after.move(replace(move, start=real(move.start), end=real(move.end)))
+
+    def event(self, event: Event, program: int, line: int, context: int) -> None:
+        """Take an event; it keeps its place between the moves."""
+        self.after.event(event, program, line, context)
+
+    def block(self) -> None:
+        """Nothing waits here."""
+
+    def flush(self) -> None:
+        """Nothing is held back here."""
+
+
+def check_block(builder: Builder, refused: frozenset[str]) -> None:
+    """Refuse codes that cylindrical interpolation does not allow."""
+    if not builder.before.codes.get(GROUP):
+        return
+    for row in builder.codes:
+        if row.code in refused or (row.group == "cycle" and row.code != "G80"):
+            raise builder.control.fail("cylinder_code", address=row.code)
+
+
+def unroll(channel: Channel, axis: int, angle_deg: float) -> float:
+    """A word of the unrolled axis as a length on the surface, mm."""
+    active: Cylinder | None = channel.memory.cylinder
+    return angle_deg * active.mm_per_degree if active is not None and active.axis == axis else angle_deg

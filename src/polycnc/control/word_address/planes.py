@@ -1,0 +1,37 @@
+"""G17, G18, G19 on controls with parallel axes: which axes form the plane."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address import cylinder
+from polycnc.control.word_address.path import PLANES
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.words import Words
+
+
+def select_plane(channel: Channel, words: Words) -> None:
+    """G17 to G19: another plane than that of an active radius compensation is an alarm."""
+    memory, code = channel.memory, channel.mode["plane"]
+    if memory.side and (memory.compensation.plane.u, memory.compensation.plane.v) != PLANES[code][:2]:
+        raise words.fail("comp_plane", code)
+    lay_axes(channel, words)
+
+
+def lay_axes(channel: Channel, words: Words) -> None:
+    """The plane's axes: a word of the block names a parallel axis (1022) in place of the basic one."""
+    memory, c = channel.memory, channel.coordinates
+    basic = list(memory.basic_geometry)
+    for axis, _, _ in words.axes():
+        role = channel.control.axis_role(channel, axis)
+        if role in (5, 6, 7):
+            basic[role - 5] = axis
+    geometry = (basic[0], basic[1], basic[2])
+    if memory.cylinder is not None:
+        memory.geometry_before = geometry
+        cylinder.lay_axis_into_plane(channel)
+    else:
+        c.geometry = geometry
+    channel.context_changed()
