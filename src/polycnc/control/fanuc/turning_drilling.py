@@ -58,15 +58,22 @@ class _Choice:
     clears_chips: bool
     taps_clear: bool
     absolute_r: bool
+    diameter_r: bool
 
 
 def rules(channel: Channel) -> Drilling:
     """The drilling cycles by the channel's parameters."""
     bit = channel.setup.parameters.bit
     series_15 = drills_in_series_15(channel)
-    absolute = series_15 and bit(5102, 6)
     return _rules(
-        _Choice(series_15, is_series_15(channel), bool(bit(5101, 2)), bool(bit(5200, 5)), bool(absolute))
+        _Choice(
+            series_15,
+            repeats_by_l=is_series_15(channel),
+            clears_chips=bool(bit(5101, 2)),
+            taps_clear=bool(bit(5200, 5)),
+            absolute_r=series_15 and bool(bit(5102, 6)),
+            diameter_r=series_15 and bool(bit(5102, 7)),
+        )
     )
 
 
@@ -75,6 +82,7 @@ def _rules(choice: _Choice) -> Drilling:
     common = Drilling(
         {},
         r_is_increment=not choice.absolute_r,
+        r_as_axis=choice.diameter_r,
         by_r=True,
         repeats="L" if choice.repeats_by_l else "K",
         triggers="R",
@@ -158,7 +166,49 @@ def plan(builder: Builder, plan: Plan) -> Step:
     turning_tapping.check_block(
         builder, _drilling_axis(builder, builder.before), _drilling_axis(builder, builder.mode)
     )
-    return base.plan_drilling(builder, plan)
+    _check_plane(builder)
+    return _along_parallel(builder, plan) or base.plan_drilling(builder, plan)
+
+
+def _check_plane(builder: Builder) -> None:
+    """A plane code while a cycle is active: both axes of the plane exist, or 5103#3 PNA lets it pass (II.6.5)."""
+    channel = builder.channel
+    if not drills_in_series_15(channel) or channel.setup.parameters.bit(5103, 3):
+        return
+    if not any(row.group == "plane" for row in builder.codes):
+        return
+    geometry = channel.coordinates.geometry
+    if any(geometry[i] < 0 for i in PLANES[builder.mode["plane"]][:2]):
+        raise builder.control.fail("plane", address=builder.mode["plane"])
+
+
+def _along_parallel(builder: Builder, plan: Plan) -> Step | None:
+    """Series 15 with 5101#0 FXY: a parallel axis (1022) named in the cycle's block drills in place of the basic one."""
+    channel = builder.channel
+    if not (drills_in_series_15(channel) and channel.setup.parameters.bit(5101, 0)):
+        return None
+    third = PLANES[builder.mode["plane"]][2]
+    if not any(row.group == "cycle" for row in builder.codes):
+        return None
+    axis = next(
+        (w.axis for w in plan.axis_words if channel.control.axis_role(channel, w.axis) == third + 5), -1
+    )
+    if axis < 0:
+        return None
+
+    def choose(channel: Channel) -> None:
+        geometry = list(channel.coordinates.geometry)
+        geometry[third] = axis
+        channel.coordinates.geometry = (geometry[0], geometry[1], geometry[2])
+
+    choose(channel)
+    drill = base.plan_drilling(builder, plan)
+
+    def run(channel: Channel, values: list[float]) -> None:
+        choose(channel)
+        drill(channel, values)
+
+    return run
 
 
 def give_way(builder: Builder) -> None:

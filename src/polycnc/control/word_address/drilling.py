@@ -113,6 +113,7 @@ class Drilling:
         repeats: Words for the number of repeats; 0 only stores the data.
         triggers: Words beside axis words that make a block drill.
         r_is_increment: R counts from the initial level even under G90 (FANUC lathes).
+        r_as_axis: R is a diameter where words of the drilling axis are diameters; else a radius value.
         by_r: Rapid retracts stop at R on the way to the initial level.
         dwells_at_r: A tap dwells at R as well.
         axis: The drilling axis.
@@ -132,6 +133,7 @@ class Drilling:
     repeats: Sequence[str] = "L"
     triggers: Sequence[str] = ""
     r_is_increment: bool = False
+    r_as_axis: bool = False
     by_r: bool = False
     dwells_at_r: bool = False
     axis: Callable[[Builder], int] = third_axis
@@ -254,7 +256,8 @@ class _Words:
             return lambda value: self.rules.seconds(value, form, rules)
         if address in self.rules.least_increments and builder.slots[address][1] == "":
             return length_converter("", replace(builder.rules, calculator=False), inch=builder.inch) or float
-        return builder.length(address) or (lambda value: value)
+        diameter = address == "R" and self.rules.r_as_axis and self.control.is_diameter(builder.channel, self.axis)
+        return builder.length(address, diameter=diameter) or (lambda value: value)
 
     def store(self, data: CycleData, values: list[float]) -> None:
         """Take the words over into the cycle data."""
