@@ -59,6 +59,9 @@ class ChannelGroup:
 
     Args:
         first: The channel whose end is the end of the run.
+        make: Makes a further channel by its number; a plain one where it is left out.
+        on_start: Called when a channel starts another one, with that channel's number and its run; without it `run`
+            drives all of them.
 
     Attributes:
         first: That channel.
@@ -67,8 +70,15 @@ class ChannelGroup:
         moved_by: Number of the channel that knows where an axis of the machine stands.
     """
 
-    def __init__(self, first: Channel) -> None:
+    def __init__(
+        self,
+        first: Channel,
+        make: Callable[[int], Channel] | None = None,
+        on_start: Callable[[int, Iterator[Wait]], None] | None = None,
+    ) -> None:
         self.first = first
+        self._make = make or self._plain_channel
+        self._on_start = on_start
         self.shared: dict[str, Any] = {}
         machine = first.machine
         self.owner = {axis: machine.owner(axis) for each in machine.channels for axis in each.axes}
@@ -94,15 +104,18 @@ class ChannelGroup:
         if number not in self._members:
             if not self.has(number):
                 raise KeyError(number)
-            first = self.first
-            channel = Channel(
-                first.control, first.machine, first.setup, first.store, number=number,
-                block_limit=first.block_limit, bulk=first.bulk,
-            )  # fmt: skip
+            channel = self._make(number)
             channel.group = self
-            channel.alarms = first.alarms
+            channel.alarms = self.first.alarms
             self._members[number] = Member(channel)
         return self._members[number]
+
+    def _plain_channel(self, number: int) -> Channel:
+        first = self.first
+        return Channel(
+            first.control, first.machine, first.setup, first.store, number=number,
+            block_limit=first.block_limit, bulk=first.bulk,
+        )  # fmt: skip
 
     # ---- programs
 
@@ -125,7 +138,22 @@ class ChannelGroup:
         if not first_time:
             channel.control.reset(channel)
         member.run = channel.run(member.selected, power_on=first_time)
+        if self._on_start is not None:
+            self._on_start(number, member.run)
         return True
+
+    def begin(self, number: int, run: Iterator[Wait]) -> None:
+        """A channel runs a program that somebody else drives. The first one begins with no mark set."""
+        if number == self.first.number:
+            self._meetings.clear()
+            for member in self._members.values():
+                member.marks.clear()
+        self._member(number).run = run
+
+    def end(self, number: int) -> None:
+        """The program of a channel is over."""
+        if number in self._members:
+            self._members[number].run = None
 
     def run(self, program: Program) -> Iterator[Wait]:
         """Run a program in the first channel, and in the others what it starts; yields the waits of the first."""

@@ -54,6 +54,8 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.machine.model import Machine
     from polycnc.machine.motion_settings import MotionSettings
+    from polycnc.mainrun.shared_axes import SharedAxes
+    from polycnc.messages import AlarmError
     from polycnc.program import Program
     from polycnc.toolpath.table import Chunk
 
@@ -73,6 +75,7 @@ class Ahead:
     Args:
         machine: The machine.
         number: Number of the channel.
+        left: Where channels leave the axes that they share.
 
     Attributes:
         items: What is prepared, in order.
@@ -83,7 +86,7 @@ class Ahead:
         has_caught_up: Everything that the channel has written is executed.
     """
 
-    def __init__(self, machine: Machine, number: int) -> None:
+    def __init__(self, machine: Machine, number: int, left: SharedAxes) -> None:
         self.toolpath = Toolpath(machine.channel_axes(number), chunk_rows=1, on_full=self._take)
         self.items: deque[Item] = deque()
         self.channel: Channel
@@ -109,6 +112,7 @@ class Ahead:
         self._stopped = self._skips = False
         self._geometry = machine.geometry_indices(number)
         self._last_context = Context()
+        self._left = left
 
     # ---- the channel ---------------------------------------------------------------------------------------
 
@@ -120,10 +124,16 @@ class Ahead:
 
     def start(self, program: Program, position: Sequence[float]) -> None:
         """Begin with a program; the axes stand at a machine position."""
+        self.channel.alarms.clear()
+        self.begin(self.channel.run(program, power_on=False), position)
+
+    def begin(self, run: Iterator[Wait], position: Sequence[float]) -> None:
+        """Begin with a run of the channel; the axes stand at a machine position."""
         self.clear(position)
         self.finished = False
-        self.channel.alarms.clear()
-        self._run = self.channel.run(program, power_on=False)
+        self._run = run
+        if self.channel.group is not None:
+            self.channel.group.begin(self._number, run)
 
     def clear(self, position: Sequence[float]) -> None:
         """Forget everything prepared."""
@@ -156,6 +166,12 @@ class Ahead:
     def end_in_rest(self) -> None:
         """The axes come to rest behind what is prepared, for nobody knows when more will come."""
         self._state[STOP] = 1.0
+
+    def fail(self, error: AlarmError) -> None:
+        """The run of the channel ends with an alarm that did not arise in a block."""
+        self.channel.fail(error)
+        self.toolpath.block_boundary()
+        self.waiting, self.finished = None, True
 
     def proceed(self) -> None:
         """What the channel waited for has happened, and everything before it is executed."""
@@ -237,6 +253,7 @@ class Ahead:
     def _take(self, chunk: Chunk) -> bool:
         """Turn the rows of a block into items."""
         self._add_contexts()
+        self._take_over()
         self._delays.clear()
         self._waits.take(chunk, int(self.limits[LIMIT_BLOCKS * self._axes + GEOMETRY]))
         self._waits.parallel.clear()
@@ -260,6 +277,12 @@ class Ahead:
             else:
                 self._lay(chunk, row)
         return True
+
+    def _take_over(self) -> None:
+        """An axis that another channel has moved since is where that one has left it."""
+        first = STATE_BLOCKS + POSITION * self._axes
+        for column, position in self._left.taken(self._number, self.channel.group):
+            self._state[first + column] = position
 
     def _delay(self, row: int, why: str, _context: int, seconds: float) -> None:
         if seconds > 0.0:

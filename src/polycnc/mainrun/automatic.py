@@ -140,7 +140,9 @@ class Automatic:
             elif self.motion is not None:
                 if self.motion.end <= self.time:
                     self._arrive()
-            elif not self._go_on():
+            elif self._go_on():
+                self._blocked = False
+            else:
                 self._blocked = True
                 if machinery.due > until:
                     break
@@ -217,6 +219,8 @@ class Automatic:
             if not self._waiting:
                 self._stop("end")
             return self._waiting
+        if waiting.until is not None and not waiting.until():
+            return False
         if self._moved_on:
             self._moved_on = False
             self.ahead.arrived(self.position)
@@ -224,6 +228,21 @@ class Automatic:
             self._machinery.synchronise()
             self._until = self.time + self._cycle_s
         self.ahead.proceed()
+        return True
+
+    @property
+    def waits_for_channel(self) -> bool:
+        """Whether nothing goes on until another channel has done something."""
+        waiting = self.ahead.waiting
+        halted = not self.running or self.motion is not None or not self._blocked
+        return not halted and waiting is not None and waiting.until is not None and not self.ahead.items
+
+    def look_up(self) -> bool:
+        """Go on if another channel has done what this one waits for; whether it has."""
+        waiting = self.ahead.waiting
+        if not self.waits_for_channel or waiting is None or waiting.until is None or not waiting.until():
+            return False
+        self._blocked = False
         return True
 
     def _pass(self, item: Block | BlockEnd | Happening | Standing) -> bool:

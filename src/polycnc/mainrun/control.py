@@ -62,7 +62,8 @@ class VirtualControl(Readings):
         """
         self._ask(Command.LOAD)
         self._programs.load(source)
-        self.channel.store = self._programs.store
+        for lane in self._lanes.values():
+            lane.channel.store = self._programs.store
 
     def mdi(self, text: str) -> None:
         """Type blocks in and start them; allowed in MDI mode. What they change stays."""
@@ -103,7 +104,7 @@ class VirtualControl(Readings):
             raise CommandRefused("mainrun.no-program")
         here = self.machine_position
         self._program_mode = Mode.AUTO
-        self._prepare_channel()
+        self._prepare(self._lane)
         self._machinery.reset()
         self._ahead.start(program, here)
         found = search(self._ahead, program.name, line)
@@ -131,7 +132,7 @@ class VirtualControl(Readings):
             if program is None:
                 raise CommandRefused("mainrun.no-program")
             self._program_mode = self.mode
-            self._prepare_channel()
+            self._prepare(self._lane)
             self._machinery.reset()
             self._ahead.start(program, self._automatic.position)
             self._resume()
@@ -143,7 +144,7 @@ class VirtualControl(Readings):
                 self._machinery.perform(happening)
             self._collected = []
             self._returning = True
-            waiting = self._display.real(self._automatic.machine, self._automatic.place)
+            waiting = self._lane.real
             for axis, target in enumerate(waiting):
                 self._manual.towards(axis, self._hand[axis], target, self._jog_speed(axis), self.time)
         else:
@@ -154,7 +155,7 @@ class VirtualControl(Readings):
         self._ask(Command.FEED_HOLD)
         if self.state is State.RUNNING:
             self._rates.hold = True
-            self._automatic.revise()
+            self._revise()
             self._manual.brake_all(self.time)
             self._returning = False
             self._set_state(State.HOLD)
@@ -238,7 +239,7 @@ class VirtualControl(Readings):
 
     def _by_hand(self) -> list[float]:
         """Machine position from which axes are moved by hand."""
-        if self._automatic.moving:
+        if self._axes_move:
             raise CommandRefused("mainrun.moving")
         if self._hand is None:
             self._hand = self.machine_position
@@ -269,7 +270,7 @@ class VirtualControl(Readings):
         for axis in self._manual.goals:
             speed = self._rapid_speed(axis) if self.mode is Mode.REFERENCE else self._jog_speed(axis)
             self._manual.change_speed(axis, base[axis], speed, self.time)
-        self._automatic.revise()
+        self._revise()
 
     def set_switches(self, **changes: Any) -> None:
         """Turn panel switches, by the names of `PanelSwitches`.
@@ -290,10 +291,12 @@ class VirtualControl(Readings):
             self._lock(on=bool(changes["machine_lock"]))
         self._switches = replace(self._switches, **changes)
         self._rates.dry_run = JOG_RATE / 60.0 if self._switches.dry_run else 0.0
-        self._machinery.optional_stop = self._switches.optional_stop
-        self._automatic.single_block = bool(self._switches.single_block)
-        self._apply_switches()
-        self._automatic.revise()
+        for lane in self._lanes.values():
+            lane.machinery.optional_stop = self._switches.optional_stop
+        for lane in self._lanes.values():
+            lane.automatic.single_block = bool(self._switches.single_block)
+            self._apply_switches(lane.channel)
+        self._revise()
         self._report("switch", **changes)
 
     def _lock(self, *, on: bool) -> None:

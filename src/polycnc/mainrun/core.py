@@ -4,18 +4,22 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.channel import Channel
+from polycnc.channel.group import ChannelGroup
 from polycnc.mainrun.ahead import Ahead
 from polycnc.mainrun.automatic import Automatic
 from polycnc.mainrun.display import MainRunDisplay
 from polycnc.mainrun.equipment import equipment
 from polycnc.mainrun.items import Happening, Rates
+from polycnc.mainrun.lane import Lane
 from polycnc.mainrun.machinery import Machinery
 from polycnc.mainrun.manual import ManualAxes
 from polycnc.mainrun.program_signals import connect, give
 from polycnc.mainrun.programs import Programs
+from polycnc.mainrun.shared_axes import SharedAxes
 from polycnc.mainrun.signals import SignalImage
 from polycnc.mainrun.snapshot import PanelSwitches, Record
 from polycnc.mainrun.states import Mode, State
@@ -23,9 +27,10 @@ from polycnc.messages import Alarm, AlarmError
 from polycnc.toolpath import Context
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
     from pathlib import Path
 
+    from polycnc.channel.waits import Wait
     from polycnc.control.interface import Control
     from polycnc.machine.model import Machine
     from polycnc.machine.setup import Setup
@@ -88,40 +93,73 @@ class Core(ABC):
 
     def _build(self, setup: Setup) -> None:
         """Power-on."""
-        ahead = Ahead(self.machine, 1)
-        channel = Channel(self.control, self.machine, setup, self._programs.store, toolpath=ahead.toolpath)
-        self.channel, self._ahead = channel, ahead
         given = setup.switches.signals.items()
         signals = {name: float(value) for name, value in given if isinstance(value, int | float)}
         cycle = self.machine.interpolation_cycle_s
         self._signals = SignalImage(signals, self.machine.rules, self._on_edge, lambda: self.time, cycle)
-        self._machinery = Machinery(
-            self.machine,
-            self._signals,
-            lambda: self.time,
-            (
-                self._on_event,
-                self._on_stop,
-                self._on_block,
-                self._on_halt,
-                lambda: give(channel, self._signals),
-            ),
+        self._shared = SharedAxes(self.machine)
+        self._lanes: dict[int, Lane] = {}
+        self._lane = lane = self._new_lane(self.machine.channels[0].number, setup)
+        self.channel, self._ahead, self._automatic = lane.channel, lane.ahead, lane.automatic
+        self._machinery, self._display = lane.machinery, lane.display
+        self._group = ChannelGroup(self.channel, self._further_channel, self._on_start)
+        self._power_on(lane)
+        self._manual = ManualAxes(self.channel.axis_data)
+        self._signals[self.mode.upper()] = self._signals[self.state.upper()] = 1.0
+        self._signals.scan()
+
+    def _new_lane(self, number: int, setup: Setup) -> Lane:
+        """A channel of the control; `_power_on` starts it."""
+        ahead = Ahead(self.machine, number, self._shared)
+        channel = Channel(
+            self.control, self.machine, setup, self._programs.store, number=number, toolpath=ahead.toolpath
         )
+        reports = (
+            partial(self._on_event, number),
+            partial(self._on_stop, number),
+            partial(self._on_block, number),
+            partial(self._on_halt, number),
+            lambda: give(channel, self._signals),
+        )
+        machinery = Machinery(
+            self.machine, self._signals, lambda: self._lanes[number].automatic.time, reports
+        )
+        position = channel.coordinates.machine
+        automatic = Automatic(ahead, self._rates, machinery, position, self.machine.interpolation_cycle_s)
+        display = MainRunDisplay(ahead.toolpath, self.machine, number)
+        lane = Lane(channel, ahead, automatic, machinery, display, self._rates, self._lanes, self._shared)
+        self._lanes[number], self._shared.paths[number] = lane, ahead
+        return lane
+
+    def _further_channel(self, number: int) -> Channel:
+        lane = self._new_lane(number, self.channel.setup)
+        lane.channel.group = self._group
+        self._power_on(lane)
+        return lane.channel
+
+    def _power_on(self, lane: Lane) -> None:
+        channel = lane.channel
         channel.push(self._programs.typed("\n"), kind="main")  # a control starts with a level to stand on
         try:
             self.control.start(channel)
         except AlarmError as error:
             self._raise_alarm(error)
         connect(channel, self._signals)
-        ahead.use(channel, self.control.motion_settings(channel))
-        position = channel.coordinates.machine
-        ahead.clear(position)
-        self._automatic = Automatic(ahead, self._rates, self._machinery, position, cycle)
-        self._manual = ManualAxes(channel.axis_data)
-        self._display = MainRunDisplay(ahead.toolpath, self.machine, 1)
-        self._show_channel()
-        self._signals[self.mode.upper()] = self._signals[self.state.upper()] = 1.0
-        self._signals.scan()
+        lane.ahead.use(channel, self.control.motion_settings(channel))
+        lane.ahead.clear(channel.coordinates.machine)
+        lane.automatic.position = channel.coordinates.machine
+        lane.show_own_state()
+
+    def _on_start(self, number: int, run: Iterator[Wait]) -> None:
+        """A channel has started another one."""
+        lane = self._lanes[number]
+        self._prepare(lane)
+        lane.machinery.reset()
+        lane.ahead.begin(run, lane.automatic.position)
+        lane.automatic.time = max(each.automatic.time for each in self._lanes.values())
+        lane.automatic.single_block = bool(self._switches.single_block)
+        if self.state is State.RUNNING:
+            lane.automatic.start()
 
     # ---- time ----------------------------------------------------------------------------------------------
 
@@ -135,10 +173,23 @@ class Core(ABC):
         """Commanded position of the real axes, mm (radius) and degrees."""
         if self._hand is not None:
             return self._manual.positions(self._hand, self.time)
-        return self._display.real(self._automatic.machine, self._automatic.place)
+        return self._lane.real
+
+    @property
+    def halt(self) -> str:
+        """Why the program stands (`M00`, `M01`, `single-block` …), or empty."""
+        return self._automatic.halt or next(
+            (lane.automatic.halt for lane in self._lanes.values() if lane.automatic.halt not in ("", "end")),
+            "",
+        )
+
+    @property
+    def _axes_move(self) -> bool:
+        """Whether axes move because of a program."""
+        return any(lane.automatic.moving for lane in self._lanes.values())
 
     def _due(self) -> float:
-        return min(self._automatic.next_event, self._manual.due)
+        return min(self._manual.due, *(lane.automatic.next_event for lane in self._lanes.values()))
 
     def _advance(self, until: float) -> None:
         """Go from event to event."""
@@ -147,7 +198,12 @@ class Core(ABC):
         self._move_to(until)
 
     def _move_to(self, time: float) -> None:
-        self._automatic.advance(time)
+        for lane in list(self._lanes.values()):
+            lane.automatic.advance(time)
+        while [lane for lane in self._lanes.values() if lane.automatic.look_up()]:
+            for lane in list(self._lanes.values()):
+                lane.automatic.advance(time)
+        self._look_for_deadlock()
         if self._hand is not None:
             self._hand = self._manual.settle(self._hand, self.time)
         self._settle()
@@ -158,7 +214,7 @@ class Core(ABC):
             self._press(self._pressed.pop(0))
         if self._manual.moving:
             return
-        if self._giving_up and not self._automatic.moving:
+        if self._giving_up and not self._axes_move:
             self._give_up()
         elif self._returning and not self._manual.goals:
             self._resume()
@@ -168,9 +224,29 @@ class Core(ABC):
     def _resume(self) -> None:
         self._returning, self._hand = False, None
         self._rates.hold = False
-        self._automatic.single_block = bool(self._switches.single_block)
         self._set_state(State.RUNNING)
-        self._automatic.start()
+        for lane in list(self._lanes.values()):
+            if lane.runs:
+                lane.automatic.single_block = bool(self._switches.single_block)
+                lane.automatic.start()
+
+    def _look_for_deadlock(self) -> None:
+        """Every channel that is still there waits for another one: nothing will ever happen again."""
+        here = [lane for lane in self._lanes.values() if lane.runs]
+        if not here or any(not lane.automatic.waits_for_channel for lane in here):
+            return
+        if self._lane.runs:
+            self._ahead.fail(AlarmError("PC0005"))
+            self._automatic.start()
+            return
+        for lane in here:
+            lane.give_up()  # the run ends with the first channel
+        self._finish()
+
+    def _finish(self) -> None:
+        """No channel runs any more."""
+        if self.state is State.RUNNING:
+            self._set_state(State.READY, halt="end")
 
     @abstractmethod
     def _press(self, key: str) -> None:
@@ -180,9 +256,9 @@ class Core(ABC):
         """The axes stand: the program is given up, the control is as after reset."""
         self._giving_up = self._rates.hold = False
         here = self.machine_position
-        self._automatic.abandon()
-        self._machinery.reset()
-        self.control.reset(self.channel)
+        for lane in self._lanes.values():
+            lane.give_up()
+            lane.show_own_state()
         self._stand_at(here)
         if self.state is not State.EMERGENCY:
             self.alarms = ()
@@ -192,29 +268,30 @@ class Core(ABC):
         """The axes stand here and no program runs."""
         self._hand = None
         self._automatic.position, self._automatic.place = list(position), Context()
-        self._prepare_channel()
+        self._prepare(self._lane)
         self._ahead.clear(position)
-        self._show_channel()
+        self._lane.show_own_state()
 
-    def _prepare_channel(self) -> None:
-        self.channel.coordinates.arrive_machine(list(self._automatic.position))
-        self._apply_switches()
+    def _prepare(self, lane: Lane) -> None:
+        """Before a program of a channel begins: it is where its axes are."""
+        lane.channel.coordinates.arrive_machine(list(lane.automatic.position))
+        self._apply_switches(lane.channel)
 
-    def _show_channel(self) -> None:
-        """Between programs the displays show the channel's own state."""
-        self._automatic.context = self.control.context(self.channel)
-        self._automatic.modal = self.channel.mode.codes
+    def _revise(self) -> None:
+        """What bounds the speeds has changed."""
+        for lane in self._lanes.values():
+            lane.automatic.revise()
 
     def _brake(self, state: State) -> None:
         self._rates.hold = self._giving_up = True
-        self._automatic.revise()
+        self._revise()
         self._manual.brake_all(self.time)
         self._returning = False
         self._set_state(state)
         self._settle()
 
-    def _apply_switches(self) -> None:
-        channel, panel = self.channel, self._switches
+    def _apply_switches(self, channel: Channel) -> None:
+        panel = self._switches
         skip = panel.block_skip
         switches = replace(
             channel.setup.switches,
@@ -230,35 +307,48 @@ class Core(ABC):
 
     # ---- what happens --------------------------------------------------------------------------------------
 
-    def _on_event(self, event: Event) -> None:
-        self._report("event", type=event.type, **event.data)
+    def _on_event(self, number: int, event: Event) -> None:
+        self._report("event", number, type=event.type, **event.data)
 
-    def _on_block(self, block: Block) -> None:
-        self._report("block", program=block.program, line=block.line)
+    def _on_block(self, number: int, block: Block) -> None:
+        self._report("block", number, program=block.program, line=block.line)
 
     def _on_edge(self, name: str, value: float) -> None:
         self._report("signal", name=name, value=value)
         if name in KEYS and value:
             self._pressed.append(name)
         if name == SKIP_SIGNAL and value:
-            here = self._automatic.skip_signal()
-            if here is not None:
-                self.channel.memory.note_skip(self._display.work_of(here, self._automatic.context))
+            for lane in self._lanes.values():
+                here = lane.automatic.skip_signal()
+                if here is not None:
+                    lane.channel.memory.note_skip(lane.display.work_of(here, lane.automatic.context))
 
-    def _on_stop(self, code: str) -> None:
+    def _on_stop(self, number: int, code: str) -> None:
         if code == "alarm":
             self.alarms = tuple(self.channel.alarms)
-        self._automatic.stop(code)
+        self._lanes[number].automatic.stop(code)
 
-    def _on_halt(self, reason: str) -> None:
-        """The run has halted of its own accord."""
-        if self.state is State.RUNNING:
-            self._set_state(HALTS.get(reason, State.STOPPED), halt=reason)
+    def _on_halt(self, number: int, reason: str) -> None:
+        """The run of a channel has halted of its own accord; the control does when no other one runs."""
+        lane = self._lanes[number]
         if reason == "end":
+            self._group.end(number)
+        others = [other for other in self._lanes.values() if other is not lane and other.runs]
+        if self.state is State.RUNNING:
+            if reason == "alarm" or not any(other.automatic.running for other in others):
+                self._set_state(
+                    HALTS.get("stop" if others and reason == "end" else reason, State.STOPPED), halt=reason
+                )
+            else:
+                self._report("halt", number, halt=reason)
+        if reason == "alarm" and others:
+            self._rates.hold = True
+            self._revise()
+        if reason == "end" and lane is self._lane:
             self.parts += self._program_mode is Mode.AUTO
             if self._program_mode is Mode.AUTO:
                 self.control.reset(self.channel)
-            self._show_channel()
+            lane.show_own_state()
 
     def _raise_alarm(self, error: AlarmError) -> None:
         self.alarms = (
@@ -279,8 +369,10 @@ class Core(ABC):
             self._signals[state.upper()] = 1.0
             self._report("state", state=state, **data)
 
-    def _report(self, what: str, **data: object) -> None:
+    def _report(self, what: str, channel: int = 1, /, **data: object) -> None:
         if self.listeners:
+            if channel != 1:
+                data["channel"] = channel
             record = Record(self.time, what, data)
             for listener in self.listeners:
                 listener(record)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun.core import Core
-from polycnc.mainrun.frames import carried, without_transformation
-from polycnc.mainrun.programs import text_of
+from polycnc.mainrun.frames import without_transformation
 from polycnc.mainrun.snapshot import (
     ActiveBlock,
+    ChannelSnapshot,
     Overrides,
     PanelSwitches,
     Positions,
@@ -33,7 +32,7 @@ class Readings(Core):
     @property
     def is_busy(self) -> bool:
         """Whether something runs or moves."""
-        moving = self._automatic.moving or bool(self._manual.moving)
+        moving = self._axes_move or bool(self._manual.moving)
         return moving or self.state in (State.RUNNING, State.BRAKING)
 
     @property
@@ -43,26 +42,22 @@ class Readings(Core):
         real = axes if self._locked_at is None else self._locked_at
         if self._hand is not None:
             return self._display.positions(axes, axes, real, without_transformation(context))
-        automatic = self._automatic
-        here, end = (
-            carried(place, automatic.place, context, self._display.geometry)
-            for place in (automatic.machine, automatic.row_end)
-        )
-        return self._display.positions(here, end, real, context)
+        return self._lane.positions(real)
+
+    @property
+    def channels(self) -> Mapping[int, ChannelSnapshot]:
+        """Every channel that has been spoken of, by number; the other readings are of the first."""
+        return {number: lane.snapshot for number, lane in sorted(self._lanes.items())}
 
     @property
     def modal(self) -> Mapping[str, str]:
         """Active code of every modal group in the block in execution."""
-        return dict(self._automatic.modal)
+        return self._lane.modal
 
     @property
     def active_block(self) -> ActiveBlock:
         """The block in execution."""
-        block = self._automatic.block
-        if block is None:
-            return ActiveBlock()
-        program = next((p for p in reversed(self.channel.programs) if p.name == block.program), None)
-        return ActiveBlock(block.program, block.line, text_of(program, block.line))
+        return self._lane.active_block
 
     @property
     def program(self) -> str:
@@ -77,18 +72,12 @@ class Readings(Core):
     @property
     def spindle(self) -> SpindleState:
         """The spindle of the block in execution."""
-        context = self._automatic.context
-        spindle = self.machine.spindle.get(context.spindle)
-        top = spindle.max_rpm if spindle is not None else inf
-        turning = 0.0 if context.surface_speed or not context.spindle_direction else context.spindle_rpm
-        rpm = min(turning * self._rates.spindle, top)
-        return SpindleState(context.spindle, context.spindle_rpm, rpm, context.spindle_direction)
+        return self._lane.spindle
 
     @property
     def tool(self) -> ToolState:
         """Tool in the spindle, and the one that stands by."""
-        context = self._automatic.context
-        return ToolState(context.tool, context.tool_name, self._machinery.next_tool)
+        return self._lane.tool
 
     @property
     def signals(self) -> SignalImage:
@@ -121,7 +110,7 @@ class Readings(Core):
             time=self.time,
             mode=self.mode,
             state=self.state,
-            halt=self._automatic.halt,
+            halt=self.halt,
             positions=self.positions,
             feed=self.feed,
             program=self.program,
@@ -135,6 +124,7 @@ class Readings(Core):
             alarms=self.alarms,
             messages=self.messages,
             parts=self.parts,
+            channels=self.channels,
         )
 
     def alarm_text(self, alarm: Alarm, lang: str | None = None) -> str:

@@ -86,6 +86,37 @@ class PanelSwitches:
 
 
 @dataclass(frozen=True, slots=True)
+class ChannelSnapshot:
+    """One channel at one moment.
+
+    Attributes:
+        number: Number of the channel.
+        runs: A program of the channel is under way, halted or not.
+        waits: It waits for another channel.
+        halt: Why its program stands (`M00`, `single-block` …), or empty.
+        positions: Positions of its axes.
+        feed: Path speed now, mm/min.
+        block: The block in execution.
+        modal: Active code of every modal group.
+        spindle: The spindle.
+        tool: The tool.
+        messages: Texts that its program has put out.
+    """
+
+    number: int
+    runs: bool
+    waits: bool
+    halt: str
+    positions: Positions
+    feed: float
+    block: ActiveBlock
+    modal: Mapping[str, str]
+    spindle: SpindleState
+    tool: ToolState
+    messages: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class Snapshot:
     """The control at one moment.
 
@@ -107,6 +138,7 @@ class Snapshot:
         alarms: Alarms that wait for reset.
         messages: Texts that the program has put out.
         parts: How often a program has come to its end.
+        channels: Every channel that has been spoken of, by number; what stands above is of the first.
     """
 
     time: float
@@ -126,6 +158,7 @@ class Snapshot:
     alarms: tuple[Alarm, ...] = ()
     messages: tuple[str, ...] = ()
     parts: int = 0
+    channels: Mapping[int, ChannelSnapshot] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -61,6 +61,10 @@ def ready(channel: Channel, columns: Iterable[int]) -> bool:
     """Whether a block may move these axes now; else the channel waits and runs the block again."""
     axes = [_name(channel, column) for column in columns]
     if all(_is_free(channel, axis) for axis in axes):
+        moved_by = group_of(channel).moved_by
+        if any(moved_by.get(axis, channel.number) != channel.number for axis in axes):
+            channel.flush()
+            channel.synchronise()
         take(channel, axes)
         return True
     channel.level.index = channel.level.current
@@ -103,6 +107,7 @@ def position(channel: Channel, axis: str) -> float:
 def release(channel: Channel, args: Arguments) -> None:
     """RELEASE(axis, …): other channels may have them; what the channel does not own stays where it is."""
     channel.flush()
+    channel.synchronise()
     owners = _owners(channel)
     for axis in _named(channel, _some(args, "RELEASE")):
         if owners[axis] == channel.number:
@@ -111,6 +116,8 @@ def release(channel: Channel, args: Arguments) -> None:
 
 def get(channel: Channel, args: Arguments) -> None:
     """GET(axis, …): wait until nobody else has them, then take them."""
+    channel.flush()
+    channel.synchronise()
     axes = _named(channel, _some(args, "GET"))
 
     def taken() -> bool:
@@ -120,12 +127,13 @@ def get(channel: Channel, args: Arguments) -> None:
         return free
 
     if not taken():
-        channel.flush()
         channel.wait = Wait("channel", until=taken)
 
 
 def get_directly(channel: Channel, args: Arguments) -> None:
     """GETD(axis, …): take them from whatever channel has them."""
+    channel.flush()
+    channel.synchronise()
     take(channel, _named(channel, _some(args, "GETD")))
 
 
@@ -133,6 +141,8 @@ def to_channel(channel: Channel, args: Arguments) -> None:
     """AXTOCHAN(axis, n, …): give axes to channels; to the calling one as GET does."""
     if not args or len(args) % 2:
         raise AlarmError("14020", text="AXTOCHAN")
+    channel.flush()
+    channel.synchronise()
     own: list[Any] = []
     for axis, value in zip(args[::2], args[1::2], strict=True):
         number = arguments.whole(value)
@@ -141,7 +151,6 @@ def to_channel(channel: Channel, args: Arguments) -> None:
         if number == channel.number:
             own.append(axis)
         else:
-            channel.flush()
             (name,) = _named(channel, (axis,))
             _owners(channel)[name] = number
     if own:

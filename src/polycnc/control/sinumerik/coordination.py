@@ -41,6 +41,12 @@ def _mark(value: Any, name: str) -> int:
     return mark
 
 
+def _catch_up(channel: Channel) -> None:
+    """What channels tell each other they tell when their axes are there, not when the block is prepared."""
+    channel.flush()
+    channel.synchronise()
+
+
 def select(channel: Channel, args: Arguments) -> None:
     """INIT(n, path, mode): select a program in a channel; it is looked up as a call would."""
     if len(args) not in (2, 3) or not isinstance(args[1], str):
@@ -55,7 +61,7 @@ def select(channel: Channel, args: Arguments) -> None:
 
 def start(channel: Channel, args: Arguments) -> None:
     """START(n, …): start the selected programs; the calling channel runs already."""
-    channel.flush()
+    _catch_up(channel)
     group = group_of(channel)
     for value in args:
         number = _number(channel, value, "START")
@@ -70,7 +76,7 @@ def meet(name: str) -> Callable[[Channel, Arguments], None]:
     def run(channel: Channel, args: Arguments) -> None:
         if not args:
             raise AlarmError("14020", text=name)
-        channel.flush()
+        _catch_up(channel)
         others = [_number(channel, value, name) for value in args[1:]]
         group_of(channel).meet(channel, _mark(args[0], name), others)
 
@@ -79,19 +85,21 @@ def meet(name: str) -> Callable[[Channel, Arguments], None]:
 
 def wait_for_ends(channel: Channel, args: Arguments) -> None:
     """WAITE(n, …): wait for the program end of other channels."""
-    channel.flush()
+    _catch_up(channel)
     others = [_number(channel, value, "WAITE") for value in args]
     group_of(channel).wait_for_ends(channel, [number for number in others if number != channel.number])
 
 
 def set_marks(channel: Channel, args: Arguments) -> None:
     """SETM(m, …): set marks without waiting."""
+    _catch_up(channel)
     for value in args:
         group_of(channel).set_mark(channel.number, _mark(value, "SETM"))
 
 
 def clear_marks(channel: Channel, args: Arguments) -> None:
     """CLEARM(m, …): delete marks; CLEARM() all of them."""
+    _catch_up(channel)
     marks = group_of(channel).marks(channel.number)
     if not args:
         marks.clear()

@@ -39,6 +39,7 @@ def release(channel: Channel, words: Words) -> None:
     holders = _holders(channel)
     axes = _axes(channel, words)
     channel.flush()
+    channel.synchronise()
     if any(holders.get(_name(channel, axis)) != channel.number for axis in axes):
         raise words.fail("axis_borrowing", "G52.1")
     for axis in axes:
@@ -51,6 +52,7 @@ def borrow(channel: Channel, words: Words) -> None:
     axes = _axes(channel, words)
     reaction, result, patient = _answers(words)
     channel.flush()
+    channel.synchronise()
     names = [_name(channel, axis) for axis in axes]
     if any(holders.get(name) == channel.number for name in names):
         raise words.fail("axis_borrowing", "G52.2")

@@ -44,6 +44,7 @@ def start_others(channel: Channel, program: Program) -> None:
     group = channel.group
     if group is None or channel is not group.first:
         return
+    group.shared.pop(MEETINGS, None)
     for number in split_channels(program):
         if number != channel.number and group.has(number):
             group.select(number, program)
@@ -65,6 +66,7 @@ def meet(channel: Channel, words: Words) -> None:
         if not named <= existing or channel.number not in named:
             raise words.fail("meeting_groups", "Q")
     channel.flush()
+    channel.synchronise()
     if named - {channel.number}:
         _wait_for(channel, words, Meeting(int(mark), frozenset(named)))
 

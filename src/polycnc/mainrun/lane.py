@@ -1,0 +1,140 @@
+"""One channel in the main run: what is prepared for it, what it executes, and what a panel reads of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun.frames import carried
+from polycnc.mainrun.programs import text_of
+from polycnc.mainrun.snapshot import ActiveBlock, ChannelSnapshot, Positions, SpindleState, ToolState
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.channel.channel import Channel
+    from polycnc.mainrun.ahead import Ahead
+    from polycnc.mainrun.automatic import Automatic
+    from polycnc.mainrun.display import MainRunDisplay
+    from polycnc.mainrun.items import Rates
+    from polycnc.mainrun.machinery import Machinery
+    from polycnc.mainrun.shared_axes import SharedAxes
+
+
+@dataclass(slots=True, eq=False)
+class Lane:
+    """A channel with all that executes it.
+
+    Attributes:
+        channel: Runs ahead of the axes.
+        ahead: What it has prepared.
+        automatic: Executes that.
+        machinery: Carries out its events.
+        display: Shows its axes.
+        rates: What the operator has set.
+        lanes: Every channel of the control by number, this one too.
+        shared: The axes that channels share.
+    """
+
+    channel: Channel
+    ahead: Ahead
+    automatic: Automatic
+    machinery: Machinery
+    display: MainRunDisplay
+    rates: Rates
+    lanes: Mapping[int, Lane]
+    shared: SharedAxes
+
+    @property
+    def number(self) -> int:
+        """Number of the channel."""
+        return self.channel.number
+
+    @property
+    def runs(self) -> bool:
+        """Whether a program of the channel is under way, halted or not."""
+        group = self.channel.group
+        return group is not None and group.is_running(self.number)
+
+    @property
+    def real(self) -> list[float]:
+        """Commanded position of the real axes, mm (radius) and degrees."""
+        position = self.display.real(self.automatic.machine, self.automatic.place)
+        for column, mover, there in self.shared.elsewhere(self.number, self.channel.group):
+            other = self.lanes[mover]
+            position[column] = other.display.real(other.automatic.machine, other.automatic.place)[there]
+        return position
+
+    def positions(self, real: list[float] | None = None) -> Positions:
+        """Positions as the displays show them; `real` is where the axes are, if they do not follow the display."""
+        automatic, context = self.automatic, self.automatic.context
+        axes = self.real
+        here, end = (
+            carried(place, automatic.place, context, self.display.geometry)
+            for place in (automatic.machine, automatic.row_end)
+        )
+        for column, _, _ in self.shared.elsewhere(self.number, self.channel.group):
+            here[column] = end[column] = axes[column]
+        return self.display.positions(here, end, axes if real is None else real, context)
+
+    @property
+    def modal(self) -> Mapping[str, str]:
+        """Active code of every modal group in the block in execution."""
+        return dict(self.automatic.modal)
+
+    @property
+    def active_block(self) -> ActiveBlock:
+        """The block in execution."""
+        block = self.automatic.block
+        if block is None:
+            return ActiveBlock()
+        program = next((p for p in reversed(self.channel.programs) if p.name == block.program), None)
+        return ActiveBlock(block.program, block.line, text_of(program, block.line))
+
+    @property
+    def spindle(self) -> SpindleState:
+        """The spindle of the block in execution."""
+        context = self.automatic.context
+        spindle = self.channel.machine.spindle.get(context.spindle)
+        top = spindle.max_rpm if spindle is not None else inf
+        turning = 0.0 if context.surface_speed or not context.spindle_direction else context.spindle_rpm
+        rpm = min(turning * self.rates.spindle, top)
+        return SpindleState(context.spindle, context.spindle_rpm, rpm, context.spindle_direction)
+
+    @property
+    def tool(self) -> ToolState:
+        """Tool in the spindle, and the one that stands by."""
+        context = self.automatic.context
+        return ToolState(context.tool, context.tool_name, self.machinery.next_tool)
+
+    @property
+    def snapshot(self) -> ChannelSnapshot:
+        """Everything at once, of one moment."""
+        automatic = self.automatic
+        return ChannelSnapshot(
+            number=self.number,
+            runs=self.runs,
+            waits=automatic.waits_for_channel,
+            halt=automatic.halt,
+            positions=self.positions(),
+            feed=60.0 * automatic.speed,
+            block=self.active_block,
+            modal=self.modal,
+            spindle=self.spindle,
+            tool=self.tool,
+            messages=tuple(self.machinery.messages),
+        )
+
+    def show_own_state(self) -> None:
+        """Between programs the displays show the channel's own state."""
+        self.automatic.context = self.channel.control.context(self.channel)
+        self.automatic.modal = self.channel.mode.codes
+
+    def give_up(self) -> None:
+        """The axes stand: the program is given up, the channel is as after reset."""
+        self.automatic.abandon()
+        self.machinery.reset()
+        self.channel.control.reset(self.channel)
+        if self.channel.group is not None:
+            self.channel.group.end(self.number)
