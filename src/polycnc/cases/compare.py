@@ -119,7 +119,7 @@ def _move_fits(move: ExpectedMove, record: Record, positions: Positions) -> bool
     return all(values_equal(value, record.get(key), positions.tolerance) for key, value in wanted.items())
 
 
-_MOVE_VALUES = {"feed", "line", "program", "seconds", "revolutions", "turns", "lead"}
+_MOVE_VALUES = {"feed", "line", "program", "seconds", "revolutions", "turns", "lead", "start_angle"}
 
 
 def compare_final(expected: ExpectedPosition, work: Mapping[str, float], machine: Mapping[str, float],

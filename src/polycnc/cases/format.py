@@ -33,6 +33,7 @@ class ExpectedMove(_Strict):
     revolutions: Number | None = None
     turns: Number | None = None
     lead: Number | None = None
+    start_angle: Number | None = None
 
 
 class ExpectedAlarm(_Strict):

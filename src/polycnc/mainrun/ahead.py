@@ -313,7 +313,10 @@ class Ahead:
         if count == 0:
             return
         self._skips = self._skips or chunk.kind[row] == Kind.SKIP
-        is_arc = chunk.kind[row] in ARC_KINDS and self._pieces[before * self._width + FORM] == CURVED
+        is_arc = (
+            chunk.kind[row] in (*ARC_KINDS, Kind.THREAD)
+            and self._pieces[before * self._width + FORM] == CURVED
+        )
         way = arc_laid(start, state, self.limits, n) if is_arc else line_laid(start, state, n)
         state[FEED] = chunk.feed[row]
         is_cut_short = chunk.kind[row] == Kind.SKIP and chunk.curve[row] >= 0

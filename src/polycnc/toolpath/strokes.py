@@ -90,6 +90,8 @@ def _start(toolpath: Toolpath, before: Row | None, row: Row, geometry: tuple[int
 
 def _points(row: Row, start: Vector, end: Vector, chord_error: float) -> list[Vector]:
     """The points of a row behind its start."""
+    if row.kind == Kind.THREAD and any(row.curve[5:8]):
+        return arc_points(start, end, row.curve[2:5], row.curve[5:8], 0.0, chord_error)
     if row.kind not in ARC_KINDS or not row.curve:
         return [end]
     sense = 1.0 if row.kind in (Kind.CCW, Kind.HELIX_CCW) else -1.0

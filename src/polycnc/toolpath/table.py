@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 #: Value of the `curve` column where a row has no curve parameters.
 NO_CURVE = -1
 #: Numbers a curve row: centre x y z (work coordinates, mm), unit normal x y z of the arc's plane, full turns
-#: beyond the first, spare. A dwell: seconds, revolutions. A thread or tap: lead mm, start angle degrees.
+#: beyond the first, spare. A dwell: seconds, revolutions. A thread or tap: lead mm, start angle degrees;
+#: of a circular thread also its centre and the normal about which it turns counter-clockwise.
 #: A skip move that a signal ends: way that is left to its programmed end, mm.
 CURVE_WIDTH = 8
 CHUNK_ROWS = 65_536

@@ -220,7 +220,9 @@ class Display:
             seconds, revolutions = curve[0], curve[1]
             return {"revolutions": _shown(revolutions)} if revolutions else {"seconds": _shown(seconds)}
         if kind in (Kind.THREAD, Kind.TAP):
-            return {"lead": _shown(curve[0] * scale.length), "start_angle": _shown(curve[1])}
+            record = {"lead": _shown(curve[0] * scale.length), "start_angle": _shown(curve[1])}
+            # A circular thread: its centre and normal stand behind lead and angle.
+            return {**record, **self._arc((*curve[2:8], 0.0), context)} if any(curve[5:8]) else record
         return self._arc(curve, context) if kind in ARC_KINDS else {}
 
     def _arc(self, curve: Sequence[float], context: Context) -> dict[str, Any]:

@@ -15,7 +15,7 @@ def test_a_cycle_of_more_strokes_than_anyone_waits_for_is_an_alarm() -> None:
 def test_threads_run_through_in_single_block_operation() -> None:
     program = "N1 G0 X40. Z5.\nN2 G32 Z-5. F2.\nN3 Z-10.\nN4 G0 X50.\nN5 Z5.\nM30\n"
     session = open_session(program, control="fanuc-0i-tf", setup={"switches": {"single_block": True}})
-    assert session.run().stops == ["N1", "N4", "N5"]
+    assert session.run().stops == ["N1", "N4", "N5", "6"]
 
 
 def test_a_word_of_the_other_format_is_refused_with_a_hint() -> None:

@@ -109,6 +109,7 @@ ROWS: tuple[Row, ...] = (
     *same(_point("G31", turning_measuring.skip_move, "P")),
     *by_system("G32", "G33", "G33", _motion("G32", turning_threads.plan_thread)),
     *same(_motion("G34", turning_threads.plan_growing_thread)),
+    *same(_motion("G35", turning_threads.plan_circular_thread_cw)),
     *same(GCode("G38", handler=turning_comp.hold_vector, order=Order.COMPENSATION)),
     *same(GCode("G39", handler=turning_comp.corner_arc, takes="I J K", order=Order.MOTION)),
     *same(GCode("G40", "compensation", turning_comp.cancel, takes="I J K", order=Order.COMPENSATION)),
@@ -159,7 +160,7 @@ ROWS: tuple[Row, ...] = (
     *by_system("", "G98", "G98", GCode("G98", "return")),
     *by_system("", "G99", "G99", GCode("G99", "return")),
     *not_yet(
-        "G4.1", "G10.6", "G31.8", "G35", "G41.1", "G42.1", "G50.4", "G50.5", "G50.6",
+        "G4.1", "G10.6", "G31.8", "G41.1", "G42.1", "G50.4", "G50.5", "G50.6",
         "G51.2", "G251", "G51.4", "G51.5", "G51.6", "G53.1", "G53.6", "G68.2", "G68.3", "G68.4", "G80.4", "G80.5",
         "G81.1", "G81.4", "G81.5", "G96.1", "G96.2", "G96.3", "G96.4",
     ),
@@ -173,7 +174,7 @@ MEASURING_36 = (
 MEASURING_37 = (
     *same(_point("G37.1", turning_measuring.measure_first)),
     *same(_point("G37.2", turning_measuring.measure_second)),
-    *not_yet("G36"),
+    *same(_motion("G36", turning_threads.plan_circular_thread_ccw)),
 )
 #: 5106#0 GFX = 1: grinding cycles in place of G71 to G74.
 GRINDING = tuple(
@@ -247,6 +248,7 @@ POWER_ON = {
     "wcs": "G54",
     "path": "G64",
     "macro": "G67",
+    "calls": macro_calls.ALL_CALLS,
     "turret_mirror": "G69",
     "rotation": "G69.1",
     RIGID: RIGID_OFF,

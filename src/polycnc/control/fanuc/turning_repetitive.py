@@ -11,12 +11,18 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import Level
 from polycnc.control.fanuc.turning_comp import SHAPE_KIND
-from polycnc.control.fanuc.turning_coordinates import feed_number, plane_axes
+from polycnc.control.fanuc.turning_coordinates import plane_axes
 from polycnc.control.fanuc.turning_drilling import is_series_15
 from polycnc.control.fanuc.turning_shape import Section, contour_of, read_shape
 from polycnc.control.fanuc.turning_single import runout
-from polycnc.control.fanuc.turning_strokes import emit, enter_compensation, is_compensated, leave_compensation
-from polycnc.control.fanuc.turning_threads import start_angle
+from polycnc.control.fanuc.turning_strokes import (
+    emit,
+    enter_compensation,
+    is_compensated,
+    leave_compensation,
+    uncompensated_cycle,
+)
+from polycnc.control.fanuc.turning_threads import lead_in_force, start_angle
 from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.cycles.contour import reversal, swapped, swapped_stroke
 from polycnc.cycles.threading import ThreadCuts, multiple_threading
@@ -275,7 +281,7 @@ def _peck(channel: Channel, words: Words, *, along: int) -> None:
         relief = words.length("R") or 0.0
     pecks = Pecks(amounts[along], memory.cycle_parameter(RETURN), amounts[1 - along], relief)
     strokes = peck_columns(_turned(start, along), _turned(end, along), pecks)
-    emit(channel, (swapped_stroke(stroke) for stroke in strokes) if along else strokes)
+    uncompensated_cycle(channel, (swapped_stroke(stroke) for stroke in strokes) if along else strokes)
 
 
 def _corner(
@@ -322,9 +328,7 @@ def thread(channel: Channel, words: Words) -> None:
         height, first = _increments(words, "P"), _increments(words, "Q")
         angle, method, turn = memory.cycle_parameter(THREAD_ANGLE), 1, 0.0
         finishing = max(int(memory.cycle_parameter(THREAD_FINISHING)), 1)
-    lead = INCH_MM / _threads_per_inch(words) if "E" in words else feed_number(channel)
-    if not lead > 0.0:
-        raise words.fail("no_feed", "F")
+    lead = INCH_MM / _threads_per_inch(words) if "E" in words else lead_in_force(channel)
     if not height > 0.0 or not first > 0.0:
         raise words.fail("cycle_depth", "P" if not height > 0.0 else "Q")
     cuts = ThreadCuts(
@@ -341,7 +345,7 @@ def thread(channel: Channel, words: Words) -> None:
         start, end, taper, cuts, runout(channel),
         half_angle_deg=angle / 2.0, zigzag=method in (2, 4), start_angle_deg=turn,
     )  # fmt: skip
-    emit(channel, strokes, lead=lead)
+    uncompensated_cycle(channel, strokes, lead=lead)
 
 
 def _store_thread(channel: Channel, words: Words) -> None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc import turning_grinding
-from polycnc.control.fanuc.turning_coordinates import feed_number
+from polycnc.control.fanuc.turning_coordinates import feed_number, plane_axes
 from polycnc.control.fanuc.turning_drilling import is_series_15
-from polycnc.control.fanuc.turning_strokes import compensated_cycle, emit
-from polycnc.control.fanuc.turning_threads import start_angle
+from polycnc.control.fanuc.turning_strokes import compensated_cycle, uncompensated_cycle
+from polycnc.control.fanuc.turning_threads import lead_in_force, plan_start_angle
 from polycnc.control.word_address.path import PLANES
 from polycnc.cycles import turning_single
 from polycnc.cycles.threading import Runout
@@ -22,45 +22,39 @@ if TYPE_CHECKING:
 CYCLES = frozenset({"G90", "G92", "G94"})
 #: M codes of the control itself: blocks with nothing else do not repeat a cycle.
 _PROGRAM_CODES = frozenset({2, 30, 98, 99, 198})
+#: Groups of codes that do not repeat a cycle where they stand without its words: one-shot codes, macro calls, G80.
+_IDLE_GROUPS = frozenset({"", "macro", "cycle"})
 
 
 def plan_single_cycle(builder: Builder, plan: Plan) -> Step | None:
     """A block in the mode of G90, G92 or G94: take over its words, and run the cycle (II.4.1.5)."""
-    control = builder.control
     code = builder.mode["motion"]
-    u, v, _ = PLANES[builder.mode["plane"]]
-    geometry = builder.channel.coordinates.geometry
-    first, second = geometry[u], geometry[v]
-    for word in plan.axis_words:
-        if word.axis not in (first, second):
-            raise control.fail("cycle_axis", address=word.address)
     taper_letters = _taper_letters(builder, code)
     taper = next((letter for letter in taper_letters if builder.has(letter)), None)
     if taper is not None:
         builder.take(taper)
-    angle = builder.slot("Q") if code == "G92" else None
-    if code == "G92":
-        builder.take("Q")
-    words = bool(plan.axis_words) or taper is not None
-    codes = [row for row in builder.codes if row.group != "motion"]
-    if not words and (codes or _PROGRAM_CODES.intersection(builder.m_codes)):
+    angle_of = plan_start_angle(builder) if code == "G92" else None
+    names_corner = bool(plan.axis_words) or taper is not None
+    idle = any(row.group in _IDLE_GROUPS for row in builder.codes)
+    if not names_corner and (idle or _PROGRAM_CODES.intersection(builder.m_codes)):
         return None
     taper_slot = builder.slot(taper) if taper is not None else None
     taper_of = builder.length(taper) if taper is not None else None
-    named = {word.axis: word for word in plan.axis_words}
+    words = plan.axis_words
 
     def run(channel: Channel, values: list[float]) -> None:
         data = channel.memory.single_cycle
-        for axis, word in named.items():
-            data[axis] = (
-                word.convert(values[word.slot]) if word.convert else values[word.slot],
-                word.incremental,
-            )
+        axes = plane_axes(channel)
+        for word in words:
+            if word.axis not in axes:
+                raise channel.control.fail("cycle_axis", address=word.address)
+            value = values[word.slot]
+            data[word.axis] = (word.convert(value) if word.convert else value, word.incremental)
         if taper_slot is not None:
             data["taper"] = taper_of(values[taper_slot]) if taper_of else values[taper_slot]
         if not data:
             return
-        _run(channel, code, (first, second), 0.0 if angle is None else start_angle(values[angle]))
+        _run(channel, code, axes, 0.0 if angle_of is None else angle_of(channel, values))
 
     return run
 
@@ -79,11 +73,8 @@ def _run(channel: Channel, code: str, axes: tuple[int, int], angle: float) -> No
     corner: Point = (target[axes[0]], target[axes[1]])
     taper = data.get("taper", 0.0)
     if code == "G92":
-        emit(
-            channel,
-            turning_single.threading(start, corner, taper, runout(channel), angle),
-            lead=feed_number(channel),
-        )
+        strokes = turning_single.threading(start, corner, taper, runout(channel), angle)
+        uncompensated_cycle(channel, strokes, lead=lead_in_force(channel))
         return
     cycle = turning_single.longitudinal if code == "G90" else turning_single.facing
     compensated_cycle(channel, list(cycle(start, corner, taper)))

@@ -9,6 +9,7 @@ from polycnc.control.fanuc.turning_coordinates import drop_vector, plane_axes
 from polycnc.control.fanuc.turning_threads import thread_move
 from polycnc.control.fanuc.turning_tools import nose_radius, nose_tip
 from polycnc.control.word_address.path import PLANES
+from polycnc.control.word_address.radius import suspended
 from polycnc.geometry import offset
 from polycnc.toolpath import Kind
 
@@ -56,6 +57,12 @@ def _arc(channel: Channel, stroke: PlaneStroke, end: list[float], feed: float) -
         center[u], center[v] = stroke.center
     normal = (float(w == 0), float(w == 1), float(w == 2))
     channel.curve(stroke.kind, end, feed, center=(center[0], center[1], center[2]), normal=normal)
+
+
+def uncompensated_cycle(channel: Channel, strokes: Iterable[PlaneStroke], *, lead: float = 0.0) -> None:
+    """G92, G74, G75, G76: nose radius compensation does not act in them (II.4.1.4, 4.2.5 to 4.2.7)."""
+    with suspended(channel):
+        emit(channel, strokes, lead=lead)
 
 
 def compensated_cycle(channel: Channel, strokes: Sequence[PlaneStroke]) -> None:

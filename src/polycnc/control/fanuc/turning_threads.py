@@ -1,4 +1,4 @@
-"""Threads block by block: G32 with its lead, start angle and rules (0i-TF Plus II.3.1 to 3.3)."""
+"""Threads block by block: G32, G34, G35, G36 with lead, start angle and rules (0i-TF Plus II.3.1 to 3.3)."""
 
 from __future__ import annotations
 
@@ -6,63 +6,186 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.turning_coordinates import feed_number
-from polycnc.control.word_address.path import target
+from polycnc.control.word_address.path import CENTER_WORDS, PLANES, center_by_radius, target
+from polycnc.geometry import arcs
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.plan import Builder, Plan
+    from polycnc.geometry.arcs import Point
+    from polycnc.geometry.frames import Vector
 
 MAX_START_ANGLE = 360_000
-_CORNER_WORDS = (",C", ",R", ",A", "R", "C", "I", "J", "K")
+MM_PER_INCH = 25.4
+#: Least and largest lead (II.3.1, table 3.1(a)).
+LEADS_MM, LEADS_INCH = (0.0001, 500.0), (0.000001, 9.999999)
+_CHAMFERS = (",C", ",R", ",A")
+_CORNER_WORDS = (*_CHAMFERS, "R", "C", "I", "J", "K")
+
+
+# ---- straight ----------------------------------------------------------------------------------------------------
 
 
 def plan_thread(builder: Builder, plan: Plan) -> Step | None:
     """G32 (B, C: G33): straight at the lead F, locked to the spindle; Q is the start angle of this block only."""
-    return _plan(builder, plan, grows=False)
+    return _plan_straight(builder, plan, grows=False)
 
 
 def plan_growing_thread(builder: Builder, plan: Plan) -> Step | None:
     """G34: as G32, the lead grows by K each revolution."""
-    return _plan(builder, plan, grows=True)
+    return _plan_straight(builder, plan, grows=True)
 
 
-def _plan(builder: Builder, plan: Plan, *, grows: bool) -> Step | None:
-    control = builder.control
-    for address in _CORNER_WORDS:
-        taken_as_axis = any(word.address == address for word in plan.axis_words)
-        if builder.has(address) and not taken_as_axis and not (grows and address == "K"):
-            raise control.fail("corner_thread", address=address)
-    builder.take("Q", "K")
-    angle = builder.slot("Q")
-    if angle is not None and builder.slots["Q"][1] not in ("", "#"):
-        raise control.fail("point", address="Q")
+def _plan_straight(builder: Builder, plan: Plan, *, grows: bool) -> Step | None:
+    words = plan.axis_words
+    _refuse_corners(builder, plan, tuple(a for a in _CORNER_WORDS if not (grows and a == "K")))
+    angle_of = plan_start_angle(builder)
+    builder.take("K")
     growth_slot = builder.slot("K") if grows else None
     growth_of = builder.length("K") if growth_slot is not None else None
-    words = plan.axis_words
     if not words:
         return None
 
     def cut(channel: Channel, values: list[float]) -> None:
-        lead = feed_number(channel)
-        if not lead > 0.0:
-            raise control.fail("no_feed")
+        lead = lead_in_force(channel)
         programmed = target(channel, words, values)
-        c = channel.coordinates
         if growth_slot is not None:
             growth = values[growth_slot]
             check_last_lead(channel, programmed, lead, growth_of(growth) if growth_of else growth)
+        end = channel.coordinates.to_position(programmed)
+        thread_move(channel, end, lead, angle_of(channel, values), programmed)
         channel.memory.thread_step = channel.level.current
-        degrees = 0.0 if angle is None else start_angle(values[angle])
-        thread_move(channel, c.to_position(programmed), lead, degrees, programmed)
 
     return cut
+
+
+# ---- circular ----------------------------------------------------------------------------------------------------
+
+
+def plan_circular_thread_cw(builder: Builder, plan: Plan) -> Step | None:
+    """G35: a thread along a clockwise arc; R, or the centre by I and K as in G02."""
+    return _plan_arc(builder, plan, ccw=False)
+
+
+def plan_circular_thread_ccw(builder: Builder, plan: Plan) -> Step | None:
+    """G36 (3405#3 = 1): a thread along a counter-clockwise arc."""
+    return _plan_arc(builder, plan, ccw=True)
+
+
+def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
+    control, words = builder.control, plan.axis_words
+    _refuse_corners(builder, plan, _CHAMFERS)
+    angle_of = plan_start_angle(builder)
+    u, v, w = PLANES[builder.mode["plane"]]
+    letters = (CENTER_WORDS[u], CENTER_WORDS[v])
+    builder.take("R", *letters)
+    if not words:
+        return None
+    if not any(builder.has(letter) for letter in ("R", *letters)):
+        raise control.fail("circular_thread", address=builder.mode["motion"])
+    amounts = {
+        letter: (builder.slots[letter][0], builder.length(letter))
+        for letter in ("R", *letters)
+        if builder.has(letter)
+    }
+
+    def cut(channel: Channel, values: list[float]) -> None:
+        given = {
+            letter: convert(values[slot]) if convert else values[slot]
+            for letter, (slot, convert) in amounts.items()
+        }
+        lead, c = lead_in_force(channel), channel.coordinates
+        programmed = target(channel, words, values)
+        first, second = c.geometry[u], c.geometry[v]
+        begin: Point = (c.programmed[first], c.programmed[second])
+        end: Point = (programmed[first], programmed[second])
+        center: Point | None
+        if "R" in given:
+            center = center_by_radius(channel, begin, end, given["R"], ccw)
+        else:
+            center = (begin[0] + given.get(letters[0], 0.0), begin[1] + given.get(letters[1], 0.0))
+            control.check_arc(channel, begin, end, center)
+        if center is None or not _keeps_long_axis(begin, end, center, ccw):
+            raise control.fail("circular_thread", address=channel.mode["motion"])
+        middle = [0.0, 0.0, 0.0]
+        middle[u], middle[v] = center
+        x, y, z = c.programming.apply(middle[0], middle[1], middle[2])
+        sense = 1.0 if ccw != c.programming.mirrors else -1.0
+        normal: Vector = (sense * (w == 0), sense * (w == 1), sense * (w == 2))
+        parameters = (lead, angle_of(channel, values), x, y, z, *normal)
+        channel.curve(
+            Kind.THREAD, c.to_position(programmed), lead, parameters=parameters, programmed=programmed
+        )
+        channel.memory.thread_step = channel.level.current
+
+    return cut
+
+
+def _keeps_long_axis(begin: Point, end: Point, center: Point, ccw: bool) -> bool:
+    """Whether the lead counts along one axis all the way: the arc's direction never passes 45 degrees, and it moves."""
+    if hypot(end[0] - begin[0], end[1] - begin[1]) <= arcs.SAME_POINT_MM:
+        return False
+    diagonals = [(center[0] + a, center[1] + b) for a in (1.0, -1.0) for b in (1.0, -1.0)]
+    # The very ends may lie on a diagonal.
+    return not any(
+        arcs.contains_direction(begin, end, center, ccw, point, slack=-1e-6)
+        and abs(arcs.sweep_angle(begin, point, center, ccw)) > 1e-6
+        for point in diagonals
+    )
+
+
+# ---- what all threads share ----------------------------------------------------------------------------------------
+
+
+def _refuse_corners(builder: Builder, plan: Plan, addresses: tuple[str, ...]) -> None:
+    """Neither a thread nor the block in front of it may have a chamfer or a corner R (PS0050)."""
+    for address in addresses:
+        if builder.has(address) and not any(word.address == address for word in plan.axis_words):
+            raise builder.control.fail("corner_thread", address=address)
+
+
+def plan_start_angle(builder: Builder) -> Callable[[Channel, list[float]], float]:
+    """Q of a thread block, degrees; it needs an integer. Within a continuous thread it has no effect (II.3.2)."""
+    builder.take("Q")
+    slot = builder.slot("Q")
+    if slot is None:
+        return lambda _channel, _values: 0.0
+    if builder.slots["Q"][1] not in ("", "#"):
+        raise builder.control.fail("point", address="Q")
+    return lambda channel, values: 0.0 if is_continued(channel) else start_angle(values[slot])
+
+
+def is_continued(channel: Channel) -> bool:
+    """Whether the block in front was a thread too: then the spindle's mark is not waited for (II.3.1)."""
+    chunk, line = channel.toolpath.chunk, channel.level.code.line(channel.level.current)
+    for row in range(len(chunk) - 1, -1, -1):
+        if chunk.kind[row] != Kind.EVENT:
+            return bool(chunk.kind[row] == Kind.THREAD)
+        if chunk.line[row] != line:
+            return False
+    return False
 
 
 def start_angle(thousandths: float) -> float:
     """Q in degrees: the sign does not count, more than a turn is one turn (II.3.3)."""
     return float(min(abs(thousandths), MAX_START_ANGLE)) / 1000.0
+
+
+def lead_in_force(channel: Channel) -> float:
+    """The lead, mm: the number of F, whatever the feed unit; the alarm where a thread cannot have it."""
+    lead = feed_number(channel)
+    if not lead > 0.0:
+        raise channel.control.fail("no_feed", address="F")
+    inch = channel.mode["unit"] == "G20"
+    least, largest = LEADS_INCH if inch else LEADS_MM
+    shown = lead / MM_PER_INCH if inch else lead
+    if not least * (1.0 - 1e-9) <= shown <= largest * (1.0 + 1e-9):
+        raise channel.control.fail("thread_lead", address="F")
+    return lead
 
 
 def thread_move(
@@ -76,7 +199,9 @@ def thread_move(
 
 
 def check_last_lead(channel: Channel, end: list[float], lead: float, growth: float) -> None:
-    """The lead must still be positive at the end: with s the way, `lead² + 2·growth·s` is its square there."""
-    way = hypot(*(e - p for e, p in zip(end, channel.coordinates.programmed, strict=True)))
-    if lead * lead + 2.0 * growth * way <= 0.0:
+    """The lead must be possible at the end too: with s the way, `lead² + 2·growth·s` is its square there."""
+    way = max(abs(e - p) for e, p in zip(end, channel.coordinates.programmed, strict=True))
+    last2 = lead * lead + 2.0 * growth * way
+    largest = LEADS_MM[1] if channel.mode["unit"] == "G21" else LEADS_INCH[1] * MM_PER_INCH
+    if not 0.0 < last2 <= largest * largest:
         raise channel.control.fail("thread_lead", address="K")

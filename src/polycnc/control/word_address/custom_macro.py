@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.control.word_address import code_calls, cylinder, interruption, macro_calls, polar_interpolation
 from polycnc.control.word_address.control import WordAddressControl
@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Level
+    from polycnc.channel.stack import Step as ProgramStep
     from polycnc.control.word_address.code_calls import CodeCalls
     from polycnc.control.word_address.codes import GCode, MCode, Step
     from polycnc.control.word_address.numbers import Convert
@@ -140,6 +142,21 @@ class CustomMacroControl(WordAddressControl):
     def begin(self, channel: Channel) -> None:
         """A main program begins: it has the local variables."""
         channel.level.locals = channel.memory.locals
+
+    def halts(self, channel: Channel, level: Level, _step: ProgramStep) -> bool:
+        """Single block halts behind blocks of words, and with 6000#5 behind macro statements; never under #3003 bit 0.
+
+        Calls and returns do not count; the program end does.
+        """
+        memory = channel.memory
+        if memory.control_switches.get("cntl1", 0) & 1 and not memory.parameters.bit(6000, 7):
+            return False
+        if channel.level is not level:
+            return False
+        code: Any = level.code
+        if not level.counts(level.current):
+            return bool(memory.parameters.bit(6000, 5) or memory.parameters.bit(6000, 7))
+        return bool(code.has_words(level.current))
 
     # ---- calls ---------------------------------------------------------------------------------------
 

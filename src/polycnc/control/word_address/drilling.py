@@ -256,7 +256,9 @@ class _Words:
             return lambda value: self.rules.seconds(value, form, rules)
         if address in self.rules.least_increments and builder.slots[address][1] == "":
             return length_converter("", replace(builder.rules, calculator=False), inch=builder.inch) or float
-        diameter = address == "R" and self.rules.r_as_axis and self.control.is_diameter(builder.channel, self.axis)
+        diameter = (
+            address == "R" and self.rules.r_as_axis and self.control.is_diameter(builder.channel, self.axis)
+        )
         return builder.length(address, diameter=diameter) or (lambda value: value)
 
     def store(self, data: CycleData, values: list[float]) -> None:

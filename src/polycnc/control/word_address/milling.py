@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policies import HARTFORD, Policy
 from polycnc.control.word_address import corners
@@ -15,8 +15,6 @@ from polycnc.control.word_address.tool_center_point import plan_with_direction
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.channel.stack import Level
-    from polycnc.channel.stack import Step as ProgramStep
     from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.memory import Memory, ToolOffset
     from polycnc.control.word_address.plan import Builder, Plan
@@ -83,21 +81,6 @@ class MillingControl(CustomMacroControl):
         if number != builder.m_codes[-1] and not self.several_m_codes(builder.channel):
             return MCode(number, silent=True)
         return guarded(super().m_row(builder, number), self.interlocks)
-
-    def halts(self, channel: Channel, level: Level, _step: ProgramStep) -> bool:
-        """Single block halts behind blocks of words, and with 6000#5 behind macro statements; never under #3003 bit 0.
-
-        Calls and returns do not count; the program end does.
-        """
-        memory = channel.memory
-        if memory.control_switches.get("cntl1", 0) & 1 and not memory.parameters.bit(6000, 7):
-            return False
-        if channel.level is not level:
-            return False
-        code: Any = level.code
-        if not level.counts(level.current):
-            return bool(memory.parameters.bit(6000, 5) or memory.parameters.bit(6000, 7))
-        return bool(code.has_words(level.current))
 
     def several_m_codes(self, _channel: Channel) -> bool:
         """Whether a block may hold several M codes (Hartford manual 2.3.3: the last one counts)."""

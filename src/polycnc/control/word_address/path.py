@@ -146,7 +146,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
         end = (programmed[geometry[u]], programmed[geometry[v]])
         if radius_slot is not None:
             radius = values[radius_slot]
-            center = _center_by_radius(channel, begin, end, radius_of(radius) if radius_of else radius, ccw)
+            center = center_by_radius(channel, begin, end, radius_of(radius) if radius_of else radius, ccw)
         else:
             shift = [0.0, 0.0]
             for i, (_, slot) in enumerate(offsets):
@@ -172,7 +172,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
     return declare(move, Arc(ccw, (u, v, w), told, (first, second), radius_word, line_without_way=True))
 
 
-def _center_by_radius(
+def center_by_radius(
     channel: Channel, begin: arcs.Point, end: arcs.Point, radius: float, ccw: bool
 ) -> arcs.Point | None:
     """The centre for an R word; None where start and end coincide (an arc of 0 degrees: no motion in the plane)."""

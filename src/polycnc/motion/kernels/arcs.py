@@ -50,6 +50,7 @@ from polycnc.motion.kernels.columns import (
     SWEEP,
     TANGENT,
     TARGET,
+    THREAD,
     TOP_FEED,
     UNIT,
     VECTORS,
@@ -74,9 +75,10 @@ SAME2 = SAME_POINT_MM * SAME_POINT_MM
 def find_arc(curves: Floats, contexts: Floats, record: int, n: int, limits: Floats, state: Floats) -> bool:
     """Set the state's BASIS, SWEEP, RADIUS, GROWTH and RISE for the row at hand, in machine coordinates.
 
-    False where the start lies in the centre.
+    False where the start lies in the centre, and for a straight thread.
     """
-    c, geometry = int(state[CURVE]), LIMIT_BLOCKS * n + GEOMETRY
+    is_thread = state[KIND] == THREAD
+    c, geometry = int(state[CURVE]) + (2 if is_thread else 0), LIMIT_BLOCKS * n + GEOMETRY
     to_start, to_end, normal = BASIS, BASIS + 3, BASIS + 6
     size2 = 0.0
     for j in range(3):
@@ -112,9 +114,11 @@ def find_arc(curves: Floats, contexts: Floats, record: int, n: int, limits: Floa
         return False
     state[RADIUS], state[RISE] = sqrt(start2), end_along - start_along
     state[GROWTH] = sqrt(end2) - state[RADIUS]
-    ccw = state[KIND] == CCW or state[KIND] == HELIX_CCW
+    ccw = is_thread or state[KIND] == CCW or state[KIND] == HELIX_CCW
     sense = contexts[record + MIRROR] * (1.0 if ccw else -1.0)
-    state[SWEEP] = first_turn(state, sense, apart2) + 2.0 * pi * curves[c + 6]
+    state[SWEEP] = first_turn(state, sense, apart2)
+    if not is_thread:
+        state[SWEEP] += 2.0 * pi * curves[c + 6]
     return True
 
 

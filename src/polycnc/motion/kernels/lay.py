@@ -169,7 +169,7 @@ def lay_move(
     stands = kind == TAP or (rapid and limits[rules + RAPID_STOPS] != 0.0)
     if stands or contexts[record + STATION] != state[AT_STATION]:
         state[STOP] = 1.0
-    arc = CW <= kind <= HELIX_CCW and state[CURVE] >= 0.0
+    arc = (CW <= kind <= HELIX_CCW or kind == THREAD) and state[CURVE] >= 0.0
     if arc and find_arc(curves, contexts, record, n, limits, state):
         done = lay_arc(curves, contexts, record, n, limits, pieces, state)
     elif rapid and contexts[record + RAPID_BY_AXIS] != 0.0:
