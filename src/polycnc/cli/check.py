@@ -5,17 +5,13 @@ from __future__ import annotations
 import sys
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
 from polycnc.cli import diagnostics, options
 from polycnc.cli.console import note, show
 from polycnc.messages import text
-
-if TYPE_CHECKING:
-    from polycnc.session import Session
 
 app = typer.Typer(add_completion=False, rich_markup_mode=None)
 STDIN = "-"
@@ -32,6 +28,7 @@ class Format(StrEnum):
 
 
 @app.command(help=text("help.check"))
+@options.with_opening
 def check(
     files: Annotated[list[str], typer.Argument(metavar="FILE…", help=text("help.check.files"))],
     form: Annotated[Format, typer.Option("--format", help=text("help.option.format"))] = Format.TEXT,
@@ -40,25 +37,13 @@ def check(
     stdin_filename: Annotated[
         str, typer.Option(metavar="NAME", help=text("help.check.stdin-filename"))
     ] = "<stdin>",
-    control: options.Control = None,
-    machine: options.Machine = None,
-    setup: options.Setup = None,
-    search: options.Search = None,
-    encoding: options.Encoding = None,
-    block_limit: options.BlockLimit = DEFAULT_BLOCK_LIMIT,
-    no_bulk: options.NoBulk = False,
-    _lang: options.Lang = None,
+    *,
+    opening: options.Opening,
 ) -> int:
     """Run each program without keeping its motion, and tell what alarmed."""
     from polycnc.machine.errors import FileError
     from polycnc.program import ProgramFileError
-    from polycnc.session import SessionError, open_session
-
-    def session(source: bytes | Path, name: str) -> Session:
-        return open_session(
-            source, name=name, control=control, machine=machine, setup=setup, search=search or (),
-            encoding=encoding, block_limit=block_limit, keep=False, timed=False, bulk=not no_bulk,
-        )  # fmt: skip
+    from polycnc.session import SessionError
 
     found: list[diagnostics.Diagnostic] = []
     names = [stdin_filename if file == STDIN else file for file in files]
@@ -66,7 +51,8 @@ def check(
     for file, name in zip(files, names, strict=True):
         try:
             source: bytes | Path = sys.stdin.buffer.read() if file == STDIN else Path(file)
-            found += diagnostics.diagnostics_of(session(source, name).run(), name)
+            session = opening.session(source, name=name, keep=False, timed=False)
+            found += diagnostics.diagnostics_of(session.run(), name)
         except (SessionError, FileError, ProgramFileError) as error:
             note(f"polycnc: {error}")
             unreadable = True

@@ -19,7 +19,7 @@ def as_text(found: Sequence[Diagnostic]) -> str:
 
 
 def as_json(found: Sequence[Diagnostic]) -> str:
-    """A list of objects: `file`, `line`, `column`, `code`, `message`, `rule`, `severity`, `cause`, `remedy`, `calls`."""
+    """A list of objects with `file`, `line`, `column`, `code`, `message` and what else a finding has."""
     entries = [
         {
             "file": d.place.file,

@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+import inspect
+from dataclasses import dataclass, fields
 from enum import StrEnum
+from functools import wraps
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
 
+from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
 from polycnc.messages import text
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.session import Session
 
 
 class Language(StrEnum):
@@ -31,3 +40,54 @@ Lang = Annotated[Language | None, _option("lang", "--lang", metavar="en|zh-TW")]
 BlockLimit = Annotated[int, typer.Option("--block-limit", min=1, help=text("help.option.block-limit"))]
 NoBulk = Annotated[bool, typer.Option("--no-bulk", help=text("help.option.no-bulk"))]
 Output = Annotated[Path | None, _option("output", "--output", "-o", metavar="FILE")]
+
+
+@dataclass(frozen=True, slots=True)
+class Opening:
+    """How a program is opened: the options of every command that runs one, in the order of its help."""
+
+    control: Control = None
+    machine: Machine = None
+    setup: Setup = None
+    search: Search = None
+    encoding: Encoding = None
+    block_limit: BlockLimit = DEFAULT_BLOCK_LIMIT
+    no_bulk: NoBulk = False
+    _lang: Lang = None
+
+    def session(self, source: bytes | Path, *, name: str = "", keep: bool, timed: bool = True) -> Session:
+        """Open a session of a file, or of a text that has no file; `session.open_session` has the errors."""
+        from polycnc.session import open_session
+
+        return open_session(
+            source, name=name, control=self.control, machine=self.machine, setup=self.setup,
+            search=self.search or (), encoding=self.encoding, block_limit=self.block_limit,
+            keep=keep, timed=timed, bulk=not self.no_bulk,
+        )  # fmt: skip
+
+
+def with_opening(command: Callable[..., int]) -> Callable[..., int]:
+    """Give a command the options of `Opening` in place of its parameter `opening`, which is the last one."""
+    names = [field.name for field in fields(Opening)]
+
+    @wraps(command)
+    def called(**arguments: Any) -> int:
+        opening = Opening(**{name: arguments.pop(name) for name in names})
+        return command(**arguments, opening=opening)
+
+    # Typer reads the options of a command from its signature and its annotations.
+    options = get_type_hints(Opening, include_extras=True)
+    own = get_type_hints(command, include_extras=True)
+    kinds = inspect.Parameter
+    parameters = [
+        parameter.replace(annotation=own[parameter.name])
+        for parameter in inspect.signature(command).parameters.values()
+        if parameter.name != "opening"
+    ]
+    parameters += [
+        kinds(field.name, kinds.KEYWORD_ONLY, default=field.default, annotation=options[field.name])
+        for field in fields(Opening)
+    ]
+    called.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    called.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+    return called

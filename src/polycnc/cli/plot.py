@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
 from polycnc.cli import options
 from polycnc.cli.console import fail, note
 from polycnc.cli.diagnostics import diagnostics_of
@@ -32,6 +31,7 @@ class ViewName(StrEnum):
 
 
 @app.command(help=text("help.plot"))
+@options.with_opening
 def plot(
     file: Annotated[Path, typer.Argument(metavar="FILE", help=text("help.run.file"))],
     output: Annotated[
@@ -39,28 +39,18 @@ def plot(
     ],
     view: Annotated[ViewName | None, typer.Option(help=text("help.plot.view"), show_default=False)] = None,
     profile: Annotated[bool, typer.Option("--profile", help=text("help.plot.profile"))] = False,
-    control: options.Control = None,
-    machine: options.Machine = None,
-    setup: options.Setup = None,
-    search: options.Search = None,
-    encoding: options.Encoding = None,
-    block_limit: options.BlockLimit = DEFAULT_BLOCK_LIMIT,
-    no_bulk: options.NoBulk = False,
-    _lang: options.Lang = None,
+    *,
+    opening: options.Opening,
 ) -> int:
     """Draw the path of a program; an alarm ends the path where it came."""
     from polycnc.cli.output import write_whole
-    from polycnc.session import open_session
 
     suffix = output.suffix.lower()
     if suffix not in (".svg", ".png"):
         return fail(text("plot.suffix", file=output), 2)
     if profile and find_spec("numpy") is None:
         return fail(text("run.no-samples"), 2)
-    session = open_session(
-        file, control=control, machine=machine, setup=setup, search=search or (), encoding=encoding,
-        block_limit=block_limit, keep=not profile, bulk=not no_bulk,
-    )  # fmt: skip
+    session = opening.session(file, keep=not profile)
     result, drawing = _profile(session, file.name) if profile else _path(session, view, file.name)
     if suffix == ".svg":
         write_whole(output, drawing)

@@ -11,7 +11,6 @@ from typing import IO, TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
 from polycnc.cli import options
 from polycnc.cli.console import fail, show
 from polycnc.messages import text
@@ -38,6 +37,7 @@ _PERIOD = re.compile(r"(\d+\.?\d*|\.\d+)(us|ms|s|)", re.ASCII)
 
 
 @app.command(help=text("help.run"))
+@options.with_opening
 def run(
     file: Annotated[str, typer.Argument(metavar="FILE", help=text("help.run.file"))],
     trace: Annotated[
@@ -51,18 +51,11 @@ def run(
         Path | None, typer.Option("--print", metavar="FILE", help=text("help.run.print"))
     ] = None,
     no_time: Annotated[bool, typer.Option("--no-time", help=text("help.run.no-time"))] = False,
-    control: options.Control = None,
-    machine: options.Machine = None,
-    setup: options.Setup = None,
-    search: options.Search = None,
-    encoding: options.Encoding = None,
-    block_limit: options.BlockLimit = DEFAULT_BLOCK_LIMIT,
-    no_bulk: options.NoBulk = False,
-    _lang: options.Lang = None,
+    *,
+    opening: options.Opening,
 ) -> int:
     """Run a program once, as the control would."""
     from polycnc.cli.report import Happenings, as_text
-    from polycnc.session import open_session
 
     if trace is not None and trace.suffix.lower() not in TRACES:
         return fail(text("run.suffix", file=trace, known=", ".join(TRACES)), 2)
@@ -72,11 +65,8 @@ def run(
     if sample is not None and (period is None or sample[1].suffix.lower() not in SAMPLES):
         return fail(text("run.sample", period=sample[0], file=sample[1], known=", ".join(SAMPLES)), 2)
     is_stdin = file == "-"
-    session = open_session(
-        sys.stdin.buffer.read() if is_stdin else Path(file), control=control, machine=machine, setup=setup,
-        search=search or (), encoding=encoding, block_limit=block_limit, keep=False,
-        timed=not no_time or sample is not None, bulk=not no_bulk,
-    )  # fmt: skip
+    source = sys.stdin.buffer.read() if is_stdin else Path(file)
+    session = opening.session(source, keep=False, timed=not no_time or sample is not None)
     happenings = Happenings(session.result.display)
     session.consumers.append(happenings.take)
     with ExitStack() as files:
