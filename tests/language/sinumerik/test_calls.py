@@ -37,7 +37,7 @@ def test_parameters_are_converted_and_may_be_left_out() -> None:
 def test_parameters_by_reference_change_what_the_caller_has() -> None:
     files = {
         "SUBB.SPF": "PROC SUBB(VAR REAL AA, VAR INT BB[,2], VAR STRING[9] CC)\n"
-        'AA=AA+1\nBB[1,1]=7\nSUBC(AA)\nCC[0]="Q"\nRET',
+        'AA=AA+1\nBB[1,1]=7\nSUBC(AA)\nCC="Q"<<SUBSTR(CC,1)\nRET',
         "SUBC.SPF": "PROC SUBC(VAR REAL ZZ)\nZZ=ZZ*2\nRET",
     }
     program = (

@@ -36,7 +36,7 @@ def test_limits_hold_for_assignments() -> None:
         ("DEF INT " + "A" * 32, "12420"),
         ("DEF INT AA[0]", "12370"),
         ("DEF INT AA[2,2,2,2]", "12190"),
-        ("DEF INT AA[R1]", "12370"),
+        ("DEF INT AA[R1]", "12080"),
         ("DEF REAL AA[60000,60000]", "14070"),
         ("DEF STRING[2] AA[2,2,2]", "12190"),
         ("DEF STRING[0] AA", "12210"),
@@ -112,8 +112,34 @@ def test_global_variables_live_longer_than_a_subprogram() -> None:
 
 
 def test_redefinition_of_limits_must_fit_the_value() -> None:
-    files = {"_N_MGUD_DEF": "DEF CHAN INT GG1=7\nREDEF GG1 ULI 5\nM30\n"}
+    files = {"_N_MGUD_DEF": "REDEF R INIPO 7\nREDEF R ULI 5\nM30\n"}
     assert alarm("R1=1", files=files)[0] == "12160"
+
+
+def test_limits_of_global_user_variables_cannot_be_redefined() -> None:
+    files = {"_N_MGUD_DEF": "DEF CHAN INT GG1=7\nREDEF GG1 ULI 50\nM30\n"}
+    assert alarm("R1=1", files=files)[0] == "12500"
+
+
+@pytest.mark.parametrize(
+    ("line", "code"),
+    [
+        ("DEF NCK REAL INIRE GG1=7", "12500"),
+        ("REDEF $SC_EXT_PROG_PATH PRLOC", "12500"),
+        ("REDEF $AC_PARAM ULI 5 APWP 3", "12080"),
+        ("REDEF $MN_LEN_PROTOCOL_FILE INIRE 5", "12261"),
+        ("DEF CHAN REAL PHU 17 GG1", "12160"),
+        ("DEF CHAN BOOL PHU 1 GG1", "12150"),
+    ],
+)
+def test_attributes_that_a_variable_cannot_have_alarm(line: str, code: str) -> None:
+    assert alarm("R1=1", files={"_N_MGUD_DEF": f"{line}\nM30\n"})[0] == code
+
+
+def test_lengths_with_a_unit_are_read_in_the_measuring_system_of_the_program() -> None:
+    files = {"_N_MGUD_DEF": "DEF CHAN REAL PHU 2 GG1=50.8\nDEF CHAN REAL PHU 28 GG2=50.8\nM30\n"}
+    program = "G700\nR1=GG1 R2=GG2\nGG1=3\nG710\nR3=GG1"
+    assert values(program, "R1", "R2", "R3", files=files) == pytest.approx([2, 50.8, 76.2])
 
 
 def test_local_variables_are_unknown_elsewhere_unless_machine_data_say_so() -> None:

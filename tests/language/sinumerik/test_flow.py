@@ -104,7 +104,18 @@ def test_repeat_ends_before_itself_at_the_end_label_or_at_endlabel() -> None:
 
 
 def test_repeat_finds_a_section_ahead_and_comes_back() -> None:
-    assert values("REPEAT AA BB P=2\nM30\nAA: R1=R1+1\nBB: R2=R2+1\nR3=1", "R1", "R2", "R3") == [2, 2, 0]
+    program = "REPEAT AA P=2\nM30\nAA: R1=R1+1\nENDLABEL: R2=R2+1\nR3=1"
+    assert values(program, "R1", "R2", "R3") == [2, 2, 0]
+
+
+def test_a_section_between_two_labels_is_not_looked_for_ahead() -> None:
+    assert alarm("REPEAT AA BB P=2\nM30\nAA: R1=R1+1\nBB: R2=R2+1")[:2] == ("14082", 1)
+
+
+def test_a_pass_ends_where_it_comes_to_its_own_repeat() -> None:
+    branch = "AA: R1=R1+1\nIF R1==9\nR2=R2+1\nENDIF\nREPEAT AA P=2"
+    assert values(branch, "R1", "R2") == [3, 0]
+    assert values("AA: R1=R1+1\nREPEAT AA BB P=2\nBB: R2=R2+1", "R1", "R2") == [3, 1]
 
 
 def test_a_return_inside_a_repetition_ends_it() -> None:

@@ -20,6 +20,11 @@ _EXECUTION = dict(
 )
 
 
+_WRITING = dict(
+    zip(CYCLE_DIRS, ("$MN_ACCESS_WRITE_CUS", "$MN_ACCESS_WRITE_CMA", "$MN_ACCESS_WRITE_CST"), strict=True)
+)
+
+
 def operator_level(channel: Channel) -> int:
     """The level that the setup gives (`access_level`), else that of the key switch, else the manufacturer's."""
     switches = channel.setup.switches
@@ -32,3 +37,8 @@ def operator_level(channel: Channel) -> int:
 def directory_levels(data: MachineData) -> dict[str, int]:
     """The level of programs in each cycle directory (MD11160 to MD11162)."""
     return {directory: data.integer(name) for directory, name in _EXECUTION.items()}
+
+
+def write_levels(data: MachineData) -> dict[str, int]:
+    """The level that writing into each cycle directory needs (MD11165 to MD11167)."""
+    return {directory: data.integer(name) for directory, name in _WRITING.items()}

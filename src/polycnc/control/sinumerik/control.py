@@ -112,11 +112,14 @@ class Sinumerik:
         """The state after reset, and after the end of a program."""
         memory: Memory = channel.memory
         reset(channel, _start_codes(channel, memory.data))
-        initialise(memory.language, RESET, keep_values=memory.data.keeps_first_values)
+        initialise(channel, RESET, keep_values=memory.data.keeps_first_values)
 
     def _memory(self, channel: Channel) -> Memory:
         names = axis_names(channel)
-        data = MachineData(channel.setup.parameters, names)
+        columns = {**_machine_columns(channel), **_columns(channel)}
+        data = MachineData(
+            channel.setup.parameters, {name: channel.axes[column] for name, column in columns.items()}
+        )
         definition = next(c for c in channel.machine.channels if c.number == channel.number)
         master = data.integer("$MC_SPIND_DEF_MASTER_SPIND")
         numbers = definition.spindles
@@ -138,6 +141,7 @@ class Sinumerik:
                 main_variables_everywhere=bool(data.integer("$MN_LUD_EXTENDED_SCOPE")),
                 access_level=access.operator_level(channel),
                 directory_levels=access.directory_levels(data),
+                write_levels=access.write_levels(data),
                 nck_variables=shared.setdefault("user variables", {}),
                 global_variables={
                     name: Variable(name, Type.INT, store=[value])
@@ -215,6 +219,15 @@ class Sinumerik:
         channel.flush()
         channel.synchronise()
         return False
+
+    def reads_inches(self, channel: Channel) -> bool:
+        """Whether the program reads and writes values with units of length in inches now (G700)."""
+        return channel.mode["units"] == "G700"
+
+    def restore_setting(self, channel: Channel, name: str) -> None:
+        """Give a setting or machine datum the values of the setup."""
+        channel.memory.data.restore(name)
+        limits.refresh(channel)
 
     def restarts(self, channel: Channel) -> bool:
         """Whether GOTOS goes back to the program start (DB21 ff., DBX384.0)."""

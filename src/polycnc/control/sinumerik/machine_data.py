@@ -15,7 +15,6 @@ from polycnc.control.sinumerik.errors import not_supported
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.language.sinumerik.values import Axis
     from polycnc.machine.setup import ParameterKey, Parameters
 
 Index = int | str
@@ -41,6 +40,9 @@ DELIVERED: dict[str, Datum] = {
     "$MN_ACCESS_EXEC_CST": Datum(11160, 7),
     "$MN_ACCESS_EXEC_CMA": Datum(11161, 7),
     "$MN_ACCESS_EXEC_CUS": Datum(11162, 7),
+    "$MN_ACCESS_WRITE_CST": Datum(11165, 7),
+    "$MN_ACCESS_WRITE_CMA": Datum(11166, 7),
+    "$MN_ACCESS_WRITE_CUS": Datum(11167, 7),
     "$MN_DEFAULT_VALUES_MEM_MASK": Datum(11270, 1),
     "$MN_WPD_INI_MODE": Datum(11280, 0),
     "$MN_LUD_EXTENDED_SCOPE": Datum(11120, False),
@@ -140,14 +142,15 @@ class MachineData:
 
     Args:
         parameters: What the setup says, by number or identifier.
-        axes: Every axis identifier of the channel, so that `X`, `X1` and `AX1` mean the same axis.
+        axes: The channel's name of an axis by every identifier: `X`, `X1` and `AX1` mean the same axis.
     """
 
-    def __init__(self, parameters: Parameters, axes: Mapping[str, Axis]) -> None:
+    def __init__(self, parameters: Parameters, axes: Mapping[str, str]) -> None:
         self._axes = axes
         self._values: dict[Key, object] = {}
         for key, value in parameters.items():
             self._preset(key, value)
+        self._first = dict(self._values)
 
     def _preset(self, key: ParameterKey, value: object) -> None:
         """Take a value of the setup; a list gives its elements, a bit is set in what holds so far."""
@@ -170,7 +173,7 @@ class MachineData:
     def _index(self, value: object) -> Index:
         """An index in one form: a number, or the channel's name of an axis."""
         text = str(value).upper()
-        return int(text) if text.lstrip("-").isdigit() else str(self._axes.get(text, text))
+        return int(text) if text.lstrip("-").isdigit() else self._axes.get(text, text)
 
     def knows(self, name: str) -> bool:
         """Whether a datum is known: delivered, or named by the setup or a program before."""
@@ -202,6 +205,12 @@ class MachineData:
     def write(self, name: str, indices: tuple[object, ...], value: object) -> None:
         """Set a datum."""
         self._values[name, tuple(self._index(index) for index in indices)] = value
+
+    def restore(self, name: str) -> None:
+        """A datum takes the values that the setup gave it, or the delivered ones."""
+        for key in [key for key in self._values if key[0] == name]:
+            del self._values[key]
+        self._values.update((key, value) for key, value in self._first.items() if key[0] == name)
 
     @property
     def keeps_first_values(self) -> bool:

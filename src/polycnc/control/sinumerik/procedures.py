@@ -160,7 +160,7 @@ def new_configuration(channel: Channel, _args: Arguments) -> None:
     channel.flush()
     memory: Memory = channel.memory
     limits.refresh(channel)
-    initialise(memory.language, NEW_CONFIGURATION, keep_values=memory.data.keeps_first_values)
+    initialise(channel, NEW_CONFIGURATION, keep_values=memory.data.keeps_first_values)
 
 
 def transformation_off(channel: Channel, _args: Arguments) -> None:

@@ -98,6 +98,20 @@ def _carrier(number: int) -> Row:
     return type_, read, write
 
 
+def _oem(kind: str, number: int) -> Row:
+    """`$TC_DPCn[t,d]`, `$TC_TPCn[t]`: data of the machine's builder, kept without any effect."""
+    name, count = f"$TC_{kind}{number}", 2 if kind == "DPC" else 1
+
+    def read(channel: Channel, indices: Indices) -> float:
+        value: float = channel.memory.values.get((name, tuple(_numbers(indices, name, count))), 0.0)
+        return value
+
+    def write(channel: Channel, indices: Indices, value: float) -> None:
+        channel.memory.values[name, tuple(_numbers(indices, name, count))] = float(value)
+
+    return Type.REAL, read, write
+
+
 def _tool(channel: Channel, indices: Indices, name: str) -> Tool:
     (number,) = _numbers(indices, name, 1)
     tools: Tools = channel.memory.tools
@@ -153,6 +167,7 @@ _ADDITIVE = [10 * dl + parameter for dl in range(1, 7) for parameter in range(3,
 TOOL_VARIABLES: dict[str, Row] = {
     **{f"$TC_{kind}{n}": _additive(kind, n) for kind in ("SCP", "ECP") for n in _ADDITIVE},
     **{f"$TC_CARR{n}": _carrier(n) for n in range(1, 66)},
+    **{f"$TC_{kind}{n}": _oem(kind, n) for kind in ("DPC", "TPC") for n in range(1, 11)},
     "$TC_DPCE": (Type.INT, _cutting_edge, _set_cutting_edge),
     **{f"$TC_DP{n}": _parameter(n) for n in range(1, PARAMETERS + 1)},
     **{f"$TC_TP{n}": _tool_value(f"$TC_TP{n}") for n in (1, 3, 4, 5, 6, 7, 8, 9, 10, 11)},

@@ -4,7 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.language.sinumerik import calls, definitions, files, flow, keywords, rights, runtime, vocabulary
+from polycnc.language.sinumerik import (
+    calls,
+    definitions,
+    files,
+    flow,
+    keywords,
+    redefinitions,
+    rights,
+    runtime,
+    vocabulary,
+)
 from polycnc.language.sinumerik.emitter import Emitter, provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, syntax
 from polycnc.language.sinumerik.expressions import ExpressionReader
@@ -124,7 +134,7 @@ class BlockCompiler(ExpressionReader):
     def fill(self, place: Place, token: Token) -> None:
         """SET and REP at run time (1.1.12)."""
         if token.text == "SET":
-            values = self.value_list(place.type)
+            values = [place.stored(self, value) for value in self.value_list(place.type)]
             listed = f"({''.join(value + ', ' for value in values)})"
             if isinstance(place, SystemPlace):
                 self.emitter.line(self._system_fill(place, listed))
@@ -133,6 +143,7 @@ class BlockCompiler(ExpressionReader):
                 self.emitter.line(f"set_elements({items}, {start}, {listed})")
             return
         value, count = self.repeated(place.type)
+        value = place.stored(self, value)
         if isinstance(place, SystemPlace):
             if count is None:
                 raise NcSyntaxError("12080", token.column, token.text)
@@ -264,6 +275,7 @@ def _alone(compiler: BlockCompiler) -> None:
 _STATEMENTS: dict[str, Callable[[BlockCompiler], None]] = {
     **flow.STATEMENTS,
     **definitions.STATEMENTS,
+    **redefinitions.STATEMENTS,
     **calls.STATEMENTS,
     **dict.fromkeys(keywords.SYNCHRONOUS | keywords.NOT_EXECUTED, _not_yet),
     **dict.fromkeys(keywords.PARTS | keywords.OPERATORS, _alone),

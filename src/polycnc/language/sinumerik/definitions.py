@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from polycnc.language.sinumerik import keywords
+from polycnc.language.sinumerik import keywords, units
 from polycnc.language.sinumerik.emitter import Emitter
-from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
+from polycnc.language.sinumerik.errors import NcSyntaxError
+from polycnc.language.sinumerik.places import SinglePlace
 from polycnc.language.sinumerik.runtime import default_value
 from polycnc.language.sinumerik.values import MAX_STRING, Type
 from polycnc.language.sinumerik.variables import Variable, element_count
 from polycnc.messages import AlarmError
-from polycnc.program.names import CYCLE_DIRS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -49,7 +49,7 @@ def constant(reader: ExpressionReader, type_: Type, channel: Channel) -> Any:
 
 
 @dataclass(slots=True)
-class _Attributes:
+class Attributes:
     """What stands between DEF and the names."""
 
     type: Type | None = None
@@ -63,8 +63,9 @@ class _Attributes:
     rights: dict[str, int] | None = None
 
 
-def _attributes(compiler: BlockCompiler) -> _Attributes:
-    found = _Attributes(rights={})
+def read_attributes(compiler: BlockCompiler) -> Attributes:
+    """Read what stands between DEF and the first name, or behind the name of REDEF."""
+    found = Attributes(rights={})
     channel = compiler.channel
     while True:
         token = compiler.token
@@ -80,7 +81,7 @@ def _attributes(compiler: BlockCompiler) -> _Attributes:
             found.low, found.high = (value, found.high) if name == "LLI" else (found.low, value)
         elif name == "PHU":
             compiler.take()
-            found.unit = constant(compiler, Type.INT, channel)
+            found.unit = _unit(compiler, channel)
         elif name in _RIGHTS:
             compiler.take()
             assert found.rights is not None
@@ -92,7 +93,7 @@ def _attributes(compiler: BlockCompiler) -> _Attributes:
             return found
 
 
-def _flag(compiler: BlockCompiler, found: _Attributes, name: str, token: Token) -> None:
+def _flag(compiler: BlockCompiler, found: Attributes, name: str, token: Token) -> None:
     if not compiler.program.is_definition_file:
         raise NcSyntaxError("12500", token.column, name)
     if name in _INIT_TIMES:
@@ -101,6 +102,14 @@ def _flag(compiler: BlockCompiler, found: _Attributes, name: str, token: Token) 
         found.stops = _STOPS[name]
     else:
         found.range = name
+
+
+def _unit(compiler: BlockCompiler, channel: Channel) -> int:
+    token = compiler.token
+    unit: int = constant(compiler, Type.INT, channel)
+    if unit not in units.KNOWN:
+        raise NcSyntaxError("12160", token.column, f"PHU {unit}")
+    return unit
 
 
 def _level(compiler: BlockCompiler, channel: Channel) -> int:
@@ -128,9 +137,13 @@ def define_variables(compiler: BlockCompiler) -> None:
     compiler.emitter.knows_place = True
     if not compiler.program.in_definitions(compiler.index):
         raise NcSyntaxError("14500", start.column, "DEF")
-    attributes = _attributes(compiler)
+    attributes = read_attributes(compiler)
     if attributes.type is None:
         raise compiler.error()
+    if attributes.range == "NCK" and attributes.init_time not in ("", "INIPO"):
+        raise NcSyntaxError("12500", start.column, attributes.init_time)  # 1.1.7: at power-on alone
+    if attributes.unit and attributes.type not in (Type.INT, Type.REAL):
+        raise NcSyntaxError("12150", start.column, "PHU")
     names: set[str] = set()
     while True:
         name = _define_one(compiler, attributes, attributes.type)
@@ -141,7 +154,7 @@ def define_variables(compiler: BlockCompiler) -> None:
             return
 
 
-def _define_one(compiler: BlockCompiler, attributes: _Attributes, type_: Type) -> Token:
+def _define_one(compiler: BlockCompiler, attributes: Attributes, type_: Type) -> Token:
     token = compiler.take()
     _check_name(token, compiler)
     limits = type_ in (Type.INT, Type.REAL, Type.CHAR)
@@ -169,9 +182,9 @@ def _define_one(compiler: BlockCompiler, attributes: _Attributes, type_: Type) -
     elif compiler.accept("="):
         if type_ is Type.FRAME:
             raise NcSyntaxError("12261", token.column, token.text)
-        _store(compiler, variable, _checked(compiler, variable, compiler.assigned(type_)))
+        store(compiler, variable, checked(compiler, variable, compiler.assigned(type_)))
     else:
-        _store(compiler, variable, compiler.emitter.object(_first_value(variable, compiler.scope)))
+        store(compiler, variable, compiler.emitter.object(_first_value(variable, compiler.scope)))
     return token
 
 
@@ -202,6 +215,8 @@ def _dimensions(reader: ExpressionReader, channel: Channel) -> tuple[int, ...]:
     dims = []
     while True:
         at = reader.token
+        if reader.scope.is_place(at):
+            raise reader.error(at)  # sizes are constants (1.2)
         size = constant(reader, Type.INT, channel)
         if not 1 <= size <= MAX_DIMENSION:
             raise NcSyntaxError("12370", at.column, str(size))
@@ -226,11 +241,13 @@ def _first_value(variable: Variable, scope: Scope) -> Any:
     return int(value) if variable.type in (Type.INT, Type.CHAR) else value
 
 
-def _checked(compiler: BlockCompiler, variable: Variable, code: str) -> str:
-    return code if variable.is_plain else f"{compiler.emitter.object(variable)}.checked({code})"
+def checked(compiler: BlockCompiler, variable: Variable, code: str) -> str:
+    """Code of a first value as it is kept."""
+    return SinglePlace(variable, "").stored(compiler, code)
 
 
-def _store(compiler: BlockCompiler, variable: Variable, code: str) -> None:
+def store(compiler: BlockCompiler, variable: Variable, code: str) -> None:
+    """Add the statement that gives a variable its first value."""
     if variable.store is not None:
         compiler.emitter.line(f"{compiler.emitter.object(variable.store)}[0] = {code}")
     else:
@@ -248,91 +265,14 @@ def _first_array(compiler: BlockCompiler, variable: Variable) -> None:
             raise NcSyntaxError("12261", token.column, variable.name)
         if compiler.accept("REP"):
             value, count = compiler.repeated(variable.type)
-            emitter.line(f"repeat_element(items, 0, {_checked(compiler, variable, value)}, {count})")
+            emitter.line(f"repeat_element(items, 0, {checked(compiler, variable, value)}, {count})")
         else:
             compiler.accept("SET")
-            values = [_checked(compiler, variable, code) for code in compiler.value_list(variable.type)]
+            values = [checked(compiler, variable, code) for code in compiler.value_list(variable.type)]
             if len(values) > element_count(variable.dims):
                 raise NcSyntaxError("12260", token.column, variable.name)
             emitter.line(f"set_elements(items, 0, ({''.join(code + ', ' for code in values)}))")
-    _store(compiler, variable, f"Array({emitter.object(variable)}, items)")
-
-
-def redefine(compiler: BlockCompiler) -> None:
-    """REDEF: one attribute of a GUD, or of what belongs to the control (1.1.6)."""
-    compiler.take()
-    compiler.emitter.knows_place = True
-    token = compiler.take()
-    variable = compiler.scope.memory.global_variables.get(token.text)
-    if variable is None:
-        if compiler.scope.find(token.text) is not None:
-            raise NcSyntaxError("12500", token.column, token.text)
-        _redefine_control(compiler, token)
-        return
-    attributes = _attributes(compiler)
-    low = variable.low if attributes.low is None else attributes.low
-    high = variable.high if attributes.high is None else attributes.high
-    if not variable.dims and not _inside(variable.store[0], low, high):
-        raise NcSyntaxError("12160", token.column, token.text)
-    variable.low, variable.high = low, high
-    variable.unit = attributes.unit or variable.unit
-    variable.stops = attributes.stops or variable.stops
-    variable.init_time = attributes.init_time or variable.init_time
-    variable.rights.update(attributes.rights or {})
-    if compiler.token.kind != "end":
-        _store(compiler, variable, _checked(compiler, variable, compiler.assigned(variable.type)))
-
-
-def _inside(value: Any, low: float | None, high: float | None) -> bool:
-    return (low is None or value >= low) and (high is None or value <= high)
-
-
-def _redefine_control(compiler: BlockCompiler, token: Token) -> None:
-    """Rights and first values of system variables, R parameters and words of the language (1.1.6, 1.1.11)."""
-    name, scope = token.text, compiler.scope
-    is_variable = name[0] == "$" or name == "R"
-    if name[0] == "$":
-        scope.control.system_variable(name)
-    elif not is_variable and not _is_executable(compiler, token):
-        raise unknown(token.column, name)
-    attributes = _attributes(compiler)
-    for right, level in (attributes.rights or {}).items():
-        if (right == "APX") is is_variable:
-            raise NcSyntaxError("12490", token.column, name)
-        if level < scope.level:
-            raise NcSyntaxError("12490", token.column, str(level))
-        scope.memory.rights.setdefault(name, {})[right] = level
-    if compiler.token.kind != "end":
-        if not attributes.init_time or not is_variable:
-            raise compiler.error()
-        _first_values_of_control(compiler, name)
-
-
-def _is_executable(compiler: BlockCompiler, token: Token) -> bool:
-    """Whether a name is a function, a procedure, or a cycle."""
-    name, scope = token.text, compiler.scope
-    if token.kind == "word":
-        name = f"{token.letter}{token.value}"
-    return (
-        name in scope.control.g_groups
-        or any(name in table for table in (keywords.PROCEDURES, keywords.CONTROL_FUNCTIONS, keywords.CYCLES))
-        or compiler.channel.store.find_sinumerik(name, CYCLE_DIRS[0]) is not None
-    )
-
-
-def _first_values_of_control(compiler: BlockCompiler, name: str) -> None:
-    """`REDEF name INIRE value` or `(value, …)`: the values of the first elements, from power-on."""
-    listed = compiler.at("(")
-    values = compiler.value_list(Type.REAL) if listed else [compiler.assigned(Type.REAL)]
-    codes = f"({''.join(code + ', ' for code in values)})"
-    if name == "R":
-        items = compiler.emitter.object(compiler.scope.memory.r)
-        fill = f"set_elements({items}, 0, {codes})" if listed else f"repeat_element({items}, 0, {values[0]})"
-        compiler.emitter.line(fill)
-        return
-    variable = compiler.emitter.object(compiler.scope.control.system_variable(name))
-    write = f"lambda at, value: {variable}.write(channel, at, value)"
-    compiler.emitter.line(f"set_system_elements({write}, (0,), {codes})")
+    store(compiler, variable, f"Array({emitter.object(variable)}, items)")
 
 
 # ---- programs and macros -----------------------------------------------------------------------------------
@@ -487,7 +427,6 @@ def define_macro(compiler: BlockCompiler) -> None:
 
 STATEMENTS: dict[str, Callable[[BlockCompiler], None]] = {
     "DEF": define_variables,
-    "REDEF": redefine,
     "PROC": procedure_line,
     "EXTERN": external,
     "DEFINE": define_macro,

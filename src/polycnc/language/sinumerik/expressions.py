@@ -204,11 +204,15 @@ class ExpressionReader(TokenReader):
         return f"({a} {operator} {b} {also} near({a2}, {b2}))"
 
     def _comparable(self, token: Token, left: Expr, right: Expr) -> tuple[Expr, Expr]:
-        """Operands of a comparison that are not both numbers: a CHAR compares with a STRING as text."""
+        """Operands of a comparison that are not both numbers.
+
+        A CHAR compares with a STRING as text, and by its code where the order counts.
+        """
         if {left.type, right.type} == {Type.CHAR, Type.STRING}:
+            common = Type.STRING if token.text in ("==", "<>") else Type.CHAR
             return (
-                Expr(self.converted(left, Type.STRING, token), Type.STRING),
-                Expr(self.converted(right, Type.STRING, token), Type.STRING),
+                Expr(self.converted(left, common, token), common),
+                Expr(self.converted(right, common, token), common),
             )
         if left.type is not right.type:
             raise NcSyntaxError("12150", token.column, token.text)

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from polycnc.language.sinumerik.calls import forget_resolved
+from polycnc.language.sinumerik.rights import LOWEST
 from polycnc.language.sinumerik.values import MAX_STRING, Type
 from polycnc.language.sinumerik.variables import Array, Reference
 from polycnc.program import Form, Program
@@ -21,10 +22,13 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
 
-OK, BAD_PATH, NO_PATH, NO_FILE, WRONG_TYPE, FULL, IN_USE = 0, 1, 2, 3, 4, 10, 11
+OK, BAD_PATH, NO_PATH, NO_FILE, WRONG_TYPE, FULL, IN_USE, NO_RIGHT = 0, 1, 2, 3, 4, 10, 11, 13
 NO_LINE, RESULT_TOO_SMALL, RANGE_TOO_LARGE = 21, 22, 23
-MAX_NAME, MAX_PATH, MAX_LINES = 32, 128, 65535
+MAX_NAME, MAX_PATH = 32, 128
 _WRITABLE = ("_MPF", "_SPF")
+#: Types that READ does not read.
+_BINARY = ("_BIN", "_EXE", "_OBJ", "_LIB", "_BOT", "_TRC", "_ACC", "_CYC", "_NCK")
+CHECKSUM_LENGTH = 16
 #: The simulated control has no clock on the wall: all files are of its first day.
 DATE, TIME, RIGHTS = "01.01.00", "00:00:00", "77777"
 
@@ -41,7 +45,7 @@ def _place(channel: Channel, name: str) -> tuple[str, str]:
     """Directory and stored name; a bare name lies beside the selected program and means an MPF."""
     if not name or len(name) > MAX_PATH or any(character <= " " for character in name):
         raise FileError(BAD_PATH)
-    directory, stored = split_stored_path(name)
+    directory, stored = split_stored_path(name.removesuffix("/"))
     if len(stored) > MAX_NAME or (directory and not name.startswith("/")):
         raise FileError(BAD_PATH)
     if len(stored) < 4 or stored[-4] != "_" or stored[-4:] == stored[2:6]:
@@ -60,7 +64,8 @@ def _existing(channel: Channel, name: str) -> Program:
 
 
 def _need_idle(channel: Channel, program: Program) -> None:
-    if any(level.code.program is program for level in channel.stack):
+    key = program.directory, program.name
+    if any((level.code.program.directory, level.code.program.name) == key for level in channel.stack):
         raise FileError(IN_USE)
 
 
@@ -70,22 +75,27 @@ def size_of(program: Program) -> int:
 
 
 def write(channel: Channel, name: str, text: str) -> None:
-    """WRITE: append a line; a file that does not exist is made."""
+    """WRITE: append a line; a file that does not exist is made.
+
+    A program that is running can be written to as well: what is added stands behind its end (1.18).
+    """
     directory, stored = _place(channel, name)
     if not stored.endswith(_WRITABLE):
         raise FileError(WRONG_TYPE)
     if not channel.store.has_directory(directory):
         raise FileError(NO_PATH)
+    memory = channel.memory.language
+    if memory.access_level > memory.write_levels.get(directory, LOWEST):
+        raise FileError(NO_RIGHT)
     program = channel.store.find_in(directory, stored)
     if program is None:
         program = Program(stored, (), directory=directory, form=Form.SINUMERIK)
-    _need_idle(channel, program)
     written = replace(program, lines=(*program.lines, text))
     limit = channel.control.system_variable("$MN_LEN_PROTOCOL_FILE").read(channel, ())
     if limit and size_of(written) > limit * 1024:
         raise FileError(FULL)
     channel.store.replace(written)
-    forget_resolved(channel.memory.language)
+    forget_resolved(memory)
 
 
 def delete(channel: Channel, name: str) -> None:
@@ -98,12 +108,14 @@ def delete(channel: Channel, name: str) -> None:
 
 def read(channel: Channel, name: str, start: int, count: int, result: Array | Reference) -> None:
     """READ: lines from `start` on, counted from 1, or the last ones for 0; longer lines are cut."""
+    if _place(channel, name)[1].endswith(_BINARY):
+        raise FileError(WRONG_TYPE)
     lines = _existing(channel, name).lines
-    if count > MAX_LINES:
-        raise FileError(RANGE_TOO_LARGE)
-    first = len(lines) - count if start == 0 else start - 1
-    if start < 0 or count < 0 or first < 0 or first + count > len(lines):
+    if not 0 <= start <= len(lines) or not 0 <= count <= len(lines):
         raise FileError(NO_LINE)
+    first = len(lines) - count if start == 0 else start - 1
+    if first + count > len(lines):
+        raise FileError(RANGE_TOO_LARGE)
     capacity = len(result.items) if isinstance(result, Array) else 1
     if count > capacity:
         raise FileError(RESULT_TOO_SMALL)
@@ -164,7 +176,8 @@ def checksum(channel: Channel, result: Reference, name: str, first: int | None, 
     """CHECKSUM: 16 hexadecimal digits for the content of an array, or of some of its columns.
 
     Returns:
-        0, 1 no such variable, 2 no array, 3 first column beyond it, 4 last column beyond it, 5 type.
+        0, 1 no such variable, 2 no array, 3 first column beyond it, 4 last column beyond it, 5 type, 10 the
+        result is too short for it.
     """
     code: Any = getattr(channel.level.code, "whole", channel.level.code)
     scope = code.scope_of(channel)
@@ -184,7 +197,9 @@ def checksum(channel: Channel, result: Reference, name: str, first: int | None, 
         return 4
     width = len(array.items) // columns
     content = repr((variable.type.value, array.items[start * width : (end + 1) * width]))
-    result.value = hashlib.sha256(content.encode()).hexdigest()[:16].upper()
+    if result.variable.length < CHECKSUM_LENGTH:
+        return 10
+    result.value = hashlib.sha256(content.encode()).hexdigest()[:CHECKSUM_LENGTH].upper()
     return 0
 
 

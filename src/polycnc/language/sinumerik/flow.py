@@ -244,19 +244,22 @@ def _passes(compiler: BlockCompiler) -> str:
 
 
 def repeat_section(channel: Channel, program: SinumerikProgram, first: str, last: str, passes: int) -> None:
-    """Run a section as a level of its own; alarm 14082 if a label is missing."""
+    """Run a section as a level of its own; alarm 14082 if a label is missing.
+
+    Two labels, and one without ENDLABEL, stand before REPEAT: the search goes towards the start alone (1.11).
+    """
     level = channel.level
     here = level.current
     start = program.find_label(first, here)
-    if start < 0:
+    if start < 0 or (start > here and last not in ("", first)):
         raise AlarmError("14082", text=first)
     ends = program.section_ends(start, last, here)
     if not ends:
-        raise AlarmError("14082", text=last)
+        raise AlarmError("14082", text=last or first)
     if passes <= 0:
         return
     count_levels(channel)
-    section = Section(program, ends)
+    section = Section(program, ends, here)
     channel.stack.append(
         replace(
             level,

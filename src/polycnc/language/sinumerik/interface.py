@@ -9,7 +9,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.language.sinumerik.initialisation import FirstValues
     from polycnc.language.sinumerik.values import Axis, Type
+    from polycnc.language.sinumerik.variables import Variable
     from polycnc.language.sinumerik.words import Block
 
 
@@ -60,6 +62,12 @@ class LanguageControl(Protocol):
     def preprocessing_stop(self, channel: Channel) -> bool:
         """Wait for the main run before a block; true if the block has to come again later."""
 
+    def reads_inches(self, channel: Channel) -> bool:
+        """Whether the program reads and writes values with units of length in inches now."""
+
+    def restore_setting(self, channel: Channel, name: str) -> None:
+        """Give a setting or machine datum the values that it had before any program."""
+
     def restarts(self, channel: Channel) -> bool:
         """Whether GOTOS goes back to the program start (DB21,… DBX384.0)."""
 
@@ -85,12 +93,15 @@ class LanguageMemory:
         global_variables: User variables of the definition files (GUD), upper case.
         access_level: Protection level of programs.
         directory_levels: Protection level of programs in some directories, which holds if it is the higher one.
+        write_levels: Protection level that WRITE needs in some directories.
         rights: What REDEF has made of the rights of system variables, R parameters and words, by name and keyword.
         nck_variables: Those of the global variables that all channels share.
         macros: Texts of DEFINE … AS of the definition files, and names of channels, upper case.
         call_path: Directory of CALLPATH, or empty.
         modal_call: What MCALL has set: called after every block with path motion.
         definitions_loaded: The definition files have been read.
+        user_data: Limits and units that REDEF has given R parameters and user data of the control, by name.
+        first_values: Init times and first values that REDEF has given data of the control, by name.
         programs: Every compiled program; they forget what they have resolved when files or search paths change.
     """
 
@@ -101,10 +112,13 @@ class LanguageMemory:
     global_variables: dict[str, Any] = field(default_factory=dict)
     access_level: int = 0
     directory_levels: dict[str, int] = field(default_factory=dict)
+    write_levels: dict[str, int] = field(default_factory=dict)
     rights: dict[str, dict[str, int]] = field(default_factory=dict)
     nck_variables: dict[str, Any] = field(default_factory=dict)
     macros: dict[str, str] = field(default_factory=dict)
     call_path: str = ""
     modal_call: Callable[[Channel], None] | None = None
     definitions_loaded: bool = False
+    user_data: dict[str, Variable] = field(default_factory=dict)
+    first_values: dict[str, FirstValues] = field(default_factory=dict)
     programs: list[Any] = field(default_factory=list)

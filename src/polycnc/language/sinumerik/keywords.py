@@ -223,6 +223,7 @@ LIST_ADDRESSES = frozenset(
 #: What may stand round the value of a word. Positioning attributes with their number for GP (1.2.2).
 _ATTRIBUTES = "AC IC DC ACP ACN OC PC DAC DIC RAC RIC CAC CIC CDC CACP CACN"
 POSITION_ATTRIBUTES = ("", *_ATTRIBUTES.split())
+CODED_POSITIONS = frozenset({"CAC", "CIC", "CDC", "CACP", "CACN"})
 MODIFIERS = frozenset({*POSITION_ATTRIBUTES[1:], "PM", "PR", "QU", "FPO", "PO", "GP"})
 FRAME_COMPONENTS = frozenset({"TR", "FI", "RT", "SC", "MI"})
 

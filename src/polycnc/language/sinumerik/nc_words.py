@@ -245,11 +245,14 @@ class WordReader:
         code = self._value(address)
         compiler.expect(",")
         if compiler.token.text in keywords.POSITION_ATTRIBUTES:
-            modifier = compiler.take().text
+            keyword = compiler.take()
+            modifier = keyword.text
+            if modifier in keywords.CODED_POSITIONS and address not in _POSITIONING:
+                raise NcSyntaxError("12560", keyword.column, modifier)
             compiler.expect(")")
             self._add(token, address, index, index_code, modifier, code)
             return
-        attribute = f"position_attribute({compiler.integer()})"
+        attribute = f"position_attribute({compiler.integer()}, {address!r})"
         compiler.expect(")")
         self.dynamic = True
         self._add(token, address, index, index_code, "", code, attribute)
@@ -323,10 +326,16 @@ _RUNNING = object()
 """Index that is known only when the block runs."""
 
 
-def position_attribute(number: int) -> str:
-    """The positioning attribute with a number (1.2.2); alarm 12560 for one that does not exist."""
+#: Addresses of positioning axes: coded positions are for them alone (1.2.2).
+_POSITIONING = frozenset({"POS", "POSA"})
+
+
+def position_attribute(number: int, address: str) -> str:
+    """The positioning attribute with a number (1.2.2); alarm 12560 for one that the address does not have."""
     attributes = keywords.POSITION_ATTRIBUTES
     if not 0 <= number < len(attributes):
+        raise AlarmError("12560", text=str(number))
+    if attributes[number] in keywords.CODED_POSITIONS and address not in _POSITIONING:
         raise AlarmError("12560", text=str(number))
     return attributes[number]
 

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
-from polycnc.language.sinumerik import keywords, rights
+from polycnc.language.sinumerik import keywords, rights, units
 from polycnc.language.sinumerik.errors import NcSyntaxError
 from polycnc.language.sinumerik.expressions import Expr
 from polycnc.language.sinumerik.values import Type
-from polycnc.language.sinumerik.variables import R_PARAMETER
+from polycnc.language.sinumerik.variables import R_PARAMETER, Variable
 
 if TYPE_CHECKING:
     from polycnc.language.sinumerik.expressions import ExpressionReader
     from polycnc.language.sinumerik.interface import SystemVariable
     from polycnc.language.sinumerik.lexer import Token
-    from polycnc.language.sinumerik.variables import Variable
 
 
 class Place(Protocol):
@@ -31,11 +30,29 @@ class Place(Protocol):
     def reference(self, reader: ExpressionReader) -> str:
         """Code of the `Reference` or `Array` that a VAR parameter gets."""
 
+    def stored(self, reader: ExpressionReader, code: str) -> str:
+        """Code of a value as it is kept: in metric units, within its limits."""
+
     def elements(self, reader: ExpressionReader, token: Token) -> tuple[str, str]:
         """Code of the list and of the index at which SET and REP begin; 12080 for a single value."""
 
 
-def _stored(reader: ExpressionReader, variable: Variable, code: str) -> str:
+def _read(variable: Variable | None, code: str, type_: Type) -> Expr:
+    """A kept value as the program reads it."""
+    factor = units.FACTORS.get(variable.unit) if variable is not None else None
+    if factor is None:
+        return Expr(code, type_)
+    read = f"shown(channel, {code}, {factor})"
+    return Expr(f"round_half_up({read})" if type_ is Type.INT else read, type_)
+
+
+def _stored(reader: ExpressionReader, variable: Variable | None, code: str) -> str:
+    """A value of the program as it is kept: in metric units, within the limits of its variable."""
+    if variable is None:
+        return code
+    factor = units.FACTORS.get(variable.unit)
+    if factor is not None:
+        code = f"kept(channel, {code}, {factor})"
     return code if variable.is_plain else f"{reader.emitter.object(variable)}.checked({code})"
 
 
@@ -57,7 +74,9 @@ class SinglePlace:
     def read(self, reader: ExpressionReader) -> Expr:
         """Code of the value."""
         rights.check(reader, self.variable.name, self.variable.rights, rights.READ)
-        return Expr(self.code + ".value" if self.variable.by_reference else self.code, self.type)
+        if self.variable.by_reference:
+            return Expr(self.code + ".value", self.type)
+        return _read(self.variable, self.code, self.type)
 
     def write(self, reader: ExpressionReader, code: str) -> None:
         """Store; a parameter by reference checks by the rules of the caller's variable."""
@@ -65,7 +84,11 @@ class SinglePlace:
         if self.variable.by_reference:
             reader.emitter.line(f"{self.code}.value = {code}")
         else:
-            reader.emitter.line(f"{self.code} = {_stored(reader, self.variable, code)}")
+            reader.emitter.line(f"{self.code} = {self.stored(reader, code)}")
+
+    def stored(self, reader: ExpressionReader, code: str) -> str:
+        """Code of a value as it is kept."""
+        return _stored(reader, self.variable, code)
 
     def reference(self, reader: ExpressionReader) -> str:
         """A reference; one that came from further out is handed on."""
@@ -126,13 +149,17 @@ class ElementPlace:
         """Code of the element."""
         self._need_index()
         rights.check(reader, self.variable.name, self.variable.rights, rights.READ)
-        return Expr(self.code, self.type)
+        return _read(self.variable, self.code, self.type)
 
     def write(self, reader: ExpressionReader, code: str) -> None:
         """Store the element."""
         self._need_index()
         rights.check(reader, self.variable.name, self.variable.rights, rights.WRITE)
-        reader.emitter.line(f"{self.code} = {_stored(reader, self.variable, code)}")
+        reader.emitter.line(f"{self.code} = {self.stored(reader, code)}")
+
+    def stored(self, reader: ExpressionReader, code: str) -> str:
+        """Code of a value as it is kept."""
+        return _stored(reader, self.variable, code)
 
     def reference(self, reader: ExpressionReader) -> str:
         """The array itself, or a reference to one element."""
@@ -154,6 +181,10 @@ class _PartPlace:
 
     def __init__(self, base: SinglePlace | ElementPlace) -> None:
         self.base = base
+
+    def stored(self, reader: ExpressionReader, code: str) -> str:  # noqa: ARG002
+        """Parts have neither limits nor units."""
+        return code
 
     def reference(self, reader: ExpressionReader) -> str:
         """Parts of values cannot be handed over by reference (1.9.8)."""
@@ -255,12 +286,16 @@ class RPlace:
     def read(self, reader: ExpressionReader) -> Expr:
         """Code of the parameter."""
         rights.check(reader, "R", reader.scope.memory.rights.get("R", {}), rights.READ)
-        return Expr(f"{self.values}[{self.index}]", Type.REAL)
+        return _read(reader.scope.memory.user_data.get("R"), f"{self.values}[{self.index}]", Type.REAL)
 
     def write(self, reader: ExpressionReader, code: str) -> None:
         """Store the parameter."""
         rights.check(reader, "R", reader.scope.memory.rights.get("R", {}), rights.WRITE)
-        reader.emitter.line(f"{self.values}[{self.index}] = {code}")
+        reader.emitter.line(f"{self.values}[{self.index}] = {self.stored(reader, code)}")
+
+    def stored(self, reader: ExpressionReader, code: str) -> str:
+        """Code of a value as it is kept."""
+        return _stored(reader, reader.scope.memory.user_data.get("R"), code)
 
     def reference(self, reader: ExpressionReader) -> str:
         """A reference to the parameter."""
@@ -268,6 +303,7 @@ class RPlace:
 
     def elements(self, reader: ExpressionReader, token: Token) -> tuple[str, str]:  # noqa: ARG002
         """R parameters are an array of one dimension."""
+        rights.check(reader, "R", reader.scope.memory.rights.get("R", {}), rights.WRITE)
         return self.values, self.index
 
 
@@ -306,13 +342,24 @@ class SystemPlace:
     def read(self, reader: ExpressionReader) -> Expr:
         """Code that asks the control."""
         rights.check(reader, self.name, reader.scope.memory.rights.get(self.name, {}), rights.READ)
-        return Expr(f"{self.code}.read(channel, {self.indices})", self.type)
+        return _read(self._user_data(reader), f"{self.code}.read(channel, {self.indices})", self.type)
 
     def write(self, reader: ExpressionReader, code: str) -> None:
         """Code that tells the control."""
         rights.check(reader, self.name, reader.scope.memory.rights.get(self.name, {}), rights.WRITE)
         reader.emitter.acts = True
-        reader.emitter.line(f"{self.code}.write(channel, {self.indices}, {code})")
+        reader.emitter.line(f"{self.code}.write(channel, {self.indices}, {self.stored(reader, code)})")
+
+    def stored(self, reader: ExpressionReader, code: str) -> str:
+        """Code of a value as it is kept."""
+        return _stored(reader, self._user_data(reader), code)
+
+    def _user_data(self, reader: ExpressionReader) -> Variable | None:
+        """What REDEF has said of the variable."""
+        data = reader.scope.memory.user_data.get(self.name)
+        if data is not None and data.stops:
+            reader.emitter.uses_stop = True
+        return data
 
     def reference(self, reader: ExpressionReader) -> str:
         """System variables cannot be handed over by reference."""

@@ -104,6 +104,8 @@ class Scope:
             if not reader.at("["):
                 return single
             if variable.type is Type.STRING:
+                if variable.by_reference:  # 1.9.8: single characters only of what the program itself has
+                    raise reader.error()
                 return CharPlace.read_index(reader, single)
             if variable.type is Type.FRAME:
                 return ComponentPlace.read_index(reader, single)

@@ -22,24 +22,26 @@ INTERRUPT_LEVELS = 2
 class Section:
     """A part of a program as a program of its own: it ends behind the end block that is run through.
 
-    A jump out of the section does not end it: it goes on until it comes through one of the end blocks (1.11).
+    A jump out of the section does not end it: it goes on until it comes through one of the end blocks, or to
+    the block that repeats it (1.11).
 
     Attributes:
         whole: The program.
         is_through: The pass has come to its end.
     """
 
-    def __init__(self, whole: SinumerikProgram, ends: AbstractSet[int]) -> None:
+    def __init__(self, whole: SinumerikProgram, ends: AbstractSet[int], repeated_by: int = -1) -> None:
         self.whole = whole
         self.program = whole.program
         self.steps: Sequence[Step | None] = ()
         self.is_through = False
         self._ends = ends
+        self._repeated_by = repeated_by
         self._last = -1
 
     def step(self, index: int) -> Step | None:
         """The step of a block; None when an end block has been run through."""
-        if self._last in self._ends and index == self._last + 1:
+        if index == self._repeated_by or (self._last in self._ends and index == self._last + 1):
             self._last = -1
             self.is_through = True
             return None
