@@ -251,6 +251,7 @@ class Session:
             bulk=Bulk() if bulk else None,
         )  # fmt: skip
         self._keep = keep
+        self.channel.share_after = _share_after
         self.group = ChannelGroup(self.channel)
         display = Display(toolpath, axis_layout(machine, 1), self._event_text)
         lead: dict[str, Any] = {
@@ -314,6 +315,12 @@ class Session:
             return wait.code
         level = self.channel.level
         return block_number(level.code.program, level.code.line(level.current))
+
+
+def _share_after(channel: Channel, end: list[float], feed: float, seconds: float) -> float | None:
+    from polycnc.motion.timing import share_after
+
+    return share_after(channel, end, feed, seconds)
 
 
 def block_number(program: Program, line: int) -> str:

@@ -264,3 +264,34 @@ def test_an_empty_setup_file_is_the_default_setup(tmp_path: Path) -> None:
     path = tmp_path / "setup.yaml"
     path.write_text("# nothing yet\n", encoding="utf-8")
     assert load_setup(path) == Setup()
+
+
+def test_surfaces_of_the_skip_input() -> None:
+    text = {
+        "shape": "cylinder",
+        "at": {"x": 3},
+        "direction": {"Z": 2},
+        "radius": 20,
+        "inside": True,
+        "tip": 1,
+    }
+    (surface,) = parse_setup({"switches": {"skip_surfaces": [text]}}).switches.skip_surfaces
+    assert (surface.at, surface.direction, surface.radius) == ((3.0, 0.0, 0.0), (0.0, 0.0, 2.0), 20.0)
+    assert (surface.inside, surface.tip) == (True, 1.0)
+
+
+@pytest.mark.parametrize(
+    "switches",
+    [
+        {"skip_signal_after": -1},
+        {"skip_surfaces": [{"shape": "plane", "at": {"X": 1}}]},
+        {"skip_surfaces": [{"shape": "plane", "at": {"X": 1}, "direction": {"X": 0}}]},
+        {"skip_surfaces": [{"shape": "sphere", "at": {"X": 1}, "radius": 0}]},
+        {"skip_surfaces": [{"shape": "sphere", "at": {"B": 1}, "radius": 1}]},
+        {"skip_surfaces": [{"shape": "sphere", "at": {"X": 1}, "radius": 1, "direction": {"X": 1}}]},
+        {"skip_surfaces": [{"shape": "cone", "at": {"X": 1}}]},
+    ],
+)
+def test_a_surface_that_makes_no_sense_is_a_mistake(switches: dict[str, object]) -> None:
+    with pytest.raises(SetupError):
+        parse_setup({"switches": switches})

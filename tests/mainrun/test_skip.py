@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from math import dist, hypot
+
 import pytest
 
 from polycnc.mainrun import State
+from polycnc.session import open_session
 from tests.mainrun.support import power_on
 
 PROBE = "O1\nG90 G31 X100. F6000\n#100=#5061\n#101=#5041\nG91 G1 Y10.\nM30\n"
@@ -99,3 +102,52 @@ def test_a_syntec_program_waits_for_an_input() -> None:
     virtual.signals["I3"] = 1.0
     assert virtual.run(limit_s=10.0) is State.READY
     assert virtual.machine_position[0] == 10.0
+
+
+TILTED = "O1\nG54 G90 G31 X60. Y30. F3000\n#100=#5061\n#101=#5062\nM30\n"
+SURFACES = {
+    "plane": [{"shape": "plane", "at": {"X": 40, "Y": 20}, "direction": {"X": -1, "Y": -0.5}, "tip": 3}],
+    "ball": [{"shape": "sphere", "at": {"X": 50, "Y": 22, "Z": 4}, "radius": 12, "tip": 1}],
+    "bore": [
+        {"shape": "cylinder", "at": {"X": 10}, "direction": {"Z": 1}, "radius": 25, "inside": True, "tip": 2},
+        {"shape": "plane", "at": {"X": 59}, "direction": {"X": -1}},
+    ],
+}
+
+
+@pytest.mark.parametrize("name", SURFACES)
+def test_a_surface_ends_the_move_at_the_same_place_with_and_without_a_clock(name: str) -> None:
+    setup = {"work_offsets": {"G54": {"X": 5.0}}, "switches": {"skip_surfaces": SURFACES[name]}}
+    session = open_session(TILTED, control="fanuc-m", setup=setup)
+    result = session.run()
+    virtual = power_on(TILTED, setup=setup)
+    virtual.cycle_start()
+    assert virtual.run() is State.READY
+    touched = [result.variables[number] for number in ("#100", "#101")]
+    assert [virtual.read_variable(number) for number in ("#100", "#101")] == pytest.approx(touched)
+    x, y = touched[0] + 5.0, touched[1]
+    assert y / x == pytest.approx(30.0 / 65.0)  # on the way
+    if name == "plane":
+        assert ((x - 40.0) + 0.5 * (y - 20.0)) / hypot(1.0, 0.5) == pytest.approx(-3.0)
+    elif name == "ball":
+        assert dist((x, y, 0.0), (50.0, 22.0, 4.0)) == pytest.approx(13.0)
+    else:
+        assert hypot(x - 10.0, y) == pytest.approx(23.0)
+    assert virtual.machine_position[0] > x  # the braking distance
+
+
+def test_a_surface_beside_the_way_ends_nothing() -> None:
+    surface = {"shape": "sphere", "at": {"X": 30, "Y": 60}, "radius": 12}
+    virtual = power_on(TILTED, setup={"switches": {"skip_surfaces": [surface]}})
+    virtual.cycle_start()
+    virtual.run()
+    assert virtual.machine_position[:2] == pytest.approx([60.0, 30.0])
+
+
+def test_a_signal_after_the_move_ends_nothing() -> None:
+    setup = {"switches": {"skip_signal_after": 30.0}}
+    assert open_session(TILTED, control="fanuc-m", setup=setup).run().variables["#100"] == 60.0
+    virtual = power_on(TILTED, setup=setup)
+    virtual.cycle_start()
+    virtual.run()
+    assert virtual.read_variable("#100") == pytest.approx(60.0)

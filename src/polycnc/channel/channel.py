@@ -22,7 +22,7 @@ from polycnc.toolpath import NO_CURVE, Event, Kind, Toolpath
 from polycnc.toolpath.table import CHUNK_ROWS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from polycnc.channel.group import ChannelGroup
     from polycnc.channel.interface import Control, MainRun, Zone
@@ -54,6 +54,8 @@ class Channel:
         single_block: Hand over behind every block at which single block operation halts.
         block_by_block: With it, behind every other block too.
         main_run: What executes the rows while the channel runs; None where nobody waits for that.
+        share_after: The share of a skip move to an end, at a feed, that is done after some seconds (None: all of it);
+            None where a clock runs, which knows.
         group: The channels of the control, which the first one belongs to as well; None where it runs alone.
         memory: The control's own state (variables, offsets, tools), set by `Control.start`.
         bulk: Whether and how plain blocks are scanned in bulk; None interprets every block.
@@ -112,6 +114,7 @@ class Channel:
         self.single_block = bool(setup.switches.single_block)
         self.block_by_block = False
         self.main_run: MainRun | None = None
+        self.share_after: Callable[[Channel, list[float], float, float], float | None] | None = None
         self.optional_stop = setup.switches.optional_stop
         self.variables_at_end: dict[str, Any] | None = None
         self._context = 0

@@ -112,10 +112,12 @@ class ChannelGroup:
 
     def _plain_channel(self, number: int) -> Channel:
         first = self.first
-        return Channel(
+        channel = Channel(
             first.control, first.machine, first.setup, first.store, number=number,
             block_limit=first.block_limit, bulk=first.bulk,
         )  # fmt: skip
+        channel.share_after = first.share_after
+        return channel
 
     # ---- programs
 

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from polycnc.geometry.surfaces import Surface
+
 Value = float | int | str | bool | None | tuple["Value", ...]
 _PARAMETER = re.compile(
     r"""\s*(?:(?:PR|MD|SD|NO\.)?\s*(?P<number>\d+) | (?P<name>\$?[A-Z_][A-Z_0-9]*))
@@ -174,6 +176,15 @@ class ProbeEdge:
 
 
 @dataclass(frozen=True, slots=True)
+class SkipInput:
+    """When an input comes that ends a move: at a work position, a time after its start, a surface; the first counts."""
+
+    at: Mapping[str, float]
+    after_s: float | None
+    surfaces: tuple[Surface, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Interrupt:
     """Interrupt input `input` comes at a work position while a line of `program` (else the main one) runs."""
 
@@ -193,6 +204,8 @@ class Switches:
         block_skip: False, True for plain `/`, or the levels that are on, as the control writes them.
         mode: Operating mode, in small letters.
         skip_signal_at: Work position where the skip input comes.
+        skip_signal_after: Seconds after the start of a skip move at which the skip input comes.
+        skip_surfaces: Surfaces in machine coordinates at whose touch the skip input comes.
         measure_signal_at: Work position where the measuring input of G36/G37 comes.
         probe: Switching points of each probe, in the order in which they act, each once.
         interrupts: Interrupt inputs.
@@ -207,6 +220,8 @@ class Switches:
     block_skip: bool | tuple[int, ...] = False
     mode: str = "memory"
     skip_signal_at: Mapping[str, float] = field(default_factory=dict)
+    skip_signal_after: float | None = None
+    skip_surfaces: tuple[Surface, ...] = ()
     measure_signal_at: Mapping[str, float] = field(default_factory=dict)
     probe: Mapping[int, tuple[ProbeEdge, ...]] = field(default_factory=dict)
     interrupts: tuple[Interrupt, ...] = ()
@@ -214,6 +229,11 @@ class Switches:
     plc: Mapping[str, Value] = field(default_factory=dict)
     thread_chamfer: bool | None = None
     signals: Mapping[str, Value] = field(default_factory=dict)
+
+    @property
+    def skip_input(self) -> SkipInput:
+        """When the skip input comes."""
+        return SkipInput(self.skip_signal_at, self.skip_signal_after, self.skip_surfaces)
 
     @property
     def block_skip_levels(self) -> int:

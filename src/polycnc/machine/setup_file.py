@@ -8,6 +8,7 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
+from polycnc.geometry.surfaces import Surface
 from polycnc.machine.errors import SetupError, nearest
 from polycnc.machine.places import Key, toml_error_place, toml_place, yaml_place
 from polycnc.machine.setup import (
@@ -295,6 +296,44 @@ def _probe_edge(where: Where, value: object) -> ProbeEdge:
     return ProbeEdge(record["axis"], record["at"], record.get("edge", "rising") == "rising")
 
 
+def _seconds(where: Where, value: object) -> float:
+    seconds = _number(where, value)
+    if seconds < 0.0:
+        _bad(where, "out-of-range", value, detail="0 …")
+    return seconds
+
+
+_SURFACE: dict[str, Reader] = {
+    "shape": _one_of("plane", "sphere", "cylinder"),
+    "at": _position,
+    "direction": _position,
+    "radius": _number,
+    "inside": _flag,
+    "tip": _number,
+}
+
+
+def _surface(where: Where, value: object) -> Surface:
+    record = _required(_record(_SURFACE, where, value), where, "shape", "at")
+    shape = record.pop("shape")
+    needed = {"plane": ("direction",), "sphere": ("radius",), "cylinder": ("direction", "radius")}[shape]
+    _required(record, where, *needed)
+    for key in ("direction", "radius", "inside"):
+        if key in record and key not in needed and not (key == "inside" and "radius" in needed):
+            raise _BadValueError((*where, key), "unknown-key", near="")
+    for key in ("at", "direction"):
+        given = record.get(key, {})
+        unknown = next((axis for axis in given if axis not in "XYZ"), None)
+        if unknown is not None:
+            _bad((*where, key, unknown), "not-one-of", unknown, expected="X, Y, Z")
+        record[key] = tuple(given.get(axis, 0.0) for axis in "XYZ")
+    if "direction" in needed and not any(record["direction"]):
+        _bad((*where, "direction"), "out-of-range", value, detail="X, Y, Z")
+    if "radius" in needed and not record["radius"] > 0.0:
+        _bad((*where, "radius"), "out-of-range", record["radius"], detail="> 0")
+    return Surface(**record)
+
+
 def _interrupt(where: Where, value: object) -> Interrupt:
     return Interrupt(**_required(_record(_INTERRUPT, where, value), where, "input", "line", "at"))
 
@@ -305,6 +344,8 @@ _SWITCHES: dict[str, Reader] = {
     "block_skip": _block_skip,
     "mode": _mode,
     "skip_signal_at": _position,
+    "skip_signal_after": _seconds,
+    "skip_surfaces": partial(_list_of, _surface),
     "measure_signal_at": _position,
     "probe": partial(_map_of, _number_key, partial(_list_of, _probe_edge)),
     "interrupts": partial(_list_of, _interrupt),

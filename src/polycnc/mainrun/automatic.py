@@ -25,6 +25,9 @@ REST2 = 1e-9
 class Machinery(Protocol):
     """What carries out the program's events on the machine."""
 
+    def skip(self) -> None:
+        """The skip input comes, and goes."""
+
     def perform(self, happening: Happening) -> None:
         """An event of the program."""
 
@@ -58,6 +61,7 @@ class Automatic:
         machinery: Carries out events.
         position: Machine position at the start.
         cycle_s: Interpolation cycle: as long lasts what a program computes between two moves.
+        skip_after_s: How long after the start of a skip move the skip input comes; None where it does not.
 
     Attributes:
         time: Simulated time, s.
@@ -76,6 +80,7 @@ class Automatic:
         machinery: Machinery,
         position: Sequence[float],
         cycle_s: float,
+        skip_after_s: float | None = None,
     ) -> None:
         self.ahead = ahead
         self.rates = rates
@@ -97,6 +102,8 @@ class Automatic:
         self._blocked = False
         self._moved_on = False
         self._cycle_s = cycle_s
+        self._skip_after_s = skip_after_s
+        self._skips_at = inf
 
     # ---- what a panel reads --------------------------------------------------------------------------------
 
@@ -132,7 +139,10 @@ class Automatic:
         machinery = self._machinery
         while (due := self._due()) <= until:
             self.time = max(self.time, due)
-            if machinery.due <= self.time:
+            if self._skips_at <= self.time:
+                self._skips_at = inf
+                machinery.skip()
+            elif machinery.due <= self.time:
                 was_busy = machinery.busy
                 machinery.advance(self.time)
                 if was_busy and not machinery.busy:
@@ -153,7 +163,9 @@ class Automatic:
         """When something happens next, as far as it is known."""
         if self.motion is not None:
             rest = self.motion.rest
-            return min(self.motion.end, rest if rest > self.time else inf, self._machinery.due)
+            return min(
+                self.motion.end, rest if rest > self.time else inf, self._skips_at, self._machinery.due
+            )
         if self._waiting and self._machinery.busy:
             return self._machinery.due
         return min(max(self._until, self.time), self._machinery.due)
@@ -170,7 +182,7 @@ class Automatic:
         assert motion is not None
         self._x2 = motion.end2 if motion.end2 > REST2 else 0.0
         self.position = motion.piece.at(1.0)
-        self.motion = None
+        self.motion, self._skips_at = None, inf
         if motion.piece.left > 0.0 and isinstance(motion, PathMotion):
             self._coast(motion)
 
@@ -284,6 +296,8 @@ class Automatic:
         self._cap2 = cap2
         if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
             self._enter(Block(piece.program, piece.line, self.modal))
+        if piece.kind == Kind.SKIP and piece.first == 0.0 and self._skip_after_s is not None:
+            self._skips_at = self.time + self._skip_after_s
         if piece.by_axis:
             self.motion = AxesMotion(piece, ahead.limits, self.time, self.rates.rapid)
         else:
@@ -329,6 +343,6 @@ class Automatic:
         self.position = self.machine
         self.motion = None
         self.running, self.halt = False, ""
-        self._x2, self._until = 0.0, self.time
+        self._x2, self._until, self._skips_at = 0.0, self.time, inf
         self.block = None
         self.ahead.clear(self.position)

@@ -15,7 +15,7 @@ from polycnc.mainrun.display import MainRunDisplay
 from polycnc.mainrun.equipment import equipment
 from polycnc.mainrun.items import Happening, Rates
 from polycnc.mainrun.lane import Lane
-from polycnc.mainrun.machinery import Machinery
+from polycnc.mainrun.machinery import SKIP_SIGNAL, Machinery
 from polycnc.mainrun.manual import ManualAxes
 from polycnc.mainrun.program_signals import connect, give
 from polycnc.mainrun.programs import Programs
@@ -38,8 +38,6 @@ if TYPE_CHECKING:
     from polycnc.program import Program
     from polycnc.toolpath import Event
 
-#: The input that ends a skip move.
-SKIP_SIGNAL = "SKIP"
 #: Keys of the panel that signals can press.
 KEYS = frozenset({"CYCLE_START", "FEED_HOLD", "RESET", "EMERGENCY_STOP"})
 #: What the reasons of a halt lead to; every other one stops.
@@ -125,7 +123,10 @@ class Core(ABC):
             self.machine, self._signals, lambda: self._lanes[number].automatic.time, reports
         )
         position = channel.coordinates.machine
-        automatic = Automatic(ahead, self._rates, machinery, position, self.machine.interpolation_cycle_s)
+        automatic = Automatic(
+            ahead, self._rates, machinery, position, self.machine.interpolation_cycle_s,
+            setup.switches.skip_signal_after,
+        )  # fmt: skip
         display = MainRunDisplay(ahead.toolpath, self.machine, number)
         lane = Lane(channel, ahead, automatic, machinery, display, self._rates, self._lanes, self._shared)
         self._lanes[number], self._shared.paths[number] = lane, ahead

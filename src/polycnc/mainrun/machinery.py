@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 #: Stops that the operator's switch decides on.
 OPTIONAL_STOPS = frozenset({"M01", "M1"})
+#: The input that ends a skip move.
+SKIP_SIGNAL = "SKIP"
 MESSAGES = frozenset({"message", "print"})
 
 
@@ -81,6 +83,11 @@ class Machinery:
         for code in [code for code in self._running if self._signals.is_done(code)]:
             del self._running[code]
             self._signals.finish(code)
+
+    def skip(self) -> None:
+        """The skip input comes, and goes."""
+        self._signals[SKIP_SIGNAL] = 1.0
+        self._signals[SKIP_SIGNAL] = 0.0
 
     def perform(self, happening: Happening) -> None:
         """Carry out an event."""

@@ -129,7 +129,7 @@ def _stroke(
     end = start[:]
     end[axes[0]] += stroke.infeed
     end[axes[1]] += stroke.along
-    at = channel.setup.switches.skip_signal_at if gauged else None
+    at = channel.setup.switches.skip_input if gauged else None
     reached = signal_position(channel, start, end, at)
     if reached is not None and not stroke.along:
         end = reached

@@ -158,7 +158,7 @@ def skip_source(channel: Channel, words: Words) -> object:
     switches = channel.setup.switches
     source = words.typed("Q")
     if source is None:
-        return switches.skip_signal_at
+        return switches.skip_input
     if source == int(source) and 101 <= source <= 132:
         return switches.signals_at.get(f"C{int(source)}")
     if source == int(source) and 201 <= source <= 218:

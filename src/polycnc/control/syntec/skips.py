@@ -94,7 +94,7 @@ def position_at_sensor(channel: Channel, words: Words) -> None:
     second = first[:]
     second[axis] += stroke
     start, end = c.position, c.to_position(second)
-    stopped = skip.signal_position(channel, start, end, channel.setup.switches.skip_signal_at)
+    stopped = skip.signal_position(channel, start, end, channel.setup.switches.skip_input)
     if stopped is not None:
         second[axis] = c.programmed[axis] + copysign(abs(stopped[axis] - start[axis]), stroke)
         second[axis] += words.length("R") or 0.0

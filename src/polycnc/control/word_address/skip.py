@@ -6,6 +6,8 @@ from math import dist
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.path import target
+from polycnc.geometry.surfaces import first_touch
+from polycnc.machine.setup import SkipInput
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -32,7 +34,7 @@ def skip_move(channel: Channel, words: Words) -> None:
     c = channel.coordinates
     programmed = target(channel, words.plan.axis_words, words.values)
     end = c.to_position(programmed)
-    stopped = signal_position(channel, c.position, end, channel.setup.switches.skip_signal_at)
+    stopped = signal_position(channel, c.position, end, channel.setup.switches.skip_input)
     move_to_signal(channel, end, stopped)
     channel.memory.note_skip(list(channel.coordinates.position))
 
@@ -45,8 +47,33 @@ def move_to_signal(channel: Channel, end: list[float], stopped: list[float] | No
         channel.curve(Kind.SKIP, stopped, channel.feed, parameters=(dist(stopped, end),))
 
 
-def signal_position(channel: Channel, start: list[float], end: list[float], at: object) -> list[float] | None:
-    """Where on the way a signal comes: the first point at which every named axis has reached its position."""
+def signal_position(
+    channel: Channel, start: list[float], end: list[float], signal: object
+) -> list[float] | None:
+    """Where on the way a signal comes.
+
+    `signal` is a work position, or all that makes the skip input come; of that the first counts. A signal that comes
+    by the clock counts in the move from where the channel stands; where a main run executes the move, it gives it.
+    """
+    if not isinstance(signal, SkipInput):
+        fraction = _fraction_at(channel, start, end, signal)
+    else:
+        c, geometry = channel.coordinates, channel.coordinates.geometry
+        shares = [_fraction_at(channel, start, end, signal.at)]
+        if signal.surfaces and c.transformation is None:
+            places = ([c.to_machine(place)[i] if i >= 0 else 0.0 for i in geometry] for place in (start, end))
+            (x, y, z), (x1, y1, z1) = places
+            shares.append(first_touch(signal.surfaces, (x, y, z), (x1, y1, z1)))
+        if signal.after_s is not None and channel.share_after is not None and start == c.position:
+            shares.append(channel.share_after(channel, end, channel.feed, signal.after_s))
+        fraction = min((share for share in shares if share is not None), default=None)
+    if fraction is None:
+        return None
+    return [s + (e - s) * fraction for s, e in zip(start, end, strict=True)]
+
+
+def _fraction_at(channel: Channel, start: list[float], end: list[float], at: object) -> float | None:
+    """The share of the way after which every axis that a work position names has reached it."""
     fraction = 0.0
     if not isinstance(at, dict) or not at:
         return None
@@ -64,4 +91,4 @@ def signal_position(channel: Channel, start: list[float], end: list[float], at: 
         if not -1e-9 <= part <= 1.0 + 1e-9:
             return None
         fraction = max(fraction, part)
-    return [s + (e - s) * fraction for s, e in zip(start, end, strict=True)]
+    return fraction

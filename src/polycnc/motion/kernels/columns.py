@@ -13,7 +13,7 @@ Floats = MutableSequence[float]
 Ints = MutableSequence[int]
 
 # Numbers of the row kinds (`toolpath.Kind`), as plain integers that a compiler can fold.
-RAPID, CW, CCW, HELIX_CW, HELIX_CCW, SPLINE, THREAD, TAP, REF, DWELL, EVENT = (
+RAPID, CW, CCW, HELIX_CW, HELIX_CCW, SPLINE, THREAD, TAP, REF, SKIP, DWELL, EVENT = (
     0,
     2,
     3,
@@ -23,6 +23,7 @@ RAPID, CW, CCW, HELIX_CW, HELIX_CCW, SPLINE, THREAD, TAP, REF, DWELL, EVENT = (
     7,
     8,
     9,
+    10,
     11,
     12,
 )

@@ -53,6 +53,7 @@ from polycnc.motion.kernels.columns import (
     ROTARY_WEIGHT,
     ROW_LENGTH,
     ROW_SLOT,
+    SKIP,
     SMOOTH,
     SPINDLE_REV_S2,
     SPLINE,
@@ -166,7 +167,7 @@ def lay_move(
     """Lay the row at hand out; false when the room ends: it can then be tried again."""
     kind, rules, first = int(state[KIND]), LIMIT_BLOCKS * n, int(state[PIECES])
     rapid = is_rapid(state)
-    stands = kind == TAP or (rapid and limits[rules + RAPID_STOPS] != 0.0)
+    stands = kind in (TAP, SKIP) or (rapid and limits[rules + RAPID_STOPS] != 0.0)
     if stands or contexts[record + STATION] != state[AT_STATION]:
         state[STOP] = 1.0
     arc = (CW <= kind <= HELIX_CCW or kind == THREAD) and state[CURVE] >= 0.0
