@@ -45,11 +45,18 @@ def test_a_block_that_alarms_moves_nothing() -> None:
 
 
 def test_the_moves_of_a_block_that_alarms_midway_are_taken_back() -> None:
-    program = "O1\nG90 G0 X5.\nG65 P2\nM30\nO2\nG0 X9.\nG27 X1.\nM99\n"
+    program = "O1\nG90 G0 X5.\nG65 P2\nM30\nO2\nG0 X9.\nG81 X12. Z-5. R2.\nM99\n"
     channel = run(program)
-    assert codes(channel) == ["PS0092"]
+    assert codes(channel) == ["PS0011"]
     assert ends(channel) == [(5.0, 0.0, 0.0), (9.0, 0.0, 0.0)]
     assert channel.coordinates.position == [9.0, 0.0, 0.0]
+
+
+def test_a_check_behind_the_motion_of_a_block_keeps_it() -> None:
+    channel = run("O1\nG90 G0 X9.\nG27 X1.\nM30\n")
+    assert codes(channel) == ["PS0092"]
+    assert ends(channel) == [(9.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
+    assert channel.coordinates.position == [1.0, 0.0, 0.0]
 
 
 def test_an_alarm_names_program_line_column_and_the_calls_that_led_there() -> None:

@@ -356,6 +356,11 @@ class Channel:
             self.toolpath.truncate(mark)
             self._stand_at_last_row()
 
+    def keep_rows(self) -> None:
+        """What the running block has written stays even if it alarms from here on."""
+        self.flush()
+        self.mark = self.toolpath.mark()
+
     def _stand_at_last_row(self) -> None:
         self.coordinates.arrive(self.toolpath.last_end() or list(self._start))
 

@@ -29,7 +29,7 @@ PROGRAM = "G20\nG23\nG98 G96 S100\nG55 G17 G1 X1. F10"
 
 
 def test_the_clear_state_brings_power_on_codes_back_but_for_units_and_stroke_check() -> None:
-    result = after_reset(PROGRAM, parameters={"3402#6": 1})
+    result = after_reset(PROGRAM, parameters={"3402#6": 1, "3402#4": 0})
     groups = ("unit", "stroke", "feed", "surface_speed", "wcs", "plane", "motion")
     assert codes(result, *groups) == ["G20", "G23", "G99", "G97", "G54", "G18", "G0"]
 

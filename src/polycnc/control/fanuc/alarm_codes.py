@@ -25,6 +25,7 @@ ALARMS: dict[str, str] = {
     "not_at_reference": "PS0092",
     "over_travel_plus": "OT0500",
     "over_travel_minus": "OT0501",
+    "preview_value": "PS0109",
     "inverse_time_feed": "PS1202",
     "spindle_speed": "PS0200",
     # compensation and corners

@@ -56,6 +56,7 @@ class FanucTurning(CustomMacroControl):
     foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
     EXTENDED_WORK_SYSTEMS: ClassVar[int] = 48
     DIAMETER_PROGRAMMING: ClassVar[bool] = True
+    POINT_IN_WHOLE_NUMBERS: ClassVar[bool] = False
     POLAR_CODES: ClassVar[frozenset[str]] = CustomMacroControl.POLAR_CODES | {"G98", "G99"}
     REFUSED_ON_CYLINDER: ClassVar[frozenset[str]] = CustomMacroControl.REFUSED_ON_CYLINDER | {
         "G50",
@@ -126,7 +127,7 @@ class FanucTurning(CustomMacroControl):
             codes["plane"] = "G19"
         if bit(3402, 3) and self.system(channel) != "A":
             codes["distance"] = "G91"
-        if bit(3402, 4):
+        if bit(3402, 4, default=1):
             codes["feed"] = "G98"
         if bit(3402, 7):
             codes["stroke"] = "G23"

@@ -30,6 +30,21 @@ def dwell(channel: Channel, words: Words) -> None:
             return
 
 
+def plan_spindle_speed(builder: Builder) -> Step:
+    """S: a whole number without sign."""
+    slot, form = builder.slots["S"]
+    if form not in ("", "#"):
+        raise builder.control.fail("point", address="S")
+    set_speed = auxiliary.plan_spindle_speed(builder)
+
+    def checked(channel: Channel, values: list[float]) -> None:
+        if values[slot] < 0.0:
+            raise channel.control.fail("minus", address="S")
+        set_speed(channel, values)
+
+    return checked
+
+
 def plan_second_auxiliary(builder: Builder) -> Step | None:
     """B: second auxiliary function; in a grinding cycle it is a word of the cycle."""
     if builder.mode["motion"] in turning_grinding.CODES:
@@ -53,7 +68,7 @@ def surface_speed(channel: Channel, words: Words) -> None:
 def switch_by_q(_channel: Channel, words: Words) -> None:
     """G05.4 Q1, Q0: another current loop of the drives; the path is unchanged."""
     if words.integer("Q") not in (0, 1):
-        raise words.fail("address", "Q")
+        raise words.fail("preview_value", "Q")
 
 
 def note_fluctuation(_channel: Channel, _words: Words) -> None:

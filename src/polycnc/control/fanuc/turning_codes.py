@@ -225,7 +225,7 @@ M_CODES = m_table(
 
 ADDRESSES = {
     "F": auxiliary.plan_feed,
-    "S": auxiliary.plan_spindle_speed,
+    "S": turning_auxiliary.plan_spindle_speed,
     "T": turning_tools.plan_tool,
     "B": turning_auxiliary.plan_second_auxiliary,
 }

@@ -30,7 +30,9 @@ MAX_OFFSETS = 999
 def plan_tool(builder: Builder) -> Step:
     """T: turret position and offset number in one word; the offset acts with the block's motion."""
     control, mode = builder.control, builder.mode
-    slot = builder.slots["T"][0]
+    slot, form = builder.slots["T"]
+    if form not in ("", "#"):
+        raise control.fail("point", address="T")
     if any(row.code == "G10" for row in builder.codes):
         raise control.fail("g10_format", address="T")
     if any(row.code in _MEASURING for row in builder.codes):

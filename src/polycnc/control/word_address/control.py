@@ -53,6 +53,7 @@ class WordAddressControl:
         FEED_AT_START: Feed that holds before any F (mm/s), or None for the alarm of a missing feed.
         DIAMETER_PROGRAMMING: Axes marked as transverse are programmed in diameters.
         INCREMENTAL_ADDRESSES: Addresses that are increments of an axis whatever the mode (U is X …).
+        POINT_IN_WHOLE_NUMBERS: A decimal point behind a whole number is read over where no point belongs.
     """
 
     id: ClassVar[str] = ""
@@ -68,6 +69,7 @@ class WordAddressControl:
     DIAMETER_PROGRAMMING: ClassVar[bool] = False
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {}
     INCH_CODE: ClassVar[str] = "G20"
+    POINT_IN_WHOLE_NUMBERS: ClassVar[bool] = True
     form: ClassVar[Form] = Form.WORD_ADDRESS
     default_machine: ClassVar[str] = "mill3"
 

@@ -139,6 +139,7 @@ def check_reference(channel: Channel, words: Words) -> None:
     for axis, value, incremental in words.axes():
         end[axis] = end[axis] + value if incremental else value
     channel.straight(Kind.RAPID, c.to_position(end), nan, end)
+    channel.keep_rows()
     machine = c.machine
     for axis, _, _ in words.axes():
         if abs(machine[axis] - channel.control.reference_point(channel, axis, 1)) > REFERENCE_WINDOW_MM:

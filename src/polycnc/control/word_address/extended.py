@@ -79,7 +79,7 @@ def contour_control(channel: Channel, words: Words) -> None:
 def advance_preview(channel: Channel, words: Words) -> None:
     """G08 P1 / P0."""
     if words.integer("P") not in (0, 1):
-        raise words.fail("address", "P")
+        raise words.fail("preview_value", "P")
     channel.memory.contour_control = words.integer("P") == 1
     channel.context_changed()
 

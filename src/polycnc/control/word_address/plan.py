@@ -105,7 +105,9 @@ class Builder:
             if is_fixed_code(key):
                 self.order.append(key)
                 if key[0] == "M":
-                    self.m_codes.append(int(float(key[1:])))
+                    if "." in key:
+                        raise self.control.fail("point", address="M")
+                    self.m_codes.append(int(key[1:]))
                 else:
                     row = self._row(key)
                     by_group.pop(row.group or row.code, None)

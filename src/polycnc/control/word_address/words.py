@@ -64,7 +64,7 @@ class Words:
         value = self.values[slot[0]]
         if slot[1] == "#":
             return int(round_half_away(value))
-        if value != int(value):
+        if value != int(value) or (slot[1] and not self.plan.control.POINT_IN_WHOLE_NUMBERS):
             raise self.fail("point", address)
         return int(value)
 
