@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from math import cos, hypot, isnan, nan, pi
+from math import cos, degrees, hypot, isnan, nan, pi, radians
 from typing import TYPE_CHECKING
 
 from polycnc.geometry import arcs, offset
@@ -56,10 +56,12 @@ class CornerPolicy:
     Attributes:
         idle_blocks: Blocks without plane motion that may stand between the two moves.
         shrinks: A size that does not fit is reduced to the largest that does (SINUMERIK).
+        least_turn_deg: Between directions that differ by less there is no corner.
     """
 
     idle_blocks: int = 0
     shrinks: bool = False
+    least_turn_deg: float = degrees(1e-6)
 
 
 #: The next block must be the next move (FANUC 0i-TF Plus 4.7); too short is an alarm.
@@ -206,7 +208,7 @@ class CornerStage:
         if Kind.RAPID in (held.move.kind, move.kind):
             if not request.modal:
                 self._violate(CornerViolation.RAPID, held.move.line)
-        elif a is not None and b is not None and abs(offset.turn(a, b)) > _STRAIGHT_ON:
+        elif a is not None and b is not None and abs(offset.turn(a, b)) > radians(self.policy.least_turn_deg):
             size = request.size
             cuts = _cuts(request.shape, a, b, size)
             if cuts is None and self.policy.shrinks:

@@ -195,6 +195,10 @@ class CutterCompensation:
         """G38: the block in front ends square on itself, and this block keeps that vector."""
         self._holds = True
 
+    def end_square(self) -> None:
+        """The block in front ends square on itself: nothing is read behind this block before it is executed."""
+        self._release_all()
+
     def drop_vector(self) -> None:
         """The block in front ends on the programmed point; compensation goes on from there (G50, G52)."""
         if self._window and self._window[-1].corner is None:

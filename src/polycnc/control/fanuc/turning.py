@@ -175,7 +175,8 @@ class FanucTurning(CustomMacroControl):
         turning_drilling.give_way(builder)
         motion = builder.mode["motion"]
         row = next(code for code in self.g_table(builder.channel).values() if _is_motion(code, motion))
-        return row.planner(builder, plan) if row.planner is not None else None
+        step = row.planner(builder, plan) if row.planner is not None else None
+        return turning_comp.plan_travel(builder, plan, step)
 
     def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
         """Modal macro calls; words of single cycles that a one-shot code clears."""
@@ -208,6 +209,12 @@ class FanucTurning(CustomMacroControl):
     def plan_corner(self, builder: Builder) -> Callable[[Channel, list[float]], object] | None:
         """Chamfer and corner R, or a vector given by I and K within compensation."""
         return turning_comp.plan_line_words(builder)
+
+    def untaken(self, address: str, builder: Builder) -> AlarmError:
+        """The alarm for a word that nothing takes: drawing dimensions beside a code that allows none have their own."""
+        if turning_drawing.is_word(address) and turning_drawing.is_on(builder):
+            return self.fail("drawing_increment", address=address)
+        return super().untaken(address, builder)
 
     # ---- drilling, spindle, M --------------------------------------------------------------------------------
 

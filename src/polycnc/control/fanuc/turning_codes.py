@@ -78,7 +78,7 @@ def _point(code: str, handler: object, takes: str = "") -> GCode:
 
 
 ROWS: tuple[Row, ...] = (
-    *same(_motion("G0", path.plan_rapid)),
+    *same(_motion("G0", turning_drawing.plan_rapid)),
     *same(_motion("G1", turning_drawing.plan_line)),
     *same(_motion("G2", path.plan_arc_cw)),
     *same(_motion("G3", path.plan_arc_ccw)),

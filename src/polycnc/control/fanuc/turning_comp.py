@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.plan import Builder
+    from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
 
 LINES = frozenset({"G0", "G1"})
@@ -65,10 +66,11 @@ def _engage(channel: Channel, words: Words, engage: Callable[[Channel, Words], N
 
 
 def cancel(channel: Channel, words: Words) -> None:
-    """G40, with the direction of the wall behind the last point in I, J, K."""
+    """G40, with the direction of the wall behind the last point in I, J, K; without motion by 5000#3 GNI only."""
     if not _takes(channel, words, starts=False):
         return
-    radius.cancel_compensation(channel, words)
+    takes_wall = bool(words.axes() or channel.memory.parameters.bit(5000, 3))
+    radius.cancel_compensation(channel, words, takes_wall=takes_wall)
 
 
 def _takes(channel: Channel, words: Words, *, starts: bool) -> bool:
@@ -114,12 +116,31 @@ def _direction(channel: Channel, words: Words) -> tuple[float, float] | None:
     return None if direction == (0.0, 0.0) else direction
 
 
+def plan_travel(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
+    """A straight block whose axis words give no way: the block in front ends square on itself (II.5.2.5)."""
+    if step is None or not plan.axis_words or builder.mode["motion"] not in LINES:
+        return step
+    if builder.mode["compensation"] == "G40":
+        return step
+
+    def run(channel: Channel, values: list[float]) -> None:
+        before = channel.coordinates.position[:]
+        step(channel, values)
+        stage = channel.memory.compensation
+        if stage is not None and stage.active and channel.coordinates.position == before:
+            stage.end_square()
+
+    return run
+
+
 def plan_line_words(builder: Builder) -> Callable[[Channel, list[float]], object] | None:
     """What I, J, K, R, C and the comma words of a G00 or G01 block ask for: a corner shape or a vector."""
     if builder.mode["motion"] not in LINES:
         return None
-    vectors = builder.channel.setup.parameters.bit(3405, 4) and builder.mode["compensation"] != "G40"
-    if not vectors or any(row.code == "G40" for row in builder.codes):
+    bit = builder.channel.setup.parameters.bit
+    # I, J, K are chamfers where that function is there and takes them (II.4.7).
+    chamfers = bit(8134, 2, default=1) and not bit(3453, 0) and not bit(3405, 4)
+    if chamfers or builder.mode["compensation"] == "G40" or any(row.code == "G40" for row in builder.codes):
         return turning_corners.plan_corner(builder)
     u, v, _ = PLANES[builder.mode["plane"]]
     letters = ("IJK"[u], "IJK"[v])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.control.fanuc.turning_corners import corner_waits
 from polycnc.control.fanuc.turning_tools import refresh
 from polycnc.control.word_address import coordinates, extended, planes
 from polycnc.control.word_address.path import PLANES
@@ -140,10 +141,18 @@ def select_plane(channel: Channel, words: Words) -> None:
     memory, code = channel.memory, channel.mode["plane"]
     if memory.side and memory.plane != code:
         raise words.fail("comp_plane", code)
+    _refuse_corner(channel, words, code)
     if memory.plane != code:
         memory.single_cycle.clear()
     memory.plane = code
     planes.lay_axes(channel, words)
+
+
+def _refuse_corner(channel: Channel, words: Words, code: str) -> None:
+    """A plane code behind a chamfer or corner R is an alarm, even if it names the same plane (II.4.7)."""
+    if channel.head is not None and corner_waits(channel):
+        drawing = channel.memory.parameters.bit(3453, 0)
+        raise words.fail("drawing_increment" if drawing else "corner_no_move", code)
 
 
 def select_work_offset(channel: Channel, words: Words) -> None:

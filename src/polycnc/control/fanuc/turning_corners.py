@@ -71,10 +71,22 @@ class TurningCorner(CornerStage):
     def _fail(self, mistake: str, expected: Expected) -> AlarmError:
         return AlarmError(self._control.alarms[mistake], line=expected.line)
 
+    def block(self) -> None:
+        """A block has been read; a corner asked for in a block without way is longer than the way."""
+        if self._wanted is not None:
+            self._wanted = None
+            self._violate(CornerViolation.TOO_SHORT, 0)
+        super().block()
+
     @property
     def waits(self) -> bool:
         """Whether a corner still waits for its second move."""
         return self._expected is not None or self.active
+
+
+def corner_waits(channel: Channel) -> bool:
+    """Whether a corner waits for its second move."""
+    return isinstance(channel.head, TurningCorner) and channel.head.waits
 
 
 def corner_stage(channel: Channel) -> TurningCorner:
@@ -93,7 +105,9 @@ def plan_corner(builder: Builder) -> Callable[[Channel, list[float]], object] | 
     if builder.mode["motion"] != "G1" or parameters.bit(3453, 0) or not parameters.bit(8134, 2, default=1):
         return None
     by_c = bool(parameters.bit(3405, 4))
-    letters = "C" if by_c and "C" not in builder.channel.axes else _CENTERS if not by_c else ""
+    # Beside G40 they are the direction of the wall (II.5.2.4).
+    centers = "" if by_c or any(row.code == "G40" for row in builder.codes) else _CENTERS
+    letters = "C" if by_c and "C" not in builder.channel.axes else centers
     named = [letter for letter in (*letters, "R") if builder.has(letter)]
     if not named:
         return None

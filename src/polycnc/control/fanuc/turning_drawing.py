@@ -7,12 +7,12 @@ angle only is a line whose end lies where it meets the line of the next block; i
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import radians, sin, tan
+from math import nan, radians, sin, tan
 from typing import TYPE_CHECKING
 
 from polycnc.compensation.corner import CornerPolicy, Shape
 from polycnc.control.fanuc.turning_coordinates import plane_axes
-from polycnc.control.fanuc.turning_corners import corner_stage
+from polycnc.control.fanuc.turning_corners import corner_stage, corner_waits
 from polycnc.control.word_address import path
 from polycnc.control.word_address.numbers import Convert, angle_converter
 from polycnc.geometry import offset
@@ -21,14 +21,17 @@ from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.codes import GCode, Step
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.geometry.arcs import Point
 
 #: A block with an angle only may stand between a corner and its second move.
-_CORNERS = CornerPolicy(idle_blocks=1)
 _LEAST_ANGLE_DEG = 1.0
+_CORNERS = CornerPolicy(idle_blocks=1, least_turn_deg=_LEAST_ANGLE_DEG)
 _MAX_IDLE_BLOCKS = 1
+#: One-shot codes and groups by what may stand between the blocks of a figure (II.4.9, note 2).
+_ALLOWED = frozenset({"G4"})
+_FORBIDDEN_GROUPS = frozenset({"cycle", "plane", "stroke"})
 _SHAPES = {"R": Shape.ROUNDING, "C": Shape.CHAMFER}
 
 
@@ -56,15 +59,25 @@ def is_on(builder: Builder) -> bool:
 
 def plan_line(builder: Builder, plan: Plan) -> Step | None:
     """G01, with the words of drawing dimensions where they are chosen."""
-    if not is_on(builder):
-        return path.plan_line(builder, plan)
+    return _plan(builder, plan) if is_on(builder) else path.plan_line(builder, plan)
+
+
+def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
+    """G00, with the words of drawing dimensions where they are chosen."""
+    return _plan(builder, plan) if is_on(builder) else path.plan_rapid(builder, plan)
+
+
+def _plan(builder: Builder, plan: Plan) -> Step | None:
     words = _DrawingWords(builder, plan)
+    vector = builder.control.plan_corner(builder)
     if not words.any and not plan.axis_words:
-        return None
+        return vector
 
     def run(channel: Channel, values: list[float]) -> None:
         line: OpenLine | None = channel.memory.open_line
         angle, corner = words.angle(values), words.corner(values)
+        if vector is not None:
+            vector(channel, values)
         if line is None and angle is None:
             _move(channel, path.target(channel, plan.axis_words, values), corner)
         elif line is not None:
@@ -182,35 +195,53 @@ def _close(
 
 
 def _move(channel: Channel, programmed: list[float], corner: tuple[Shape, float] | None) -> None:
-    """One line at the feed in force, with what stands at its end."""
-    if not channel.feed > 0.0:
+    """One line, with what stands at its end: at the feed in force, or at rapid."""
+    is_rapid = channel.mode["motion"] == "G0"
+    if not is_rapid and not channel.feed > 0.0:
         raise channel.control.fail("no_feed")
     if corner is not None:
         stage = corner_stage(channel)
         stage.policy = _CORNERS
         stage.insert(*corner)
-    channel.straight(Kind.FEED, channel.coordinates.to_position(programmed), channel.feed, programmed)
+    end = channel.coordinates.to_position(programmed)
+    channel.straight(
+        Kind.RAPID if is_rapid else Kind.FEED, end, nan if is_rapid else channel.feed, programmed
+    )
 
 
 def plan_check(builder: Builder, plan: Plan) -> Step | None:
-    """Blocks behind a line with an angle only: another motion, or too many without one, is an alarm."""
+    """What may stand between the blocks of a figure: neither other motion, nor codes that end it, nor much else."""
     if not is_on(builder):
         return None
-    control = builder.control
-    if plan.axis_words:
-        if builder.mode["motion"] == "G1" and not any(row.axis_words for row in builder.codes):
-            return None
-        mistake, idle = "drawing_next", False
-    else:
+    idle = False
+    if any(_is_forbidden(row) for row in builder.codes):
+        mistake = "drawing_increment"
+    elif not plan.axis_words:
         mistake, idle = "drawing_increment", True
+    elif builder.mode["motion"] in ("G0", "G1"):
+        return None
+    else:
+        mistake = "drawing_next"
 
     def check(channel: Channel, _values: list[float]) -> None:
         line: OpenLine | None = channel.memory.open_line
         if line is None or line.step == channel.level.current:
+            if mistake == "drawing_increment" and not idle and corner_waits(channel):
+                raise builder.control.fail(mistake)
             return
         line.idle += 1
         if not idle or line.idle > _MAX_IDLE_BLOCKS:
             channel.memory.open_line = None
-            raise control.fail(mistake)
+            raise builder.control.fail(mistake)
 
     return check
+
+
+def _is_forbidden(row: GCode) -> bool:
+    """Codes that may not stand in a figure (II.4.9, note 2): one-shot ones but G04, planes, cycles, G22 and G23."""
+    return row.code not in _ALLOWED if not row.group else row.group in _FORBIDDEN_GROUPS
+
+
+def is_word(address: str) -> bool:
+    """Whether an address is a word of drawing dimensions."""
+    return address in (",A", ",C", ",R")

@@ -69,8 +69,14 @@ def _engage(channel: Channel, words: Words, side: int) -> None:
     channel.context_changed()
 
 
-def cancel_compensation(channel: Channel, words: Words) -> None:
-    """G40: the next plane motion leads back to the programmed path; I J K give the wall behind the last point."""
+def cancel_compensation(channel: Channel, words: Words, *, takes_wall: bool = True) -> None:
+    """G40: the next plane motion leads back to the programmed path.
+
+    Args:
+        channel: The channel.
+        words: Words of the block; I J K give the wall behind the last point.
+        takes_wall: Whether I J K count.
+    """
     stage = channel.memory.compensation
     if stage is None or not stage.active:
         return
@@ -78,7 +84,7 @@ def cancel_compensation(channel: Channel, words: Words) -> None:
     channel.memory.side = channel.memory.engaged_side = 0
     u, v, _ = PLANES[channel.mode["plane"]]
     wall = (words.length("IJK"[u]) or 0.0, words.length("IJK"[v]) or 0.0)
-    stage.cancel(wall if wall != (0.0, 0.0) else None, place=place_of_block(channel))
+    stage.cancel(wall if takes_wall and wall != (0.0, 0.0) else None, place=place_of_block(channel))
     channel.context_changed()
 
 
