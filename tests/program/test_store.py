@@ -301,3 +301,16 @@ def test_arbitrary_bytes_load_as_programs(
     store = ProgramStore(form=form)
     assert store.add_file(path) is store.main
     assert store.main in list(store)
+
+
+def test_the_folder_of_a_workpiece_stands_for_its_main_program(tmp_path: Path) -> None:
+    write(tmp_path, SHAFT_WPD__SHAFT_MPF="SAME NAME", SHAFT_WPD__B_MPF="OTHER")
+    write(
+        tmp_path, ONLY_WPD__X_MPF="ONLY ONE", ONLY_WPD__ONLY_SPF="SUB", TWO_WPD__A_MPF="1", TWO_WPD__B_MPF="2"
+    )
+    for name, expected in (("SHAFT.WPD", "SAME NAME"), ("ONLY.WPD", "ONLY ONE")):
+        store = ProgramStore(form=Form.SINUMERIK)
+        assert text_of(store.add_file(tmp_path / name)) == expected
+        assert text_of(store.main_of_workpiece(store.main.directory)) == expected
+    with pytest.raises(ProgramFileError):
+        ProgramStore(form=Form.SINUMERIK).add_file(tmp_path / "TWO.WPD")

@@ -7,6 +7,11 @@ and 2.1).
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
 MPF_DIR = "/_N_MPF_DIR"
 SPF_DIR = "/_N_SPF_DIR"
 DEF_DIR = "/_N_DEF_DIR"
@@ -15,6 +20,9 @@ CYCLE_DIRS = ("/_N_CUS_DIR", "/_N_CMA_DIR", "/_N_CST_DIR")
 
 WORKING_MEMORY = "/_N_RAM"
 """Where an archive puts initialisation files that name no directory."""
+
+WORKPIECE = "_WPD"
+"""Type of the directory of a workpiece."""
 
 STANDARD_DIRS = (MPF_DIR, SPF_DIR, DEF_DIR, *CYCLE_DIRS, "/_N_WKS_DIR", "/_N_COM_DIR")
 
@@ -44,6 +52,15 @@ def default_directory(name: str) -> str:
     if name.endswith("_SPF"):
         return SPF_DIR
     return WORKING_MEMORY if name.endswith("_INI") else MPF_DIR
+
+
+def main_of_workpiece(directory: str, stored_names: Iterable[str]) -> str | None:
+    """The main program that selecting a workpiece directory selects: of the same name, or the only one (2.1)."""
+    mains = [name for name in stored_names if name.endswith("_MPF")]
+    same = directory.rpartition("/")[2].removesuffix(WORKPIECE) + "_MPF"
+    if same in mains:
+        return same
+    return mains[0] if len(mains) == 1 else None
 
 
 def program_name(number: int) -> str:

@@ -115,11 +115,22 @@ class ProgramStore:
 
         Raises:
             ProgramFileError: The file cannot be used.
+
+        The folder of a workpiece (`SHAFT.WPD`) stands for the main program that selecting it selects.
         """
+        path = self._of_workpiece(Path(path))
         programs = load_programs(str(path), self.encoding, self.form)
         if self._main is None:
             self._beside = Path(path).parent
         return self._add([self._placed(program, Path(path)) for program in programs])
+
+    def _of_workpiece(self, path: Path) -> Path:
+        stored = names.stored_name(path.name)
+        if self.form is not Form.SINUMERIK or not stored.endswith(names.WORKPIECE) or not path.is_dir():
+            return path
+        folder = self._folder(path)
+        main = names.main_of_workpiece(stored, folder.stored_names())
+        return folder.stored(main) or path if main else path
 
     def add_text(self, key: str, text: str) -> Program:
         """Add the programs of a text under a key such as `O9010`, `SUB1.SPF`, `/_N_CUS_DIR/_N_X_SPF`.
@@ -325,6 +336,16 @@ class ProgramStore:
             stored = {name for name in stored if name.endswith("_DEF")}
         found = (self.find_in(directory, name) for name in sorted(stored))
         return [program for program in found if program]
+
+    def main_of_workpiece(self, directory: str) -> Program | None:
+        """The main program that selecting a workpiece directory selects, if it has one (job planning 2.1).
+
+        Raises:
+            ProgramFileError: A file of that directory cannot be read.
+        """
+        directory = names.stored_directory(directory)
+        programs = {program.name: program for program in self.programs_in(directory)}
+        return programs.get(names.main_of_workpiece(directory, programs) or "")
 
     def has_directory(self, directory: str) -> bool:
         """Whether a SINUMERIK directory exists (CALLPATH demands it)."""

@@ -219,3 +219,12 @@ def test_a_part_of_a_program_has_the_variables_and_parameters_of_the_whole() -> 
 def test_the_main_program_may_have_parameters_that_nobody_writes() -> None:
     assert value("PROC MAIN(REAL AA, STRING[5] BB)\nR1=AA+STRLEN(BB)+1") == 1
     assert alarm("PROC MAIN(VAR REAL AA)\nR1=AA")[0] == "14010"
+
+
+def test_a_subprogram_number_has_seven_digits() -> None:
+    assert alarm("L12345678", files={"L12345678.SPF": "M17"})[0] == "12080"
+
+
+@pytest.mark.parametrize("block", ["X1 SBLOF", "WAITM(1) X1", "SETM(1) M8"])
+def test_words_that_stand_alone_alarm_beside_others(block: str) -> None:
+    assert alarm(f"G0\n{block}")[:2] == ("12120", 2)

@@ -8,12 +8,14 @@ from polycnc.channel.group import ChannelGroup
 from polycnc.control.sinumerik import arguments
 from polycnc.language.sinumerik.calls import named_program
 from polycnc.messages import AlarmError
+from polycnc.program.names import WORKPIECE, stored_directory
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.memory import Memory
+    from polycnc.program import Program
 
 Arguments = tuple[Any, ...]
 #: Third argument of INIT: without, with, and with an awaited acknowledgement.
@@ -56,7 +58,17 @@ def select(channel: Channel, args: Arguments) -> None:
         raise AlarmError("14020", text="INIT")
     if group_of(channel).is_running(number):
         raise AlarmError("14020", text=f"INIT({number})")
-    group_of(channel).select(number, named_program(channel, args[1]))
+    group_of(channel).select(number, _selected(channel, args[1]))
+
+
+def _selected(channel: Channel, path: str) -> Program:
+    """The program of a name or path, or that of a workpiece directory (2.1); alarm 14011 without one."""
+    if not stored_directory(path).endswith(WORKPIECE):
+        return named_program(channel, path)
+    program = channel.store.main_of_workpiece(path)
+    if program is None:
+        raise AlarmError("14011", text=path)
+    return program
 
 
 def start(channel: Channel, args: Arguments) -> None:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.language.sinumerik.nc_frame import NEUTRAL
-from polycnc.program.names import WORKING_MEMORY
+from polycnc.program.names import WORKING_MEMORY, WORKPIECE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 INITIAL = "_N_INITIAL_INI"
 #: Types of files with the name of the program that MD11280 = 1 runs.
 TYPES = ("INI", "SEA", "GUD", "RPA", "UFR", "TOA")
-WORKPIECE = "_WPD"
 
 
 def call(channel: Channel) -> None:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.way import Way
-from polycnc.control.sinumerik import arguments, retraction
+from polycnc.control.sinumerik import arguments, retraction, single_block
 from polycnc.language.sinumerik.calls import call_without_arguments, named_program
 from polycnc.messages import AlarmError
 
@@ -215,6 +215,7 @@ class Watch:
             channel.stop("LIFTFAST")
             raise AlarmError("PC0004")
         call_without_arguments(channel, assignment.program, LEVEL)
+        single_block.begin_routine(channel, channel.level)
         self.running.append(Interrupted(way, part, assignment.priority, channel.level, rest, end))
 
     def _ended(self, interrupted: Interrupted) -> None:
@@ -234,6 +235,7 @@ class Watch:
             self._finish(way, part, stands)
             for move in interrupted.rest:
                 self.move(self._renewed(move))
+            single_block.halt_behind_rest(channel)
         channel.coordinates.arrive(interrupted.end)
 
     def _finish(self, way: Way, part: float, stands: list[float]) -> None:

@@ -66,6 +66,7 @@ DELIVERED: dict[str, Datum] = {
     "$MC_DIAMETER_AX_DEF": Datum(20100, ""),
     "$MC_RESET_MODE_MASK": Datum(20110, 1),
     "$MC_START_MODE_MASK": Datum(20112, 0x400),
+    "$MC_IGNORE_SINGLEBLOCK_ASUP": Datum(20117, False),
     "$MC_GCODE_RESET_VALUES": Datum(20150, 0),
     "$MC_GCODE_RESET_MODE": Datum(20152, 0),
     "$MC_EXTERN_GCODE_RESET_VALUES": Datum(20154, 1),

@@ -1,7 +1,8 @@
 """Where single block operation halts.
 
 SBL1 halts behind blocks that do something on the machine, SBL2 behind every block, SBL3 too, whatever SBLOF says.
-A level with SBLOF in its PROC halts at its M17; RET and calls never do. Source: job planning 1.25.2.5 (SBLOF, SBLON).
+A level with SBLOF in its PROC halts at its M17; RET and calls never do. Interrupt routines run through if MD10702 bit 1
+or MD20117 say so; SBLON brings the halts back only in the first case. Source: job planning 1.25.2.5 (SBLOF, SBLON).
 """
 
 from __future__ import annotations
@@ -9,14 +10,43 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.waits import Wait
+
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Level
     from polycnc.control.sinumerik.memory import Memory
 
+#: MD10702 bit 1: interrupt routines of the user run through, until SBLON.
+IGNORE_ROUTINES = 1 << 1
 #: MD10702 bit 12: no halt in the block of SBLON under SBL2.
 IGNORE_SBLON = 1 << 12
 _SBLON = re.compile(r"\bSBLON\b", re.IGNORECASE)
+
+
+def begin_routine(channel: Channel, level: Level) -> None:
+    """An interrupt routine begins: whether single block acts in it."""
+    if channel.memory.data.integer("$MN_IGNORE_SINGLEBLOCK_MASK") & IGNORE_ROUTINES:
+        level.data["single_block"] = False
+
+
+def halt_behind_rest(channel: Channel) -> None:
+    """The rest of an interrupted block has been made behind its routine: the halt of that block."""
+    level = channel.level
+    if channel.single_block and (level.data.get("single_block", True) or _kind(channel) == "SBL3"):
+        channel.wait = channel.wait or Wait("single-block", channel.sequence_of(level))
+
+
+def _kind(channel: Channel) -> str:
+    return str(channel.setup.switches.single_block)
+
+
+def _runs_through(channel: Channel) -> bool:
+    """MD20117, while an interrupt routine runs."""
+    memory: Memory = channel.memory
+    if memory.watch is None or not memory.data.integer("$MC_IGNORE_SINGLEBLOCK_ASUP"):
+        return False
+    return any(level.kind == "interrupt" for level in channel.stack)
 
 
 def halts(channel: Channel, level: Level) -> bool:
@@ -24,6 +54,8 @@ def halts(channel: Channel, level: Level) -> bool:
     memory: Memory = channel.memory
     acted, memory.acted = memory.acted, False
     kind = channel.setup.switches.single_block
+    if _runs_through(channel):
+        return False
     is_on = level.data.get("single_block", True) or kind == "SBL3"
     if not any(level is each for each in channel.stack):
         return acted and (is_on or bool(level.data.get("sblof_in_proc")))

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from polycnc.program import Program
 
 MAX_PASSES = 9999
+#: Digits of a subprogram number behind L, leading zeros included (1.25.1.2).
+MAX_DIGITS = 7
 
 
 # ---- finding programs --------------------------------------------------------------------------------------
@@ -98,6 +100,8 @@ def _inherit(level: Level, caller: Level, header: Header) -> None:
 def program_call(compiler: BlockCompiler) -> None:
     """A program by its name, with parameters and number of passes: `NAME(1,2) P3`, `L123 P=R1`."""
     token = compiler.take()
+    if token.kind == "word" and len(token.text) > 1 + MAX_DIGITS:
+        raise compiler.error(token)
     rights.check_word(compiler, token)
     program = find_program(compiler.channel, token.text)
     if program is None:

@@ -414,6 +414,8 @@ def define_macro(compiler: BlockCompiler) -> None:
         raise compiler.error(token)
     if token.kind == "name" and (name in _RESERVED or name in keywords.CALLS or name in keywords.PARTS):
         raise NcSyntaxError("12270", token.column, name)
+    if name[0] == "G" and name[1:].isdecimal() and not compiler.program.is_definition_file:
+        raise NcSyntaxError("12500", token.column, name)  # 1.26: for the whole control, in macro files alone
     compiler.expect("AS")
     first = compiler.token
     if first.kind == "end":

@@ -252,3 +252,5 @@ NOT_EXECUTED = frozenset({"COMPLETE", "INITIAL", "STRINGFELD", "STRINGVAR", "END
 
 #: Single block off and on for the running level: the language keeps it.
 SINGLE_BLOCK = frozenset({"SBLOF", "SBLON"})
+#: Words that stand alone in their block (1.13, 1.25.2.5).
+OWN_BLOCK = SINGLE_BLOCK | {"INIT", "START", "WAITM", "WAITMC", "WAITE", "SETM", "CLEARM"}

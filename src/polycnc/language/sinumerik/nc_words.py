@@ -118,6 +118,9 @@ class WordReader:
     def _named_word(self, token: Token) -> None:
         compiler, name = self.compiler, token.text
         scope = compiler.scope
+        if name in keywords.OWN_BLOCK and not self._assigned():
+            self._own_block(token)
+            return
         if name in scope.memory.axes:
             self._addressed(token)
         elif name == "G" and compiler.at("["):
@@ -134,6 +137,18 @@ class WordReader:
         else:
             self._other(token)
 
+    def _own_block(self, token: Token) -> None:
+        """A word that stands alone; 12120 if the block has others."""
+        compiler, name = self.compiler, token.text
+        is_first = token is compiler.tokens[0]
+        if name in keywords.SINGLE_BLOCK:
+            compiler.emitter.has_text = True
+            compiler.emitter.line(f"channel.level.data['single_block'] = {name == 'SBLON'}")
+        else:
+            compiler.procedure(token, keywords.PROCEDURES[name])
+        if not is_first or compiler.token.kind != "end":
+            raise NcSyntaxError("12120", token.column, name)
+
     def _other(self, token: Token) -> None:
         """Words that are handled by the language itself, or that do not exist."""
         compiler, name = self.compiler, token.text
@@ -141,8 +156,6 @@ class WordReader:
         if name in keywords.FILE_PROCEDURES:
             arguments = compiler.scope.arguments(compiler, token, keywords.FILE_PROCEDURES[name])
             compiler.emitter.line(f"file_procedure(channel, {name!r}, {arguments})")
-        elif name in keywords.SINGLE_BLOCK:
-            compiler.emitter.line(f"channel.level.data['single_block'] = {name == 'SBLON'}")
         elif name == "SETINT":
             self._set_interrupt(token)
         elif name in keywords.OPERATORS or name in keywords.PARTS or name in keywords.STRUCTURE:
