@@ -185,7 +185,7 @@ class Result:
         return shown
 
     def _shown(self, channel: Channel, display: Display) -> dict[str, dict[str, float]]:
-        end, context = channel.coordinates.position, self.control.context(channel)
+        end, context = channel.row_position, self.control.context(channel)
         return {"work": display.work(end, context), "machine": display.machine(end, context)}
 
     def alarm_text(self, alarm: Alarm, lang: str | None = None) -> str:

@@ -223,6 +223,14 @@ class Channel:
         if self.main_run is not None and not self.main_run.has_caught_up:
             raise PreprocessingStop
 
+    @property
+    def row_position(self) -> list[float]:
+        """The position as a row would hold it: a last stage may turn positions into those of the axes."""
+        c = self.coordinates
+        if self.table is self.rows or c.transformation is None:
+            return c.position
+        return c.transformation.real(c.position)
+
     def put_stage(self, stage: PathStage) -> None:
         """Put a stage in front of the path; its `after` must be what was in front before, or the table."""
         self.head = stage

@@ -80,7 +80,7 @@ def test_a_drill_does_not_move_when_a_word_is_wrong() -> None:
 
 
 def test_meldas_has_no_rigid_tapping_codes_of_fanuc() -> None:
-    assert codes(run("G84.2 Z-5. R1. F1.\nM30\n", "meldas-m")) == ["PS0010"]
+    assert codes(run("G84.2 Z-5. R1. F1.\nM30\n", "meldas-m")) == ["P34"]
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,6 @@ from polycnc.control.word_address.length import renew_length
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.subprograms import sequences_of
 from polycnc.control.word_address.variables import Read, Registry, SystemRange, Write
-from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.variables import MacroMemory
@@ -42,13 +41,8 @@ def _set_signal_word(m: MacroMemory, _i: int, value: float | None, _text: str) -
 
 
 def _raise_user_alarm(m: MacroMemory, _i: int, value: float | None, text: str) -> None:
-    """#3000 = n (TEXT): alarm 3000 + n, or n itself by 6008#6."""
-    number = int(value or 0.0)
-    if not m.parameters.bit(6008, 6):
-        if not 0 <= number <= 200:
-            raise m.fail("variable_number")
-        number += 3000
-    raise AlarmError(f"MC{number:04d}", detail=text or f"MC{number:04d}")
+    """#3000 = n (TEXT)."""
+    raise m.channel.control.macro_alarm(m.channel, int(value or 0.0), text)
 
 
 def _show_and_stop(m: MacroMemory, _i: int, _value: float | None, text: str) -> None:

@@ -12,6 +12,7 @@ from polycnc.control.meldas.cycles import DRILLING
 from polycnc.control.meldas.hartford import INTERLOCKS, M_CODES
 from polycnc.control.meldas.milling_codes import G_CODES
 from polycnc.control.word_address.milling import MillingControl
+from polycnc.control.word_address.normal_line import NormalLineParameters
 from polycnc.control.word_address.variables import MacroMemory
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.drilling import Drilling
     from polycnc.control.word_address.interlocks import Interlock
     from polycnc.control.word_address.words import Words
+    from polycnc.messages import AlarmError
 
 
 class MeldasMilling(MillingControl):
@@ -46,6 +48,11 @@ class MeldasMilling(MillingControl):
     REFERENCE_PARAMETERS: ClassVar[dict[int, int]] = {1: 2037, 2: 2038, 3: 2039, 4: 2040}
     ARC_TOLERANCE_PARAMETER: ClassVar[tuple[int, float]] = (1084, 0.1)
     OVERRUN_PARAMETER: ClassVar[int] = 8209
+    NORMAL_LINE_PARAMETERS: ClassVar[NormalLineParameters] = NormalLineParameters(1522, 1523)
+
+    def macro_alarm(self, _channel: Channel, number: int, told: str) -> AlarmError:
+        """#3000 = n (TEXT): P277 with the number and the text."""
+        return self.fail("macro_alarm", detail=f"{number} {told}".strip())
 
     def code_calls(self, channel: Channel) -> CodeCalls:
         """Codes registered by #7001 to #7303."""

@@ -8,10 +8,11 @@ from polycnc.control.word_address import (
     coordinates,
     extended,
     hole_patterns,
+    hypothetical_axis,
     skip,
     tool_measuring,
 )
-from polycnc.control.word_address.codes import GCode, not_yet, table, with_aliases
+from polycnc.control.word_address.codes import GCode, Order, not_yet, table, with_aliases
 
 #: Codes of FANUC that the manual's table does not have.
 FOREIGN = frozenset({
@@ -39,6 +40,7 @@ _ROWS = table(
     moves("G37.1", hole_patterns.grid_of_holes, "I J P K"),
     moves("G53", coordinates.move_in_machine_system),
     GCode("G61.1", "path", coordinates.note_context),
-    not_yet("G7", "G70", "G71", "G72", "G75", "G77", "G78", "G79"),
+    GCode("G7", handler=hypothetical_axis.switch, axis_words=True, order=Order.MOTION),
+    not_yet("G70", "G71", "G72", "G75", "G77", "G78", "G79"),
 )
 G_CODES = with_aliases(_ROWS, ALIASES)

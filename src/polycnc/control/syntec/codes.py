@@ -8,7 +8,6 @@ from polycnc.control.syntec import (
     axis_borrowing,
     axis_groups,
     calls,
-    curves,
     cycles,
     interrupts,
     motion,
@@ -25,7 +24,7 @@ from polycnc.control.syntec import (
     tool_setting,
 )
 from polycnc.control.syntec import coordinates as frames
-from polycnc.control.word_address import auxiliary, coordinates, path, radius
+from polycnc.control.word_address import auxiliary, coordinates, nurbs, path, radius
 from polycnc.control.word_address import extended as base_extended
 from polycnc.control.word_address import frames as base_frames
 from polycnc.control.word_address import length as base_length
@@ -40,7 +39,7 @@ G_CODES = table(
     GCode("G3", "motion", planner=arcs.plan_arc_ccw, ends="cycle"),
     GCode("G2.4", "motion", planner=arcs.plan_three_point_arc, ends="cycle"),
     GCode("G3.4", "motion", planner=arcs.plan_three_point_arc, ends="cycle"),
-    GCode("G6.2", "motion", planner=curves.plan_nurbs, ends="cycle"),
+    GCode("G6.2", "motion", planner=nurbs.plan_nurbs, ends="cycle"),
     GCode("G33", "motion", planner=motion.plan_thread, ends="cycle"),
     GCode("G4", handler=frames.dwell, takes="X P Q", axis_words=True, order=MOTION),
     GCode("G4.1", handler=axis_groups.meet, takes="P Q", axis_words=True, order=MOTION),

@@ -13,7 +13,6 @@ from polycnc.control.syntec import (
     axis_groups,
     calls,
     coordinates,
-    curves,
     cycles,
     interrupts,
     motion,
@@ -31,7 +30,7 @@ from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.memory import SyntecMemory
 from polycnc.control.syntec.parameters import decimals, parameter
 from polycnc.control.syntec.plain import SyntecPlainBlocks
-from polycnc.control.word_address import frames
+from polycnc.control.word_address import frames, nurbs
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.numbers import Convert, NumberRules, length_converter
 from polycnc.control.word_address.polar_interpolation import is_length
@@ -159,7 +158,7 @@ class SyntecMill(WordAddressControl):
     def finish(self, channel: Channel) -> None:
         """The main program is over."""
         arcs.check_pair_complete(channel)
-        curves.check_complete(channel)
+        nurbs.check_complete(channel)
         interrupts.check_off(channel)
         channel.end()
 

@@ -19,14 +19,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.syntec.curves import Curve
     from polycnc.control.syntec.interrupts import Interrupt
-    from polycnc.control.syntec.normal_stage import NormalStage
     from polycnc.control.syntec.oscillation import Oscillation
     from polycnc.control.syntec.quiet import QuietStage
     from polycnc.control.syntec.skips import SkipGroup
     from polycnc.control.syntec.spatial_stage import SpatialStage
     from polycnc.control.syntec.spindles import SpindlePair
+    from polycnc.control.word_address.normal_stage import NormalStage
 
 #: Names of single bits of the PLC interface that setups may give, and the functions that read them.
 BIT_FAMILIES = "IOAC"
@@ -84,7 +83,6 @@ class SyntecMemory(Memory):
         self.skip_machine: list[float] | None = None
         self.last_center = (0.0, 0.0, 0.0)
         self.mid_point: list[float] | None = None
-        self.curve: Curve | None = None
         self.preset_angle = 0.0
         self.preset_axis = [0.0, 0.0, 1.0]
         self.scale_factors = (1.0, 1.0, 1.0)

@@ -9,8 +9,8 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec.normal_stage import Direction, NormalStage
 from polycnc.control.syntec.parameters import has_option
+from polycnc.control.word_address.normal_stage import Direction, NormalStage
 from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.control.word_address.path import PLANES
 

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec import curves, tip_control
+from polycnc.control.syntec import tip_control
 from polycnc.control.syntec.parameters import has_option
+from polycnc.control.word_address import nurbs
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -50,7 +51,7 @@ def high_precision(channel: Channel, words: Words) -> None:
     """G05 P10000 [E] [axes], G05 E: curve fitting on; G05 P0, G05: off."""
     if not has_option(channel.setup.parameters, OPTION_HIGH_PRECISION):
         raise words.fail("option", "G5")
-    curves.check_complete(channel)
+    nurbs.check_complete(channel)
     switch = words.typed("P")
     error = words.typed("E")
     if switch is None:

@@ -52,6 +52,7 @@ class WordAddressControl:
         drilling: The drilling cycles.
         FEED_AT_START: Feed that holds before any F (mm/s), or None for the alarm of a missing feed.
         DIAMETER_PROGRAMMING: Axes marked as transverse are programmed in diameters.
+        CURVE_BEGINS_AT_TOOL: The first pole of a G06.2 curve must be where the tool stands.
         INCREMENTAL_ADDRESSES: Addresses that are increments of an axis whatever the mode (U is X …).
         POINT_IN_WHOLE_NUMBERS: A decimal point behind a whole number is read over where no point belongs.
     """
@@ -67,6 +68,7 @@ class WordAddressControl:
     drilling: ClassVar[Drilling] = Drilling({})
     FEED_AT_START: ClassVar[float | None] = None
     DIAMETER_PROGRAMMING: ClassVar[bool] = False
+    CURVE_BEGINS_AT_TOOL: ClassVar[bool] = False
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {}
     INCH_CODE: ClassVar[str] = "G20"
     POINT_IN_WHOLE_NUMBERS: ClassVar[bool] = True
@@ -316,7 +318,8 @@ class WordAddressControl:
             path_mode=mode.codes.get("path", "G64"),
             diameter_axes=diameters,
             wcs=memory.wcs,
-            transformation=None if memory.cylinder is not None else c.transformation,
+            # A last stage that turns positions into those of the axes leaves nothing to transform.
+            transformation=c.transformation if channel.table is channel.rows else None,
         )
 
     def motion_settings(self, _channel: Channel) -> MotionSettings:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from polycnc.control.word_address import code_calls, cylinder, interruption, macro_calls, polar_interpolation
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.numbers import NumberRules, length_converter
+from polycnc.messages import AlarmError
 from polycnc.program import ProgramFileError
 
 if TYPE_CHECKING:
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.codes import GCode, MCode, Step
     from polycnc.control.word_address.numbers import Convert
     from polycnc.control.word_address.plan import Builder, Plan
-    from polycnc.messages import AlarmError
     from polycnc.program import Program
 
 _MACRO_KINDS = ("macro", "modal", "g-macro", "m-macro", "b-macro")
@@ -87,6 +87,14 @@ class CustomMacroControl(WordAddressControl):
     def forbidden_zone(self, axis: str, direction: int) -> AlarmError:
         """Stored stroke check 2."""
         return self.fail("zone_plus" if direction > 0 else "zone_minus", address=axis, axis=axis)
+
+    def macro_alarm(self, channel: Channel, number: int, told: str) -> AlarmError:
+        """The alarm of #3000 = n (TEXT): 3000 + n, or n itself by 6008#6."""
+        if not channel.setup.parameters.bit(6008, 6):
+            if not 0 <= number <= 200:
+                return self.fail("variable_number")
+            number += 3000
+        return AlarmError(f"MC{number:04d}", detail=told or f"MC{number:04d}")
 
     # ---- motion --------------------------------------------------------------------------------------
 

@@ -42,6 +42,8 @@ def arc_of_holes(channel: Channel, words: Words) -> None:
     count = _count(words, "K")
     radius = abs(_length(words, "I"))
     start, pitch = words.angle("J") or 0.0, words.angle("P") or 0.0
+    if not pitch:
+        raise words.fail("pattern_angle", "P")
     _drill(channel, hole_patterns.arc(_point(channel, words), radius, start, pitch, count))
 
 
@@ -54,8 +56,10 @@ def grid_of_holes(channel: Channel, words: Words) -> None:
 
 def _count(words: Words, address: str, *, signed: bool = False) -> int:
     value = words.integer(address)
-    if value is None or not 1 <= (abs(value) if signed else value) <= MOST_HOLES:
+    if value is None:
         raise words.fail("pattern", address)
+    if not 1 <= (abs(value) if signed else value) <= MOST_HOLES:
+        raise words.fail("pattern_count", address)
     return value
 
 

@@ -13,8 +13,11 @@ if TYPE_CHECKING:
     from polycnc.compensation.corner import CornerStage
     from polycnc.control.word_address.cylinder import Cylinder
     from polycnc.control.word_address.drilling import CycleData
+    from polycnc.control.word_address.hypothetical_axis import Standing
     from polycnc.control.word_address.interruption import Interruptions
     from polycnc.control.word_address.macro_calls import ModalCall
+    from polycnc.control.word_address.normal_stage import NormalStage
+    from polycnc.control.word_address.nurbs import Curve
     from polycnc.control.word_address.polar_interpolation import PolarPlane
     from polycnc.geometry.frames import Vector
 
@@ -95,8 +98,11 @@ class Memory:
         waited: Seconds that the clocks which a program reads (#3001) have counted.
         cycle_data: What the active drilling cycle remembers.
         intermediate: Intermediate point of the last G28/G30 (programmed coordinates), for G29.
+        curve: The curve that G06.2 blocks are telling.
         basic_geometry: Axes X, Y, Z, whatever parallel ones a plane has chosen.
         polar: Plane of polar coordinate interpolation while it is on; `cylinder` the same for cylindrical.
+        hypothetical: Axes that stand while the path moves them (G07).
+        normal_line: The stage that keeps a rotary axis square to the path.
         plane_before: Plane code that the end of one of them brings back; `geometry_before` its axes.
     """
 
@@ -146,9 +152,12 @@ class Memory:
         self.polar_pole = (0.0, 0.0)
         self.polar_radius = 0.0
         self.polar_angle = 0.0
+        self.curve: Curve | None = None
         self.basic_geometry = channel.coordinates.geometry
         self.polar: PolarPlane | None = None
         self.cylinder: Cylinder | None = None
+        self.hypothetical: Standing | None = None
+        self.normal_line: NormalStage | None = None
         self.plane_before = "G17"
         self.geometry_before = channel.coordinates.geometry
         self._count = count

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policies import HARTFORD, Policy
-from polycnc.control.word_address import corners
+from polycnc.control.word_address import corners, normal_line, nurbs
 from polycnc.control.word_address.codes import MCode
 from polycnc.control.word_address.custom_macro import CustomMacroControl
 from polycnc.control.word_address.interlocks import Interlock, guarded
 from polycnc.control.word_address.length import renew_length
+from polycnc.control.word_address.normal_line import NormalLineParameters
 from polycnc.control.word_address.parameter_input import plan_parameter_block
 from polycnc.control.word_address.tool_center_point import plan_with_direction
 
@@ -30,12 +31,15 @@ class MillingControl(CustomMacroControl):
     Attributes:
         interlocks: Words that the machine refuses in some states.
         OVERRUN_PARAMETER: Parameter of each axis with the overrun of G60.
+        NORMAL_LINE_PARAMETERS: Parameters of G41.1 and G42.1.
         LENGTH_TRAVELS_ALONE: G43 H without a Z word moves Z by the offset at once.
     """
 
     interlocks: ClassVar[tuple[Interlock, ...]] = ()
     OVERRUN_PARAMETER: ClassVar[int] = 5440
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
+    NORMAL_LINE_PARAMETERS: ClassVar[NormalLineParameters] = NormalLineParameters(5480, 5481, 5482, 5483)
+    CURVE_BEGINS_AT_TOOL: ClassVar[bool] = True
     POLAR_CODES: ClassVar[frozenset[str]] = CustomMacroControl.POLAR_CODES | {"G90", "G91", "G94", "G95"}
     REFUSED_ON_CYLINDER: ClassVar[frozenset[str]] = CustomMacroControl.REFUSED_ON_CYLINDER | {
         "G51", "G51.1", "G68", "G68.2", "G43.4", "G43.5",
@@ -45,6 +49,7 @@ class MillingControl(CustomMacroControl):
 
     def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
         """Parameter blocks of G10 L50; macro calls."""
+        normal_line.check_block(builder)
         return plan_parameter_block(builder, plan) or super().call_by_code(builder, plan)
 
     def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
@@ -52,7 +57,9 @@ class MillingControl(CustomMacroControl):
         mode = builder.mode
         if mode["feed"] == "G93" and mode["motion"] in CUTTING and plan.axis_words and not builder.has("F"):
             raise self.fail("inverse_time_feed", address=mode["motion"])
-        return plan_with_direction(builder, plan) or super().plan_motion(builder, plan)
+        step = plan_with_direction(builder, plan) or super().plan_motion(builder, plan)
+        leaves_curve = builder.before["motion"] == "G6.2" != mode["motion"]
+        return nurbs.then(step) if leaves_curve else step
 
     def plan_corner(self, builder: Builder) -> Step | None:
         """What ,R and ,C ask for."""

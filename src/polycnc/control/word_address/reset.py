@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address import cylinder, polar_interpolation
+from polycnc.control.word_address import cylinder, hypothetical_axis, normal_line, polar_interpolation
 from polycnc.control.word_address.coordinates import refresh_zero
 from polycnc.geometry.frames import IDENTITY
 
@@ -18,7 +18,7 @@ CLEARED = (
     "cycle_data", "intermediate", "interruptions", "armed_tapping", "exact_stop_block", "contour_control",
     "single_cycle", "grinding", "open_line", "shape", "reading_shape", "zone", "stack",
     "mid_point", "tilt", "rotates_work", "scale_factors", "modal_longs", "modal_doubles", "skip_groups",
-    "feeds", "feed_mode", "interrupt",
+    "feeds", "feed_mode", "interrupt", "curve",
 )  # fmt: skip
 
 
@@ -26,6 +26,8 @@ def reset(channel: Channel) -> None:
     """Modal codes of power-on, compensations and programmed frames off; the axes stay where they are."""
     polar_interpolation.leave_polar(channel)
     cylinder.end_cylinder(channel)
+    hypothetical_axis.end(channel)
+    normal_line.end(channel)
     memory = channel.memory
     fresh = channel.control.make_memory(channel)
     for name in CLEARED:

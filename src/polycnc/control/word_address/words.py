@@ -85,4 +85,4 @@ class Words:
 
     def fail(self, mistake: str, address: str = "") -> AlarmError:
         """The control's alarm for a mistake in this block."""
-        return self.plan.control.fail(mistake, address=address, word=address)
+        return self.plan.control.fail(mistake, address=address, word=address, code=address)

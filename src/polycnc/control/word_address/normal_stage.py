@@ -1,4 +1,4 @@
-"""The stage of the path that turns a rotary axis with the direction of travel (G41.1, G42.1; manual 2.83).
+"""The stage of the path that turns a rotary axis with the direction of travel (G41.1, G42.1).
 
 It reads each cut's direction in the control plane and gives the rotary axis its end position: over the block, within
 the first part of a long one, or in front of it.
@@ -7,7 +7,7 @@ the first part of a long one, or in front of it.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import atan2, degrees, hypot
+from math import atan2, degrees, hypot, inf
 from typing import TYPE_CHECKING
 
 from polycnc.geometry import arcs
@@ -38,6 +38,9 @@ class Direction:
         shortest_mm: Blocks below this length leave the axis alone.
         longest_mm: In longer blocks the axis has turned after this length.
         turns_first: The axis turns in front of a block instead of within it.
+        least_turn_deg: Turns in front of a block that are not greater are left out.
+        turn_feed: Feed of a turn in front of a block, degrees a second; None for the number that F gives.
+        follows: Kinds of moves that the axis follows.
     """
 
     axis: int
@@ -45,9 +48,12 @@ class Direction:
     plane: tuple[int, int]
     places: tuple[int, int]
     offset_deg: float
-    shortest_mm: float
-    longest_mm: float
-    turns_first: bool
+    shortest_mm: float = 0.0
+    longest_mm: float = inf
+    turns_first: bool = True
+    least_turn_deg: float = SAME_DEG
+    turn_feed: float | None = None
+    follows: frozenset[Kind] = CUTS
 
     def point(self, position: list[float]) -> Point:
         """A position in the control plane."""
@@ -116,12 +122,22 @@ class NormalStage:
         self.after = after
         self._held: Move | None = None
         self._patience = 0
+        #: Where the axis stands behind the last move.
+        self.at: float | None = None
 
     def move(self, move: Move) -> None:
         """Take the next move; a rapid square to the plane waits for the cut behind it."""
         held, self._held = self._held, None
         axis = self.direction.axis
-        if move.kind not in CUTS:
+        if self.at is not None and move.start[axis] != self.at:
+            move.start = list(move.start)
+            move.start[axis] = self.at
+        self._turn(move, held)
+        self.at = move.end[axis]
+
+    def _turn(self, move: Move, held: Move | None) -> None:
+        axis = self.direction.axis
+        if move.kind not in self.direction.follows:
             self._release(held)
             move.end[axis] = move.start[axis]
             if move.kind == Kind.RAPID and self.direction.point(move.start) == self.direction.point(move.end):
@@ -151,11 +167,15 @@ class NormalStage:
             self.after.move(move)
             return
         first = way.first_angle(before)
-        if direction.turns_first and abs(first - before) > SAME_DEG:
+        if direction.turns_first and abs(first - before) > direction.least_turn_deg:
             turned = list(move.start)
             turned[axis] = first
+            rapid = move.kind == Kind.RAPID
+            kind = Kind.RAPID if rapid else Kind.FEED
+            feed = move.feed if rapid or direction.turn_feed is None else direction.turn_feed
+            start = list(move.start)
             self.after.move(
-                replace(move, kind=Kind.FEED, end=turned, center=None, turns=0.0, start=list(move.start))
+                replace(move, kind=kind, end=turned, center=None, turns=0.0, start=start, feed=feed)
             )
             move.start = turned
         elif length > direction.longest_mm and abs(first - before) > SAME_DEG:
