@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.fanuc import (
     turning_comp,
+    turning_data,
     turning_drawing,
     turning_drilling,
     turning_limits,
@@ -166,6 +167,10 @@ class FanucTurning(CustomMacroControl):
         return channel.axis_data[axis].reference_points[number - 1]
 
     # ---- motion ----------------------------------------------------------------------------------------------
+
+    def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
+        """Parameter blocks of G10 L52; programs called by codes."""
+        return turning_data.plan_parameter_block(builder, plan) or super().call_by_code(builder, plan)
 
     def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
         """The step of the active motion code, or of the active drilling cycle."""

@@ -33,6 +33,7 @@ from polycnc.control.word_address import (
     extended,
     frames,
     macro_calls,
+    parameter_input,
     path,
     polar_interpolation,
     subprograms,
@@ -89,7 +90,7 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G8", handler=extended.advance_preview, takes="P")),
     *same(GCode("G9", handler=extended.exact_stop_block)),
     *same(_point("G10", turning_data.input_data, "L P R Q C E F")),
-    *same(GCode("G11")),
+    *same(GCode("G11", handler=parameter_input.end)),
     *same(GCode("G7.1", handler=cylinder.cylinder, axis_words=True, order=Order.MOTION), "G107"),
     *same(GCode("G12.1", polar_interpolation.GROUP, polar_interpolation.start_polar), "G112"),
     *same(GCode("G13.1", polar_interpolation.GROUP, polar_interpolation.end_polar), "G113"),
@@ -254,5 +255,6 @@ POWER_ON = {
     RIGID: RIGID_OFF,
     "cycle": "G80",
     "surface_speed": "G97",
+    "data_input": "G11",
     "return": "G98",
 }

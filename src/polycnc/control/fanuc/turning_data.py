@@ -4,30 +4,32 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.fanuc import turning_limits
 from polycnc.control.fanuc.turning_tools import MAX_OFFSETS, offset_changed, refresh
+from polycnc.control.word_address import parameter_input
 from polycnc.control.word_address.data_input import WORK_SYSTEMS
-from polycnc.control.word_address.plan import NOT_YET
-from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
 
 #: Geometry offsets are numbered from here in G10 and in offset files.
 GEOMETRY = 10_000
 #: Largest offset of the delivered offset range (5042).
 MAX_OFFSET_MM = 9999.999
-PARAMETER_INPUT = (50, 52)
 #: 4th and 5th axis offsets: word and the parameter with the axis' number (II.5.1.5).
 FURTHER_AXES = {"E": 5044, "F": 5045}
 
 
 def input_data(channel: Channel, words: Words) -> None:
-    """G10 L2, L20 work offsets; without L by P: 0 work shift, 1 … wear, 10001 … geometry."""
+    """G10 L2, L20 work offsets, L50, L52 parameters; without L by P: 0 work shift, 1 … wear, 10001 … geometry."""
     kind = words.integer("L") if "L" in words else None
     number = words.integer("P") if "P" in words else None
-    if kind in PARAMETER_INPUT:
-        raise AlarmError(NOT_YET, address="L", hint="hint.not-supported", code=f"G10 L{kind}")
+    if kind in parameter_input.LEVELS:
+        parameter_input.begin(channel)
+        return
     if number is None or number < 0:
         raise words.fail("g10_number", "P" if "P" in words else "G10")
     if kind == 2:
@@ -44,6 +46,24 @@ def input_data(channel: Channel, words: Words) -> None:
         _set_work_offset(channel, words, channel.memory.work_shift)
     else:
         _set_tool_offset(channel, words, number)
+
+
+def plan_parameter_block(builder: Builder, plan: Plan) -> Step | None:
+    """A block between G10 L52 and G11: `N number [P axis] [Q bit] R value`, and nothing else (PS0231)."""
+    if builder.before["data_input"] != "G10" or any(row.code == "G11" for row in builder.codes):
+        return None
+    if builder.codes or builder.m_codes:
+        raise builder.control.fail("parameter_words", address=builder.order[0])
+    if not builder.slots:
+        raise builder.control.fail("parameter_words", address="N")
+    write = parameter_input.plan_parameter_block(builder, plan)
+
+    def act(channel: Channel, values: list[float]) -> None:
+        if write is not None:
+            write(channel, values)
+        turning_limits.renew_zones(channel)
+
+    return act
 
 
 def _set_work_offset(channel: Channel, words: Words, offset: list[float]) -> None:

@@ -80,6 +80,7 @@ class TurningMemory(MacroMemory):
         tool_shift: Part of the active offset that shifts the coordinate system, by axis; `geometry_shift` the
             part of it that is geometry.
         work_shift: Shift of all work coordinate systems (G10 P0, work shift screen).
+        tool_word: T as it was written last, turret position and offset number in one.
         feed_code: G98 or G99 under which F was given.
         single_cycle: Modal words of G90, G92, G94.
         grinding: Modal words of grinding cycles.
@@ -107,6 +108,7 @@ class TurningMemory(MacroMemory):
         for number, tool in channel.setup.tools.items():
             if isinstance(number, int) or str(number).isdigit():
                 self.offsets[int(number)] = self._from_setup(tool)
+        self.tool_word = 0
         self.offset_active = 0
         self.geometry_active = 0
         self.feed_code = ""

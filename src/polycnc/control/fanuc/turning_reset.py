@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 #: Groups that a reset never touches.
 _KEPT = ("unit", "stroke")
 #: Groups that every reset brings back.
-_CLEARED = (polar_interpolation.GROUP, cylinder.GROUP, "shape", "macro", "calls")
+_CLEARED = (polar_interpolation.GROUP, cylinder.GROUP, "shape", "macro", "calls", "data_input")
 
 
 def reset(channel: Channel) -> None:

@@ -49,6 +49,7 @@ def plan_tool(builder: Builder) -> Step:
             return
         tool, number = split_tool_word(channel, values[slot])
         memory.tool = memory.next_tool = tool
+        memory.tool_word = int(values[slot])
         channel.context_changed()
         channel.event("t", tool=tool)
         if number is None:

@@ -217,7 +217,7 @@ def _rows_modal(first: int) -> list[SystemRange]:
         114: _sequence,
         115: lambda m, _i: float(m.channel.level.code.program.number or 0),
         119: lambda m, _i: float(m.spindle_speed),
-        120: lambda m, _i: float(m.next_tool),
+        120: lambda m, _i: float(cast("TurningMemory", m).tool_word),
     }
     return rows + [SystemRange(first + n, first + n, read) for n, read in words.items()]
 

@@ -39,7 +39,7 @@ def plan_parameter_block(builder: Builder, plan: Plan) -> Step | None:
         return None
     for address in builder.slots:
         if address not in "PQR":
-            raise builder.control.fail("g10_format", address=address)
+            raise builder.control.fail("parameter_words", address=address)
 
     def act(channel: Channel, values: list[float]) -> None:
         words = Words(plan, values)
@@ -48,11 +48,11 @@ def plan_parameter_block(builder: Builder, plan: Plan) -> Step | None:
         axis = words.integer("P") if "P" in words else None
         bit = words.integer("Q") if "Q" in words else None
         if not number or value is None:
-            raise words.fail("g10_format", "N")
+            raise words.fail("parameter_words", "N")
         if axis is not None and not 0 <= axis <= len(channel.axes):
-            raise words.fail("g10_number", "P")
+            raise words.fail("parameter_words", "P")
         if bit is not None and not 0 <= bit <= 7:
-            raise words.fail("g10_number", "Q")
+            raise words.fail("parameter_words", "Q")
         name = channel.axes[axis - 1] if axis else None
         set_parameter(channel, ParameterKey(number, bit, None, name), value)
 
