@@ -394,10 +394,11 @@ class CutterCompensation:
 
     def _check(self, step: _Step, following: _Step) -> None:
         """Look for vectors that have changed places with those just found (FANUC 0i-TF Plus 5.4.6)."""
-        if not step.policy.checks_direction or len(self._window) < 2 or step.corner is None:
+        policy, is_line = step.policy, step.edge.center is None
+        if len(self._window) < 2 or step.corner is None:
             return
         ends = step.corner.vectors
-        for earlier in self._window[:-2]:
+        for earlier in self._window[:-2] if policy.checks_direction else ():
             if earlier.corner is None or earlier.forced is not None:
                 continue
             (u0, v0), (u1, v1) = earlier.edge.end, step.edge.end
@@ -406,6 +407,8 @@ class CutterCompensation:
                 self._violate(Violation.INTERFERENCE, step.move)
         previous = self._window[-2]
         if previous.corner is None or previous.forced is not None:
+            return
+        if not (policy.checks_direction if is_line else policy.checks_arcs):
             return
         starts = previous.corner.vectors
         # Of several vectors those that cross are left out in pairs, the inmost first; the last pair must
@@ -425,7 +428,8 @@ class CutterCompensation:
         if not step.policy.avoids:
             self._violate(Violation.INTERFERENCE, step.move)
             return
-        if previous.avoided:
+        dares = step.policy.dares
+        if previous.avoided and not dares:
             self._violate(Violation.AVOIDANCE_INTERFERES, step.move)
         if _meets_joint(previous, step):
             return
@@ -437,7 +441,8 @@ class CutterCompensation:
             self._violate(Violation.NO_AVOIDANCE, step.move)
             return
         vector = (point[0] - before.end[0], point[1] - before.end[1])
-        if offset.is_outer(before, beyond, step.distance) or offset.reverses(before, previous.first, vector):
+        leads_back = offset.reverses(before, previous.first, vector)
+        if not dares and (leads_back or offset.is_outer(before, beyond, step.distance)):
             self._violate(Violation.AVOIDANCE_DANGEROUS, step.move)
         previous.corner, previous.avoided = Corner([vector]), True
         previous.after.extend(step.after)

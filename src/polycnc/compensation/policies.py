@@ -51,8 +51,10 @@ class Policy:
         least_move_mm: Corner motion up to this length is left out (FANUC 5010).
         read_blocks: N, the blocks read until the first of them is executed, itself included.
         recommand_is_square: G41 or G42 written again on the same side makes the block in front end square.
-        checks_direction: Interference is where a compensated path runs against the programmed (5008).
+        checks_direction: Interference is where a compensated line or arc runs against the programmed (5008).
+        checks_arcs: The same for arcs alone.
         avoids: Interference is avoided by leaving moves out where possible; otherwise it is an alarm.
+        dares: A dangerous way round an interference is taken without an alarm (19607#6).
     """
 
     approach: Approach = Approach.SQUARE
@@ -63,7 +65,9 @@ class Policy:
     read_blocks: int = 3
     recommand_is_square: bool = False
     checks_direction: bool = True
+    checks_arcs: bool = True
     avoids: bool = False
+    dares: bool = False
 
 
 #: FANUC 5003#0 SUP = 0, #1 SUV = 0 (0i-TF Plus 5.4.1), 19625 = 3.

@@ -53,7 +53,13 @@ class FanucTurning(CustomMacroControl):
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
-    alarms: ClassVar[Mapping[str, str]] = {**ALARMS, "comp_skip": "PS0035"}
+    alarms: ClassVar[Mapping[str, str]] = {
+        **ALARMS,
+        "comp_skip": "PS0035",
+        "comp_no_avoidance": "PS5446",
+        "comp_avoidance_dangerous": "PS5447",
+        "comp_avoidance_interferes": "PS5448",
+    }
     foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
     EXTENDED_WORK_SYSTEMS: ClassVar[int] = 48
     DIAMETER_PROGRAMMING: ClassVar[bool] = True

@@ -36,7 +36,9 @@ def policy(channel: Channel) -> Policy:
         read_blocks=min(max(int(parameters.number(19625, default=3)), 3), 8),
         least_move_mm=parameters.number(5010, default=0.001),
         checks_direction=not (bit(5008, 3) or bit(5008, 1)),
+        checks_arcs=not bit(5008, 3),
         avoids=bool(bit(19607, 5)),
+        dares=bool(bit(19607, 6)),
     )
 
 
@@ -59,6 +61,9 @@ def _engage(channel: Channel, words: Words, engage: Callable[[Channel, Words], N
     memory.d = memory.offset_active
     corner = channel.head if isinstance(channel.head, turning_corners.TurningCorner) else None
     engage(channel, words)
+    if not memory.d:
+        # Number 0 has no offset: start-up waits for another one.
+        memory.compensation.cancel()
     if corner is not None and channel.head is not corner:
         # A corner that waits for its second move stays in front of compensation.
         corner.after = memory.compensation

@@ -105,10 +105,10 @@ def plan_corner(builder: Builder) -> Callable[[Channel, list[float]], object] | 
     if builder.mode["motion"] != "G1" or parameters.bit(3453, 0) or not parameters.bit(8134, 2, default=1):
         return None
     by_c = bool(parameters.bit(3405, 4))
-    # Beside G40 they are the direction of the wall (II.5.2.4).
-    centers = "" if by_c or any(row.code == "G40" for row in builder.codes) else _CENTERS
-    letters = "C" if by_c and "C" not in builder.channel.axes else centers
-    named = [letter for letter in (*letters, "R") if builder.has(letter)]
+    letters = "C" if by_c and "C" not in builder.channel.axes else "" if by_c else _CENTERS
+    # A letter that a code of the block takes is that code's: I K of G40, R of G68.1.
+    taken = {letter for row in builder.codes for letter in row.takes.split()}
+    named = [letter for letter in (*letters, "R") if builder.has(letter) and letter not in taken]
     if not named:
         return None
     control = builder.control

@@ -54,7 +54,9 @@ def _clear_memory(channel: Channel, *, clears: bool) -> None:
     memory.modal_calls = []
     memory.single_cycle, memory.grinding = {}, {}
     memory.open_line = memory.shape = memory.compensation = None
-    memory.side = memory.engaged_side = 0
+    # G41 or G42 that stays modal waits for the next offset number (II.5.4.1).
+    memory.side = memory.engaged_side = {"G41": 1, "G42": -1}.get(channel.mode["compensation"], 0)
+    memory.d = 0
     memory.reading_shape = False
     if channel.mode["cycle"] == "G80":
         memory.cycle_data, memory.clamp = None, 0

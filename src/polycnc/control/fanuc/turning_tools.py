@@ -10,6 +10,7 @@ from math import nan
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.word_address.coordinates import refresh_zero
+from polycnc.control.word_address.radius import compensation_stage, side_on_display
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 #: Direction from the nose centre to the imaginary tip, along the plane's first and second axis (II.5.2.2).
 TIPS = {1: (1, 1), 2: (-1, 1), 3: (-1, -1), 4: (1, -1), 5: (1, 0), 6: (0, 1), 7: (-1, 0), 8: (0, -1)}
 THREADS = frozenset({"G32", "G34", "G35", "G36"})
+_ARCS = frozenset({"G2", "G3"})
 #: One-shot codes beside which a T is allowed.
 _BESIDE_T = frozenset({"G50"})
 _MEASURING = frozenset({"G36", "G37", "G37.1", "G37.2"})
@@ -42,6 +44,7 @@ def plan_tool(builder: Builder) -> Step:
     one_shot = any(row.axis_words for row in builder.codes)
     moves = bool(builder.axis_words()) and not one_shot
     thread = mode["motion"] in THREADS
+    starts_or_ends = mode["motion"] in _ARCS and moves and mode["compensation"] != "G40"
 
     def select(channel: Channel, values: list[float]) -> None:
         memory = channel.memory
@@ -56,6 +59,8 @@ def plan_tool(builder: Builder) -> Step:
             return
         if thread:
             raise control.fail("offset_in_thread", address="T")
+        if starts_or_ends and (number == 0) != (memory.offset_active == 0):
+            raise control.fail("comp_arc_start", address="T")
         select_offset(channel, number, tool)
         if not moves and not one_shot:
             move_by_offset(channel)
@@ -177,12 +182,19 @@ def refresh(channel: Channel) -> None:
 
 
 def renew_nose(channel: Channel) -> None:
-    """Another offset number within compensation: radius and tip of the next block are those of the new one."""
+    """Another offset number under G41 or G42: the next block has its radius and tip; 0 cancels (II.5.3, 5.4.1)."""
     memory = channel.memory
-    memory.d = memory.offset_active
-    stage = memory.compensation
-    if stage is not None and stage.active and memory.side:
+    before, memory.d = memory.d, memory.offset_active
+    if not memory.side:
+        return
+    stage = compensation_stage(channel)
+    if not memory.d:
+        stage.cancel()
+    elif before and stage.active:
         stage.change_radius(nose_radius(channel), nose_tip(channel))
+    else:
+        stage.policy = channel.control.compensation_policy(channel)
+        stage.engage(side_on_display(channel), nose_radius(channel), nose_tip(channel))
 
 
 def nose_radius(channel: Channel) -> float:

@@ -26,15 +26,17 @@ MISTAKES = {
     Violation.INNER_RADIUS_TOO_SMALL: "comp_interference",
     Violation.NO_INTERSECTION: "comp_no_intersection",
     Violation.INTERFERENCE: "comp_interference",
-    Violation.NO_AVOIDANCE: "comp_interference",
-    Violation.AVOIDANCE_DANGEROUS: "comp_interference",
-    Violation.AVOIDANCE_INTERFERES: "comp_interference",
+    Violation.NO_AVOIDANCE: "comp_no_avoidance",
+    Violation.AVOIDANCE_DANGEROUS: "comp_avoidance_dangerous",
+    Violation.AVOIDANCE_INTERFERES: "comp_avoidance_interferes",
 }
 
 
 def violation_codes(alarms: Mapping[str, str]) -> dict[Violation, str]:
-    """The control's alarm code of every violation."""
-    return {violation: alarms[mistake] for violation, mistake in MISTAKES.items()}
+    """The control's alarm code of every violation; that of an interference where it has none of its own."""
+    return {
+        violation: alarms.get(mistake, alarms["comp_interference"]) for violation, mistake in MISTAKES.items()
+    }
 
 
 def compensate_left(channel: Channel, words: Words) -> None:
