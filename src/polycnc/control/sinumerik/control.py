@@ -132,7 +132,12 @@ class Sinumerik:
         unknown = next((name for name in offsets if name not in ZERO_OFFSETS), None)
         if unknown is not None:
             raise AlarmError("12550", text=unknown)
-        global_bases = data.integer("$MN_MM_NUM_GLOBAL_BASE_FRAMES")
+        global_frames = data.integer("$MN_MM_NUM_GLOBAL_USER_FRAMES")
+        settable = stored_frames(
+            offsets, global_frames or data.integer("$MC_MM_NUM_USER_FRAMES"), ZERO_OFFSETS
+        )
+        global_base = [NEUTRAL] * data.integer("$MN_MM_NUM_GLOBAL_BASE_FRAMES")
+        bases = data.integer("$MC_MM_NUM_BASE_FRAMES")
         return Memory(
             language=LanguageMemory(
                 [0.0] * count,
@@ -150,9 +155,11 @@ class Sinumerik:
             ),
             data=data,
             frames=Frames(
-                settable=stored_frames(offsets, data.integer("$MC_MM_NUM_USER_FRAMES"), ZERO_OFFSETS),
-                base=[ctrans(base), *[NEUTRAL] * (data.integer("$MC_MM_NUM_BASE_FRAMES") - 1)],
-                global_base=[NEUTRAL] * global_bases,
+                settable=shared.setdefault("settable frames", settable) if global_frames else settable,
+                base=[ctrans(base), *[NEUTRAL] * (bases - 1)][:bases],
+                global_base=shared.setdefault("global base frames", global_base),
+                base_mask=data.integer("$MC_CHBFRAME_RESET_MASK"),
+                global_base_mask=data.integer("$MN_NCBFRAME_RESET_MASK"),
                 system={**dict.fromkeys(frames.SYSTEM_FRAMES, NEUTRAL), "$P_EXTFRAME": ctrans(external)},
             ),
             tools=tools_of_setup(channel.setup.tools),

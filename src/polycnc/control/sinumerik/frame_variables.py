@@ -16,6 +16,7 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.frames import Frames
+    from polycnc.control.sinumerik.memory import Memory
 
 Indices = tuple[Any, ...]
 Row = tuple[Type, Callable[["Channel", Indices], Any], Callable[["Channel", Indices, Any], None] | None]
@@ -75,13 +76,44 @@ def _variable(
                 raise AlarmError("18310" if component == "RT" else "12160", text=name) from None
         else:
             frame = value
-        if plain and frame.has_rotation:
-            raise AlarmError("18310", text=name)
+        _check_allowed(channel, name, frame, plain=plain)
         put(channel.memory.frames, number, frame)
         if acts:
             frames.changed(channel)
 
     return Type.FRAME, read, write if put is not None else None
+
+
+def _check_allowed(channel: Channel, name: str, frame: NcFrame, *, plain: bool) -> None:
+    """18310 for the rotation of a frame of the whole control, 18312 for a fine offset without MD18600."""
+    memory: Memory = channel.memory
+    is_global = plain or (name == "$P_UIFR" and memory.data.integer("$MN_MM_NUM_GLOBAL_USER_FRAMES") > 0)
+    if is_global and frame.has_rotation:
+        raise AlarmError("18310", text=name)
+    if frame.has_fine and not memory.data.integer("$MN_MM_FRAME_FINE_TRANS"):
+        raise AlarmError("18312")
+
+
+def _external(channel: Channel, indices: Indices) -> tuple[str, int]:
+    if len(indices) != 1 or not isinstance(indices[0], Axis):
+        raise AlarmError("12400", text="$AA_ETRANS")
+    return frame_axis(channel, indices[0].name), channel.memory.column(indices[0].name)
+
+
+def _external_shift(channel: Channel, indices: Indices) -> float:
+    _, column = _external(channel, indices)
+    return float(channel.memory.values.get(("$AA_ETRANS", (column,)), 0.0))
+
+
+def _set_external_shift(channel: Channel, indices: Indices, value: float) -> None:
+    """$AA_ETRANS: kept; it acts when the PLC takes it over (DB31 ff., DBX3.0), as part of $P_EXTFRAME (5.4)."""
+    axis, column = _external(channel, indices)
+    channel.memory.values["$AA_ETRANS", (column,)] = float(value)
+    number = 31 + channel.machine.axes.index(channel.axis_data[column])
+    if channel.setup.switches.plc.get(f"DB{number}.DBX3.0"):
+        system = channel.memory.frames.system
+        system["$P_EXTFRAME"] = system["$P_EXTFRAME"].with_component(axis, "TR", float(value))
+        frames.changed(channel)
 
 
 def _got(channel: Channel, name: str, number: int, get: Get) -> NcFrame:
@@ -90,6 +122,8 @@ def _got(channel: Channel, name: str, number: int, get: Get) -> NcFrame:
             raise IndexError
         return get(channel.memory.frames, number)
     except IndexError:
+        if name in _CHANNEL_BASES and not channel.memory.frames.base:
+            raise AlarmError("18311", text=name) from None
         raise AlarmError("17020", text=name, index=number) from None
 
 
@@ -144,6 +178,8 @@ def _number(channel: Channel, _indices: Indices) -> int:
     return number
 
 
+#: Base frames of the channel; 18311 where it has none (MD28081).
+_CHANNEL_BASES = frozenset({"$P_CHBFR", "$P_UBFR", "$P_BFRAME", "$P_CHBFRAME"})
 FRAME_VARIABLES: dict[str, Row] = {
     "$P_UIFR": _variable("$P_UIFR", *_list("settable"), numbered=True),
     "$P_CHBFR": _variable("$P_CHBFR", *_list("base"), numbered=True),
@@ -158,6 +194,7 @@ FRAME_VARIABLES: dict[str, Row] = {
     ),
     "$P_ACTBFRAME": _variable("$P_ACTBFRAME", lambda state, _number: state.actual_base(), None),
     "$P_ACTFRAME": _variable("$P_ACTFRAME", lambda state, _number: state.total(), None),
+    "$AA_ETRANS": (Type.REAL, _external_shift, _set_external_shift),
     "$P_UIFRNUM": (Type.INT, _number, None),
     "$P_CHBFRMASK": _mask("base_mask"),
     "$P_NCBFRMASK": _mask("global_base_mask"),

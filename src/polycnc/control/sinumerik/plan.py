@@ -110,6 +110,9 @@ def make_plan(channel: Channel, block: Block) -> Plan:
     leaves = codes.get("block_motion") in smooth_approach.RETRACTIONS and codes.get("side") == "G40"
     late = [name for name, _ in modal if name in LATE_EFFECTS and not (leaves and name == "side")]
     draft.steps += [LATE_EFFECTS[name] for name in late]
+    in_spline = mode["motion"] in splines.SPLINES
+    check = splines.positioned(draft) if in_spline else None
+    draft.steps += [check] if check is not None else []
     draft.steps += motion.positioning(draft)
     for step in (own, moving):
         if step is not None:
@@ -119,6 +122,8 @@ def make_plan(channel: Channel, block: Block) -> Plan:
             continue
         raise words.misplaced(word, position)
     draft.steps += [_stop(position) for position in ends]
+    if in_spline:
+        draft.steps.append(splines.count_blocks(draft, is_point=moving is not None))
     calls = moving is not None or (mode["motion"] in LINEAR and _is_bare_motion(block, codes))
     acts = bool(block.words) and "frame" not in codes
     return Plan(tuple(draft.steps), acts, calls and own is None, tuple(ends), _shared(draft))

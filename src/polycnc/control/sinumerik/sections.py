@@ -29,6 +29,8 @@ Row = tuple[Type, Callable[["Channel", Arguments], Any], None, bool]
 STOP_DELAY, POINTER_LOCK = "DELAYFST", "IPTRLOCK"
 #: $AA_MOTEND for each criterion; without one it is that of exact stop fine.
 MOTION_ENDS = {"FINEA": 1, "COARSEA": 2, "IPOENDA": 3, "IPOBRKA": 4}
+#: ADISPOSA: no window, one about the set position, one about the actual position.
+WINDOW_MODES = (0, 1, 2)
 PARAMETER_SETS = range(1, 7)
 NO_TOLERANCE = -1.0
 
@@ -75,8 +77,41 @@ def motion_end(name: str) -> Procedure:
             raise AlarmError("12040", text=name)
         for axis in axes:
             channel.memory.values["MOTEND", (arguments.column(channel, axis),)] = MOTION_ENDS[name]
+        if name == "IPOBRKA" and len(args) > 1:
+            _set_braking_share(channel, axes[0], args[1])
 
     return run
+
+
+def _set_braking_share(channel: Channel, axis: Axis, value: Any) -> None:
+    """IPOBRKA(axis, percent): where in the braking ramp the block changes; 100 is its beginning (SD43600)."""
+    percent = arguments.real(value)
+    if not 0.0 <= percent <= 100.0:
+        raise AlarmError("12560", text="IPOBRKA")
+    channel.memory.data.write("$SA_IPOBRAKE_BLOCK_EXCHANGE", (axis,), percent)
+
+
+def end_window(draft: Draft, position: int, shape: WordShape) -> Step:
+    """ADISPOSA[axis]=(mode,size): with IPOBRKA, the axis must also be within a window of its end (SD43610)."""
+    column = axis_column(draft, position, shape)
+
+    def run(channel: Channel, values: Values) -> None:
+        listed = values[position]
+        if not isinstance(listed, tuple) or not 1 <= len(listed) <= 2 or listed[0] not in WINDOW_MODES:
+            raise WordAlarm("12560", position, text="ADISPOSA")
+        channel.memory.values["ADISPOSA", (column,)] = int(listed[0])
+        if len(listed) > 1:
+            channel.memory.data.write("$SA_ADISPOSA_VALUE", (channel.axes[column],), float(listed[1]))
+
+    return run
+
+
+def _motion_end(channel: Channel, indices: Arguments) -> int:
+    """$AA_MOTEND: 5 and 6 where IPOBRKA has a window as well."""
+    end: int = _of_axis("$AA_MOTEND", "MOTEND", MOTION_ENDS["FINEA"])(channel, indices)
+    if end == MOTION_ENDS["IPOBRKA"]:
+        end += _of_axis("$AA_MOTEND", "ADISPOSA", 0)(channel, indices)
+    return end
 
 
 def parameter_set(draft: Draft, position: int, shape: WordShape) -> Step:
@@ -162,7 +197,7 @@ SECTION_VARIABLES: dict[str, Row] = {
     "$P_DELAYFST": (Type.INT, lambda channel, _indices: int(is_open(channel, STOP_DELAY)), None, False),
     "$AC_DELAYFST": (Type.INT, lambda channel, _indices: int(is_open(channel, STOP_DELAY)), None, True),
     "$P_IPTRLOCK": (Type.BOOL, lambda channel, _indices: is_open(channel, POINTER_LOCK), None, False),
-    "$AA_MOTEND": (Type.INT, _of_axis("$AA_MOTEND", "MOTEND", MOTION_ENDS["FINEA"]), None, True),
+    "$AA_MOTEND": (Type.INT, _motion_end, None, True),
     "$AA_SCPAR": (Type.INT, _of_axis("$AA_SCPAR", "SCPARA", 1), None, True),
     "$P_CTOL": (Type.REAL, _programmed("CTOL"), None, False),
     "$P_OTOL": (Type.REAL, _programmed("OTOL"), None, False),

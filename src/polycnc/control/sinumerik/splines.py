@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 LARGEST_WEIGHT, DEGREES, STANDARD_DEGREE = 3.0, (2, 3), 3
 LEAST_PARAMETER, LARGEST_PARAMETER = 0.0001, 99999.9999
 LARGEST_GROUP = 8
+#: Without SPLINEPATH the first three axes of the channel are bent.
+LEAST_GROUP = 3
 MAX_COEFFICIENTS = 5
 #: Chords of a polynomial at most, and the points at which its denominator is looked at.
 MAX_CHORDS, SAMPLES = 4096, 1000
@@ -34,6 +36,44 @@ GROUP, INTERPOLATED = "SPLINEPATH", "POLYPATH"
 
 
 # ---- splines
+
+SPLINES = ("ASPLINE", "BSPLINE", "CSPLINE")
+#: Points of the spline that 10 blocks need at least; C splines: MD20160 and one more (4.2).
+WINDOW, LEAST_POINTS = 10, {"ASPLINE": 4, "BSPLINE": 6}
+_WINDOW = "spline blocks", ()
+
+
+def count_blocks(draft: Draft, *, is_point: bool) -> Step:
+    """A block while a spline is active: PC0007 if too few of the last ten have been points of it."""
+    code = draft.mode["motion"]
+    begins = draft.channel.mode["motion"] != code
+    datum = draft.memory.data.integer("$MC_CUBIC_SPLINE_BLOCKS")
+    least = LEAST_POINTS.get(code, datum + 1)
+
+    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+        before = [] if begins else channel.memory.values.get(_WINDOW, [])
+        last = [*before, is_point][-WINDOW:]
+        channel.memory.values[_WINDOW] = last
+        if len(last) == WINDOW and sum(last) < least:
+            raise AlarmError("PC0007", code=code, count=sum(last), least=least)
+
+    return run
+
+
+def positioned(draft: Draft) -> Step | None:
+    """PC0008 for a positioning axis that belongs to the active spline."""
+    words = [word for _, word in draft.open_words() if word.address in ("POS", "POSA")]
+    columns = [draft.memory.column(word.index.name) for word in words if isinstance(word.index, Axis)]
+    if not columns:
+        return None
+
+    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+        group = channel.memory.values.get((GROUP, ()), range(LEAST_GROUP))
+        for column in columns:
+            if column in group:
+                raise AlarmError("PC0008", axis=channel.axes[column])
+
+    return run
 
 
 def through_points(draft: Draft) -> Step | None:

@@ -439,6 +439,7 @@ WORDS: dict[str, Maker] = {
     "FL": kept_of_axis,
     "DL": additive_offset,
     "SCPARA": sections.parameter_set,
+    "ADISPOSA": sections.end_window,
     "CTOL": sections.tolerance,
     "OTOL": sections.tolerance,
     "ATOL": sections.tolerance,
@@ -450,7 +451,7 @@ WORDS: dict[str, Maker] = {
 #: Addresses that take an extension or an index, and those that take something round their value.
 _EXTENDED = """
 S M H T D F FA LIMS SPOS SPOSA TOFFL TOFF OVRA ACC ACCLIMA VELOLIM VELOLIMA JERKLIM JERKLIMA SCPARA ATOL
-FGREF FL POLF
+FGREF FL POLF ADISPOSA
 """
 EXTENDED = frozenset(_EXTENDED.split())
 MODIFIED = {

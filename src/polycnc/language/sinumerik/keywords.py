@@ -161,7 +161,7 @@ FILE_FUNCTIONS = {"ISFILE": Function("S", Type.BOOL), "CHECKSUM": Function("VSii
 
 #: Predefined procedures that the control executes.
 _ANY_ARGUMENTS = """
-    ADISPOSA AXCTSWAP AXCTSWE AXCTSWED AXTOCHAN BRISKA CANCEL CHANDATA CLEARM CLRINT COARSEA CORROF
+    AXCTSWAP AXCTSWE AXCTSWED AXTOCHAN BRISKA CANCEL CHANDATA CLEARM CLRINT COARSEA CORROF
     COUPDEF COUPDEL COUPOF COUPOFS COUPON COUPONC COUPRES CPROT CPROTDEF CTABDEF CTABDEL CTABEND CTABLOCK
     CTABUNLOCK CUTMOD DELAYFSTOF DELAYFSTON DELDL DELDTG DIAMCHAN DISABLE DRFOF DRIVEA DZERO EGDEF EGDEL
     EGOFC EGOFS EGON EGONSYN EGONSYNE ENABLE FCTDEF FGROUP FINEA FOCOF FOCON FPR FPRAOF FPRAON FTOC GEOAX
@@ -186,6 +186,9 @@ PROCEDURES: dict[str, str] = {
     "SETDNO": "III",
 }
 
+#: Procedures whose axis may stand in brackets: `FINEA[X]`.
+BRACKETED = frozenset({"FINEA", "COARSEA", "IPOENDA"})
+
 #: Machining cycles of the control; a program of the same name in a cycle directory comes first.
 CYCLES = _words(
     """
@@ -202,7 +205,7 @@ CYCLES = _words(
 #: Addresses of NC words beside the axes. Any of them may have an index in brackets; the control checks that.
 ADDRESSES = _words(
     """
-    A2 A3 A4 A5 A6 A7 B2 B3 B4 B5 B6 B7 C2 C3 C4 C5 C6 C7 ACC ACCLIMA ADIS ADISPOS ALF ANG AP AR ATOL AX
+    A2 A3 A4 A5 A6 A7 B2 B3 B4 B5 B6 B7 C2 C3 C4 C5 C6 C7 ACC ACCLIMA ADIS ADISPOS ADISPOSA ALF ANG AP AR ATOL AX
     CHF CHR CR CTOL CUTMOD D DILF DISC DISCL DISPR DISR DITE DITS DL F FA FAD FB FD FDA FGREF FL FMA FP
     FRC FRCM FXS FXST FXSW FZ H I I1 IP ISD J J1 JERKLIM JERKLIMA K K1 LEAD LIMS M MEAC MEAS MEASA MEAW
     MEAWA MOV NUT OFFN OMA1 OMA2 OMA3 OMA4 OMA5 ORIS OS OSB OSCILL OSCTRL OSE OSNSC OSP1 OSP2 OST1 OST2
@@ -217,7 +220,22 @@ INDEXED_WORDS = frozenset({"DIAMONA", "DIAMOFA", "DIAM90A", "DIACYCOFA", "DIAMCH
 
 #: Addresses whose value in parentheses is a list: `MEASA[X]=(1,1,-1)`.
 LIST_ADDRESSES = frozenset(
-    {"MEASA", "MEAWA", "MEAC", "OSCTRL", "OSCILL", "POSP", "PO", "XH", "YH", "ZH", "PHI", "PSI", "THT"}
+    {
+        "ADISPOSA",
+        "MEASA",
+        "MEAWA",
+        "MEAC",
+        "OSCTRL",
+        "OSCILL",
+        "POSP",
+        "PO",
+        "XH",
+        "YH",
+        "ZH",
+        "PHI",
+        "PSI",
+        "THT",
+    }
 )
 
 #: What may stand round the value of a word. Positioning attributes with their number for GP (1.2.2).

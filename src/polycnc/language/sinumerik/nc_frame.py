@@ -76,6 +76,11 @@ class NcFrame:
         return any(abs(angle) > 1e-12 for angle in self.angles)
 
     @property
+    def has_fine(self) -> bool:
+        """Whether any axis has a fine offset."""
+        return any(self.fine) or any(part.fine for part in self.others.values())
+
+    @property
     def scales(self) -> Vector:
         """Scale factors of the geometry axes: the lengths of the matrix's columns."""
         return _vector(_norm(column) for column in zip(*self.matrix, strict=True))

@@ -127,6 +127,8 @@ class WordReader:
             self._indirect_g()
         elif name in scope.control.g_groups and not self._assigned():
             self._g_function(token, name)
+        elif name in keywords.BRACKETED and compiler.at("["):
+            self._bracketed(token)
         elif name in keywords.PROCEDURES and not self._assigned():
             compiler.procedure(token, keywords.PROCEDURES[name])
         elif name in keywords.ADDRESSES:
@@ -136,6 +138,17 @@ class WordReader:
             self._add(token, name, index, code, "", "True")
         else:
             self._other(token)
+
+    def _bracketed(self, token: Token) -> None:
+        """`FINEA[axis]`: a procedure with its axis in brackets."""
+        compiler = self.compiler
+        compiler.expect("[")
+        axis = compiler.value(Type.AXIS)
+        compiler.expect("]")
+        compiler.emitter.knows_place = compiler.emitter.has_text = True
+        compiler.emitter.line(
+            f"channel.control.procedure(channel, {token.text!r}, ({axis},), {token.column})"
+        )
 
     def _own_block(self, token: Token) -> None:
         """A word that stands alone; 12120 if the block has others."""
