@@ -62,8 +62,15 @@ def outcome(channel: Channel) -> dict[str, Any]:
         "pending": bits(c.pending),
         "feed": bits([channel.feed]),
         "mode": channel.mode.codes,
+        "variables": variables(channel),
     }
     return told
+
+
+def variables(channel: Channel) -> dict[str, str]:
+    """Variables of the control that hold something at the end."""
+    control = channel.control
+    return {name: repr(control.read_variable(channel, name)) for name in control.variable_names(channel)}
 
 
 def differences(

@@ -81,13 +81,19 @@ class Draft:
 
     def take_axes(self, *, path: bool = True) -> list[AxisTerm]:
         """Take all axis words, worked out for the modal state; `path` as for `axis_term`."""
-        terms = []
-        for position, word in list(self._open.items()):
-            column = self.memory.columns.get(word.address)
-            if column is not None and word.index is None:
-                del self._open[position]
-                terms.append(axis_term(self.channel, self.mode, position, column, word.modifier, path=path))
+        terms = self.axis_terms(path=path)
+        for term in terms:
+            del self._open[term.position]
         return terms
+
+    def axis_terms(self, *, path: bool = True) -> list[AxisTerm]:
+        """The axis words that nobody has taken yet, worked out for the modal state; `path` as for `axis_term`."""
+        columns = self.memory.columns
+        return [
+            axis_term(self.channel, self.mode, position, columns[word.address], word.modifier, path=path)
+            for position, word in self._open.items()
+            if word.index is None and word.address in columns
+        ]
 
     def take_machine_axes(self) -> list[tuple[int, int]]:
         """Take all words of machine axes (`X1=`): place and column of each."""

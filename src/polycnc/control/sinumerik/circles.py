@@ -5,12 +5,15 @@ Source: Fundamentals (G2/G3, I J K, CR, AR, AP RP, TURN, CIP, CT).
 
 from __future__ import annotations
 
+from functools import partial
 from math import cos, hypot, pi, radians, sin
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik import limits, motion, tables
+from polycnc.control.sinumerik import limits, motion, plain, tables
 from polycnc.control.sinumerik.positions import Way, is_diameter, length_factor, number, target
 from polycnc.geometry import arcs
+from polycnc.language.bulk import Arc as ArcAsData
+from polycnc.language.bulk import declare
 from polycnc.language.sinumerik.values import Axis
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -50,6 +53,19 @@ class Arc:
         """Whether the block names an arc at all."""
         return bool(self.terms or self.centre or self.angle is not None or any(self.polar))
 
+    def as_data(self) -> ArcAsData | None:
+        """The arc as the scanner knows it: end point, and centre from the start or radius; None for any other."""
+        beside = (self.feed, self.angle, self.turn, *self.polar)
+        targets = plain.targets(self.terms)
+        if targets is None or any(word is not None for word in beside):
+            return None
+        if any(modifier or index not in self.axes[:2] for index, _, modifier in self.centre):
+            return None
+        centers = {index: plain.length(position, self.factor) for index, position, _ in self.centre}
+        radius = None if self.radius is None else plain.length(self.radius, self.factor)
+        first, second = (centers.get(axis) for axis in self.axes[:2])
+        return ArcAsData(self.ccw, self.axes, targets, (first, second), radius)
+
     def run(self, channel: Channel, values: Values) -> None:
         """Check the arc and move along it."""
         start = channel.coordinates.position
@@ -74,17 +90,18 @@ class Arc:
 
     def _programmed_centre(self, channel: Channel, values: Values, begin: arcs.Point) -> arcs.Point:
         """Centre from I, J, K: from the start point, or absolute with AC."""
-        point = [begin[0], begin[1]]
+        shift, absolute = [0.0, 0.0], dict[int, float]()
         for index, position, modifier in self.centre:
             if index not in self.axes[:2]:
                 raise AlarmError("14040")
             i = self.axes.index(index)
             value = number(values, position)
             if modifier == "AC":
-                point[i] = value * absolute_factor(channel, self.draft, self.columns[i])
+                absolute[i] = value * absolute_factor(channel, self.draft, self.columns[i])
             else:
-                point[i] += value * self.factor
-        return point[0], point[1]
+                shift[i] = value * self.factor
+        u, v = (absolute.get(i, begin[i] + shift[i]) for i in (0, 1))
+        return u, v
 
     def _by_radius(self, values: Values, begin: arcs.Point, end: arcs.Point, channel: Channel) -> arcs.Point:
         """CR: positive for up to 180 degrees, negative for more; no full circle."""
@@ -138,7 +155,10 @@ class Arc:
 def circle(draft: Draft) -> Step | None:
     """G2, G3: arc, full circle or helix in the plane."""
     planned = Arc(draft)
-    return planned.run if planned.is_motion else None
+    if not planned.is_motion:
+        return None
+    told = planned.as_data()
+    return planned.run if told is None else declare(partial(planned.run), told)
 
 
 def centre_words(draft: Draft, letters: str) -> list[tuple[int, int, str]]:

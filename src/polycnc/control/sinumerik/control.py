@@ -28,6 +28,7 @@ from polycnc.control.sinumerik import (
 from polycnc.control.sinumerik.frames import Frames, chain, stored_frames
 from polycnc.control.sinumerik.machine_data import MachineData
 from polycnc.control.sinumerik.memory import Memory
+from polycnc.control.sinumerik.plain import SinumerikPlainBlocks
 from polycnc.control.sinumerik.plan import make_plan
 from polycnc.control.sinumerik.reset import reset
 from polycnc.control.sinumerik.spindles import Spindle, Spindles
@@ -52,6 +53,7 @@ if TYPE_CHECKING:
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.stack import Step as ProgramStep
     from polycnc.control.sinumerik.block import Values
+    from polycnc.control.sinumerik.plan import Plan
     from polycnc.control.sinumerik.system_variables import SystemVariable
     from polycnc.language.sinumerik.words import Block
     from polycnc.program import Program
@@ -178,14 +180,17 @@ class Sinumerik:
         else:
             channel.end()
 
+    def plain_blocks(self, _channel: Channel) -> SinumerikPlainBlocks:
+        """What a scanner must know of plain blocks."""
+        return SinumerikPlainBlocks()
+
     # ---- blocks
 
     def execute(self, channel: Channel, block: Block, values: Values) -> bool:
         """Run the functions and words of a block; true if a modal subprogram (MCALL) follows the block."""
-        plans = channel.mode.plans
-        plan = plans.get(block)
+        plan = channel.mode.plans.get(block)
         if plan is None:
-            plan = plans[block] = make_plan(channel, block)
+            plan = self.plan(channel, block)
         steps, acts, calls, ends, shared = plan
         if shared and not axis_exchange.ready(channel, shared):
             return False
@@ -201,6 +206,12 @@ class Sinumerik:
                 self.end_of_program(channel)
                 return False
         return calls
+
+    def plan(self, channel: Channel, block: Block) -> Plan:
+        """Work out what a block does in the modal state that holds."""
+        mode = channel.mode
+        plan = mode.plans[block] = make_plan(channel, block)
+        return plan
 
     def procedure(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> None:
         """Run a predefined procedure."""

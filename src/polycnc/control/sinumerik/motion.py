@@ -5,11 +5,13 @@ Source: Fundamentals (G0, G1, G4, G33 to G35, G331/G332, G63, G74, G75, POS, POS
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import cos, isnan, nan, radians, sin, tan
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik import limits, tables
+from polycnc.control.sinumerik import limits, plain, tables
 from polycnc.control.sinumerik.positions import AxisTerm, Way, axis_term, length_factor, number, target
+from polycnc.language.bulk import declare
 from polycnc.language.sinumerik.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
@@ -29,6 +31,7 @@ SAME_MM = 1e-9
 
 def rapid(draft: Draft) -> Step | None:
     """G0: rapid traverse; the row names a feed only if the block does."""
+    straight = None if draft.has("AP", "RP", "ANG") else plain.straight(draft.axis_terms(), rapid=True)
     goal = goal_of(draft)
     if goal is None:
         return None
@@ -37,7 +40,7 @@ def rapid(draft: Draft) -> Step | None:
     def run(channel: Channel, values: Values) -> None:
         line(channel, Kind.RAPID, goal(channel, values), channel.feed if names_feed else nan)
 
-    return run
+    return run if straight is None else declare(run, replace(straight, names_feed=names_feed))
 
 
 def linear(draft: Draft) -> Step | None:
@@ -63,10 +66,8 @@ def _plain_linear(draft: Draft) -> Step | None:
     if not terms:
         return None
     if any(term.way is not Way.ABSOLUTE or term.coded for term in terms):
-        return lambda channel, values: line(
-            channel, Kind.FEED, target(channel, terms, values), checked_feed(channel.feed)
-        )
-    plain = [(term.position, term.column, term.factor) for term in terms]
+        return _incremental_linear(terms)
+    places = [(term.position, term.column, term.factor) for term in terms]
     own_feed = draft.take_plain("F") if draft.mode["feed"] != "G931" else None
     feed_place, feed_to_internal = -1 if own_feed is None else own_feed, feed_factor(draft)
 
@@ -82,7 +83,7 @@ def _plain_linear(draft: Draft) -> Step | None:
         start = coordinates.position
         end = start.copy()
         moves = False
-        for position, column, factor in plain:
+        for position, column, factor in places:
             value = values[position]
             if value.__class__ is not float:
                 value = number(values, position)
@@ -91,7 +92,7 @@ def _plain_linear(draft: Draft) -> Step | None:
                 moves = True
             end[column] = value
         if coordinates.owes:
-            for _, column, _ in plain:
+            for _, column, _ in places:
                 coordinates.pending[column] = 0.0
         feed = channel.feed
         if not feed > 0.0:
@@ -103,7 +104,16 @@ def _plain_linear(draft: Draft) -> Step | None:
             memory.previous = (start, None, 0.0)
             channel.straight(Kind.FEED, end, feed)
 
-    return run
+    own = () if own_feed is None else (plain.feed(own_feed, feed_to_internal),)
+    return declare(run, (*own, plain.straight(terms)))
+
+
+def _incremental_linear(terms: list[AxisTerm]) -> Step:
+    def run(channel: Channel, values: Values) -> None:
+        line(channel, Kind.FEED, target(channel, terms, values), checked_feed(channel.feed))
+
+    told = plain.straight(terms)
+    return run if told is None else declare(run, told)
 
 
 def feed_factor(draft: Draft) -> float:
@@ -148,8 +158,7 @@ def goal_of(draft: Draft) -> Goal | None:
     if not terms:
         return None
     if all(term.way is Way.ABSOLUTE and not term.coded for term in terms):
-        plain = [(term.position, term.column, term.factor) for term in terms]
-        return _absolute(plain)
+        return _absolute([(term.position, term.column, term.factor) for term in terms])
 
     def goal(channel: Channel, values: Values) -> list[float]:
         return target(channel, terms, values)
@@ -157,14 +166,14 @@ def goal_of(draft: Draft) -> Goal | None:
     return goal
 
 
-def _absolute(plain: list[tuple[int, int, float]]) -> Goal:
+def _absolute(places: list[tuple[int, int, float]]) -> Goal:
     """The common case: all words absolute."""
 
     def goal(channel: Channel, values: Values) -> list[float]:
         coordinates = channel.coordinates
         end = coordinates.position.copy()
         owed = coordinates.pending
-        for position, column, factor in plain:
+        for position, column, factor in places:
             value = values[position]
             if value.__class__ is not float:
                 value = number(values, position)

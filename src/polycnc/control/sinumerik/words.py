@@ -10,9 +10,10 @@ from math import inf, nan, pi
 from typing import TYPE_CHECKING
 
 from polycnc.compensation.corner import Shape
-from polycnc.control.sinumerik import auxiliary, motion, retraction, sections, stages, tables
+from polycnc.control.sinumerik import auxiliary, motion, plain, retraction, sections, stages, tables
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.positions import length_factor, number
+from polycnc.language.bulk import declare
 from polycnc.language.sinumerik.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
@@ -45,7 +46,7 @@ def feed(draft: Draft, position: int, shape: WordShape) -> Step:
             raise WordAlarm("14800", position)
         channel.feed = value * factor or nan
 
-    return run
+    return run if polynomial else declare(run, plain.feed(position, factor))
 
 
 def _travel_time(position: int) -> Step:

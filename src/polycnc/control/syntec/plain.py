@@ -23,6 +23,5 @@ class SyntecPlainBlocks(PlainBlocks):
 
     def moved(self, channel: Channel, last: LastMoves) -> None:
         """The centre of the last arc can be read as a system variable."""
-        if last.arcs:
-            x, y, z = last.center
-            channel.memory.last_center = (x, y, z)
+        if last.center is not None:
+            channel.memory.last_center = last.center

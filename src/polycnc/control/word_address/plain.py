@@ -57,6 +57,8 @@ class PlainBlocks:
         """Single blocks are watched; forbidden zones, unrolled surfaces and held moves are the interpreter's."""
         if channel.single_block or channel.stroke_zone is not None or channel.table is not channel.rows:
             return False
+        if channel.coordinates.transformation is not None:
+            return False
         stage = channel.head
         while stage is not None and stage is not channel.table:
             if getattr(stage, "active", True):
@@ -79,6 +81,10 @@ class PlainBlocks:
     def owes(self, channel: Channel) -> bool:
         """Whether incremental words are owed a change of offsets."""
         return channel.coordinates.owes
+
+    def limits(self, channel: Channel) -> Sequence[tuple[float, float]]:
+        """The channel's own."""
+        return channel.limits
 
     def tolerance(self, channel: Channel) -> float:
         """The control's arc tolerance, mm."""

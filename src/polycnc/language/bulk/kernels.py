@@ -19,6 +19,8 @@ from polycnc.language.bulk.layout import (
     AT_END,
     BLANK_LINES_ARE_NONE,
     BLOCKS,
+    CR_FORM,
+    CR_RADIUS,
     END,
     EQUALS,
     FIRST_CODE,
@@ -54,7 +56,17 @@ from polycnc.language.bulk.layout import (
 from polycnc.language.bulk.moves import Columns, act
 
 NEWLINE, BLANK, TAB = 10, 32, 9
-ZERO, NINE, LETTER_A, LETTER_G, LETTER_N, LETTER_X, LETTER_Z = 48, 57, 65, 71, 78, 88, 90
+ZERO, NINE, LETTER_A, LETTER_C, LETTER_G, LETTER_N, LETTER_R, LETTER_X, LETTER_Z = (
+    48,
+    57,
+    65,
+    67,
+    71,
+    78,
+    82,
+    88,
+    90,
+)
 PLUS, MINUS, POINT, EQUALS_SIGN, OPEN, CLOSE, SEMICOLON, SLASH = 43, 45, 46, 61, 40, 41, 59, 47
 #: Longer lines are for the interpreter, which has an alarm for them.
 LONGEST_LINE = 4096
@@ -165,11 +177,18 @@ def read_word(text: Any, place: int, grammar: int, most_digits: int) -> tuple[in
     if text[place] == EQUALS_SIGN and grammar & EQUALS:
         form = 1
         place += 1
+    elif letter == LETTER_C and text[place] == LETTER_R and grammar & CR_RADIUS:
+        if text[place + 1] != EQUALS_SIGN:
+            return place, NO_KEY, 0.0
+        form = CR_FORM
+        place += 2
     place, value, decimals = read_number(text, place, most_digits)
     if place < 0:
         return place, NO_KEY, 0.0
     if grammar & HEXADECIMAL and text[place] == LETTER_X and text[place - 1] == ZERO and value == 0.0:
         return place, NO_KEY, 0.0
+    if form and decimals < 0 and value == 0.0:
+        value = 0.0  # behind `=`, `-0` is a whole number and has no sign
     if decimals >= 0 and grammar & FORMS_COUNT:
         form = 1 if decimals <= 3 else 2 if decimals == 4 else 3
     return place, (letter - LETTER_A) * FORMS + form, value

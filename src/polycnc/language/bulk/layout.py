@@ -24,10 +24,8 @@ PROGRAMMING_FRAME, ZERO_FRAME = 14, 15
 DIRECT, OWES, SHIFTED, MIRRORS, LIMITED = 16, 17, 18, 19, 20
 #: What the control's text looks like: flags of `GRAMMAR_FLAGS`, and digits that a number may have.
 GRAMMAR, MOST_DIGITS = 21, 22
-#: Arcs and straight moves taken (who asks what came last).
-ARCS, MOVES = 23, 24
 #: The keys of the block that is being read: how many, and from where on.
-KEYS, FIRST_KEY, MOST_KEYS = 25, 26, 24
+KEYS, FIRST_KEY, MOST_KEYS = 23, 24, 24
 INTS = FIRST_KEY + MOST_KEYS
 
 # ---- numbers of a scan (`floats`) ---------------------------------------------------------------------------
@@ -59,7 +57,9 @@ PLANE, CCW, LINE_WITHOUT_WAY = 6, 9, 10
 FEED_WORD, FIRST_CENTER, SECOND_CENTER, RADIUS = 11, 13, 15, 17
 #: Axis words: how many, and from where on, each with index of the value, conversion, axis, incremental.
 TARGETS, FIRST_TARGET, TARGET_WIDTH = 19, 20, 4
-RULE_WIDTH = FIRST_TARGET + TARGET_WIDTH * MOST_KEYS
+#: Whether a feed that is not above zero is the interpreter's.
+POSITIVE_FEED = FIRST_TARGET + TARGET_WIDTH * MOST_KEYS
+RULE_WIDTH = POSITIVE_FEED + 1
 #: Factors: scale and unit of each conversion. A word's stand at the same index as its value's index in `rules`.
 FACTOR_WIDTH = RULE_WIDTH + 2
 #: How often the control's arc tolerance counts where a radius is given.
@@ -80,11 +80,13 @@ ROUND_COMMENTS, OPEN_COMMENTS, SLASH_COMMENTS = 1, 2, 4
 SEMICOLON_COMMENTS, EQUALS = 8, 16
 #: How a number was written is part of a block's shape; lines without a block are no blocks.
 FORMS_COUNT, BLANK_LINES_ARE_NONE = 32, 64
-#: `0X1` may be a hexadecimal number.
-HEXADECIMAL = 128
+#: `0X1` may be a hexadecimal number; `CR=` is an address.
+HEXADECIMAL, CR_RADIUS = 128, 256
 
 #: Keys of words: letter and form (four each), then G codes below `LAST_CODE`.
 FORMS = 4
+#: `CR=` as a form of C.
+CR_FORM = 2
 FIRST_CODE = 26 * FORMS
 KEY_COUNT = 256
 LAST_CODE = KEY_COUNT - FIRST_CODE

@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 from polycnc.language.bulk.layout import (
     ABSOLUTE,
     ARC_MOTION,
-    ARCS,
     AXES,
     CAME_FROM,
     CCW,
@@ -37,7 +36,6 @@ from polycnc.language.bulk.layout import (
     MACHINE,
     MIRRORS,
     MOTION,
-    MOVES,
     NAMES_FEED,
     NEEDS_FEED,
     NEW_PENDING,
@@ -49,6 +47,7 @@ from polycnc.language.bulk.layout import (
     PENDING,
     PLANE,
     POSITION,
+    POSITIVE_FEED,
     PROGRAMMED,
     PROGRAMMING_FRAME,
     RADIUS,
@@ -100,6 +99,8 @@ def act(ints: Any, floats: Any, rules: Any, factors: Any, number: int, columns: 
     feed = floats[FEED]
     if rules[rule + FEED_WORD] >= 0:
         feed = word(floats, rules, factors, rule, factor, FEED_WORD)
+        if rules[rule + POSITIVE_FEED] and not feed > 0.0:
+            return False
     motion = rules[rule + MOTION]
     if motion != NO_MOTION:
         if rules[rule + NEEDS_FEED] and not feed > 0.0:
@@ -241,7 +242,6 @@ def straight(ints: Any, floats: Any, kind: int, feed: float, skips_tiny: bool, c
         if not within_limits(ints, floats):
             return False
         put_row(ints, floats, kind, feed, NO_CURVE, columns)
-        ints[MOVES] += 1
     elif skips_tiny:
         for i in range(axes):
             floats[VECTORS + PENDING * axes + i] = floats[VECTORS + NEW_PENDING * axes + i]
@@ -272,7 +272,7 @@ def arc(
         start = sqrt((begin_u - center_u) ** 2 + (begin_v - center_v) ** 2)
         stop = sqrt((end_u - center_u) ** 2 + (end_v - center_v) ** 2)
         found = start > SHORTEST_CHORD and abs(stop - start) <= floats[TOLERANCE] + SLACK
-    if not found or not within_limits(ints, floats):
+    if not found or barely_rises(ints, floats, rules, rule) or not within_limits(ints, floats):
         return False
     for i in range(3):
         floats[LAST_CENTER + i] = 0.0
@@ -281,9 +281,17 @@ def arc(
     kind = put_curve(ints, floats, rules, rule, center_u, center_v, columns)
     put_row(ints, floats, kind, feed, ints[FIRST_CURVE] + ints[CURVES], columns)
     ints[CURVES] += 1
-    ints[ARCS] += 1
     arrive(ints, floats, True)
     return True
+
+
+def barely_rises(ints: Any, floats: Any, rules: Any, rule: int) -> bool:
+    """Whether an arc goes so little along the third axis that controls differ on whether it is a helix."""
+    axes, third = ints[AXES], ints[GEOMETRY + rules[rule + PLANE + 2]]
+    if third < 0:
+        return False
+    way: float = floats[VECTORS + NEW_PROGRAMMED * axes + third] - floats[VECTORS + PROGRAMMED * axes + third]
+    return 0.0 < abs(way) < TINY_HIGH
 
 
 def center_word(floats: Any, rules: Any, factors: Any, rule: int, factor: int, which: int) -> float:

@@ -60,9 +60,15 @@ class Target(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class SetFeed:
-    """A step that sets the channel's feed."""
+    """A step that sets the channel's feed.
+
+    Attributes:
+        word: The feed.
+        positive: A feed that is not above zero is the interpreter's.
+    """
 
     word: Word
+    positive: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,6 +146,7 @@ class Spelling:
         equals: `X=1` is a word.
         forms_count: How a number was written is part of a block's shape.
         hexadecimal: `0X1` may be a hexadecimal number.
+        cr_radius: `CR=` is an address.
         blank_lines_are_blocks: A line without a block counts as one.
     """
 
@@ -151,6 +158,7 @@ class Spelling:
     equals: bool = False
     forms_count: bool = True
     hexadecimal: bool = False
+    cr_radius: bool = False
     blank_lines_are_blocks: bool = True
 
     @property
@@ -164,6 +172,7 @@ class Spelling:
             | self.equals * layout.EQUALS
             | self.forms_count * layout.FORMS_COUNT
             | self.hexadecimal * layout.HEXADECIMAL
+            | self.cr_radius * layout.CR_RADIUS
             | (not self.blank_lines_are_blocks) * layout.BLANK_LINES_ARE_NONE
         )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from array import array
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from polycnc.language.bulk import layout
 from polycnc.language.bulk.shapes import Shapes
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from polycnc.geometry.frames import Frame
     from polycnc.language.bulk.recipe import Recipe, Spelling
 
-#: Limits are widened by this much, as the channel does it.
-LIMIT_SLACK = 1e-9
 #: A run of so many blocks is worth its beginning.
 WORTHWHILE = 16
 #: Programs shorter than this are left to the interpreter: with the kernel ready, and when it must be compiled.
@@ -86,8 +84,8 @@ class Dialect(Protocol):
     def ready(self, channel: Channel) -> bool:
         """Whether plain blocks may be scanned now: nothing watches single blocks or holds moves back."""
 
-    def generation(self, channel: Channel) -> int:
-        """A number that changes when recipes given before no longer hold."""
+    def generation(self, channel: Channel) -> Hashable:
+        """Something that changes when recipes given before no longer hold."""
 
     def state(self, channel: Channel) -> Hashable:
         """The modal state that holds."""
@@ -101,6 +99,9 @@ class Dialect(Protocol):
     def owes(self, channel: Channel) -> bool:
         """Whether incremental words are still owed something."""
 
+    def limits(self, channel: Channel) -> Sequence[tuple[float, float]]:
+        """Machine positions of every axis beyond which the interpreter decides; nothing where none has a limit."""
+
     def tolerance(self, channel: Channel) -> float:
         """Allowed difference between the radii at an arc's start and end, mm."""
 
@@ -108,22 +109,20 @@ class Dialect(Protocol):
         """Blocks have moved the channel; for controls that remember how."""
 
 
-class LastMoves:
+class LastMoves(NamedTuple):
     """What the blocks of a run did last.
 
     Attributes:
-        moves: Straight moves, and `arcs`, since the run began.
-        came_from: Position before the last move.
-        center: Centre of the last arc less its start, on the geometry axes.
+        kind: Kind of the last row.
+        came_from: Position before it.
+        center: Centre of the last arc less its start, on the geometry axes; None where there was none.
+        curve: Curve row of that arc, as `CURVE_WIDTH` documents.
     """
 
-    __slots__ = ("arcs", "came_from", "center", "moves")
-
-    def __init__(self, moves: int, arcs: int, came_from: list[float], center: tuple[float, ...]) -> None:
-        self.moves = moves
-        self.arcs = arcs
-        self.came_from = came_from
-        self.center = center
+    kind: int
+    came_from: list[float]
+    center: tuple[float, float, float] | None
+    curve: tuple[float, ...]
 
 
 class Scanner:
@@ -143,7 +142,7 @@ class Scanner:
         self._axes = axes
         self._rooms = rooms
         self._shapes = Shapes()
-        self._generation = 0
+        self._generation: Hashable = None
         self._window = Window()
         self._patience = 1
         self._most_patience = settings.most_patience
@@ -227,17 +226,17 @@ class Scanner:
         ints[layout.ZERO_FRAME] = self._put_frame(c.zero, layout.ZERO)
         ints[layout.DIRECT], ints[layout.OWES] = c.direct, dialect.owes(channel)
         ints[layout.SHIFTED], ints[layout.MIRRORS] = c.shift is not None, c.programming.mirrors
-        ints[layout.LIMITED] = bool(channel.limits)
+        limits = dialect.limits(channel)
+        ints[layout.LIMITED] = bool(limits)
         ints[layout.GRAMMAR], ints[layout.MOST_DIGITS] = spelling.flags, spelling.max_digits
-        ints[layout.ARCS] = ints[layout.MOVES] = 0
         floats[layout.FEED], floats[layout.TOLERANCE] = channel.feed, dialect.tolerance(channel)
         self._put(layout.POSITION, c.position)
         self._put(layout.PROGRAMMED, c.programmed)
         self._put(layout.PENDING, c.pending)
         self._put(layout.SHIFT, c.shift or ())
         self._put(layout.OFFSETS, c.offsets)
-        self._put(layout.LOW, [low - LIMIT_SLACK for low, _ in channel.limits])
-        self._put(layout.HIGH, [high + LIMIT_SLACK for _, high in channel.limits])
+        self._put(layout.LOW, [low for low, _ in limits])
+        self._put(layout.HIGH, [high for _, high in limits])
 
     def _put_frame(self, frame: Frame, place: int) -> int:
         if frame.is_identity:
@@ -271,7 +270,15 @@ class Scanner:
             channel.rows.end = c.position  # the moves have gone past a stage that had nothing to do
         if ints[layout.OWES]:
             c.pending = self._get(layout.PENDING)
-        moves, arcs = ints[layout.MOVES], ints[layout.ARCS]
-        if moves or arcs:
-            center = tuple(floats[layout.LAST_CENTER : layout.LAST_CENTER + 3])
-            self._dialect.moved(channel, LastMoves(moves, arcs, self._get(layout.CAME_FROM), center))
+        if rows:
+            self._dialect.moved(channel, self._last_moves(rows, ints[layout.CURVES]))
+
+    def _last_moves(self, rows: int, curves: int) -> LastMoves:
+        kinds, *_, parameters = self._columns
+        x, y, z = self._floats[layout.LAST_CENTER : layout.LAST_CENTER + 3]
+        return LastMoves(
+            kinds[rows - 1],
+            self._get(layout.CAME_FROM),
+            (x, y, z) if curves else None,
+            tuple(parameters[(curves - 1) * CURVE_WIDTH : curves * CURVE_WIDTH]) if curves else (),
+        )

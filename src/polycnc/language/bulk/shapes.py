@@ -66,6 +66,7 @@ class Shapes:
         factors = array("d", bytes(8 * layout.FACTOR_WIDTH))
         rule[layout.NEXT_STATE] = self.root(recipe.next_state)
         _put_word(rule, factors, layout.FEED_WORD, recipe.feed.word if recipe.feed else None)
+        rule[layout.POSITIVE_FEED] = recipe.feed is not None and recipe.feed.positive
         if isinstance(recipe.motion, Straight):
             _put_straight(rule, recipe.motion)
         elif isinstance(recipe.motion, Arc):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from array import array
+from bisect import bisect_left
 from typing import TYPE_CHECKING, Any
 
 from polycnc.language.sinumerik import rights
@@ -84,6 +85,19 @@ class SinumerikProgram:
     def single_step(self, index: int) -> Step | None:
         """The step of one block alone, never joined with others; None behind the last one."""
         return self._singles.get(index) or self.step(index)
+
+    def line_of_step(self, index: int) -> int:
+        """Index of a step's line in the program's text; that behind the last line for no step."""
+        return self._lines[index] if index < len(self._lines) else len(self.program.lines)
+
+    def step_of_line(self, line: int) -> int:
+        """The first step at or behind a line of the text."""
+        return bisect_left(self._lines, line)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether a block has been compiled, and with the first one all that must be there before it."""
+        return self._scope is not None
 
     def text(self, index: int) -> str:
         """The line of a step."""

@@ -1,0 +1,211 @@
+"""Plain blocks of SINUMERIK: what their steps do, told as data for the scanner.
+
+A block is plain if it compiles to one call of the control with numbers only, and every step of its plan says what it
+does (`language.bulk.declare`): the motion functions and dimensions of its head, F, and a straight line or an arc.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from polycnc.control.sinumerik.positions import AxisTerm, Way
+from polycnc.language.bulk import Arc, Conversion, Recipe, SetFeed, Spelling, Straight, Target, Word, declared
+from polycnc.language.bulk import Way as Reading
+from polycnc.language.bulk.layout import CR_FORM, FIRST_CODE, FORMS
+from polycnc.language.sinumerik.words import Block
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable, Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.mode import Mode
+    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.plan import Plan
+    from polycnc.language.bulk.scanner import LastMoves
+    from polycnc.language.sinumerik.executable import SinumerikProgram
+
+SPELLING = Spelling(
+    max_digits=15, semicolon_comments=True, equals=True, forms_count=False, cr_radius=True,
+    blank_lines_are_blocks=False,
+)  # fmt: skip
+#: The statement of a block whose values are its own numbers.
+_VALUE = r"(?:n\d+|\([-+]n\d+\)|float\(\([-+]n\d+\)\)), "
+_EXECUTE = re.compile(rf"if o\d+\(channel, o\d+, \(((?:{_VALUE})*)\)\): call_modal\(channel\)")
+_NUMBER = re.compile(r"n(\d+)")
+
+
+# ---- what steps say of themselves
+
+
+class EnterMode(NamedTuple):
+    """A step that changes nothing but the modal state."""
+
+    mode: Mode
+
+
+def targets(terms: Sequence[AxisTerm]) -> tuple[Target, ...] | None:
+    """Axis words as data; None for the ways of rotary axes and coded positions."""
+    if any(term.coded or term.way not in (Way.ABSOLUTE, Way.INCREMENTAL) for term in terms):
+        return None
+    return tuple(
+        Target(
+            term.position,
+            Conversion(Reading.TIMES, 1.0, term.factor),
+            term.column,
+            term.way is Way.INCREMENTAL,
+        )
+        for term in terms
+    )
+
+
+def straight(terms: Sequence[AxisTerm], *, rapid: bool = False) -> Straight | None:
+    """A straight line as data; None where its axis words cannot be told."""
+    told = targets(terms)
+    if told is None:
+        return None
+    absolute = not any(target.incremental for target in told)
+    return Straight(rapid, told, absolute=absolute, skips_tiny=True)
+
+
+def feed(position: int, factor: float) -> SetFeed:
+    """F as data: zero and less are no feed, or an alarm."""
+    return SetFeed(length(position, factor), positive=True)
+
+
+def length(position: int, factor: float) -> Word:
+    """A word with a factor as data."""
+    return Word(position, Conversion(Reading.TIMES, 1.0, factor))
+
+
+# ---- what the scanner asks
+
+
+class SinumerikPlainBlocks:
+    """What the scanner asks of a SINUMERIK control.
+
+    The modal state of a shape is the mode and the program: names may mean something else in another one.
+    """
+
+    spelling = SPELLING
+
+    def ready(self, channel: Channel) -> bool:
+        """Nothing watches single blocks, holds moves back or follows a block, and the program has been opened."""
+        c, code = channel.coordinates, channel.level.code
+        return (
+            channel.head is None
+            and not channel.single_block
+            and channel.stroke_zone is None
+            and c.direct
+            and c.transformation is None
+            and channel.memory.language.modal_call is None
+            and getattr(code, "is_open", False)
+        )
+
+    def generation(self, channel: Channel) -> Hashable:
+        """Changes when plans are forgotten, and with the names that a program can give a meaning."""
+        code: Any = channel.level.code
+        language, scope = channel.memory.language, code.scope_of(channel)
+        macros = len(language.macros), len(scope.macros)
+        return channel.modes.generation, macros, len(scope.variables), len(language.global_variables)
+
+    def state(self, channel: Channel) -> tuple[Mode, object]:
+        """The modal state in the running program."""
+        return channel.mode, channel.level.code
+
+    def enter(self, channel: Channel, state: tuple[Mode, object]) -> None:
+        """Another modal state."""
+        channel.mode = state[0]
+
+    def owes(self, channel: Channel) -> bool:
+        """Whether incremental words are owed a change of offsets."""
+        return channel.coordinates.owes
+
+    def limits(self, channel: Channel) -> Sequence[tuple[float, float]]:
+        """The machine's travel, software limit switches and the working area, whichever is narrower."""
+        memory: Memory = channel.memory
+        if not memory.limits:
+            return channel.limits
+        ranges = list(channel.limits) or [(float("-inf"), float("inf"))] * len(channel.axes)
+        for column, low, high, _ in memory.limits:
+            ranges[column] = max(ranges[column][0], low), min(ranges[column][1], high)
+        return ranges
+
+    def tolerance(self, channel: Channel) -> float:
+        """MD21000, mm."""
+        return float(channel.memory.data.number("$MC_CIRCLE_ERROR_CONST"))
+
+    def moved(self, channel: Channel, last: LastMoves) -> None:
+        """Where the last move came from, for CT."""
+        memory: Memory = channel.memory
+        kind = Kind(last.kind)
+        if kind in (Kind.RAPID, Kind.FEED):
+            memory.previous = (last.came_from, None, 0.0)
+        else:
+            x, y, z, i, j, k, *_ = last.curve
+            sense = 1.0 if kind in (Kind.CCW, Kind.HELIX_CCW) else -1.0
+            memory.previous = (last.came_from, ((x, y, z), (i, j, k)), sense)
+
+    def recipe(self, channel: Channel, keys: Sequence[int], _line: str) -> Recipe | None:
+        """What the plan of a shape does, if all of it can be told."""
+        code: Any = channel.level.code
+        try:
+            block = _block(code, channel, keys)
+            if block is None:
+                return None
+            if not block.codes and not block.words:
+                return Recipe((channel.mode, code))
+            plan = channel.mode.plans.get(block) or channel.control.plan(channel, block)
+        except AlarmError:
+            return None  # the interpreter comes to the same block and raises it
+        return _recipe(plan, channel.mode, code)
+
+
+def _block(code: SinumerikProgram, channel: Channel, keys: Sequence[int]) -> Block | None:
+    """The block that the interpreter would run, if its functions and words are those that the scanner has read."""
+    emitter = code.compiled(channel.level.index, channel).emitter
+    plain = not (emitter.uses_locals or emitter.uses_main or emitter.uses_stop or emitter.branch)
+    if plain and not emitter.lines:
+        return _EMPTY if not keys else None
+    statement = _EXECUTE.fullmatch(emitter.lines[0]) if len(emitter.lines) == 1 else None
+    if not plain or statement is None:
+        return None
+    block = next((each for each in emitter.objects if isinstance(each, Block)), None)
+    if block is None or list(map(int, _NUMBER.findall(statement[1]))) != list(range(len(block.words))):
+        return None
+    codes = [f"G{key - FIRST_CODE}" for key in keys if key >= FIRST_CODE]
+    addresses = [_address(key) for key in keys if key < FIRST_CODE]
+    words = [word.address if word.index is None and not word.modifier else "" for word in block.words]
+    return block if codes == list(block.codes) and addresses == words else None
+
+
+_EMPTY = Block((), ())
+
+
+def _address(key: int) -> str:
+    letter, form = divmod(key, FORMS)
+    return "CR" if form == CR_FORM else chr(ord("A") + letter)
+
+
+def _recipe(plan: Plan, mode: Mode, code: object) -> Recipe | None:
+    """A plan as data: modal state, feed, then a move; None where it does anything else."""
+    if plan.shared or plan.ends:
+        return None
+    set_feed: SetFeed | None = None
+    motion: Straight | Arc | None = None
+    for step in plan.steps:
+        told = declared(step)
+        for part in told if type(told) is tuple else (told,):
+            if motion is not None:
+                return None
+            if isinstance(part, EnterMode):
+                mode = part.mode
+            elif isinstance(part, SetFeed):
+                set_feed = part
+            elif isinstance(part, (Straight, Arc)):
+                motion = part
+            else:
+                return None
+    return Recipe((mode, code), set_feed, motion)
