@@ -10,6 +10,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.language.bulk.scanner import Scanner
+    from polycnc.language.steps import FewSteps
     from polycnc.program import Program
 
     Step = Callable[[Channel], None]
@@ -26,7 +27,7 @@ class Executable(Protocol):
         """The text."""
 
     @property
-    def steps(self) -> Sequence[Step | None]:
+    def steps(self) -> Sequence[Step | None] | FewSteps:
         """Steps that are compiled and kept, by number; None, or nothing at all, where `step` must be asked."""
 
     def step(self, index: int) -> Step | None:
@@ -73,7 +74,7 @@ class Level:
     locals: Any = None
     data: dict[Any, Any] = field(default_factory=dict)
     scanner: Scanner | None = None
-    steps: Sequence[Step | None] = field(init=False)
+    steps: Sequence[Step | None] | FewSteps = field(init=False)
     line_of: Callable[[int], int] = field(init=False)
     counts: Callable[[int], bool] = field(init=False)
 

@@ -136,6 +136,16 @@ def _decoded(text: str, codec: str) -> Decoded:
     return Decoded(text, codec, text.count("\ufffd"))
 
 
+def has_byte_order_mark(data: bytes) -> bool:
+    """Whether a file begins with a mark that tells its encoding."""
+    return any(data.startswith(mark) for mark, _ in _BOMS)
+
+
+def codec_of(data: bytes) -> str:
+    """The codec of text that is neither ASCII nor valid UTF-8 throughout."""
+    return _best_codec(_sample(data))
+
+
 def _sample(data: bytes) -> list[bytes]:
     """The first runs: a byte that is not ASCII, and on while bytes can be the second of a character."""
     runs: list[bytes] = []

@@ -12,13 +12,13 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from polycnc.program.long_text import HEADING_STARTS, LongText
 from polycnc.program.names import default_directory, program_name, stored_directory, stored_name
 from polycnc.program.program import Form, Program
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
-_HEADING_STARTS = frozenset("%oO:< \t")
 _TAPE_MARK = re.compile(r"\s*%")
 _NUMBER = re.compile(r"\s*(?:%\s*)?(?:[oO]|:)[ \t]*(\d{1,8})(?![\d.])")
 _NAME = re.compile(r"\s*(?:%\s*)?<([A-Za-z0-9+\-_.]{1,32})>")
@@ -100,8 +100,10 @@ def split_channels(program: Program) -> dict[int, Program]:
     return {channel: replace(program, lines=lines_of[channel]) for channel in named}
 
 
-def _possible_headings(lines: Sequence[str]) -> list[int]:
-    return [index for index, line in enumerate(lines) if line[:1] in _HEADING_STARTS]
+def _possible_headings(lines: Sequence[str]) -> Iterable[int]:
+    if isinstance(lines, LongText):
+        return lines.headings()
+    return [index for index, line in enumerate(lines) if line[:1] in HEADING_STARTS]
 
 
 def _program(source: Source, form: Form, lines: Sequence[str], first: int, end: int) -> Program:
@@ -169,8 +171,12 @@ def _named_program(lines: Sequence[str], source: Source, heading: _Heading, end:
     first = program.lines[0]
     if _TAPE_MARK.match(first):
         # `%O0001`: the mark becomes a blank, so that columns stay.
-        program = replace(program, lines=[first.replace("%", " ", 1), *program.lines[1:]])
+        program = replace(program, lines=_with_first(program.lines, first.replace("%", " ", 1)))
     return replace(program, name=heading.name, number=heading.number)
+
+
+def _with_first(lines: Sequence[str], first: str) -> Sequence[str]:
+    return lines.with_first(first) if isinstance(lines, LongText) else [first, *lines[1:]]
 
 
 def _holds_block(lines: Sequence[str], first: int, end: int) -> bool:

@@ -16,6 +16,7 @@ from polycnc.program import names
 from polycnc.program.encoding import decode
 from polycnc.program.errors import ProgramFileError
 from polycnc.program.folders import Folder, number_of_file, read_file, stored_name_of_file
+from polycnc.program.long_text import read_long
 from polycnc.program.program import Form, Program
 from polycnc.program.split import Source, split_programs
 from polycnc.program.text import split_lines
@@ -40,9 +41,14 @@ def load_programs(
     Raises:
         ProgramFileError: The file cannot be read, or a line is too long for a block.
     """
-    decoded = decode(read_file(path), encoding)
-    source = Source(Path(path).name, path, decoded.encoding, decoded.replaced)
-    programs = split_programs(split_lines(decoded.text, path), source, default)
+    long = read_long(path) if encoding is None else None
+    if long is not None:
+        source = Source(Path(path).name, path, long.file.codec, long.file.replaced)
+        programs = split_programs(long, source, default)
+    else:
+        decoded = decode(read_file(path), encoding)
+        source = Source(Path(path).name, path, decoded.encoding, decoded.replaced)
+        programs = split_programs(split_lines(decoded.text, path), source, default)
     number = number_of_file(Path(path))
     first = programs[0]
     if (

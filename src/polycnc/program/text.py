@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import NoReturn
 
 from polycnc.program.errors import ProgramFileError
 
@@ -41,4 +42,9 @@ def _refuse_long_lines(lines: list[str], path: str) -> None:
     length = max(map(len, lines))
     if length > MAX_LINE:
         line = next(number for number, text in enumerate(lines, 1) if len(text) == length)
-        raise ProgramFileError("program.line-too-long", path, line=line, length=length, limit=MAX_LINE)
+        refuse_long_line(path, line, length)
+
+
+def refuse_long_line(path: str, line: int, length: int) -> NoReturn:
+    """A line is longer than `MAX_LINE`."""
+    raise ProgramFileError("program.line-too-long", path, line=line, length=length, limit=MAX_LINE)

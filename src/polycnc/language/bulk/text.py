@@ -5,6 +5,8 @@ from __future__ import annotations
 from array import array
 from typing import TYPE_CHECKING
 
+from polycnc.program.long_text import LongText
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -49,6 +51,9 @@ class Window:
 
     def _read(self, lines: Sequence[str], line: int) -> None:
         self.lines, self.line, self.place = lines, line, 0
+        if isinstance(lines, LongText):
+            self.text = array("B", lines.bytes_from(line) if line < len(lines) else b"")
+            return
         found = lines[line : line + self._size]
         self.text = array("B", ("\n".join(found) + "\n").encode("utf-8", "replace") if found else b"")
 

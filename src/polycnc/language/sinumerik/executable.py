@@ -25,6 +25,7 @@ from polycnc.language.sinumerik.place import fail
 from polycnc.language.sinumerik.scope import Scope
 from polycnc.language.sinumerik.shapes import Shapes
 from polycnc.language.sinumerik.structures import Structure, structures_of
+from polycnc.language.steps import forget_steps, kept_steps
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -61,7 +62,7 @@ class SinumerikProgram:
         numbers.append(numbers[-1] if numbers else program.first_line)
         #: The line in the file of a step. Asked for every row, so it is the array's own method.
         self.line = numbers.__getitem__
-        self.steps: list[Step | None] = [None] * len(self._lines)
+        self.steps = kept_steps(len(self._lines))
         self._reached = bytearray(len(self._lines))
         self._scope: Scope | None = None
         self._header: Header | None = None
@@ -123,7 +124,7 @@ class SinumerikProgram:
 
     def forget_steps(self) -> None:
         """Compile every block anew: names may mean other programs now."""
-        self.steps[:] = [None] * len(self._lines)
+        forget_steps(self.steps)
         self._texts.clear()
         self._singles.clear()
         self._joins.clear()

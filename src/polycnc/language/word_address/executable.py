@@ -7,6 +7,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.language.steps import kept_steps
 from polycnc.language.word_address.joining import JOINABLE, MAX_JOINED, join, join_loop
 from polycnc.language.word_address.macro_b import Reader, compile_source
 from polycnc.language.word_address.statements import KEYWORD, LoopEnd, parse_statement
@@ -79,7 +80,7 @@ class WordAddressProgram:
         self.program = program
         self.grammar = grammar
         self.lines = program.lines
-        self.steps: list[Step | None] = [None] * len(self.lines)
+        self.steps = kept_steps(len(self.lines))
         self._reached = bytearray(len(self.lines))
         self._sequences: dict[int, list[int]] | None = None
         self._loops: dict[tuple[int, int], int] = {}

@@ -1,0 +1,275 @@
+"""The lines of a large file, read from it when they are asked for: a program of a gigabyte needs no gigabyte.
+
+The file is looked through once. What is kept is where its *pages* begin, each some thousand whole lines, and which
+lines begin with a character that may begin a heading. A page that is asked for is read again, and the last few are at
+hand.
+"""
+
+from __future__ import annotations
+
+import os
+from array import array
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+from stat import S_ISREG
+from typing import TYPE_CHECKING, overload
+
+from polycnc.program.encoding import codec_of, has_byte_order_mark
+from polycnc.program.errors import ProgramFileError
+from polycnc.program.text import MAX_LINE, TAPE_CONTROLS, refuse_long_line
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+#: Smaller files are read as a whole.
+LONG_FILE_BYTES = 8 * 1024 * 1024
+#: Bytes of a page, and of what is read at once while the file is looked through.
+PAGE_BYTES, READ_BYTES = 256 * 1024, 1024 * 1024
+#: Pages of a file that are kept at hand.
+PAGES_AT_HAND = 4
+#: Bytes of pages with characters beyond ASCII that decide on the encoding.
+SAMPLE_BYTES = 1024 * 1024
+HEADING_STARTS = frozenset("%oO:< \t")
+_CONTROLS = TAPE_CONTROLS.encode("ascii")
+_HEADING, _NEWLINE = b"%", 10
+#: Maps every character that may begin a heading to one.
+_HEADINGS_ALIKE = bytes.maketrans("".join(sorted(HEADING_STARTS)).encode(), _HEADING * len(HEADING_STARTS))
+
+
+@dataclass(eq=False)
+class TextFile:
+    """A file of whole lines in pages.
+
+    Attributes:
+        path: The file.
+        codec: Python codec by which it is read.
+        replaced: Characters that the codec could not read.
+        places: First byte of each page, and behind the last one the size of the file.
+        numbers: Index of the first line of each page, and behind the last one how many lines there are.
+        headings: Lines that begin with one of `HEADING_STARTS`.
+    """
+
+    path: str
+    codec: str = "ascii"
+    replaced: int = 0
+    places: array[int] = field(default_factory=lambda: array("q", [0]))
+    numbers: array[int] = field(default_factory=lambda: array("q", [0]))
+    headings: array[int] = field(default_factory=lambda: array("I"))
+
+    def __post_init__(self) -> None:
+        self._handle = os.open(self.path, os.O_RDONLY | getattr(os, "O_BINARY", 0))
+        self.page = lru_cache(PAGES_AT_HAND)(self._page)
+        self.text = lru_cache(PAGES_AT_HAND)(self._text)
+
+    def __del__(self) -> None:
+        os.close(self._handle)
+
+    def raw(self, page: int) -> bytes:
+        """The bytes of a page as they stand in the file."""
+        place, end = self.places[page], self.places[page + 1]
+        os.lseek(self._handle, place, os.SEEK_SET)
+        data = os.read(self._handle, end - place)
+        if len(data) != end - place:
+            raise ProgramFileError("program.unreadable", self.path, reason=os.strerror(5))
+        return data
+
+    def _text(self, page: int) -> bytes:
+        """A page in UTF-8; every line ends with a line feed."""
+        data = self.raw(page)
+        if b"\r" in data:
+            data = data.replace(b"\r\n", b"\n")
+        if not data.isascii():
+            data = data.translate(None, _CONTROLS).decode(self.codec, "replace").encode("utf-8", "replace")
+        elif any(control in data for control in _CONTROLS):
+            data = data.translate(None, _CONTROLS)
+        return data if data.endswith(b"\n") else data + b"\n"
+
+    def _page(self, page: int) -> list[str]:
+        """The lines of a page."""
+        return self.text(page).decode("utf-8").split("\n")[:-1]
+
+    def page_of(self, line: int) -> int:
+        """The page in which a line stands."""
+        return bisect_right(self.numbers, line) - 1
+
+
+class LongText(Sequence[str]):
+    """Lines of a file, or some of them.
+
+    Args:
+        file: The file.
+        lines: Which lines of it.
+        first_line: Stands for the first one, if given.
+    """
+
+    def __init__(self, file: TextFile, lines: range, first_line: str | None = None) -> None:
+        self.file = file
+        self._lines = lines
+        self._first_line = first_line
+
+    def __len__(self) -> int:
+        return len(self._lines)
+
+    @overload
+    def __getitem__(self, index: int) -> str: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[str]: ...
+    def __getitem__(self, index: int | slice) -> str | Sequence[str]:
+        if isinstance(index, slice):
+            chosen = self._lines[index]
+            if chosen.step != 1:
+                return [self[i] for i in range(*index.indices(len(self)))]
+            starts_here = bool(chosen) and chosen[0] == self._lines[0]
+            return LongText(self.file, chosen, self._first_line if starts_here else None)
+        line = self._lines[index]
+        if self._first_line is not None and line == self._lines[0]:
+            return self._first_line
+        file = self.file
+        page = file.page_of(line)
+        found: str = file.page(page)[line - file.numbers[page]]
+        return found
+
+    def __iter__(self) -> Iterator[str]:
+        at = 0
+        while at < len(self._lines):
+            stretch = self._stretch(at)
+            yield from stretch
+            at += len(stretch)
+
+    def _stretch(self, at: int) -> list[str]:
+        """The lines from one on that stand in its page."""
+        if at == 0 and self._first_line is not None:
+            return [self._first_line]
+        file, line = self.file, self._lines[at]
+        page = file.page_of(line)
+        start = line - file.numbers[page]
+        return file.page(page)[start : start + len(self._lines) - at]
+
+    def with_first(self, text: str) -> LongText:
+        """The same lines with another first one."""
+        return LongText(self.file, self._lines, text)
+
+    def headings(self) -> Iterator[int]:
+        """Lines that begin with one of `HEADING_STARTS`."""
+        first, found = self._lines.start, self.file.headings
+        for i in range(bisect_right(found, first - 1), len(found)):
+            if found[i] >= self._lines.stop:
+                return
+            yield found[i] - first
+
+    def bytes_from(self, line: int) -> bytes:
+        """The lines from one on to the end of its page, in UTF-8, each with its line feed."""
+        file, number = self.file, self._lines[line]
+        page = file.page_of(number)
+        skipped, count = number - file.numbers[page], len(self._lines) - line
+        whole: bytes = file.text(page)
+        if (line == 0 and self._first_line is not None) or file.numbers[page + 1] - number > count:
+            return "".join(f"{text}\n" for text in self._stretch(line)).encode("utf-8", "replace")
+        if not skipped:
+            return whole
+        return whole.split(b"\n", skipped)[-1]
+
+
+def read_long(path: str) -> LongText | None:
+    """The lines of a file that is long enough; None for one that is better read as a whole.
+
+    Raises:
+        ProgramFileError: A line is too long for a block.
+    """
+    try:
+        state = os.stat(path)  # noqa: PTH116 - Path(path) hides what the user typed
+        if not S_ISREG(state.st_mode) or state.st_size < LONG_FILE_BYTES:
+            return None
+        file = TextFile(path)
+        return _look_through(file)
+    except (OSError, ValueError):
+        return None  # reading it as a whole says what is wrong
+
+
+def _look_through(file: TextFile) -> LongText | None:
+    """Find the pages of a file; None where its line ends or its encoding ask for the whole of it."""
+    sample = bytearray()
+    beyond_ascii: list[int] = []
+    with Path(file.path).open("rb", buffering=0) as stream:
+        rest = b""
+        while True:
+            data = stream.read(READ_BYTES)
+            block = rest + data if rest else data
+            if not file.headings and len(file.places) == 1 and has_byte_order_mark(block):
+                return None
+            end = block.rfind(b"\n") + 1 if data else len(block)
+            if data and end == 0 and len(block) > MAX_LINE:
+                refuse_long_line(file.path, file.numbers[-1] + 1, len(block))
+            whole, rest = block[:end], block[end:]
+            if b"\r" in whole and whole.count(b"\r") != whole.count(b"\r\n"):
+                return None
+            _add_headings(file, whole)
+            first = len(file.places) - 1
+            _add_pages(file, whole)
+            if not whole.isascii():
+                beyond_ascii += range(first, len(file.places) - 1)
+                sample += whole[: max(SAMPLE_BYTES - len(sample), 0)]
+            if not data:
+                break
+    if beyond_ascii:
+        _find_codec(file, beyond_ascii, bytes(sample))
+    return LongText(file, range(file.numbers[-1]))
+
+
+def _add_headings(file: TextFile, whole: bytes) -> None:
+    """Note the lines that may be headings; `whole` begins behind the pages found so far."""
+    alike = whole.translate(_HEADINGS_ALIKE)
+    if any(control in alike for control in _CONTROLS):
+        alike = alike.translate(None, _CONTROLS)
+    line, last = file.numbers[-1], 0
+    if alike.startswith(_HEADING):
+        file.headings.append(line)
+    mark = b"\n" + _HEADING
+    at = alike.find(mark)
+    while at >= 0:
+        line += alike.count(b"\n", last, at) + 1
+        file.headings.append(line)
+        last = at + 1
+        at = alike.find(mark, last)
+
+
+def _add_pages(file: TextFile, whole: bytes) -> None:
+    """Cut whole lines into pages."""
+    base, at = file.places[-1], 0
+    while at < len(whole):
+        end = len(whole) if len(whole) - at <= PAGE_BYTES else whole.rfind(b"\n", at, at + PAGE_BYTES) + 1
+        _refuse_long_lines(file, whole, at, end or at + PAGE_BYTES)
+        lines = whole.count(b"\n", at, end) + (whole[end - 1] != _NEWLINE)
+        file.places.append(base + end)
+        file.numbers.append(file.numbers[-1] + lines)
+        at = end
+
+
+def _refuse_long_lines(file: TextFile, whole: bytes, at: int, end: int) -> None:
+    """From line end to line end, as far apart as they may be."""
+    place = at
+    while place + MAX_LINE < end:
+        found = whole.rfind(b"\n", place, place + MAX_LINE + 1)
+        if found < 0:
+            stop = whole.find(b"\n", place, end)
+            line = file.numbers[-1] + whole.count(b"\n", at, place) + 1
+            refuse_long_line(file.path, line, (stop if stop >= 0 else end) - place)
+        place = found + 1
+
+
+def _find_codec(file: TextFile, pages: Sequence[int], sample: bytes) -> None:
+    """How pages beyond ASCII are read: UTF-8 if all of them are, else what the sample looks like."""
+
+    def cleaned(page: int) -> bytes:
+        return file.raw(page).translate(None, _CONTROLS)
+
+    try:
+        for page in pages:
+            cleaned(page).decode("utf-8")
+        file.codec = "utf-8"
+    except UnicodeDecodeError:
+        file.codec = codec_of(sample.translate(None, _CONTROLS))
+        file.replaced = sum(cleaned(page).decode(file.codec, "replace").count("\ufffd") for page in pages)
