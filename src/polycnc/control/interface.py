@@ -9,6 +9,7 @@ from polycnc.channel.interface import Control as ChannelControl
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.machine.motion_settings import MotionSettings
+    from polycnc.machine.plc import Plc
     from polycnc.messages import Catalogue
     from polycnc.program import Form
 
@@ -23,6 +24,10 @@ class Control(ChannelControl, Protocol):
 
     form: Form
     default_machine: str
+
+    @property
+    def plc(self) -> Plc:
+        """What the control's builder has made of the machine's own controller; empty where nothing is known."""
 
     @property
     def catalogue(self) -> Catalogue:

@@ -13,12 +13,27 @@ from typing import TYPE_CHECKING, Literal
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    Condition = Callable[[Callable[[str], float]], bool]
+    Values = Callable[[str], float]
+    Condition = Callable[[Values], bool]
 
-Latch = Literal["", "on", "off"]
+Latch = Literal["", "on", "off", "toggle"]
 _TOKEN = re.compile(r"\s*(?:(?P<name>[A-Za-z_$][\w$.\[\]]*)|(?P<sign>[&|!()]))")
 #: How deeply brackets and `!` may be nested.
 _DEEPEST = 50
+
+
+def condition_of(text: str) -> Condition:
+    """A condition, asked with a function that gives the value of a signal.
+
+    Raises:
+        ValueError: The text is no condition; the argument is where it goes wrong, from 0.
+    """
+    return _Reader(text).read()
+
+
+def signals_in(text: str) -> frozenset[str]:
+    """The signals that a condition names."""
+    return frozenset(match["name"] for match in _TOKEN.finditer(text) if match["name"])
 
 
 @dataclass(frozen=True)
@@ -30,7 +45,7 @@ class Rule:
         output: The signal that it acts on.
         after_s: How long the condition must have held.
         latch: Empty: the output is on as long as the condition holds. `on`, `off`: the output is switched on or
-            off, and stays.
+            off, and stays. `toggle`: it changes whenever the condition begins to hold.
     """
 
     when: str
@@ -45,7 +60,11 @@ class Rule:
         Raises:
             ValueError: The text is no condition; the argument is where it goes wrong, from 0.
         """
-        return _Reader(self.when).read()
+        return condition_of(self.when)
+
+    def latched(self, value: float) -> float:
+        """What a latching rule makes of its output when it acts."""
+        return float(self.latch == "on" or (self.latch == "toggle" and not value))
 
 
 class _Reader:

@@ -152,7 +152,7 @@ class RuleTable(_Table):
     when: str
     output: Annotated[str, StringConstraints(pattern=r"^[A-Za-z_$][A-Za-z0-9_$.\[\]]*$")]
     after_s: NotNegative | None = None
-    latch: Literal["on", "off"] | None = None
+    latch: Literal["on", "off", "toggle"] | None = None
 
 
 class MachineTable(_Table):

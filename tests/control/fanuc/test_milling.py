@@ -48,12 +48,6 @@ def test_every_alarm_has_a_text_and_a_remedy_in_both_languages(control_id: str) 
         assert all(entry.get(field) for field in ("en", "zh-TW", "remedy", "remedy-zh-TW")), code
 
 
-@pytest.mark.parametrize("control_id", ["fanuc-m", "meldas-m"])
-def test_every_alarm_of_an_interlock_is_in_the_catalogue(control_id: str) -> None:
-    chosen: Any = control(control_id)
-    assert {interlock.alarm for interlock in chosen.interlocks} <= set(chosen.catalogue)
-
-
 def test_every_hint_at_another_maker_exists() -> None:
     assert all(text(hint) for hint in FANUC.foreign_codes.values())
 

@@ -1,12 +1,11 @@
-"""M codes that both controls of a Hartford machining centre have (manual §14), and the FANUC machine's interlocks."""
+"""M codes that both controls of a Hartford machining centre have (manual §14); its interlocks are in `plc.toml`."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address import auxiliary, frames, interlocks, interruption, subprograms
+from polycnc.control.word_address import auxiliary, frames, interruption, subprograms
 from polycnc.control.word_address.codes import MCode, m_table
-from polycnc.control.word_address.interlocks import Interlock, words
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.codes import Handler
@@ -31,9 +30,7 @@ SHARED_M_CODES = (
     *after(5, 19, handler=auxiliary.spindle_stop),
     *after(6, handler=auxiliary.change_tool),
     *together(7, 8, 12, 22, 23, 50, 53, 58, 61, 63, 68, 73, 75),
-    *after(9, 24, 25, 54, 62, 64, 69, 74, 76, 82, 83, 84, 85, 86, 87, 93, 96, 97),
-    *after(10, handler=interlocks.clamp_tool),
-    *after(11, handler=interlocks.unclamp_tool),
+    *after(9, 10, 11, 24, 25, 54, 62, 64, 69, 74, 76, 82, 83, 84, 85, 86, 87, 93, 96, 97),
     *after(13, handler=auxiliary.spindle_clockwise),
     *after(14, handler=auxiliary.spindle_counter_clockwise),
     *after(20),
@@ -55,9 +52,3 @@ INTERRUPTION = {
     96: MCode(96, handler=interruption.enable, takes="P", silent=True),
     97: MCode(97, handler=interruption.disable, silent=True),
 }
-FANUC_INTERLOCKS = (
-    Interlock(words("M6"), interlocks.away_from_tool_change, "1046"),
-    Interlock(words("M19"), interlocks.tool_unclamped, "1094"),
-    Interlock(words("M3", "M4", "M13", "M14"), interlocks.tool_unclamped, "1095"),
-    Interlock(words("S"), interlocks.tool_unclamped, "1105"),
-)

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.code_calls import CodeCalls
     from polycnc.control.word_address.codes import GCode, MCode, Planner, Step
     from polycnc.control.word_address.drilling import Drilling
-    from polycnc.control.word_address.interlocks import Interlock
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.machine.motion_settings import MotionSettings
 
@@ -45,7 +44,7 @@ class FanucMilling(MillingControl):
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
     drilling: ClassVar[Drilling] = MILLING_DRILLING
-    interlocks: ClassVar[tuple[Interlock, ...]] = hartford.FANUC_INTERLOCKS
+    plc_files: ClassVar[tuple[str, ...]] = ("fanuc/machine_rules.toml", "fanuc/plc.toml")
 
     def code_calls(self, channel: Channel) -> CodeCalls:
         """Codes registered by 6050 to 6089 and 6001#5."""

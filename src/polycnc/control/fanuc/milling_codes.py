@@ -32,7 +32,7 @@ from polycnc.control.word_address import (
 )
 from polycnc.control.word_address.codes import GCode, Order, not_yet, table, with_aliases
 from polycnc.control.word_address.drilling import is_active
-from polycnc.control.word_address.interlocks import guarded_speed
+from polycnc.control.word_address.interlocks import guarded_speed, guarded_step, nothing
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -168,15 +168,27 @@ G_CODES = with_aliases(ROWS, ALIASES)
 
 def plan_guarded_speed(builder: Builder) -> Step:
     """S, unless the machine refuses it now."""
+    return guarded_speed(auxiliary.plan_spindle_speed(builder), builder)
+
+
+def plan_guarded_tool(builder: Builder) -> Step:
+    """T, or the call that it makes, unless the machine refuses it now."""
     control: Any = builder.control
-    return guarded_speed(auxiliary.plan_spindle_speed(builder), control.interlocks)
+    step = code_calls.plan_tool_or_call(builder)
+    return guarded_step(step or nothing, ("T_CODE",), control.plc)
+
+
+def plan_guarded_index(builder: Builder) -> Step:
+    """B as the second auxiliary function, unless the machine refuses it now."""
+    control: Any = builder.control
+    return guarded_step(auxiliary.plan_second_auxiliary(builder), ("B_CODE",), control.plc)
 
 
 ADDRESSES = {
     "F": auxiliary.plan_feed,
     "S": plan_guarded_speed,
-    "T": code_calls.plan_tool_or_call,
-    "B": auxiliary.plan_second_auxiliary,
+    "T": plan_guarded_tool,
+    "B": plan_guarded_index,
     "H": length.plan_length_number,
     "D": radius.plan_radius_number,
 }

@@ -9,7 +9,7 @@ from polycnc.control.fanuc.system_variables import MILLING_VARIABLES
 from polycnc.control.meldas.alarm_codes import ALARMS
 from polycnc.control.meldas.code_calls import registered_codes
 from polycnc.control.meldas.cycles import DRILLING
-from polycnc.control.meldas.hartford import INTERLOCKS, M_CODES
+from polycnc.control.meldas.hartford import M_CODES
 from polycnc.control.meldas.milling_codes import G_CODES
 from polycnc.control.word_address.milling import MillingControl
 from polycnc.control.word_address.normal_line import NormalLineParameters
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.code_calls import CodeCalls
     from polycnc.control.word_address.codes import GCode, MCode, Planner
     from polycnc.control.word_address.drilling import Drilling
-    from polycnc.control.word_address.interlocks import Interlock
     from polycnc.control.word_address.words import Words
     from polycnc.messages import AlarmError
 
@@ -44,7 +43,7 @@ class MeldasMilling(MillingControl):
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     drilling: ClassVar[Drilling] = DRILLING
-    interlocks: ClassVar[tuple[Interlock, ...]] = INTERLOCKS
+    plc_files: ClassVar[tuple[str, ...]] = ("fanuc/machine_rules.toml", "meldas/plc.toml")
     REFERENCE_PARAMETERS: ClassVar[dict[int, int]] = {1: 2037, 2: 2038, 3: 2039, 4: 2040}
     ARC_TOLERANCE_PARAMETER: ClassVar[tuple[int, float]] = (1084, 0.1)
     OVERRUN_PARAMETER: ClassVar[int] = 8209

@@ -42,6 +42,7 @@ from polycnc.language.sinumerik.sections import end_of_subprogram
 from polycnc.language.sinumerik.values import Axis, Type
 from polycnc.language.sinumerik.variables import Variable
 from polycnc.machine.motion_settings import MotionSettings
+from polycnc.machine.plc import Plc
 from polycnc.messages import AlarmError, Catalogue
 from polycnc.program import Form
 from polycnc.toolpath import Context
@@ -70,6 +71,7 @@ class Sinumerik:
     id: ClassVar[str] = "sinumerik-840d"
     default_machine: ClassVar[str] = "mill3"
     form: ClassVar[Form] = Form.SINUMERIK
+    plc: ClassVar[Plc] = Plc()
 
     def __init__(self) -> None:
         self.g_groups: Mapping[str, int] = {word: group.number for word, group in gcodes.GROUP_OF.items()}

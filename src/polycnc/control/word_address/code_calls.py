@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.control.word_address import auxiliary, macro_calls, subprograms
 from polycnc.control.word_address.codes import GCode, MCode, Order
+from polycnc.control.word_address.interlocks import note_tool_number
 from polycnc.control.word_address.words import Words
 
 if TYPE_CHECKING:
@@ -113,6 +114,8 @@ def plan_m_macro(builder: Builder, plan: Plan) -> Step | None:
     def act(channel: Channel, values: list[float]) -> None:
         words = Words(plan, values)
         macro_calls.refuse_g_behind(words, first)
+        if "T" in words:
+            note_tool_number(channel)
         repeats = words.integer("L") if "L" in words else 1
         arguments = macro_calls.arguments_of(words, "LG", without_m=number)
         program = channel.control.find_program(channel, call.program)

@@ -19,12 +19,14 @@ from polycnc.language.bulk import Spelling
 from polycnc.language.word_address import Grammar, WordAddressProgram
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock
 from polycnc.machine.motion_settings import SOFT, MotionSettings
+from polycnc.machine.plc import Plc, read_plc
 from polycnc.messages import AlarmError, Catalogue, text
 from polycnc.program import Form
 from polycnc.toolpath import Context
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
+    from importlib.resources.abc import Traversable
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
@@ -41,6 +43,7 @@ class WordAddressControl:
     Attributes:
         id: Control id.
         alarm_files: Files with the alarm texts, as `folder/file`; of two texts for a number the later counts.
+        plc_files: The machine's own controller: its rules and its alarms, as `folder/file`.
         form: How program files are marked off.
         default_machine: Built-in machine of a run that names none.
         g_codes: The G table.
@@ -59,6 +62,7 @@ class WordAddressControl:
 
     id: ClassVar[str] = ""
     alarm_files: ClassVar[tuple[str, ...]] = ()
+    plc_files: ClassVar[tuple[str, ...]] = ()
     g_codes: ClassVar[Mapping[str, GCode]] = {}
     m_codes: ClassVar[Mapping[int, MCode]] = {}
     addresses: ClassVar[Mapping[str, Planner]] = {}
@@ -80,10 +84,12 @@ class WordAddressControl:
     @cached_property
     def catalogue(self) -> Catalogue:
         """Texts of the control's alarms."""
-        files = [file.split("/") for file in self.alarm_files]
-        return Catalogue(
-            *(resources.files(f"polycnc.control.{folder}").joinpath(name) for folder, name in files)
-        )
+        return Catalogue(*_data(self.alarm_files))
+
+    @cached_property
+    def plc(self) -> Plc:
+        """The machine's own controller."""
+        return read_plc(*_data(self.plc_files))
 
     def fail(self, mistake: str, **where: Any) -> AlarmError:
         """The control's alarm for a named mistake."""
@@ -340,3 +346,9 @@ class WordAddressControl:
     def write_variable(self, channel: Channel, name: str, value: object) -> None:
         """Set a variable as a user names it."""
         channel.memory.write_text(name, value)
+
+
+def _data(files: tuple[str, ...]) -> list[Traversable]:
+    """Data files of the controls, named as `folder/file`."""
+    named = [file.split("/") for file in files]
+    return [resources.files(f"polycnc.control.{folder}").joinpath(name) for folder, name in named]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.interlocks import note_reference_return
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.radius import suspended
 from polycnc.toolpath import Kind
@@ -99,6 +100,7 @@ def go_to_reference(channel: Channel, words: Words, number: int) -> None:
         machine[axis] = channel.control.reference_point(channel, axis, number)
     with suspended(channel):
         channel.straight(Kind.REF, c.from_machine(machine), nan)
+    note_reference_return(channel, [channel.axes[axis] for axis, _, _ in words.axes()])
 
 
 def return_to_reference(channel: Channel, words: Words) -> None:

@@ -1,99 +1,137 @@
-"""Interlocks of the machine's own controller (PLC): M codes and S words that it refuses in some states.
+"""Interlocks of the machine's own controller (PLC) while a program is calculated: words that it refuses in some states.
 
-A control states a table of `Interlock` rows. Only what a program itself brings about is looked at: where the axes
-stand, and what earlier M codes have done.
+The rows are data (`plc.toml` of the control, read by `machine/plc.py`). Here only what a program itself brings about is
+known, and what the setup says of the machine: where the axes stand, and what earlier M codes have done. On the main
+run's clock the same rows are asked with the live signals, and this module stands aside.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable, Mapping
 
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import MCode, Step
+    from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
+    from polycnc.machine.plc import Plc
 
 #: How close to its change point an axis must stand, mm.
 WINDOW_MM = 0.01
+#: Two-digit M codes belong to the builder's list; longer ones are left to users.
+LISTED_M_CODES = range(100)
 
 
-@dataclass(frozen=True, slots=True)
-class Interlock:
-    """A row: these words are refused with this alarm while a state holds."""
-
-    words: frozenset[str]
-    holds: Callable[[Channel], bool]
-    alarm: str
-
-
-def words(*names: str) -> frozenset[str]:
-    """The words of an interlock: `M6`, `S`."""
-    return frozenset(names)
-
-
-def away_from_tool_change(channel: Channel) -> bool:
-    """Z stands neither at its first nor at its second reference point."""
+def _z_stands_at(channel: Channel, *points: int) -> bool:
     c = channel.coordinates
     z = c.geometry[2]
     if z < 0:
-        return False
-    at = c.machine[z]
-    return all(abs(at - channel.control.reference_point(channel, z, number)) > WINDOW_MM for number in (1, 2))
+        return True
+    reference = channel.control.reference_point
+    return any(abs(c.machine[z] - reference(channel, z, number)) <= WINDOW_MM for number in points)
 
 
-def tool_unclamped(channel: Channel) -> bool:
-    """M11 has released the tool."""
-    return bool(channel.memory.tool_unclamped)
+#: Signals that follow from the state of the program.
+STATES: Mapping[str, Callable[[Channel], bool]] = {
+    "Z_AT_REFERENCE": lambda channel: _z_stands_at(channel, 1),
+    "Z_AT_CHANGE_POINT": lambda channel: _z_stands_at(channel, 1, 2),
+    "AUTO": lambda channel: channel.setup.switches.mode.lower() != "mdi",
+    "MDI": lambda channel: channel.setup.switches.mode.lower() == "mdi",
+}
 
 
-def not_in_mdi(channel: Channel) -> bool:
-    """The program does not run in MDI mode."""
-    return channel.setup.switches.mode.lower() != "mdi"
+def refuse(channel: Channel, word: str) -> None:
+    """Raise the machine's alarm if it refuses a word now; else let its rules answer to the word."""
+    plc: Plc = channel.control.plc
+    signals: dict[str, float] | None = channel.memory.machine_signals
+    if signals is None:
+        return
+
+    def value(name: str) -> float:
+        state = STATES.get(name)
+        return float(state(channel)) if state is not None else signals.get(name, 0.0)
+
+    row = plc.refusal(word, value)
+    if row is not None and row.stops:
+        channel.mark = channel.toolpath.mark()  # what the block has done before stays: the machine stops here
+        raise AlarmError(row.code, address=word.removesuffix("_CODE"))
+    plc.latch(word, signals)
 
 
-def guarded(row: MCode, interlocks: tuple[Interlock, ...]) -> MCode:
-    """A row of an M code behind its interlocks."""
-    name = f"M{row.code}"
-    mine = [interlock for interlock in interlocks if name in interlock.words]
-    if not mine:
+def guarded(row: MCode, plc: Plc) -> MCode:
+    """A row of an M code behind the machine's interlocks."""
+    word = f"M{row.code}"
+    if not plc.knows(word):
         return row
     handler = row.handler
 
     def act(channel: Channel, block: Words) -> None:
-        _refuse(channel, mine, name)
+        refuse(channel, word)
         if handler is not None:
             handler(channel, block)
 
     return replace(row, handler=act)
 
 
-def guarded_speed(step: Step, interlocks: tuple[Interlock, ...]) -> Step:
-    """The step of an S word behind its interlocks."""
-    mine = [interlock for interlock in interlocks if "S" in interlock.words]
+def unlisted(row: MCode, plc: Plc) -> MCode:
+    """A row of an M code that neither the builder's list nor the machine file has."""
+    refusal = plc.refusal("UNKNOWN_M", lambda _name: 0.0)
+    if refusal is None or row.code not in LISTED_M_CODES:
+        return row
+    code = refusal.code
+
+    def act(_channel: Channel, _block: Words) -> None:
+        raise AlarmError(code, address=f"M{row.code}")
+
+    return replace(row, handler=act)
+
+
+def nothing(_channel: Channel, _values: list[float]) -> None:
+    """A word that only the machine's rules answer to."""
+
+
+def guarded_step(step: Step, words: Iterable[str], plc: Plc) -> Step:
+    """A step behind the interlocks of some words, asked in their order."""
+    mine = [word for word in words if plc.knows(word)]
 
     def act(channel: Channel, values: list[float]) -> None:
-        _refuse(channel, mine, "S")
+        for word in mine:
+            refuse(channel, word)
         step(channel, values)
 
     return act if mine else step
 
 
-def _refuse(channel: Channel, interlocks: list[Interlock], word: str) -> None:
-    for interlock in interlocks:
-        if interlock.holds(channel):
-            raise AlarmError(interlock.alarm, address=word)
+def guarded_speed(step: Step, builder: Builder) -> Step:
+    """S behind its interlock; where the block starts the spindle too, the start is what is refused."""
+    control: Any = builder.control
+    starts = [f"M{number}" for number in builder.m_codes if number in (3, 4)]
+    return guarded_step(step, (*starts[-1:], "S_CODE"), control.plc)
 
 
-def clamp_tool(channel: Channel, _words: Words) -> None:
-    """M10."""
-    channel.memory.tool_unclamped = False
+def guarded_motion(step: Step, builder: Builder, plan: Plan) -> Step:
+    """A move behind the interlocks of its axes: a clamped rotary axis."""
+    control: Any = builder.control
+    rotary = [data.name for data in builder.channel.axis_data if data.rotary]
+    moved = [builder.channel.axes[word.axis] for word in plan.axis_words]
+    words = [f"MOVE_{axis}" for axis in moved if axis in rotary]
+    fifth = ["MOVE_FIFTH_AXIS"] if any(axis in rotary[1:2] for axis in moved) else []
+    return guarded_step(step, (*words, *fifth), control.plc)
 
 
-def unclamp_tool(channel: Channel, _words: Words) -> None:
-    """M11."""
-    channel.memory.tool_unclamped = True
+def note_reference_return(channel: Channel, axes: Iterable[str]) -> None:
+    """Axes have returned to a reference point: their position is known again."""
+    if channel.memory.machine_signals is not None:
+        channel.memory.machine_signals.update({f"NOT_REFERENCED_{axis}": 0.0 for axis in axes})
+
+
+def note_tool_number(channel: Channel) -> None:
+    """The block of a tool change that is a macro names its tool as an argument: the machine has its number."""
+    plc: Plc = channel.control.plc
+    if channel.memory.machine_signals is not None:
+        plc.latch("T_CODE", channel.memory.machine_signals)

@@ -89,7 +89,7 @@ class Memory:
         tool: Tool in the spindle; `next_tool` is selected.
         last_m: The last M code sent to the machine.
         interruptions: The interruption program, once M96 has named it.
-        tool_unclamped: The program has released the tool.
+        machine_signals: What the program and the setup have told the machine; None where the main run asks it.
         armed_tapping: What M29 found, until the tapping cycle that it is meant for.
         h: Number of the active length offset; `d` of the radius offset.
         side: Side that G41/G42 ask for: 1, -1, 0 off.
@@ -130,7 +130,10 @@ class Memory:
         self.next_tool = 0
         self.last_m = 0
         self.interruptions: Interruptions | None = None
-        self.tool_unclamped = False
+        given = setup.switches.signals.items()
+        self.machine_signals: dict[str, float] | None = {
+            name: float(value) for name, value in given if isinstance(value, int | float)
+        }
         self.armed_tapping: RigidTapping | None = None
         self.h = 0
         self.d = 0

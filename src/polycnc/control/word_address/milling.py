@@ -8,7 +8,7 @@ from polycnc.compensation.policies import HARTFORD, Policy
 from polycnc.control.word_address import corners, normal_line, nurbs
 from polycnc.control.word_address.codes import MCode
 from polycnc.control.word_address.custom_macro import CustomMacroControl
-from polycnc.control.word_address.interlocks import Interlock, guarded
+from polycnc.control.word_address.interlocks import guarded, guarded_motion, unlisted
 from polycnc.control.word_address.length import renew_length
 from polycnc.control.word_address.normal_line import NormalLineParameters
 from polycnc.control.word_address.parameter_input import plan_parameter_block
@@ -29,13 +29,11 @@ class MillingControl(CustomMacroControl):
     """A machining centre of the FANUC kind.
 
     Attributes:
-        interlocks: Words that the machine refuses in some states.
         OVERRUN_PARAMETER: Parameter of each axis with the overrun of G60.
         NORMAL_LINE_PARAMETERS: Parameters of G41.1 and G42.1.
         LENGTH_TRAVELS_ALONE: G43 H without a Z word moves Z by the offset at once.
     """
 
-    interlocks: ClassVar[tuple[Interlock, ...]] = ()
     OVERRUN_PARAMETER: ClassVar[int] = 5440
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
     NORMAL_LINE_PARAMETERS: ClassVar[NormalLineParameters] = NormalLineParameters(5480, 5481, 5482, 5483)
@@ -59,7 +57,8 @@ class MillingControl(CustomMacroControl):
             raise self.fail("inverse_time_feed", address=mode["motion"])
         step = plan_with_direction(builder, plan) or super().plan_motion(builder, plan)
         leaves_curve = builder.before["motion"] == "G6.2" != mode["motion"]
-        return nurbs.then(step) if leaves_curve else step
+        step = nurbs.then(step) if leaves_curve else step
+        return step and guarded_motion(step, builder, plan)
 
     def plan_corner(self, builder: Builder) -> Step | None:
         """What ,R and ,C ask for."""
@@ -87,7 +86,11 @@ class MillingControl(CustomMacroControl):
         """The row of an M code behind the machine's interlocks; of several in a block only the last acts."""
         if number != builder.m_codes[-1] and not self.several_m_codes(builder.channel):
             return MCode(number, silent=True)
-        return guarded(super().m_row(builder, number), self.interlocks)
+        row = super().m_row(builder, number)
+        listed = number in self.m_codes or number in builder.channel.machine.m_functions
+        if listed or row.silent or self.plc.knows(f"M{number}"):
+            return guarded(row, self.plc)
+        return unlisted(row, self.plc)
 
     def several_m_codes(self, _channel: Channel) -> bool:
         """Whether a block may hold several M codes (Hartford manual 2.3.3: the last one counts)."""
