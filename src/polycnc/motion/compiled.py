@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from array import array
     from collections.abc import Callable
 
-MODULES = ("arcs", "columns", "corners", "feeds", "hold", "jerk", "lay", "speeds")
+MODULES = ("alone", "arcs", "columns", "corners", "feeds", "hold", "jerk", "lay", "speeds")
 
 
 class Kernels(NamedTuple):

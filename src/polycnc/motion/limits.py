@@ -17,7 +17,7 @@ MM_PER_INCH = 25.4
 #: Deviation that counts as none: what a control resolves.
 EXACT_MM = 0.001
 #: RAMP_S in terms of the time in which an axis builds up its acceleration.
-RAMPS = 1.5
+RAMPS = 1.0
 
 
 def channel_axes(machine: Machine, channel: int, names: tuple[str, ...]) -> tuple[Axis | None, ...]:
@@ -113,8 +113,8 @@ def context_fields(
 def averages(context: Context, machine: Machine, settings: Settings) -> tuple[float, float]:
     """RAMP_S and BLEND_S of a context, seconds; zero without limited jerk.
 
-    RAMP_S is the time in which the slowest axis builds up its acceleration, and half as much again: then there
-    is a balance between short ways, which it delays, and long ones, which need acceleration. BLEND_S lets a corner use
+    RAMP_S is the time in which the slowest axis builds up its acceleration: a balance between short ways, which it
+    delays, and long ones, which need acceleration. Lines from rest to rest choose theirs (`kernels/alone.py`). BLEND_S lets a corner use
     up its parts of the tolerance and of the jerk alike (`kernels/jerk.py`).
     """
     axes = [axis for axis in machine.axes if axis.jerk > 0.0 and axis.acceleration > 0.0]

@@ -14,6 +14,7 @@ from math import inf, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.motion.compiled import PLAIN, compiled_kernels
+from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
     BLOCKS,
@@ -170,6 +171,7 @@ class Planner:
         for chunk in self._toolpath.chunks:
             if chunk.first >= self._next_row:
                 self.take(chunk)
+        settle_alone(self._pieces, self._axes, self._limits, self._state)
         self._look_ahead(finish=True)
         self._settle_parallel(self._next_row)
         return self._plan()

@@ -16,6 +16,7 @@ import numpy as np
 
 from polycnc.motion.kernels.columns import (
     BENT,
+    BLEND,
     CURVED,
     END2,
     FORM,
@@ -23,6 +24,7 @@ from polycnc.motion.kernels.columns import (
     MARGIN,
     PEAK2,
     PLACES,
+    RAMP,
     RATE,
     ROW,
     SPEED2,
@@ -98,15 +100,11 @@ class Run:
     Args:
         pieces: Records of planned pieces, (m, width), from rest to rest.
         n: Number of axes.
-        ramp: RAMP_S of the run, seconds.
-        blend: BLEND_S of the run, seconds.
         limits: For a rapid of each axis by itself: velocity and acceleration of every axis.
     """
 
-    def __init__(
-        self, pieces: Any, n: int, ramp: float, blend: float, limits: Sequence[tuple[float, float]] = ()
-    ) -> None:
-        self._ramp, self._blend, self._n = ramp, blend, n
+    def __init__(self, pieces: Any, n: int, limits: Sequence[tuple[float, float]] = ()) -> None:
+        self._ramp, self._blend, self._n = float(pieces[0, RAMP]), float(pieces[0, BLEND]), n
         self.rows = pieces[:, ROW].astype(np.int64)
         block = [pieces[:, VECTORS + k * n : VECTORS + (k + 1) * n] for k in range(PLACES + 2)]
         self._start, self._end = block[PLACES], block[PLACES + 1]

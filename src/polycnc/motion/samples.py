@@ -9,8 +9,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from polycnc.motion.kernels.columns import FORM, ROW, SPEED2, TIMED, piece_width
-from polycnc.motion.limits import averages
+from polycnc.motion.kernels.columns import FORM, RAMP, ROW, SPEED2, TIMED, piece_width
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.table import CURVE_WIDTH
 
@@ -150,9 +149,8 @@ class Sampler:
         pieces = np.concatenate(self._open)
         self._open = []
         first = int(pieces[0, ROW])
-        ramp, blend = averages(self._facts[first].context, self._machine, self._settings)
-        limits = self._planner.rapids(ramp) if pieces[0, FORM] == TIMED else ()
-        run = Run(pieces, self._n, ramp, blend, limits)
+        limits = self._planner.rapids(float(pieces[0, RAMP])) if pieces[0, FORM] == TIMED else ()
+        run = Run(pieces, self._n, limits)
         self._stand(first, run)
         self._move(run)
         self._position = run.end

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.motion.kernels.columns import piece_width
-from polycnc.motion.limits import averages
 from polycnc.motion.planner import Planner
 from polycnc.toolpath import Kind, Toolpath
 
@@ -48,7 +47,7 @@ def share_after(channel: Channel, end: list[float], feed: float, seconds: float)
     if not found:
         return None
     pieces = np.array(found).reshape(-1, piece_width(n))
-    run = Run(pieces, n, *averages(context, channel.machine, settings))
+    run = Run(pieces, n)
     if seconds >= run.seconds:
         return None
     axis = run.main_axis

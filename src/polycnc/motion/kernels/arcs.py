@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from math import atan2, ceil, cos, inf, pi, sin, sqrt
 
+from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
+    ALONE,
     BASIS,
     BEND,
     BENT,
@@ -40,6 +42,7 @@ from polycnc.motion.kernels.columns import (
     PULL,
     RADIUS,
     RAMP_S,
+    REST,
     RISE,
     ROTARY,
     ROTARY_WEIGHT,
@@ -213,7 +216,10 @@ def lay_arc(
     if gentle:
         cap2, pull = arc_hold(contexts, record, n, limits, state, curvature(n, limits, weight, state), speed)
         entry2 = min(entry2, cap2)
-    entry2 = join(contexts, record, n, limits, state, length, weight, min(entry2, speed * speed))
+    entry2 = join(contexts, record, n, limits, state, length, weight, min(entry2, speed * speed), False)
+    if state[REST] > 0.0:
+        settle_alone(pieces, n, limits, state)
+    state[ALONE] = 0.0
     state[JOINT_PULL] = min(state[JOINT_PULL], pull)
     for part in range(parts):
         if follows_radius(contexts, record):

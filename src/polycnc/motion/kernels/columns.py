@@ -58,14 +58,14 @@ RAPID_BY_AXIS, RAMP_S, BLEND_S, DRIVE_SPEED, DRIVE_REDUCTION, FRAME, OFFSETS = 1
 # finds there, SPEED2 what `forward` chooses, END2 the x that it leaves the piece with, TIME the seconds. PULL
 # is the acceleration along a straight piece, the seconds of a timed one. `forward` also says how: up to PEAK2 and
 # down again at RATE. PAUSE are the seconds that the axes rest before the piece so that the averages come to
-# rest. HOLD2 and HOLD_PULL bound speed and acceleration along the path
-# on HOLD_WAY before and behind its start (`hold.py`). MARGIN is
-# the factor by which q' and q'' are stored larger than they are. Behind VECTORS stand q' at start and end, q''
+# rest. HOLD2 and HOLD_PULL bound speed and acceleration along the path on HOLD_WAY before and behind its start
+# (`hold.py`). RAMP and BLEND are the averages of the run that begins with the piece, seconds. MARGIN is the factor
+# by which q' and q'' are stored larger than they are. Behind VECTORS stand q' at start and end, q''
 # at start and end, and the axes' positions at start and end: 6·n numbers.
 (
     LENGTH, CAP2, PULL, ENTRY2, REACH2, SPEED2, END2, TIME, FORM, ROW, SLOT,
-    PEAK2, RATE, PAUSE, HOLD2, HOLD_PULL, HOLD_WAY, MARGIN, VECTORS,
-) = range(19)  # fmt: skip
+    PEAK2, RATE, PAUSE, HOLD2, HOLD_PULL, HOLD_WAY, RAMP, BLEND, MARGIN, VECTORS,
+) = range(21)  # fmt: skip
 PLACES, PIECE_BLOCKS = 4, 6
 #: A line; a part of a curve under the limits of a line (with limited jerk); a part of a curve under limits that
 #: change along it; a rapid of every axis by itself.
@@ -74,15 +74,16 @@ STRAIGHT, BENT, CURVED, TIMED = 0, 1, 2, 3
 # `state`: what is carried from row to row,
 STOP, EXIT2, ROW_LENGTH, METRIC, AT_STATION, SMOOTH, PIECES, WITHOUT_FEED = range(8)
 # for limited jerk: pull of the last row around its end; highest cap and pull since the axes last stood, lowest
-# holds within reach, way for which holds reach ahead; seconds that a change of speed is spread over,
-EXIT_PULL, TOP2, TOP_PULL, LOW2, LOW_PULL, AHEAD, WINDOW = range(8, 15)
-# the joint at hand: pull around it, seconds of rest,
-JOINT_PULL, REST = range(15, 17)
+# holds within reach, way for which holds reach ahead; seconds that a change of speed is spread over; the last row
+# is a line (1), and one from rest (2),
+EXIT_PULL, TOP2, TOP_PULL, LOW2, LOW_PULL, AHEAD, WINDOW, ALONE = range(8, 16)
+# the joint at hand: pull around it, seconds of rest, averages of a run that begins there,
+JOINT_PULL, REST, RUN_RAMP, RUN_BLEND = range(16, 20)
 # the row at hand (CURVE: where its record in `curves` begins, or -1; FACING: its end in X, work coordinates),
-KIND, NUMBER, ROW_SLOT, FEED, CURVE, FACING = range(17, 23)
+KIND, NUMBER, ROW_SLOT, FEED, CURVE, FACING = range(20, 26)
 # its arc (unit vectors to the start, along the way there, and of the axis; angle, radius, growth of the
 # radius, rise),
-BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 23, 32, 33, 34, 35, 36
+BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 26, 35, 36, 37, 38, 39
 # and blocks of n numbers: machine position before the row, q' at the end of the last piece; end of the row,
 # way there, and room for one q' and q''; q'' at the end of the last piece.
 POSITION, TANGENT, TARGET, DELTA, UNIT, BEND, BENT_BEFORE, BLOCKS = range(8)

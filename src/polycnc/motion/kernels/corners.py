@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import inf, sqrt
 
+from polycnc.motion.kernels.alone import pays_to_rest
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
     BLEND_S,
@@ -17,6 +18,8 @@ from polycnc.motion.kernels.columns import (
     REST,
     ROTARY,
     ROW_LENGTH,
+    RUN_BLEND,
+    RUN_RAMP,
     SMOOTH,
     SMOOTH_COS,
     SPLINE,
@@ -43,16 +46,18 @@ def join(
     length: float,
     weight: float,
     cap2: float,
+    is_line: bool,
 ) -> float:
     """Largest x at the joint between the row before and this one, which starts along `unit` with `cap2`.
 
     Zero after a stop, where the path turns back, and where the feed counts another length than before. Where
     two chords of a spline meet without a corner, SMOOTH becomes 2, and the curvature decides instead of the
     corner. With limited jerk JOINT_PULL becomes the pull around the joint, and REST the seconds until the averages
-    have come to rest.
+    have come to rest; it also rests where that takes less time (`alone.py`).
     """
     ramp = contexts[record + RAMP_S]
     state[WINDOW] = ramp + 2.0 * contexts[record + BLEND_S]
+    state[RUN_RAMP], state[RUN_BLEND] = ramp, contexts[record + BLEND_S]
     state[REST], state[JOINT_PULL] = 0.0, state[EXIT_PULL]
     stopped = state[STOP] != 0.0 or state[METRIC] != weight
     smooth = state[KIND] == SPLINE and state[SMOOTH] != 0.0
@@ -69,6 +74,7 @@ def join(
         state[REST], state[JOINT_PULL] = state[WINDOW], inf
         return 0.0
     cap2 = min(cap2, state[EXIT2])
+    top2 = cap2
     if smooth and cosine > SMOOTH_COS:
         state[SMOOTH] = 2.0
         if ramp == 0.0:
@@ -82,6 +88,13 @@ def join(
         cap2 = min(cap2, own2)
     if ramp > 0.0:
         cap2 = corner_hold2(contexts, record, n, limits, state, length, cap2)
+        if (
+            is_line
+            and state[SMOOTH] != 2.0
+            and pays_to_rest(contexts, record, n, limits, state, length, cap2, top2)
+        ):
+            state[REST], state[JOINT_PULL] = state[WINDOW], inf
+            return 0.0
     return cap2
 
 

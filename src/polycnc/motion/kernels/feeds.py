@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import inf, pi, sqrt
 
 from polycnc.motion.kernels.columns import (
+    BLEND,
     BLOCKS,
     CURVE,
     CUTS_PER_PIECE,
@@ -24,6 +25,7 @@ from polycnc.motion.kernels.columns import (
     PIECES,
     PLACES,
     POSITION,
+    RAMP,
     RAMP_S,
     RAPID,
     REF,
@@ -33,6 +35,8 @@ from polycnc.motion.kernels.columns import (
     ROW_SLOT,
     RPM,
     RPM_LIMIT,
+    RUN_BLEND,
+    RUN_RAMP,
     SLOT,
     SPARE_PIECES,
     STATE_BLOCKS,
@@ -141,6 +145,7 @@ def next_piece(pieces: Floats, state: Floats, form: int, cap2: float, n: int) ->
 def open_joint(pieces: Floats, at: int, state: Floats, entry2: float) -> None:
     """Give the first piece of a row what `join` has found."""
     pieces[at + HOLD2], pieces[at + HOLD_PULL], pieces[at + PAUSE] = entry2, state[JOINT_PULL], state[REST]
+    pieces[at + RAMP], pieces[at + BLEND] = state[RUN_RAMP], state[RUN_BLEND]
 
 
 def place(pieces: Floats, at: int, n: int, state: Floats, first: float, last: float) -> None:

@@ -15,6 +15,7 @@ from math import inf, sqrt
 
 from polycnc.motion.kernels.columns import (
     AHEAD,
+    BENT,
     CAP2,
     ENTRY2,
     FORM,
@@ -24,11 +25,11 @@ from polycnc.motion.kernels.columns import (
     LENGTH,
     LOW2,
     LOW_PULL,
+    MARGIN,
     PAUSE,
     PIECES,
     PLACES,
     PULL,
-    STRAIGHT,
     TIMED,
     TOP2,
     TOP_PULL,
@@ -124,11 +125,14 @@ def hold_ahead(pieces: Floats, p: int, n: int, state: Floats) -> None:
 def worth_cutting(pieces: Floats, at: int, edge: float) -> bool:
     """Whether a bound that holds over `edge` mm of a piece leaves much of it free."""
     length = pieces[at + LENGTH]
-    return pieces[at + FORM] == STRAIGHT and edge < (1.0 - WORTH_CUTTING) * length
+    return pieces[at + FORM] <= BENT and edge < (1.0 - WORTH_CUTTING) * length
 
 
 def cut(pieces: Floats, p: int, n: int, state: Floats, first: float) -> bool:
-    """Cut a straight piece behind its first `first` mm; false where there is no room for one more."""
+    """Cut a piece behind its first `first` mm; false where there is no room for one more.
+
+    A part of a curve is the cubic through its ends with their tangents (`run.py`); both parts lie on it.
+    """
     width, count = piece_width(n), int(state[PIECES])
     if (count + 1) * width > len(pieces):
         return False
@@ -142,9 +146,22 @@ def cut(pieces: Floats, p: int, n: int, state: Floats, first: float) -> bool:
     rest = at + width
     pieces[rest + LENGTH] = pieces[at + LENGTH] - first
     pieces[at + LENGTH] = first
-    for i in range(VECTORS + PLACES * n, VECTORS + (PLACES + 1) * n):
-        start, end = pieces[at + i], pieces[at + i + n]
-        pieces[at + i + n] = pieces[rest + i] = start + share * (end - start)
+    bent = pieces[at + FORM] == BENT
+    scale = (first + pieces[rest + LENGTH]) / pieces[at + MARGIN]
+    for i in range(VECTORS, VECTORS + n):
+        place = i + PLACES * n
+        chord = pieces[at + place + n] - pieces[at + place]
+        here, there = pieces[at + place] + share * chord, chord / scale
+        if bent:
+            leave, arrive = pieces[at + i] * scale - chord, pieces[at + i + n] * scale - chord
+            here += share * (1.0 - share) * ((1.0 - share) * leave - share * arrive)
+            slope = (1.0 - share) * (1.0 - 3.0 * share) * leave + share * (3.0 * share - 2.0) * arrive
+            there = (chord + slope) / scale
+            bend = pieces[at + i + 2 * n]
+            bend += share * (pieces[at + i + 3 * n] - bend)
+            pieces[at + i + 3 * n] = pieces[rest + i + 2 * n] = bend
+        pieces[at + place + n] = pieces[rest + place] = here
+        pieces[at + i + n] = pieces[rest + i] = there
     pieces[rest + PAUSE], pieces[rest + HOLD_WAY] = 0.0, 0.0
     pieces[rest + HOLD2] = pieces[rest + HOLD_PULL] = inf
     pieces[rest + ENTRY2] = pieces[at + CAP2]

@@ -46,9 +46,9 @@ STRAY_CORNER, STRAY_CURVE = 0.5, 0.5
 NO_TURN = 1e-9
 
 
-def axis_pull(contexts: Floats, record: int, n: int, limits: Floats, i: int) -> float:
-    """Acceleration of an axis that neither exceeds its own limit nor, averaged over RAMP_S, that of jerk."""
-    pull, ramp = limits[ACCELERATION * n + i], contexts[record + RAMP_S]
+def axis_pull(ramp: float, n: int, limits: Floats, i: int) -> float:
+    """Acceleration of an axis that neither exceeds its own limit nor, averaged over `ramp` seconds, that of jerk."""
+    pull = limits[ACCELERATION * n + i]
     if ramp > 0.0:
         pull = min(pull, 0.5 * limits[JERK * n + i] * ramp)
     return pull
@@ -63,7 +63,7 @@ def line_pull(contexts: Floats, record: int, n: int, limits: Floats, state: Floa
     for i in range(n):
         share = abs(state[STATE_BLOCKS + UNIT * n + i])
         if share > 0.0:
-            own = axis_pull(contexts, record, n, limits, i)
+            own = axis_pull(contexts[record + RAMP_S], n, limits, i)
             pull = min(pull, own / share if alone else ALONG * own / max(share, 1.0))
     return pull
 
@@ -120,7 +120,7 @@ def arc_hold(
     for k in range(3):
         i = int(limits[geometry + k])
         if i >= 0:
-            pull = min(pull, ALONG * axis_pull(contexts, record, n, limits, i))
+            pull = min(pull, ALONG * axis_pull(contexts[record + RAMP_S], n, limits, i))
             if state[BASIS + k] != 0.0 or state[BASIS + 3 + k] != 0.0:
                 a, j = min(a, limits[ACCELERATION * n + i]), min(j, limits[JERK * n + i])
     tolerance = contexts[record + TOLERANCE]

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from math import inf
 
+from polycnc.motion.kernels.alone import best_ramp, settle_alone
 from polycnc.motion.kernels.arcs import find_arc, lay_arc
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
+    ALONE,
     AT_STATION,
     BEND,
     BENT,
     BENT_BEFORE,
-    BLEND_S,
+    BLEND,
     CAP2,
     CURVE,
     CURVE_WIDTH,
@@ -35,6 +37,7 @@ from polycnc.motion.kernels.columns import (
     HAS_FRAME,
     HELIX_CCW,
     INVERSE_TIME,
+    JERK,
     JOINT_PULL,
     KIND,
     LENGTH,
@@ -47,9 +50,11 @@ from polycnc.motion.kernels.columns import (
     PIECES,
     POSITION,
     PULL,
+    RAMP,
     RAMP_S,
     RAPID_BY_AXIS,
     RAPID_STOPS,
+    REST,
     ROTARY_WEIGHT,
     ROW_LENGTH,
     ROW_SLOT,
@@ -196,11 +201,18 @@ def lay_rapid_by_axis(
     delta = STATE_BLOCKS + DELTA * n
     if not has_room(pieces, contexts, record, state, 1, n):
         return False
-    seconds = 0.0
+    settle_alone(pieces, n, limits, state)
+    state[ALONE] = 0.0
+    seconds, ramp = 0.0, 0.0
+    for i in range(n):
+        way = abs(state[delta + i])
+        if way > 0.0 and contexts[record + RAMP_S] > 0.0:
+            top, jerk = limits[TOP_RAPID * n + i], limits[JERK * n + i]
+            ramp = max(ramp, best_ramp(way, top, jerk, contexts[record + RAMP_S]))
     for i in range(n):
         way, top = abs(state[delta + i]), limits[TOP_RAPID * n + i]
         if way > 0.0:
-            pull = axis_pull(contexts, record, n, limits, i)
+            pull = axis_pull(ramp, n, limits, i)
             seconds = max(seconds, straight_time(0.0, 0.0, top * top, pull, way))
     if seconds > 0.0:
         at = next_piece(pieces, state, TIMED, 0.0, n)
@@ -208,7 +220,8 @@ def lay_rapid_by_axis(
         pieces[at + LENGTH] = norm(state, delta, n, limits, 1.0)
         pieces[at + CAP2] = pieces[at + ENTRY2] = 0.0
         pieces[at + PULL] = seconds
-        pieces[at + PAUSE] = contexts[record + RAMP_S] + 2.0 * contexts[record + BLEND_S]
+        pieces[at + PAUSE] = pieces[at + RAMP] = ramp
+        pieces[at + BLEND] = 0.0
         state[STOP] = 1.0
     return True
 
@@ -243,8 +256,12 @@ def lay_straight(
         asked = asked_speed(curves, contexts, record, state, length, radius)
         if part == 0:
             speed = min(top, bounded(asked, state))
-            entry2 = join(contexts, record, n, limits, state, length, weight, speed * speed)
+            is_line = parts == 1 and state[KIND] not in (SPLINE, THREAD, TAP)
+            entry2 = join(contexts, record, n, limits, state, length, weight, speed * speed, is_line)
             state[JOINT_PULL] = min(state[JOINT_PULL], pull)
+            if state[REST] > 0.0:
+                settle_alone(pieces, n, limits, state)
+            state[ALONE] = (2.0 if state[REST] > 0.0 else 1.0) if is_line else 0.0
         else:
             speed = min(top, asked if asked > 0.0 else inf)
             entry2 = min(state[EXIT2], speed * speed)

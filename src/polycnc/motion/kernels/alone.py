@@ -1,0 +1,107 @@
+"""Limited jerk: a line from rest to rest has averages of its own, and corners at which it pays to rest.
+
+Averaged over T, a line from rest to rest may accelerate by `u = j·T/2` (`jerk.py`): a long T delays its end, a short
+one takes the acceleration. Without a level part the time `2·√(L/u) + T` is least for `T = ∛(2·L/j)`, with one
+(`L/v + v/u + T`) for `T = √(2·v/j)`; the smaller of the two holds. That is 3·∛(2·L/j), a fifth more than any motion
+within the jerk could do. Positions need no average, for there is no corner.
+
+A corner that is passed at c holds both lines at c on `c·W/2` around it (`hold.py`): it costs W at least. A rest there
+often costs less, because T is then chosen for each line.
+"""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+
+from polycnc.motion.kernels.columns import (
+    ACCELERATION,
+    ALONE,
+    BLEND,
+    CAP2,
+    JERK,
+    LENGTH,
+    PAUSE,
+    PIECES,
+    PLACES,
+    PULL,
+    RAMP,
+    RAMP_S,
+    ROW_LENGTH,
+    STATE_BLOCKS,
+    TANGENT,
+    UNIT,
+    VECTORS,
+    WINDOW,
+    Floats,
+    piece_width,
+)
+
+#: Part of the acceleration that is reckoned with on a line that is not alone.
+SHARED = 0.35
+
+
+def best_ramp(length: float, top: float, jerk: float, longest: float) -> float:
+    """Seconds to average a line from rest to rest over, so that it takes the least time; at most `longest`."""
+    ramp: float = min(longest, (2.0 * length / jerk) ** (1.0 / 3.0))
+    return min(ramp, sqrt(2.0 * top / jerk)) if top < inf else ramp
+
+
+def settle_alone(pieces: Floats, n: int, limits: Floats, state: Floats) -> None:
+    """The axes come to rest behind the last row: if it is a line from rest, it gets averages of its own."""
+    count = int(state[PIECES])
+    if state[ALONE] != 2.0 or count == 0:
+        return
+    state[ALONE] = 0.0
+    at = (count - 1) * piece_width(n)
+    here, length = at + VECTORS + PLACES * n, pieces[at + LENGTH]
+    pull, jerk = inf, inf
+    for i in range(n):
+        share = abs(pieces[here + n + i] - pieces[here + i]) / length
+        if share > 0.0:
+            pull = min(pull, limits[ACCELERATION * n + i] / share)
+            jerk = min(jerk, limits[JERK * n + i] / share)
+    ramp = best_ramp(length, sqrt(pieces[at + CAP2]), jerk, pieces[at + RAMP])
+    pieces[at + PULL] = min(pull, 0.5 * jerk * ramp)
+    pieces[at + RAMP], pieces[at + BLEND], pieces[at + PAUSE] = ramp, 0.0, ramp
+
+
+def pays_to_rest(
+    contexts: Floats,
+    record: int,
+    n: int,
+    limits: Floats,
+    state: Floats,
+    length: float,
+    corner2: float,
+    top2: float,
+) -> bool:
+    """Whether two lines take less time with a rest between them than if the corner is passed at `corner2`."""
+    if state[ALONE] == 0.0:
+        return False
+    passing, resting, window = 0.0, 0.0, state[WINDOW]
+    corner, top = sqrt(corner2), sqrt(top2)
+    for side in range(2):
+        direction = STATE_BLOCKS + (TANGENT if side == 0 else UNIT) * n
+        way = state[ROW_LENGTH] if side == 0 else length
+        pull, jerk = inf, inf
+        for i in range(n):
+            share = abs(state[direction + i])
+            if share > 0.0:
+                pull = min(pull, limits[ACCELERATION * n + i] / share)
+                jerk = min(jerk, limits[JERK * n + i] / share)
+        ramp = best_ramp(way, top, jerk, contexts[record + RAMP_S])
+        resting += ramp + rest_to_rest(way, 0.0, top, min(pull, 0.5 * jerk * ramp))
+        held = corner * window
+        if held >= way:
+            passing += way / corner
+        else:
+            passing += window + rest_to_rest(way - held, corner, top, SHARED * pull)
+    return resting < passing
+
+
+def rest_to_rest(way: float, slow: float, top: float, pull: float) -> float:
+    """Seconds of a way that begins and ends at a speed, under constant acceleration."""
+    peak2 = slow * slow + pull * way
+    if peak2 <= top * top:
+        return 2.0 * (sqrt(peak2) - slow) / pull
+    return 2.0 * (top - slow) / pull + (way - (top * top - slow * slow) / pull) / top
