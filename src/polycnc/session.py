@@ -169,6 +169,7 @@ class Result:
         """`work` and `machine` display at the end of the program, before its implicit reset."""
         channel, group = self.channel, self.channel.group
         shown = self._shown(channel, self.display)
+        own = dict(zip(channel.axes, (axis.name for axis in channel.axis_data), strict=True))
         for other in group.channels[1:] if group is not None else ():
             # An axis that another channel has moved last stands where that one shows it.
             for axis, value in zip(other.axis_data, other.axes, strict=True):
@@ -176,6 +177,7 @@ class Result:
                     other.memory is not None
                     and group is not None
                     and group.moved_by[axis.name] == other.number
+                    and own.get(value, axis.name) == axis.name
                 ):
                     elsewhere = self._shown(
                         other, Display(other.toolpath, axis_layout(self.machine, other.number))

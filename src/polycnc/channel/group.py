@@ -125,6 +125,11 @@ class ChannelGroup:
         """Choose the program that the next start of a channel runs."""
         self._member(number).selected = program
 
+    def is_selected(self, number: int) -> bool:
+        """Whether a channel has a program: the one that runs, or that the next start runs."""
+        member = self._members.get(number)
+        return member is not None and (member.run is not None or member.selected is not None)
+
     def is_running(self, number: int) -> bool:
         """Whether a channel runs a program."""
         member = self._members.get(number)

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.fanuc import (
+    turning_balance,
     turning_comp,
     turning_data,
     turning_drawing,
@@ -87,6 +88,7 @@ class FanucTurning(CustomMacroControl):
             circular_thread=bool(bit(3405, 3)),
             grinding=bool(bit(5106, 0)),
             series_15=turning_drilling.drills_in_series_15(channel),
+            balance=turning_balance.is_available(channel),
         )
 
     def written_code(self, channel: Channel, group: str) -> str:
@@ -111,6 +113,12 @@ class FanucTurning(CustomMacroControl):
         channel.coordinates.arrive_machine(shown)
         turning_limits.at_power_on(channel)
         channel.memory.feed_code, channel.memory.plane = channel.mode["feed"], channel.mode["plane"]
+        turning_balance.start_paths(channel)
+
+    def begin(self, channel: Channel) -> None:
+        """Cycle start: further paths start with the first one."""
+        super().begin(channel)
+        turning_balance.start_paths(channel)
 
     def reset(self, channel: Channel) -> None:
         """The state after reset, and after the end of a program."""
@@ -179,7 +187,10 @@ class FanucTurning(CustomMacroControl):
         return turning_data.plan_parameter_block(builder, plan) or super().call_by_code(builder, plan)
 
     def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
-        """The step of the active motion code, or of the active drilling cycle."""
+        """The step of the active motion code, or of the active drilling cycle; balanced paths start it together."""
+        return turning_balance.together(builder, plan, self._motion_step(builder, plan))
+
+    def _motion_step(self, builder: Builder, plan: Plan) -> Step | None:
         if builder.mode["cycle"] != "G80":
             return turning_drilling.plan(builder, plan)
         turning_tapping.plan_waiting(builder, plan)

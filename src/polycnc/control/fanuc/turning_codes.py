@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc import (
     turning_auxiliary,
+    turning_balance,
     turning_comp,
     turning_coordinates,
     turning_data,
@@ -136,8 +137,6 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G66", "macro", macro_calls.start_modal_call, takes="*", axis_words=True, order=Order.CALL)),
     *same(GCode("G66.1", "macro", macro_calls.start_modal_call, takes="*", axis_words=True, order=Order.CALL)),
     *same(GCode("G67", "macro", macro_calls.end_modal_call)),
-    *same(GCode("G68", "turret_mirror", turning_coordinates.mirror_turret, takes="P")),
-    *same(GCode("G69", "turret_mirror", turning_coordinates.end_mirror_turret)),
     *same(GCode("G68.1", "rotation", turning_coordinates.rotate, takes="R", axis_words=True)),
     *same(GCode("G69.1", "rotation", frames.end_rotation)),
     *by_system("G70", "G70", "G72", _point("G70", turning_repetitive.finish, "P Q")),
@@ -177,6 +176,15 @@ MEASURING_37 = (
     *same(_point("G37.2", turning_measuring.measure_second)),
     *same(_motion("G36", turning_threads.plan_circular_thread_ccw)),
 )
+#: One path, or 8137#0 NVC = 1: G68 mirrors the opposite turret; else it is balance cutting.
+MIRROR = (
+    *same(GCode("G68", turning_balance.GROUP, turning_coordinates.mirror_turret, takes="P")),
+    *same(GCode("G69", turning_balance.GROUP, turning_coordinates.end_mirror_turret)),
+)
+BALANCE = (
+    *same(GCode("G68", turning_balance.GROUP, turning_balance.begin, takes="*")),
+    *same(GCode("G69", turning_balance.GROUP, turning_balance.end, takes="*")),
+)
 #: 5106#0 GFX = 1: grinding cycles in place of G71 to G74.
 GRINDING = tuple(
     row
@@ -186,7 +194,9 @@ GRINDING = tuple(
 
 
 @cache
-def g_table(system: str, *, circular_thread: bool, grinding: bool, series_15: bool) -> Mapping[str, GCode]:
+def g_table(
+    system: str, *, circular_thread: bool, grinding: bool, series_15: bool, balance: bool
+) -> Mapping[str, GCode]:
     """The G table of a system as programs write it, with what the machine's parameters choose."""
     column = SYSTEMS.index(system)
     drilling = SERIES_15_CYCLES if series_15 else NORMAL_CYCLES
@@ -194,6 +204,7 @@ def g_table(system: str, *, circular_thread: bool, grinding: bool, series_15: bo
         *ROWS,
         *(MEASURING_37 if circular_thread else MEASURING_36),
         *(GRINDING if grinding else ()),
+        *(BALANCE if balance else MIRROR),
         *(row for code in drilling for row in same(GCode(code, "cycle"))),
     )
     return {row.codes[column]: row.code for row in chosen if row.codes[column]}
@@ -203,7 +214,8 @@ def g_table(system: str, *, circular_thread: bool, grinding: bool, series_15: bo
 def written_codes(system: str) -> Mapping[tuple[str, str], str]:
     """How a modal code, by group and inner name, is written in a system."""
     column = SYSTEMS.index(system)
-    return {(row.code.group, row.code.code): row.codes[column] for row in reversed(ROWS) if row.codes[column]}
+    rows = reversed((*ROWS, *MIRROR))
+    return {(row.code.group, row.code.code): row.codes[column] for row in rows if row.codes[column]}
 
 
 M_CODES = m_table(

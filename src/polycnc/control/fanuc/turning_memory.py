@@ -91,6 +91,7 @@ class TurningMemory(MacroMemory):
         open_line: Line of drawing dimensions that waits for the next block.
         rotation_angle: Angle of the last G68.1, degrees.
         increment_limits: Largest increment of axes (G91.1).
+        balanced: Paths that cut together (G68 on a machine of several paths).
         zone: Forbidden zone of G22, or the barrier.
         reading_shape: Blocks are read for their shape only: T, S, M do nothing.
         shape: What has been read of it.
@@ -121,6 +122,7 @@ class TurningMemory(MacroMemory):
         self.thread_step = -1
         self.plane = ""
         self.increment_limits: dict[int, float] = {}
+        self.balanced: frozenset[int] = frozenset()
         self.zone: Zone | None = None
         self.reading_shape = False
         self.shape: Shape | None = None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.fanuc import turning_limits, turning_single, turning_tools
+from polycnc.control.fanuc import turning_balance, turning_limits, turning_single, turning_tools
 from polycnc.control.word_address import cylinder, polar_interpolation
 from polycnc.control.word_address.variables import LOCALS
 from polycnc.geometry.frames import IDENTITY
@@ -58,6 +58,10 @@ def _clear_memory(channel: Channel, *, clears: bool) -> None:
     memory.side = memory.engaged_side = {"G41": 1, "G42": -1}.get(channel.mode["compensation"], 0)
     memory.d = 0
     memory.reading_shape = False
+    if memory.balanced:
+        # Balance cutting always ends (II.7.1), whatever becomes of other modal codes.
+        memory.balanced = frozenset()
+        channel.mode = channel.mode.with_code(turning_balance.GROUP, "G69")
     if channel.mode["cycle"] == "G80":
         memory.cycle_data, memory.clamp = None, 0
     if clears:
