@@ -8,7 +8,7 @@ from polycnc.control import registry
 from polycnc.control.fanuc.turning_codes import POWER_ON, ROWS, g_table, written_codes
 from tests.control.fanuc.lathe import alarms, run
 
-PLAIN = {"circular_thread": False, "grinding": False, "series_15": False}
+PLAIN = {"circular_thread": False, "grinding": False, "series_15": False, "balance": False}
 
 
 @pytest.mark.parametrize(
@@ -59,6 +59,6 @@ def test_a_code_that_is_not_executed_yet_says_so() -> None:
 
 
 def test_grinding_takes_the_place_of_the_turning_cycles() -> None:
-    table = g_table("A", circular_thread=False, grinding=True, series_15=False)
+    table = g_table("A", circular_thread=False, grinding=True, series_15=False, balance=False)
     assert table["G71"].group == "motion"
     assert table["G75"].code == "G75"
