@@ -127,6 +127,8 @@ class Coordinates:
         self.direct = frame is IDENTITY and shift is None
         if stays:
             self.arrive(self.position)
+        else:
+            self.direct = self.direct and self.programmed == self.position
 
     def set_zero(self, frame: Frame, offsets: list[float], *, travelled: bool = False) -> None:
         """Choose the way from the display to the machine. The machine stays, the display follows.

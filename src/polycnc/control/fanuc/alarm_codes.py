@@ -70,6 +70,7 @@ ALARMS: dict[str, str] = {
     "atc_not_chosen": "PS0366",
     "in_rotation": "PS0412",
     "rotation_form": "PS0412",
+    "moving_output": "PS5330",
     "preset_value": "PS0009",
     "surface_axis": "PS0190",
     "thread_lead": "PS0313",

@@ -6,12 +6,19 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc import turning_grinding
 from polycnc.control.word_address import auxiliary
+from polycnc.control.word_address.plan import NOT_YET
+from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.plan import Builder
     from polycnc.control.word_address.words import Words
+
+
+def output_while_moving(_channel: Channel, _words: Words) -> None:
+    """G50.9: auxiliary functions at a point of the way; not executed yet."""
+    raise AlarmError(NOT_YET, address="G50.9", hint="hint.not-supported", code="G50.9")
 
 
 def dwell(channel: Channel, words: Words) -> None:

@@ -119,12 +119,16 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G42", "compensation", turning_comp.right, takes="D", order=Order.COMPENSATION)),
     *same(GCode("G40.1", "normal_direction")),
     *same(GCode("G43.7", "atc_offset", turning_tools.select_by_code, takes="D", order=Order.LENGTH), "G44.7"),
+    *same(
+        GCode("G43", "atc_offset", turning_tools.select_by_length_code, takes="D", order=Order.LENGTH), "G44"
+    ),
     *same(GCode("G49", "atc_offset", turning_tools.cancel_by_code, order=Order.LENGTH)),
     *by_system("G50", "G92", "G92", _point("G50", turning_coordinates.set_position, "S")),
     *by_system("G50.3", "G92.1", "G92.1", _point("G50.3", turning_coordinates.preset_system)),
     *same(GCode("G50.1", "mirror", frames.end_mirror, axis_words=True)),
     *same(GCode("G51.1", "mirror", frames.mirror, axis_words=True)),
     *same(GCode("G50.2", "polygon"), "G250"),
+    *same(_point("G50.9", turning_auxiliary.output_while_moving)),
     *same(_point("G52", turning_coordinates.set_local_system)),
     *same(_point("G53", turning_coordinates.move_in_machine_system, "P")),
     *same(_point("G53.2", turning_coordinates.feed_in_machine_system)),

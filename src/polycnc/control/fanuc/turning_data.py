@@ -89,8 +89,11 @@ def _set_tool_offset(channel: Channel, words: Words, number: int) -> None:
         values[name] = values.get(name, 0.0) + value if incremental else value
     for address, parameter in FURTHER_AXES.items():
         further = words.length(address)
-        if further is not None:
-            values[_further_axis(channel, words, address, parameter)] = further
+        if further is None:
+            continue
+        name = _further_axis(channel, words, address, parameter)
+        if _is_in_use(channel, address, name):
+            values[name] = further
     field = "radius" if is_geometry else "radius_wear"
     if radius_word is not None:
         setattr(offset, field, radius_word)
@@ -109,3 +112,14 @@ def _further_axis(channel: Channel, words: Words, address: str, parameter: int) 
     if not 1 <= number <= len(channel.axes):
         raise words.fail("g10_format", address)
     return channel.axes[number - 1]
+
+
+def _is_in_use(channel: Channel, address: str, name: str) -> bool:
+    """Whether a 4th or 5th axis offset acts: the 5th by 11400#1 NO5, and none on the axis of the Y offset."""
+    memory = channel.memory
+    if address == "F" and not memory.parameters.bit(11400, 1):
+        return False
+    has_y_offset = (
+        memory.parameters.bit(8132, 1, default=1) and channel.axis_index[name] == memory.y_offset_axis
+    )
+    return not has_y_offset

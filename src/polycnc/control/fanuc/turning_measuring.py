@@ -5,7 +5,8 @@ from __future__ import annotations
 from math import copysign, nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.fanuc.turning_tools import offset_changed
+from polycnc.control.fanuc.turning_coordinates import plane_axes
+from polycnc.control.fanuc.turning_tools import nose_radius, nose_tip, offset_changed
 from polycnc.control.word_address import skip
 from polycnc.toolpath import Kind
 
@@ -66,8 +67,19 @@ def _measure(channel: Channel, words: Words, name: str) -> None:
     end[axis] = measured
     channel.straight(Kind.SKIP, end, parameters.number(6241, name) / _seconds(channel))
     values = memory.turning_offset(memory.offset_active).wear
-    values[name] = values.get(name, 0.0) + measured - target_position
+    values[name] = values.get(name, 0.0) + measured + towards * _nose_reach(channel, axis) - target_position
     offset_changed(channel)
+
+
+def _nose_reach(channel: Channel, axis: int) -> float:
+    """How far the nose reaches beyond the measured point: its radius where the tip number has no part along the axis.
+
+    II.5.8: tips 0, 5, 7 for X, 0, 6, 8 for Z; with nose radius compensation available (8136#7 NCR = 0).
+    """
+    if channel.memory.parameters.bit(8136, 7):
+        return 0.0
+    along = dict(zip(plane_axes(channel), nose_tip(channel), strict=True)).get(axis, 0.0)
+    return 0.0 if along else nose_radius(channel)
 
 
 def _seconds(channel: Channel) -> float:

@@ -136,10 +136,18 @@ class TurningMemory(MacroMemory):
         internal: float = self.channel.control.from_display(self.channel, axis, shown)
         return internal
 
+    @property
+    def y_offset_axis(self) -> int:
+        """The axis that has the Y offset: Y, or any other by 5043 (II.5.1.6.1); -1 for none."""
+        number = int(self.parameters.number(5043))
+        return number - 1 if 1 <= number <= len(self.channel.axes) else self.channel.axis_index.get("Y", -1)
+
     def _from_setup(self, tool: Tool) -> TurningOffset:
         def vector(values: Offsets | Tool) -> dict[str, float]:
             named = {"X": values.x, "Y": values.y, "Z": values.z}
-            index = self.channel.axis_index
+            index = dict(self.channel.axis_index)
+            if self.y_offset_axis >= 0:
+                index["Y"] = self.y_offset_axis
             return {k: self.radius_of(index[k], v) if k in index else v for k, v in named.items() if v}
 
         if self.common_offsets:

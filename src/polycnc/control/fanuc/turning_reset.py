@@ -43,6 +43,7 @@ def reset(channel: Channel) -> None:
     turning_tools.refresh(channel)
     c.set_programming(memory.frames.product(), memory.frames.shift)
     c.pending = [0.0] * len(channel.axes)
+    c.owes = False
     c.arrive_machine(machine)
     turning_limits.renew_zones(channel)
     channel.context_changed()

@@ -10,7 +10,9 @@ from math import nan
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.word_address.coordinates import refresh_zero
+from polycnc.control.word_address.plan import NOT_YET
 from polycnc.control.word_address.radius import compensation_stage, side_on_display
+from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -37,6 +39,8 @@ def plan_tool(builder: Builder) -> Step:
         raise control.fail("point", address="T")
     if any(row.code == "G10" for row in builder.codes):
         raise control.fail("g10_format", address="T")
+    if any(row.code == "G50.9" for row in builder.codes):
+        raise control.fail("moving_output", address="T")
     if any(row.code in _MEASURING for row in builder.codes):
         raise control.fail("measure_h", address="T")
     if any(row.group == "" and row.code not in _BESIDE_T for row in builder.codes):
@@ -95,7 +99,7 @@ def offset_digits(channel: Channel) -> int:
 
 def select_offset(channel: Channel, number: int, tool: int) -> None:
     """Make an offset number the active one; number 0 cancels."""
-    if not 0 <= number <= MAX_OFFSETS:
+    if not 0 <= number <= (int(channel.memory.parameters.number(5024)) or MAX_OFFSETS):
         raise channel.control.fail("offset_number", address="T")
     memory = channel.memory
     memory.offset_active = number
@@ -121,6 +125,7 @@ def apply_offset(channel: Channel, *, cancels: bool = False) -> None:
     before = c.programmed
     c.set_programming(memory.frames.product(), memory.frames.shift)
     c.pending = [p + old - new for p, old, new in zip(c.pending, before, c.programmed, strict=True)]
+    c.owes = any(c.pending)
 
 
 def offset_parts(channel: Channel, *, cancels: bool = False) -> tuple[list[float], list[float]]:
@@ -129,8 +134,8 @@ def offset_parts(channel: Channel, *, cancels: bool = False) -> tuple[list[float
     bit = memory.parameters.bit
     wear = memory.turning_offset(memory.offset_active).wear if memory.offset_active else {}
     geometry = geometry_values(channel) if memory.geometry_active else {}
-    wear_part = [wear.get(axis, 0.0) for axis in channel.axes]
-    geometry_part = [geometry.get(axis, 0.0) for axis in channel.axes]
+    wear_part = _by_axis(channel, wear)
+    geometry_part = _by_axis(channel, geometry)
     nothing = [0.0] * len(channel.axes)
     geometry_moves = bit(5002, 4)
     if not geometry_moves:
@@ -142,6 +147,16 @@ def offset_parts(channel: Channel, *, cancels: bool = False) -> tuple[list[float
     moves = _sum(wear_part if wear_moves else nothing, geometry_part if geometry_moves else nothing)
     shifts = _sum(nothing if wear_moves else wear_part, nothing if geometry_moves else geometry_part)
     return moves, shifts
+
+
+def _by_axis(channel: Channel, values: dict[str, float]) -> list[float]:
+    """The offsets of all axes; that of Y where the function is there (8132#1 YOF), on the axis that 5043 names."""
+    parameters = channel.memory.parameters
+    offsets = [0.0 if axis == "Y" else values.get(axis, 0.0) for axis in channel.axes]
+    named = channel.memory.y_offset_axis
+    if named >= 0:
+        offsets[named] = values.get("Y", 0.0) if parameters.bit(8132, 1, default=1) else 0.0
+    return offsets
 
 
 def _sum(a: list[float], b: list[float]) -> list[float]:
@@ -172,6 +187,7 @@ def move_by_offset(channel: Channel) -> None:
     if not rapid and not channel.feed > 0.0:
         raise channel.control.fail("no_feed")
     channel.straight(Kind.RAPID if rapid else Kind.FEED, end, nan if rapid else channel.feed, c.programmed)
+    c.set_programming(c.programming, c.shift)
 
 
 def refresh(channel: Channel) -> None:
@@ -227,8 +243,19 @@ def offset_changed(channel: Channel) -> None:
 
 def select_by_code(channel: Channel, words: Words) -> None:
     """G43.7 D: the offset of an ATC-type lathe (5040#3 TCT = 1; II.5.7)."""
+    _select_by_code(channel, words, "G43.7", is_length=bool(channel.memory.parameters.bit(5040, 4)))
+
+
+def select_by_length_code(channel: Channel, words: Words) -> None:
+    """G43, G44: what G43.7 is where 5040#4 TLG exchanges their meaning; else tool length offset."""
+    _select_by_code(channel, words, "G43", is_length=not channel.memory.parameters.bit(5040, 4))
+
+
+def _select_by_code(channel: Channel, words: Words, code: str, *, is_length: bool) -> None:
     if not channel.memory.parameters.bit(5040, 3):
-        raise words.fail("atc_not_chosen", "G43.7")
+        raise words.fail("atc_not_chosen", code)
+    if is_length:
+        raise AlarmError(NOT_YET, address=code, hint="hint.not-supported", code=code)
     number: Any = words.integer("D")
     if number is None:
         return
@@ -239,6 +266,8 @@ def select_by_code(channel: Channel, words: Words) -> None:
 
 def cancel_by_code(channel: Channel, words: Words) -> None:
     """G49: the offset of an ATC-type lathe ends."""
+    if not channel.memory.parameters.bit(5040, 3):
+        return
     select_offset(channel, 0, 0)
     if not words.axes():
         move_by_offset(channel)
