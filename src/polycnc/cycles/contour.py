@@ -193,6 +193,53 @@ def _is_before(part: Edge, at: Point) -> bool:
     return abs(part.end[0] - at[0]) + abs(part.end[1] - at[1]) <= _SAME
 
 
+def deepest(contour: Sequence[Piece], towards: float) -> float:
+    """The deepest `b` of a contour; `towards` is the direction of infeed, 1 or -1."""
+    return towards * max(towards * b for piece in contour for _, b in points(piece.edge))
+
+
+def runs(contour: Sequence[Piece], level: float, towards: float) -> list[tuple[bool, Contour]]:
+    """The contour in runs that lie at a level or deeper (true), and above it (false), in turn."""
+    result: list[tuple[bool, Contour]] = []
+    for piece in contour:
+        for part in _split(piece.edge, level):
+            is_deep = towards * (_middle(part)[1] - level) > -_SAME
+            if not result or result[-1][0] != is_deep:
+                result.append((is_deep, []))
+            result[-1][1].append(Piece(part, piece.is_rapid))
+    return result
+
+
+def bumps(contour: Sequence[Piece], towards: float) -> list[Contour]:
+    """The parts of a contour that go down and come up again, from ridge to ridge; slopes and steps are none."""
+    pieces = slopes(contour)
+    parts: list[Contour] = []
+    falls = True
+    for piece in pieces:
+        fall = towards * (piece.edge.end[1] - piece.edge.start[1])
+        is_ridge = fall > _SAME and not falls
+        if not parts or is_ridge:
+            parts.append([])
+        parts[-1].append(piece)
+        falls = fall > _SAME if abs(fall) > _SAME else falls
+    return [part for part in parts if _sags(part, towards)]
+
+
+def _sags(contour: Contour, towards: float) -> bool:
+    ends = max(towards * contour[0].edge.start[1], towards * contour[-1].edge.end[1])
+    return towards * deepest(contour, towards) > ends + 1e-6
+
+
+def slopes(contour: Sequence[Piece]) -> Contour:
+    """The contour with its arcs cut at their turning points: every piece falls, rises or is flat."""
+    return [
+        Piece(_between(piece.edge, start, end), piece.is_rapid)
+        for piece in contour
+        for start, end in pairwise(points(piece.edge))
+        if piece.edge.center is None or abs(end[0] - start[0]) + abs(end[1] - start[1]) > _SAME
+    ]
+
+
 def turned_round(contour: Sequence[Piece]) -> Contour:
     """The contour travelled the other way."""
     result: Contour = []

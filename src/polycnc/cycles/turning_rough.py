@@ -10,18 +10,18 @@ from dataclasses import dataclass
 from math import copysign, hypot
 from typing import TYPE_CHECKING
 
-from polycnc.cycles.contour import climb, gaps, points, shifted
+from polycnc.cycles.contour import gaps, shifted
 from polycnc.cycles.plane_stroke import PlaneStroke, feed
+from polycnc.cycles.turning_pockets import clear_pockets
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from polycnc.cycles.contour import Contour, Gap
+    from polycnc.cycles.contour import Contour
     from polycnc.geometry.arcs import Point
 
 _SAME = 1e-9
-_HAIR = 1e-7
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +38,8 @@ class Roughing:
         infeed_rapid: Infeed as the first block of the shape has it.
         escape_rapid: The way off at 45 degrees is a rapid.
         clearance: Distance from a pocket's next stroke at which rapid becomes feed.
+        follows_flats: Type II: behind a stroke, parts of the shape parallel to it are followed too (R16).
+        skips_bottoms: Type II: no path twice, so no strokes along bottoms (NSP).
         returns_straight: From the way off straight to the start of the stroke before (RPA); with infeed at feed the
             last `feeds_last` mm of it.
         returns_rapid: The way back to the level before is rapid (ASU); `returns_merged`: it is left out (ASC).
@@ -55,6 +57,8 @@ class Roughing:
     returns_rapid: bool = False
     returns_merged: bool = False
     returns_straight: bool = False
+    follows_flats: bool = False
+    skips_bottoms: bool = False
     feeds_last: float = 0.0
 
 
@@ -66,32 +70,32 @@ def rough(contour: Contour, cuts: Roughing) -> Iterator[PlaneStroke]:
     stock = shifted(contour, *left)
     finish = shifted(contour, *cuts.allowance)
     has_extra = cuts.extra != (0.0, 0.0)
+    finishes = cuts.finishes or has_extra
     if cuts.pockets:
-        yield from _pockets(stock, cuts, towards)
+        last = start
+        skips = cuts.skips_bottoms and finishes and not has_extra
+        for stroke in clear_pockets(stock, cuts, towards, skips_bottom=skips):
+            last = stroke.end
+            yield stroke
+        yield from _home(contour, last, cuts, towards)
     else:
         yield from _strokes(stock, cuts, towards, to_bottom=has_extra or not cuts.finishes)
-    if cuts.finishes or has_extra:
-        raised = _raised(contour, cuts, towards)
-        if cuts.pockets or has_extra:
-            yield from raised
+        if has_extra or not finishes:
             yield PlaneStroke(Kind.RAPID, start)
-        kind = Kind.RAPID if cuts.infeed_rapid else Kind.FEED
-        yield PlaneStroke(kind, finish[0].edge.end)
-        yield from (piece.stroke() for piece in finish[1:])
-        if cuts.pockets:
-            yield from raised
+    if not finishes:
+        return
+    yield PlaneStroke(Kind.RAPID if cuts.infeed_rapid else Kind.FEED, finish[0].edge.end)
+    yield from (piece.stroke() for piece in finish[1:])
+    yield from _home(contour, finish[-1].edge.end, cuts, towards)
+
+
+def _home(contour: Contour, at: Point, cuts: Roughing, towards: float) -> Iterator[PlaneStroke]:
+    """Back to the start; type II passes one depth above a shape that is as high as the start (II.4.2.1)."""
+    start, shape = contour[0].edge.start, contour[1:] or contour
+    highest = min(towards * piece.edge.end[1] for piece in shape)
+    if cuts.pockets and highest <= towards * start[1] + _SAME:
+        yield PlaneStroke(Kind.RAPID, (at[0], start[1] - towards * cuts.depth))
     yield PlaneStroke(Kind.RAPID, start)
-
-
-def _raised(contour: Contour, cuts: Roughing, towards: float) -> list[PlaneStroke]:
-    """Type II: a shape as high as the start is passed one depth above it on the way back (II.4.2.1)."""
-    start, last = contour[0].edge.start, contour[-1].edge.end
-    highest = (
-        min(towards * piece.edge.end[1] for piece in contour[1:]) if len(contour) > 1 else towards * last[1]
-    )
-    if not cuts.pockets or highest > towards * start[1] + _SAME:
-        return []
-    return [PlaneStroke(Kind.RAPID, (last[0], start[1] - towards * cuts.depth))]
 
 
 def _levels(contour: Contour, depth: float, towards: float, *, to_bottom: bool) -> Iterator[float]:
@@ -152,84 +156,3 @@ def _end_on(contour: Contour, level: float) -> float:
             break
         end = piece.edge.end[0]
     return end
-
-
-def _pockets(contour: Contour, cuts: Roughing, towards: float) -> Iterator[PlaneStroke]:
-    """Type II: every pocket from the start side on, each to its bottom before the next."""
-    begin = contour[0].edge.start
-    yield PlaneStroke(Kind.RAPID, begin)
-    yield from _clear(contour, cuts, towards, begin[1], (begin[0], contour[-1].edge.end[0]), is_pocket=False)
-
-
-def _clear(
-    contour: Contour, cuts: Roughing, towards: float, above: float, span: Point, *, is_pocket: bool
-) -> Iterator[PlaneStroke]:
-    """Everything below a level between two ends: one stroke deeper, then what lies below that, gap by gap."""
-    onwards = copysign(1.0, span[1] - span[0])
-    bottom = _deepest(contour, span, towards)
-    if towards * (bottom - above) <= _SAME:
-        return
-    level = above + towards * min(cuts.depth, towards * (bottom - above))
-    at_bottom = abs(level - bottom) <= _SAME
-    # On the flat of a pocket's bottom the contour is not deeper than the stroke: look a hair above it.
-    seen = level - towards * _HAIR if at_bottom else level
-    inside = [
-        gap
-        for gap in gaps(contour, seen, towards)
-        if _within(gap, span) and abs(gap.end - gap.start) > _HAIR * 10
-    ]
-    for number, gap in enumerate(inside):
-        yield from _enter(gap, level, above, cuts, towards, is_pocket=is_pocket or number > 0)
-        yield feed(gap.end, level)
-        yield from _leave(contour, gap, level, above, cuts, towards, onwards, at_bottom=at_bottom)
-        pocket = is_pocket or gap.piece < len(contour)
-        below = _clear(contour, cuts, towards, level, (gap.start, gap.end), is_pocket=pocket and number > 0)
-        yield from below
-
-
-def _enter(
-    gap: Gap, level: float, above: float, cuts: Roughing, towards: float, *, is_pocket: bool
-) -> Iterator[PlaneStroke]:
-    """To the start of a stroke: down where it begins, in a pocket at rapid up to the clearance."""
-    yield PlaneStroke(Kind.RAPID, (gap.start, above - towards * cuts.escape))
-    if is_pocket:
-        short = level - towards * min(cuts.clearance, abs(level - above) + cuts.escape)
-        yield PlaneStroke(Kind.RAPID, (gap.start, short))
-        yield feed(gap.start, level)
-    else:
-        yield PlaneStroke(Kind.RAPID if cuts.infeed_rapid else Kind.FEED, (gap.start, level))
-
-
-def _leave(
-    contour: Contour,
-    gap: Gap,
-    level: float,
-    above: float,
-    cuts: Roughing,
-    towards: float,
-    onwards: float,
-    *,
-    at_bottom: bool,
-) -> Iterator[PlaneStroke]:
-    """Off after a stroke: up along the shape to the level above and straight off it; from a bottom at 45 degrees."""
-    if at_bottom:
-        yield feed(gap.end - onwards * cuts.escape, level - towards * cuts.escape)
-        yield PlaneStroke(Kind.RAPID, (gap.end - onwards * cuts.escape, above - towards * cuts.escape))
-        return
-    last = gap.end
-    for piece in climb(contour, gap, level, above, towards):
-        yield piece.stroke()
-        last = piece.edge.end[0]
-    yield feed(last, above - towards * cuts.escape)
-
-
-def _within(gap: Gap, span: Point) -> bool:
-    low, high = min(span) - _HAIR * 10, max(span) + _HAIR * 10
-    return low <= min(gap.start, gap.end) and max(gap.start, gap.end) <= high
-
-
-def _deepest(contour: Contour, span: Point, towards: float) -> float:
-    """The deepest `b` of the contour between two ends."""
-    low, high = min(span) - _HAIR, max(span) + _HAIR
-    values = [towards * b for piece in contour for a, b in (*points(piece.edge),) if low <= a <= high]
-    return towards * max(values)

@@ -80,6 +80,7 @@ ALARMS: dict[str, str] = {
     "cycle_depth": "PS0062",
     "no_shape_start": "PS0063",
     "no_shape_end": "PS0063",
+    "shape_number_twice": "PS0062",
     "shape_first_axis": "PS0064",
     "shape_first_block": "PS0065",
     "shape_second_axis": "PS0329",

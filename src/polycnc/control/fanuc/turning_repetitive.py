@@ -13,7 +13,7 @@ from polycnc.channel.stack import Level
 from polycnc.control.fanuc.turning_comp import SHAPE_KIND
 from polycnc.control.fanuc.turning_coordinates import plane_axes
 from polycnc.control.fanuc.turning_drilling import is_series_15
-from polycnc.control.fanuc.turning_shape import Section, contour_of, read_shape
+from polycnc.control.fanuc.turning_shape import Section, contour_of, read_shape, section_steps
 from polycnc.control.fanuc.turning_single import runout
 from polycnc.control.fanuc.turning_strokes import (
     emit,
@@ -63,8 +63,7 @@ def finish(channel: Channel, words: Words) -> None:
     first, last = _shape_numbers(words)
     code: Any = channel.level.code
     code = code.code if isinstance(code, Section) else code
-    begin = code.find_sequence(first, channel.level.current, "no_shape_start")
-    end = code.find_sequence(last, begin - 1, "no_shape_end")
+    begin, end = section_steps(channel, code, first, last)
     level = channel.level
     section = Level(
         Section(code, end), begin, begin, level.program_number, 0, begin, SHAPE_KIND, level.locals
@@ -110,8 +109,6 @@ def _rough(channel: Channel, words: Words, *, along: int) -> None:
     if "P" not in words and "Q" not in words:
         _store(channel, words, {depth_word: DEPTH, "R": ESCAPE})
         return
-    if "S" in words and memory.parameters.bit(3703, 3):
-        raise words.fail("spindle_choice", "S")
     depth = _series_15_depth(words) if series_15 and "D" in words else memory.cycle_parameter(DEPTH)
     if not depth > 0.0:
         raise words.fail("cycle_depth", "D" if series_15 else "U")
@@ -135,6 +132,8 @@ def _rough(channel: Channel, words: Words, *, along: int) -> None:
         returns_rapid=bool(bit(5107, 0)),
         returns_merged=bool(bit(5107, 1)) and not pockets,
         returns_straight=bool(bit(5125, 6) and bit(1401, 1)) and not pockets,
+        follows_flats=bool(bit(5108, 0) or bit(5108, 3)),
+        skips_bottoms=bool(bit(5108, 3)),
         feeds_last=memory.cycle_parameter(5126) or 0.5 * memory.cycle_parameter(ESCAPE),
     )
     if along:
@@ -142,7 +141,13 @@ def _rough(channel: Channel, words: Words, *, along: int) -> None:
     else:
         strokes = rough(contour, cuts)
     _cut(channel, strokes)
-    channel.level.index = shape.end + 1
+    _go_on_behind(channel, shape)
+
+
+def _go_on_behind(channel: Channel, shape: Shape) -> None:
+    """Behind the shape; behind the cycle itself where the shape stands in front of it, or it would never end."""
+    level = channel.level
+    level.index = max(level.current, shape.end) + 1
 
 
 def _turned(pair: tuple[float, float], along: int) -> tuple[float, float]:
@@ -174,10 +179,12 @@ def repeat_pattern(channel: Channel, words: Words) -> None:
     if not shape.first_code:
         raise channel.control.fail("shape_first_block", address="P")
     _cut(channel, pattern_strokes(contour, escape, passes, _allowance(channel, words)))
-    channel.level.index = shape.end + 1
+    _go_on_behind(channel, shape)
 
 
 def _read(channel: Channel, words: Words) -> tuple[Shape, Contour]:
+    if "S" in words and channel.memory.parameters.bit(3703, 3):
+        raise words.fail("spindle_choice", "S")
     first, last = _shape_numbers(words)
     shape = read_shape(channel, first, last)
     contour = contour_of(channel, shape)

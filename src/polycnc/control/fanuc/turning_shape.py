@@ -93,12 +93,21 @@ def plan_note(builder: Builder, plan: Plan) -> Step | None:
     return note
 
 
+def section_steps(channel: Channel, code: Any, first: int, last: int) -> tuple[int, int]:
+    """First and last step of a shape. No other block of the program may have its numbers (II.4.2.8)."""
+    begin = code.find_sequence(first, channel.level.current, "no_shape_start")
+    end = code.find_sequence(last, begin - 1, "no_shape_end")
+    for number, address in ((first, "P"), (last, "Q")):
+        if len(code.sequence_places(number)) > 1:
+            raise channel.control.fail("shape_number_twice", address=address, number=number)
+    return begin, end
+
+
 def read_shape(channel: Channel, first: int, last: int) -> Shape:
     """Read the blocks from sequence number `first` to `last` of the running program."""
     level = channel.level
     code: Any = level.code
-    begin = code.find_sequence(first, level.current, "no_shape_start")
-    end = code.find_sequence(last, begin - 1, "no_shape_end")
+    begin, end = section_steps(channel, code, first, last)
     shape, catcher = Shape(end=end), Catcher()
     kept = _Kept(channel)
     channel.mode = channel.mode.with_code(GROUP, READING)

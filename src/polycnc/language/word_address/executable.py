@@ -152,17 +152,21 @@ class WordAddressProgram:
 
     def find_sequence(self, number: int, index: int, mistake: str = "no_sequence") -> int:
         """The step of `N number`: the first behind `index`, else the first from the top."""
+        places = self.sequence_places(number)
+        if not places:
+            raise AlarmError(self.grammar.alarms[mistake], number=number)
+        after = bisect_right(places, index)
+        return places[after] if after < len(places) else places[0]
+
+    def sequence_places(self, number: int) -> list[int]:
+        """All steps of `N number`."""
         if self._sequences is None:
             self._sequences = {}
             for i, line in enumerate(self.lines):
                 match = _SEQUENCE.match(line)
                 if match:
                     self._sequences.setdefault(int(match[1]), []).append(i)
-        places = self._sequences.get(number)
-        if not places:
-            raise AlarmError(self.grammar.alarms[mistake], number=number)
-        after = bisect_right(places, index)
-        return places[after] if after < len(places) else places[0]
+        return self._sequences.get(number, [])
 
     def loop_end(self, index: int, number: int) -> int:
         """The step of the END that belongs to the DO in step `index`; loops must not cross."""

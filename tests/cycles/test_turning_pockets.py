@@ -1,0 +1,122 @@
+"""Stock removal with pockets: what is cut, in which order, and that rapids stay out of the material."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from polycnc.cycles.contour import Contour
+from polycnc.cycles.plane_stroke import PlaneStroke
+from polycnc.cycles.turning_rough import Roughing, rough
+from polycnc.toolpath import Kind
+from tests.cycles.test_contour import lines
+
+TWO_POCKETS = lines(
+    (2.0, 30.0), (2.0, 25.0), (-5.0, 25.0), (-10.0, 15.0), (-20.0, 15.0), (-25.0, 25.0), (-30.0, 25.0),
+    (-32.0, 20.0), (-40.0, 20.0), (-45.0, 30.0),
+)  # fmt: skip
+
+
+def cuts(contour: Contour, **words: float | bool) -> list[PlaneStroke]:
+    """Type II with an infeed of 5 and an escape of 1."""
+    return list(rough(contour, Roughing(5.0, 1.0, pockets=True, **words)))  # type: ignore[arg-type]
+
+
+def test_both_pockets_are_cut_to_their_bottoms_the_near_one_first() -> None:
+    ends = [stroke.end for stroke in cuts(TWO_POCKETS)]
+    assert ends.index((-20.0, 15.0)) < ends.index((-40.0, 20.0))
+
+
+def test_from_a_bottom_the_tool_leaves_at_45_degrees_goes_to_the_next_pocket_s_height_and_feeds_in() -> None:
+    strokes = cuts(TWO_POCKETS, clearance=0.5)
+    ends = [stroke.end for stroke in strokes]
+    i = ends.index((-20.0, 15.0))
+    assert ends[i + 1 : i + 6] == [(-19.0, 16.0), (-19.0, 25.0), (-29.5, 25.0), (-30.0, 25.0), (-32.0, 20.0)]
+    kinds = [stroke.kind for stroke in strokes[i + 1 : i + 6]]
+    assert kinds == [Kind.FEED, Kind.RAPID, Kind.RAPID, Kind.FEED, Kind.FEED]
+
+
+def test_after_a_stroke_the_shape_is_followed_to_the_height_of_the_stroke_before() -> None:
+    ends = [stroke.end for stroke in cuts(TWO_POCKETS)]
+    i = ends.index((-22.5, 20.0))
+    assert ends[i + 1 : i + 3] == [(-25.0, 25.0), (-25.0, 26.0)]
+
+
+def test_a_flat_behind_a_stroke_is_followed_only_where_that_is_asked() -> None:
+    steps = lines((2.0, 30.0), (2.0, 19.0), (-10.0, 19.0), (-12.0, 22.0), (-20.0, 22.0), (-24.0, 30.0))
+    ends = [stroke.end for stroke in cuts(steps)]
+    i = ends.index((-12.0, 22.0))
+    assert ends[i - 1] == pytest.approx((-10.667, 20.0), abs=1e-3)
+    assert ends[i + 1] == (-12.0, 23.0)
+    ends = [stroke.end for stroke in cuts(steps, follows_flats=True)]
+    assert ends[i + 1 : i + 4] == [(-20.0, 22.0), (-21.5, 25.0), (-21.5, 26.0)]
+
+
+def test_bottoms_may_be_left_to_the_pass_along_the_shape() -> None:
+    ends = [stroke.end for stroke in cuts(TWO_POCKETS, skips_bottoms=True)]
+    assert ends.count((-20.0, 15.0)) == 1
+    assert [stroke.end for stroke in cuts(TWO_POCKETS)].count((-20.0, 15.0)) == 2
+
+
+def test_a_way_home_over_a_shape_as_high_as_the_start_is_raised_by_one_depth() -> None:
+    ends = [stroke.end for stroke in cuts(TWO_POCKETS)]
+    assert ends[-2:] == [(-45.0, 35.0), (2.0, 30.0)]
+
+
+def test_a_sloped_infeed_is_the_line_on_which_strokes_begin() -> None:
+    ramp = lines((2.0, 30.0), (0.0, 20.0), (-10.0, 20.0), (-20.0, 30.0))
+    ends = [stroke.end for stroke in cuts(ramp)]
+    assert ends[1:3] == [(1.0, 25.0), (-15.0, 25.0)]
+    i = ends.index((0.0, 20.0))
+    assert ends[i - 2 : i] == [(1.0, 31.0), (1.0, 25.0)]
+
+
+heights = st.lists(st.integers(5, 29), min_size=2, max_size=7)
+
+
+@given(heights, st.floats(1.0, 8.0), st.sampled_from([0.0, 0.5]), st.booleans())
+def test_no_rapid_runs_through_material_and_no_stroke_below_the_shape(
+    bottoms: list[int], depth: float, clearance: float, steep: bool
+) -> None:
+    """Flats at random heights, joined by slopes or by walls; columns every quarter millimetre are watched."""
+    points: list[tuple[float, float]] = [(2.0, 30.0), (2.0, float(bottoms[0]))]
+    for number, bottom in enumerate(bottoms):
+        points.append((-8.0 * number, float(bottom)) if number else (0.0, float(bottom)))
+        points.append((-8.0 * number - 4.0, float(bottom)))
+        if steep and number + 1 < len(bottoms):
+            points.append((-8.0 * number - 8.0, float(bottom)))
+    points.append((-8.0 * len(bottoms), 30.0))
+    contour = lines(*dict.fromkeys(points))
+    columns = [a / 4.0 + 0.01 for a in range(-8 * 4 * len(bottoms) + 1, 8)]
+    shape = [_height(points, a) for a in columns]
+    stock = [30.0] * len(columns)
+    at = (2.0, 30.0)
+    for stroke in rough(contour, Roughing(depth, 0.5, pockets=True, clearance=clearance)):
+        for i, a in enumerate(columns):
+            reached = _on_line(at, stroke.end, a)
+            if reached is None:
+                continue
+            assert reached >= shape[i] - 1e-3
+            if stroke.kind is Kind.RAPID and stroke.end != (2.0, 30.0):
+                assert reached >= stock[i] - 1e-3
+            stock[i] = min(stock[i], reached)
+        at = stroke.end
+    assert stock == pytest.approx(shape, abs=1e-3)
+
+
+def _height(points: list[tuple[float, float]], a: float) -> float:
+    for (a0, b0), (a1, b1) in pairwise(points):
+        if a1 <= a <= a0 and a1 != a0:
+            return b0 + (a - a0) / (a1 - a0) * (b1 - b0)
+    raise AssertionError
+
+
+def _on_line(start: tuple[float, float], end: tuple[float, float], a: float) -> float | None:
+    """The lower `b` of a line at a column; None where it does not pass it."""
+    low, high = sorted((start[0], end[0]))
+    if not low <= a <= high or low == high:
+        return None
+    return start[1] + (a - start[0]) / (end[0] - start[0]) * (end[1] - start[1])
