@@ -216,7 +216,8 @@ class Automatic:
         item = self.ahead.items[0]
         if isinstance(item, Piece):
             return self._begin(item)
-        if self.rates.hold and self._x2 == 0.0 and not isinstance(item, BlockEnd):
+        held = self.rates.hold and self.context.feed_hold
+        if held and self._x2 == 0.0 and not isinstance(item, BlockEnd):
             return False
         return self._pass(item)
 
@@ -320,9 +321,8 @@ class Automatic:
             return
         self._cap2 = self.rates.cap2(motion.piece)
         self._look_ahead()
-        motion.revise(
-            self.time, self.ahead.reach2(), self._cap2, 0.0 if self.rates.hold else self.rates.rapid
-        )
+        held = self.rates.hold and motion.piece.context.feed_hold
+        motion.revise(self.time, self.ahead.reach2(), self._cap2, 0.0 if held else self.rates.rapid)
 
     def start(self) -> None:
         """Go on, or begin."""

@@ -121,7 +121,7 @@ class Rates:
         """Largest squared speed on a piece."""
         if piece.fixed:
             return min(piece.cap2, piece.asked * piece.asked)
-        if self.hold:
+        if self.hold and piece.context.feed_hold:
             return 0.0
         if piece.by_axis:
             return self.rapid * self.rapid
@@ -130,7 +130,8 @@ class Rates:
         if self.dry_run:
             speed = self.dry_run * self.feed
             return min(piece.cap2, speed * speed)
-        speed = piece.asked * self.feed if self.feed > 0.0 else 0.0
-        if piece.per_revolution:
+        feed = self.feed if piece.context.feed_override else 1.0
+        speed = piece.asked * feed if feed > 0.0 else 0.0
+        if piece.per_revolution and piece.context.spindle_override:
             speed *= self.spindle
         return min(piece.cap2, speed * speed)

@@ -99,7 +99,8 @@ class Lane:
         spindle = self.channel.machine.spindle.get(context.spindle)
         top = spindle.max_rpm if spindle is not None else inf
         turning = 0.0 if context.surface_speed or not context.spindle_direction else context.spindle_rpm
-        rpm = min(turning * self.rates.spindle, top)
+        override = self.rates.spindle if context.spindle_override else 1.0
+        rpm = min(turning * override, top)
         return SpindleState(context.spindle, context.spindle_rpm, rpm, context.spindle_direction)
 
     @property

@@ -41,6 +41,8 @@ class Context:
         wcs: Name of the active work coordinate system.
         part: From the display to the system of the work offset, where programmed frames lie behind the display: in
             that system the path of a whole program is one picture.
+        feed_override: The operator's feed override acts; else it counts 100 %. `spindle_override` the same.
+        feed_hold: The operator's feed hold acts.
         transformation: From the positions of the toolpath to those of the real axes, where they differ.
     """
 
@@ -65,4 +67,7 @@ class Context:
     diameter_axes: int = 0
     wcs: str = "G54"
     part: Frame = IDENTITY
+    feed_override: bool = True
+    spindle_override: bool = True
+    feed_hold: bool = True
     transformation: Transformation | None = None

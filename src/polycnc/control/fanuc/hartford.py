@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address import auxiliary, frames, interruption, subprograms
+from polycnc.control.word_address import auxiliary, frames, interruption, overrides, subprograms
 from polycnc.control.word_address.codes import MCode, m_table
 
 if TYPE_CHECKING:
@@ -29,12 +29,16 @@ SHARED_M_CODES = (
     MCode(4, handler=auxiliary.spindle_counter_clockwise),
     *after(5, 19, handler=auxiliary.spindle_stop),
     *after(6, handler=auxiliary.change_tool),
-    *together(7, 8, 12, 22, 23, 50, 53, 58, 61, 63, 68, 73, 75),
-    *after(9, 10, 11, 24, 25, 54, 62, 64, 69, 74, 76, 82, 83, 84, 85, 86, 87, 93, 96, 97),
+    *together(7, 8, 12, 22, 23, 50, 53, 58, 61, 63, 68),
+    *after(9, 10, 11, 24, 25, 54, 62, 64, 69, 82, 83, 84, 85, 86, 87, 93, 96, 97),
     *after(13, handler=auxiliary.spindle_clockwise),
     *after(14, handler=auxiliary.spindle_counter_clockwise),
     *after(20),
     *together(21),
+    MCode(73, handler=overrides.cancel_feed_override),
+    MCode(74, after=True, handler=overrides.allow_feed_override),
+    MCode(75, handler=overrides.cancel_spindle_override),
+    MCode(76, after=True, handler=overrides.allow_spindle_override),
     MCode(70, handler=frames.mirror_first_axis),
     MCode(71, handler=frames.mirror_second_axis),
     MCode(72, handler=frames.end_mirror_by_m),

@@ -57,6 +57,7 @@ def _switch(name: str) -> tuple[Read, Write]:
 
     def write(m: MacroMemory, _i: int, value: float | None, _text: str) -> None:
         m.control_switches[name] = int(value or 0.0)
+        m.channel.context_changed()
 
     return read, write
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.fanuc.milling_codes import ADDRESSES, POWER_ON
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.codes import GCode, MCode, Planner
     from polycnc.control.word_address.drilling import Drilling
     from polycnc.control.word_address.words import Words
+    from polycnc.machine.motion_settings import MotionSettings
     from polycnc.messages import AlarmError
 
 
@@ -52,6 +54,11 @@ class MeldasMilling(MillingControl):
     def macro_alarm(self, _channel: Channel, number: int, told: str) -> AlarmError:
         """#3000 = n (TEXT): P277 with the number and the text."""
         return self.fail("macro_alarm", detail=f"{number} {told}".strip())
+
+    def motion_settings(self, channel: Channel) -> MotionSettings:
+        """#1086 G0Intp = 0: rapids run on a line; delivered, every axis by itself."""
+        by_axis = channel.setup.parameters.number(1086, default=1) != 0
+        return replace(super().motion_settings(channel), rapid_by_axis=by_axis)
 
     def code_calls(self, channel: Channel) -> CodeCalls:
         """Codes registered by #7001 to #7303."""

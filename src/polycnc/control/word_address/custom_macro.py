@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from polycnc.control.word_address import code_calls, cylinder, interruption, macro_calls, polar_interpolation
+from polycnc.control.word_address import (
+    code_calls,
+    cylinder,
+    interruption,
+    macro_calls,
+    overrides,
+    polar_interpolation,
+)
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.numbers import NumberRules, length_converter
 from polycnc.messages import AlarmError
@@ -21,6 +28,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.numbers import Convert
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.program import Program
+    from polycnc.toolpath import Context
 
 _MACRO_KINDS = ("macro", "modal", "g-macro", "m-macro", "b-macro")
 #: Levels of macros, of subprograms, and together (FANUC macro B reference §5.1).
@@ -165,6 +173,10 @@ class CustomMacroControl(WordAddressControl):
         if not level.counts(level.current):
             return bool(memory.parameters.bit(6000, 5) or memory.parameters.bit(6000, 7))
         return bool(code.has_words(level.current))
+
+    def context(self, channel: Channel) -> Context:
+        """The context that holds now, with what the operator's switches may do."""
+        return overrides.overridden(channel, super().context(channel))
 
     # ---- calls ---------------------------------------------------------------------------------------
 

@@ -16,7 +16,7 @@ from polycnc.control.word_address.auxiliary import stand
 from polycnc.control.word_address.numbers import length_converter
 from polycnc.control.word_address.path import FEED_MODES, PLANES, target
 from polycnc.control.word_address.radius import suspended
-from polycnc.cycles.drilling import Action, Cycle, Hole, Stroke
+from polycnc.cycles.drilling import Action, Cycle, Hole, Stroke, tap
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -323,6 +323,18 @@ def _hole(channel: Channel, code: str, data: CycleData) -> Hole:
 
 def _perform(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> None:
     """Let the tool make the strokes of one hole."""
+    rules: Drilling = channel.control.drilling_rules(channel)
+    if rules.cycles[channel.mode["cycle"]].strokes is not tap:
+        _work(channel, strokes, data)
+        return
+    channel.memory.tapping = True
+    channel.context_changed()
+    _work(channel, strokes, data)
+    channel.memory.tapping = False
+    channel.context_changed()
+
+
+def _work(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> None:
     center = channel.coordinates.programmed[:]
     direction = channel.memory.spindle_direction
     rules: Drilling = channel.control.drilling_rules(channel)

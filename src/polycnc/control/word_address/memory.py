@@ -101,6 +101,7 @@ class Memory:
         curve: The curve that G06.2 blocks are telling.
         basic_geometry: Axes X, Y, Z, whatever parallel ones a plane has chosen.
         polar: Plane of polar coordinate interpolation while it is on; `cylinder` the same for cylindrical.
+        cancelled_overrides: Overrides that the program has switched off; `tapping` while a tapping cycle works.
         hypothetical: Axes that stand while the path moves them (G07).
         normal_line: The stage that keeps a rotary axis square to the path.
         plane_before: Plane code that the end of one of them brings back; `geometry_before` its axes.
@@ -159,6 +160,8 @@ class Memory:
         self.basic_geometry = channel.coordinates.geometry
         self.polar: PolarPlane | None = None
         self.cylinder: Cylinder | None = None
+        self.cancelled_overrides: frozenset[str] = frozenset()
+        self.tapping = False
         self.hypothetical: Standing | None = None
         self.normal_line: NormalStage | None = None
         self.plane_before = "G17"

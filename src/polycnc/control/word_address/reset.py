@@ -19,6 +19,7 @@ CLEARED = (
     "single_cycle", "grinding", "open_line", "shape", "reading_shape", "zone", "stack",
     "mid_point", "tilt", "rotates_work", "scale_factors", "modal_longs", "modal_doubles", "skip_groups",
     "feeds", "feed_mode", "interrupt", "curve",
+    "cancelled_overrides", "tapping",
 )  # fmt: skip
 
 
