@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policies import HARTFORD, Policy
-from polycnc.control.word_address import code_calls, corners, normal_line, nurbs
+from polycnc.control.word_address import corners, normal_line, nurbs
 from polycnc.control.word_address.codes import MCode
 from polycnc.control.word_address.custom_macro import CustomMacroControl
 from polycnc.control.word_address.interlocks import guarded, guarded_motion, unlisted
