@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.interrupts import Assignment, Watch
     from polycnc.control.sinumerik.limits import Limit
     from polycnc.control.sinumerik.machine_data import MachineData
+    from polycnc.control.sinumerik.protection import Guard, Protection
     from polycnc.control.sinumerik.spindles import Spindles
     from polycnc.control.sinumerik.stages import Stages
     from polycnc.control.sinumerik.tools import Tools
@@ -75,6 +76,8 @@ class Memory:
         interrupts: What SETINT has given each interrupt input.
         watch: The stage that interrupt routines begin from; None where the setup has no inputs.
         repos_mode: Point of the last REPOS (`$AC_REPOS_PATH_MODE`), 0 before.
+        protection: Protection zones; None before the first.
+        guard: The last stage of the path while protection zones are active.
         shares_axes: Another channel can use axes of this one.
         nck: As `values`, of variables that all channels share.
         values: Values of system variables that only store (`$AC_PARAM`, `$A_DLB` …), by name and index.
@@ -110,6 +113,8 @@ class Memory:
     interrupts: dict[int, Assignment] = field(default_factory=dict)
     watch: Watch | None = None
     repos_mode: int = 0
+    protection: Protection | None = None
+    guard: Guard | None = None
     shares_axes: bool = False
     nck: dict[tuple[str, tuple[Any, ...]], Any] = field(default_factory=dict)
     values: dict[tuple[str, tuple[Any, ...]], Any] = field(default_factory=dict)

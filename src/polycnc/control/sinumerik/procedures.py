@@ -14,6 +14,7 @@ from polycnc.control.sinumerik import (
     d_numbers,
     interrupts,
     limits,
+    protection,
     retraction,
     sections,
     splines,
@@ -233,4 +234,5 @@ PROCEDURES: dict[str, Callable[[Channel, Arguments], None]] = {
     **axis_exchange.PROCEDURES,
     **retraction.PROCEDURES,
     **splines.PROCEDURES,
+    **protection.PROCEDURES,
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik import frames, gcodes, limits, tables
+from polycnc.control.sinumerik import frames, gcodes, limits, stages, tables
 from polycnc.control.sinumerik.memory import Polar
 from polycnc.language.sinumerik.nc_frame import NEUTRAL
 
@@ -22,9 +22,9 @@ def reset(channel: Channel, codes: dict[str, str]) -> None:
     """
     memory: Memory = channel.memory
     machine = channel.coordinates.machine
-    channel.head = None
     channel.mode = channel.modes.mode(codes)
-    memory.stages = memory.previous = None
+    memory.previous = memory.recorder = None
+    stages.clear(channel)
     memory.polar = Polar()
     memory.sections.clear()
     memory.open_corners.clear()

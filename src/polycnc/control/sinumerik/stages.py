@@ -29,6 +29,7 @@ from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.channel.path import PathStage
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.geometry.arcs import Point
 
@@ -83,11 +84,25 @@ class Stages:
         chain: tuple[SplineStage | SmoothApproach | CornerStage | CutterCompensation, ...]
         chain = (self.spline, self.approach, self.corner, self.cutter)
         memory: Memory = channel.memory
-        head = self.spline if collects else next((stage for stage in chain if stage.active), memory.recorder)
-        watch = memory.watch if memory.recorder is None else None
-        if watch is not None:
-            watch.after = head or channel.table
-        channel.head = watch or head
+        rest = memory.recorder or memory.guard
+        head = self.spline if collects else next((stage for stage in chain if stage.active), rest)
+        _begin_path(channel, head)
+
+
+def _begin_path(channel: Channel, head: PathStage | None) -> None:
+    """The watch for interrupts stands in front of everything, but while a contour is only read."""
+    memory: Memory = channel.memory
+    watch = memory.watch if memory.recorder is None else None
+    if watch is not None:
+        watch.after = head or channel.table
+    channel.head = watch or head
+
+
+def clear(channel: Channel) -> None:
+    """Take all stages out of the path but those that watch it (reset)."""
+    memory: Memory = channel.memory
+    memory.stages = None
+    _begin_path(channel, memory.guard)
 
 
 def stages(channel: Channel) -> Stages:
@@ -106,6 +121,8 @@ def relax(channel: Channel) -> None:
     memory: Memory = channel.memory
     if memory.stages is not None:
         memory.stages.into_path(channel)
+    else:
+        _begin_path(channel, memory.recorder or memory.guard)
 
 
 def change_plane(channel: Channel) -> None:
