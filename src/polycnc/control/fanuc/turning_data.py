@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 GEOMETRY = 10_000
 #: Largest offset of the delivered offset range (5042).
 MAX_OFFSET_MM = 9999.999
+#: Axes whose offsets have words of their own names.
+BASIC = frozenset("XYZ")
 #: 4th and 5th axis offsets: word and the parameter with the axis' number (II.5.1.5).
 FURTHER_AXES = {"E": 5044, "F": 5045}
 
@@ -81,19 +83,27 @@ def _set_tool_offset(channel: Channel, words: Words, number: int) -> None:
     offset = memory.turning_offset(number)
     values = offset.geometry if is_geometry else offset.wear
     radius_word = words.length("R")
-    by_increment = words.length("C") if "C" not in channel.axes else None
+    by_increment = words.length("C")
+    further = further_words(channel)
     for axis, value, incremental in words.axes():
+        name = channel.axes[axis]
+        if name == "C":
+            continue  # C is the increment of the nose radius, also where the machine has an axis of that name
         if abs(value) > MAX_OFFSET_MM:
             raise words.fail("g10_value", words.plan.axis_words[0].address)
-        name = channel.axes[axis]
-        values[name] = values.get(name, 0.0) + value if incremental else value
-    for address, parameter in FURTHER_AXES.items():
-        further = words.length(address)
-        if further is None:
+        if name not in BASIC and further.get(name) != name:
+            raise words.fail("g10_format", name)
+        if name not in BASIC and not _is_in_use(channel, name):
             continue
-        name = _further_axis(channel, words, address, parameter)
-        if _is_in_use(channel, address, name):
-            values[name] = further
+        values[name] = values.get(name, 0.0) + value if incremental else value
+    for address in FURTHER_AXES:
+        amount = words.length(address)
+        if amount is None:
+            continue
+        if address not in further:
+            raise words.fail("g10_format", address)
+        if _is_in_use(channel, further[address]):
+            values[further[address]] = amount
     field = "radius" if is_geometry else "radius_wear"
     if radius_word is not None:
         setattr(offset, field, radius_word)
@@ -107,19 +117,26 @@ def _set_tool_offset(channel: Channel, words: Words, number: int) -> None:
     offset_changed(channel)
 
 
-def _further_axis(channel: Channel, words: Words, address: str, parameter: int) -> str:
-    number = int(channel.memory.parameters.number(parameter))
-    if not 1 <= number <= len(channel.axes):
-        raise words.fail("g10_format", address)
-    return channel.axes[number - 1]
+def further_words(channel: Channel) -> dict[str, str]:
+    """The words of the 4th and 5th axis offsets and the axes that 5044 and 5045 name.
+
+    They are E and F; by 11403#2 OFN the axis' own name, if that is A or B (III.1.1.3).
+    """
+    parameters = channel.memory.parameters
+    found: dict[str, str] = {}
+    for address, parameter in FURTHER_AXES.items():
+        number = int(parameters.number(parameter))
+        if 1 <= number <= len(channel.axes):
+            name = channel.axes[number - 1]
+            found[name if parameters.bit(11403, 2) and name in ("A", "B") else address] = name
+    return found
 
 
-def _is_in_use(channel: Channel, address: str, name: str) -> bool:
+def _is_in_use(channel: Channel, name: str) -> bool:
     """Whether a 4th or 5th axis offset acts: the 5th by 11400#1 NO5, and none on the axis of the Y offset."""
     memory = channel.memory
-    if address == "F" and not memory.parameters.bit(11400, 1):
+    axis = channel.axis_index[name]
+    if axis == memory.parameters.number(FURTHER_AXES["F"]) - 1 and not memory.parameters.bit(11400, 1):
         return False
-    has_y_offset = (
-        memory.parameters.bit(8132, 1, default=1) and channel.axis_index[name] == memory.y_offset_axis
-    )
+    has_y_offset = memory.parameters.bit(8132, 1, default=1) and axis == memory.y_offset_axis
     return not has_y_offset
