@@ -65,7 +65,9 @@ def _offset_lines(channel: Channel) -> Iterator[str]:
     axes = {**{name: name for name in "XZ" if name in channel.axes}, "": "", **_y_and_further(channel)}
     for number in range(1, sets(channel) + 1):
         offset = memory.turning_offset(number)
-        yield _line(channel, f"P{number:02d}", offset.wear, axes, (offset.radius_wear, offset.tip) if nose else None)
+        yield _line(
+            channel, f"P{number:02d}", offset.wear, axes, (offset.radius_wear, offset.tip) if nose else None
+        )
     if memory.common_offsets:
         return
     for number in range(1, sets(channel) + 1):
@@ -101,7 +103,12 @@ def _work_lines(channel: Channel) -> Iterator[str]:
         yield _line(channel, words, values, axes, None)
 
 
-_WRITERS = {"offsets": _offset_lines, "y-offsets": _y_lines, "second-geometry": _second_lines, "work": _work_lines}
+_WRITERS = {
+    "offsets": _offset_lines,
+    "y-offsets": _y_lines,
+    "second-geometry": _second_lines,
+    "work": _work_lines,
+}
 
 
 def sets(channel: Channel) -> int:
@@ -200,15 +207,14 @@ def _blocks(content: str) -> Iterator[tuple[int, str]]:
 
 def _entry(channel: Channel, line: int, block: str) -> _Entry:
     words: dict[str, float] = {}
-    position = 0
-    for match in iter(lambda: _WORD.match(block, position), None):
+    rest = _WORD.sub("", block)
+    if rest:
+        raise DataFileError(line, "no-word", found=rest[:20])
+    for match in _WORD.finditer(block):
         address, number = match.groups()
         if address in words:
             raise DataFileError(line, "word-twice", word=address)
         words[address] = float(number) if "." in number or address in "GLPQ" else _increments(channel, number)
-        position = match.end()
-    if position < len(block):
-        raise DataFileError(line, "no-word", found=block[position:][:20])
     if words.pop("G", None) != 10.0:
         raise DataFileError(line, "no-g10")
     if "P" not in words:
