@@ -106,7 +106,7 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G26", "fluctuation", turning_auxiliary.note_fluctuation, takes="P Q R I")),
     *same(_point("G27", turning_coordinates.check_reference)),
     *same(_point("G28", turning_coordinates.return_to_reference), "G28.2"),
-    *same(_point("G29", coordinates.return_from_reference)),
+    *same(_point("G29", turning_coordinates.return_from_reference)),
     *same(_point("G30", turning_coordinates.return_to_further_reference, "P"), "G30.2"),
     *same(_point("G31", turning_measuring.skip_move, "P")),
     *by_system("G32", "G33", "G33", _motion("G32", turning_threads.plan_thread)),

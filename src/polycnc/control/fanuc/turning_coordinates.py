@@ -31,6 +31,7 @@ def set_position(channel: Channel, words: Words) -> None:
     named = words.axes()
     if not named:
         return
+    _refuse_rotation(channel, words, "G50")
     c, memory = channel.coordinates, channel.memory
     drop_vector(channel)
     point = c.programmed[:]
@@ -109,6 +110,12 @@ def check_reference(channel: Channel, words: Words) -> None:
     coordinates.check_reference(channel, words)
 
 
+def return_from_reference(channel: Channel, words: Words) -> None:
+    """G29: over the intermediate point of the last reference return to a point."""
+    _refuse_rotation(channel, words, "G29")
+    coordinates.return_from_reference(channel, words)
+
+
 def _refuse_rotation(channel: Channel, words: Words, code: str) -> None:
     if channel.memory.frames.rotates:
         raise words.fail("in_rotation", code)
@@ -174,7 +181,10 @@ def rotate(channel: Channel, words: Words) -> None:
     angle = words.angle("R")
     if angle is None:
         angle = memory.parameters.number(5410)
-    elif channel.mode["distance"] == "G91" and memory.parameters.bit(5400, 0):
+    elif words.form("R") == "" and memory.parameters.bit(11630, 0):
+        # FRD: without a decimal point R counts 0.00001 degrees.
+        angle /= 100.0
+    if "R" in words and channel.mode["distance"] == "G91" and memory.parameters.bit(5400, 0):
         angle += memory.rotation_angle
     memory.rotation_angle = angle
     x, y, z = (center[i] if i >= 0 else 0.0 for i in c.geometry)

@@ -9,6 +9,7 @@ from polycnc.control.fanuc.turning_coordinates import feed_number, plane_axes
 from polycnc.control.fanuc.turning_drilling import is_series_15
 from polycnc.control.fanuc.turning_strokes import compensated_cycle, uncompensated_cycle
 from polycnc.control.fanuc.turning_threads import lead_in_force, plan_start_angle
+from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.control.word_address.path import PLANES
 from polycnc.cycles import turning_single
 from polycnc.cycles.threading import Runout
@@ -34,6 +35,7 @@ def plan_single_cycle(builder: Builder, plan: Plan) -> Step | None:
     if taper is not None:
         builder.take(taper)
     angle_of = plan_start_angle(builder) if code == "G92" else None
+    inch_thread = _plan_inch_thread(builder) if code == "G92" else None
     names_corner = bool(plan.axis_words) or taper is not None
     idle = any(row.group in _IDLE_GROUPS for row in builder.codes)
     if not names_corner and (idle or _PROGRAM_CODES.intersection(builder.m_codes)):
@@ -52,6 +54,8 @@ def plan_single_cycle(builder: Builder, plan: Plan) -> Step | None:
             data[word.axis] = (word.convert(value) if word.convert else value, word.incremental)
         if taper_slot is not None:
             data["taper"] = taper_of(values[taper_slot]) if taper_of else values[taper_slot]
+        if inch_thread is not None:
+            inch_thread(channel, values)
         if not data:
             return
         _run(channel, code, axes, 0.0 if angle_of is None else angle_of(channel, values))
@@ -61,7 +65,7 @@ def plan_single_cycle(builder: Builder, plan: Plan) -> Step | None:
 
 def _run(channel: Channel, code: str, axes: tuple[int, int], angle: float) -> None:
     data, c = channel.memory.single_cycle, channel.coordinates
-    if not channel.feed > 0.0:
+    if not channel.feed > 0.0 and "lead" not in data:
         raise channel.control.fail("no_feed")
     corner_point = c.programmed[:]
     for axis in axes:
@@ -73,21 +77,47 @@ def _run(channel: Channel, code: str, axes: tuple[int, int], angle: float) -> No
     corner: Point = (target[axes[0]], target[axes[1]])
     taper = data.get("taper", 0.0)
     if code == "G92":
-        strokes = turning_single.threading(start, corner, taper, runout(channel), angle)
-        uncompensated_cycle(channel, strokes, lead=lead_in_force(channel))
+        lead = data.get("lead") or lead_in_force(channel)
+        strokes = turning_single.threading(start, corner, taper, runout(channel, lead), angle)
+        uncompensated_cycle(channel, strokes, lead=lead)
         return
     cycle = turning_single.longitudinal if code == "G90" else turning_single.facing
     compensated_cycle(channel, list(cycle(start, corner, taper)))
 
 
-def runout(channel: Channel) -> Runout:
-    """Chamfer at the end of a thread: the machine's input, 5130 (0.1 leads), 5131 (0 for 45 degrees)."""
+def _plan_inch_thread(builder: Builder) -> Step | None:
+    """E of G92 in the Series 15 format: threads an inch, until F gives a lead again (II.6.3.2)."""
+    if not is_series_15(builder.channel):
+        return None
+    builder.take("E")
+    slot, names_lead = builder.slot("E"), builder.has("F")
+
+    def choose(channel: Channel, values: list[float]) -> None:
+        data = channel.memory.single_cycle
+        if slot is None:
+            if names_lead:
+                data.pop("lead", None)
+            return
+        if not values[slot] > 0.0:
+            raise channel.control.fail("thread_words", address="E")
+        data["lead"] = INCH_MM / values[slot]
+
+    return choose
+
+
+def runout(channel: Channel, lead: float | None = None) -> Runout:
+    """Chamfer at the end of a thread: the machine's input, 5130 (0.1 leads), 5131 (0 for 45 degrees).
+
+    Args:
+        channel: The channel.
+        lead: Lead of the thread, mm; without it the number of F.
+    """
     switch = channel.setup.switches.thread_chamfer
     if switch is False:
         return Runout()
     memory = channel.memory
     tenths = memory.cycle_parameter(5130)
-    return Runout(tenths * 0.1 * feed_number(channel), memory.cycle_parameter(5131) or 45.0)
+    return Runout(tenths * 0.1 * (lead or feed_number(channel)), memory.cycle_parameter(5131) or 45.0)
 
 
 def _taper_letters(builder: Builder, code: str) -> tuple[str, ...]:

@@ -101,6 +101,7 @@ def select_offset(channel: Channel, number: int, tool: int) -> None:
     """Make an offset number the active one; number 0 cancels."""
     if not 0 <= number <= (int(channel.memory.parameters.number(5024)) or MAX_OFFSETS):
         raise channel.control.fail("offset_number", address="T")
+    _refuse_rotation(channel)
     memory = channel.memory
     memory.offset_active = number
     by_tool = memory.parameters.bit(5002, 1) and not memory.common_offsets
@@ -109,12 +110,23 @@ def select_offset(channel: Channel, number: int, tool: int) -> None:
     renew_nose(channel)
 
 
+def _refuse_rotation(channel: Channel) -> None:
+    """No offset within a rotation, and none that shifts within a mirror (II.5.1.5, 5.9)."""
+    memory = channel.memory
+    if not memory.frames.rotates:
+        return
+    bit = memory.parameters.bit
+    shifts = not memory.common_offsets and (bit(5002, 2) or not bit(5002, 4))
+    if shifts:
+        raise channel.control.fail("offset_in_thread", address="T")
+    if not memory.frames.rotation.is_identity:
+        raise channel.control.fail("in_rotation", address="T")
+
+
 def apply_offset(channel: Channel, *, cancels: bool = False) -> None:
     """Let the active offset act: a shift at once, a movement with the next motion."""
     memory = channel.memory
     moves, shifts = offset_parts(channel, cancels=cancels)
-    if memory.frames.rotates and shifts != memory.tool_shift:
-        raise channel.control.fail("offset_in_thread", address="T")
     memory.tool_shift = shifts
     refresh(channel)
     memory.frames.offset = moves
@@ -238,6 +250,7 @@ def offset_changed(channel: Channel) -> None:
     bit = memory.parameters.bit
     at_next_move = bit(5002, 6) and (memory.common_offsets or bit(5002, 4))
     if bit(5001, 6) or at_next_move:
+        _refuse_rotation(channel)
         apply_offset(channel)
 
 
