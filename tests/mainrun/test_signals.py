@@ -122,8 +122,8 @@ def test_coolant_is_on_between_its_m_functions() -> None:
 def test_a_tool_change_waits_for_the_machine() -> None:
     virtual = hartford("O1\nT5\nM6\nG0 X10.\nM30\n")
     records = recorded(virtual)
-    virtual.signals["DOOR_OPEN"] = 1.0
     virtual.cycle_start()
+    virtual.signals["DOOR_OPEN"] = 1.0
     virtual.step(1.0)
     assert virtual.state is State.HOLD, "the open door holds the program"
     virtual.signals["DOOR_CLOSE_KEY"] = 1.0
@@ -137,11 +137,13 @@ def test_a_tool_change_waits_for_the_machine() -> None:
     assert edges[0] - virtual.signals.since("DOOR_CLOSE_KEY") == pytest.approx(4.0, abs=0.01)
 
 
-def test_a_function_that_the_machine_never_answers_lasts_until_reset() -> None:
+def test_a_tool_change_that_the_machine_never_answers_is_an_alarm_after_its_time() -> None:
     virtual = hartford("O1\nM11\nT5\nM6\nG0 X10.\nM30\n")
     virtual.cycle_start()
-    assert virtual.run(limit_s=100.0) is State.RUNNING
+    assert virtual.run(limit_s=25.0) is State.RUNNING
     assert virtual.signals["M6"] == 1.0
+    assert virtual.run(limit_s=10.0) is State.ALARM
+    assert [alarm.code for alarm in virtual.alarms] == ["1045"]
     virtual.reset()
     assert virtual.run() is State.READY
     assert virtual.signals["M6"] == 0.0

@@ -17,7 +17,7 @@ from dataclasses import replace
 from math import ceil, inf
 from typing import TYPE_CHECKING, Any
 
-from polycnc.mainrun.core import SINGLE_BLOCK_KINDS
+from polycnc.mainrun.core import JOG_RATE, LOCKED_STATES, SINGLE_BLOCK_KINDS
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.programs import forget_skipped
 from polycnc.mainrun.readings import Readings
@@ -25,13 +25,13 @@ from polycnc.mainrun.search import search
 from polycnc.mainrun.states import Command, Mode, State, is_allowed
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
     from pathlib import Path
 
 #: Lowest and highest overrides, 1 for 100 % (Hartford manual, operator panel).
 FEED_RANGE, RAPID_RANGE, SPINDLE_RANGE = (0.0, 2.0), (0.0, 1.0), (0.5, 1.2)
-#: Jog rate and dry run speed at a feed override of 100 %, mm/min or degrees/min (Hartford manual).
-JOG_RATE = 1000.0
+#: Switches that keep axes from moving.
+LOCKS = ("machine_lock", "z_lock")
 #: A run without limit ends after a day.
 LONGEST_RUN_S = 86400.0
 
@@ -64,6 +64,16 @@ class VirtualControl(Readings):
         self._programs.load(source)
         for lane in self._lanes.values():
             lane.channel.store = self._programs.store
+
+    def load_tape(self, source: str | bytes | Path) -> None:
+        """Give the program that comes from outside in mode `tape`: tape, DNC, memory card. Sources as for `load`.
+
+        Raises:
+            CommandRefused: A program runs.
+            ProgramFileError: The file cannot be read.
+        """
+        self._ask(Command.LOAD)
+        self._tape = self._programs.from_outside(source)
 
     def mdi(self, text: str) -> None:
         """Type blocks in and start them; allowed in MDI mode. What they change stays."""
@@ -128,10 +138,14 @@ class VirtualControl(Readings):
         if self._manual.moving:
             raise CommandRefused("mainrun.moving")
         if self.state is State.READY:
-            program = self._typed if self.mode is Mode.MDI else self._programs.main
+            sources = {Mode.MDI: self._typed, Mode.TAPE: self._tape}
+            program = sources.get(self.mode, self._programs.main)
             if program is None:
                 raise CommandRefused("mainrun.no-program")
+            self._ask_machine("CYCLE_START")
             self._program_mode = self.mode
+            self._pulse("STARTED")
+            self._set_rates()
             self._prepare(self._lane)
             self._machinery.reset()
             self._ahead.start(program, self._automatic.position)
@@ -139,6 +153,7 @@ class VirtualControl(Readings):
         elif self.mode is not self._program_mode:
             raise CommandRefused("mainrun.other-mode", mode=self._program_mode)
         elif self._hand is not None:
+            self._ask_machine("CYCLE_START")
             self._set_state(State.RUNNING)
             for happening in self._collected:
                 self._machinery.perform(happening)
@@ -148,6 +163,7 @@ class VirtualControl(Readings):
             for axis, target in enumerate(waiting):
                 self._manual.towards(axis, self._hand[axis], target, self._jog_speed(axis), self.time)
         else:
+            self._ask_machine("CYCLE_START")
             self._resume()
 
     def feed_hold(self) -> None:
@@ -162,16 +178,35 @@ class VirtualControl(Readings):
 
     def reset(self) -> None:
         """Give the program up: the axes brake, alarms go, modal states become those after reset."""
-        if self.state is State.EMERGENCY:
+        if self.state in LOCKED_STATES:
             raise CommandRefused("mainrun.refused", command=Command.RESET, mode=self.mode, state=self.state)
         self._brake(State.BRAKING)
 
     def emergency_stop(self, *, pressed: bool = True) -> None:
         """Press the emergency stop, or pull it out again: then the control is as after reset."""
+        if self.state is State.OFF:
+            return
         if pressed:
             self._brake(State.EMERGENCY)
         elif self.state is State.EMERGENCY:
             self._brake(State.BRAKING)
+
+    def power_off(self) -> None:
+        """Switch off: the axes come to rest, outputs drop. Programs, offsets and variables stay."""
+        self._brake(State.OFF)
+        for rule in self.control.plc.rules:
+            if rule.latch:
+                self._signals[rule.output] = 0.0
+        self._signals["POWER_OFF"] = 0.0
+
+    def power_on(self) -> None:
+        """Switch on again: as after reset; machines without absolute encoders have to return to their references."""
+        if self.state is not State.OFF:
+            return
+        if self._signals["INCREMENTAL_ENCODERS"]:
+            for axis in self.channel.axes:
+                self._signals[f"NOT_REFERENCED_{axis}"] = 1.0
+        self._brake(State.BRAKING)
 
     def _press(self, key: str) -> None:
         press = {
@@ -190,6 +225,7 @@ class VirtualControl(Readings):
         wanted: Mode = _one_of(Mode, "mode", mode)
         self._ask(Command.SELECT_MODE)
         if wanted is not self.mode:
+            self._ask_machine(f"MODE_{wanted.upper()}")
             if self.state is State.RUNNING:
                 self.feed_hold()
             self._manual.brake_all(self.time)
@@ -202,6 +238,7 @@ class VirtualControl(Readings):
         """Press a jog key: the axis moves until `stop_jog`, or to its limit."""
         self._ask(Command.JOG)
         i = self._axis(axis)
+        self._ask_machine(*self._move_words(i))
         base = self._by_hand()
         speed = self._rapid_speed(i) if rapid else self._jog_speed(i)
         self._manual.towards(i, base[i], self._manual.along(i, direction, base[i]), speed, self.time)
@@ -226,12 +263,22 @@ class VirtualControl(Readings):
     def home(self, axis: str | None = None) -> None:
         """Approach the first reference point; with all axes where none is named."""
         self._ask(Command.HOME)
+        named = range(len(self.channel.axes)) if axis is None else (self._axis(axis),)
+        self._ask_machine(*(f"HOME_{self.channel.axes[i]}" for i in named))
         base = self._by_hand()
-        for i in range(len(self.channel.axes)) if axis is None else (self._axis(axis),):
+        for i in named:
             target = self.channel.axis_data[i].reference_points[0]
             self._manual.towards(i, base[i], target, self._rapid_speed(i), self.time)
 
+    def _move_words(self, axis: int) -> list[str]:
+        """What an axis that is to move asks the machine for."""
+        rotary = [i for i, data in enumerate(self.channel.axis_data) if data.rotary]
+        words = [f"MOVE_{self.channel.axes[axis]}"]
+        words += ["MOVE_FIFTH_AXIS"] if axis in rotary[1:2] else []
+        return words + (["MOVE_SECOND_AXIS"] if self._manual.moving - {axis} else [])
+
     def _shift(self, axis: int, shown: float, speed: float) -> None:
+        self._ask_machine(*self._move_words(axis))
         base = self._by_hand()
         factor = self._display.machine_factor(axis, self._automatic.context)
         target = self._manual.goal(axis, base[axis]) + shown / factor
@@ -247,7 +294,7 @@ class VirtualControl(Readings):
 
     def _jog_speed(self, axis: int) -> float:
         top = self.channel.axis_data[axis].max_feed or inf
-        return min(JOG_RATE / 60.0 * self._rates.feed, top)
+        return min(JOG_RATE / 60.0 * self._dials.feed, top)
 
     def _rapid_speed(self, axis: int) -> float:
         return (self.channel.axis_data[axis].rapid or 1e9) * self._rates.rapid
@@ -264,13 +311,13 @@ class VirtualControl(Readings):
                 raise CommandRefused("mainrun.value", name=name, allowed=f"{low:g} … {high:g}", value=value)
         for name, (value, _) in new.items():
             if value is not None:
-                setattr(self._rates, name, float(value))
+                setattr(self._dials, name, float(value))
                 self._report("override", name=name, value=float(value))
         base = self.machine_position
         for axis in self._manual.goals:
             speed = self._rapid_speed(axis) if self.mode is Mode.REFERENCE else self._jog_speed(axis)
             self._manual.change_speed(axis, base[axis], speed, self.time)
-        self._revise()
+        self._set_rates()
 
     def set_switches(self, **changes: Any) -> None:
         """Turn panel switches, by the names of `PanelSwitches`.
@@ -286,27 +333,36 @@ class VirtualControl(Readings):
                 raise CommandRefused("mainrun.value", name="single_block", allowed=allowed, value=kind)
         if changes.get("block_skip", self._switches.block_skip) != self._switches.block_skip:
             forget_skipped(self.channel)
-        if "machine_lock" in changes and changes["machine_lock"] != self._switches.machine_lock:
+        if any(
+            changes.get(lock, getattr(self._switches, lock)) != getattr(self._switches, lock)
+            for lock in LOCKS
+        ):
             self._ask(Command.MACHINE_LOCK)
-            self._lock(on=bool(changes["machine_lock"]))
+            self._lock({lock: changes.get(lock, getattr(self._switches, lock)) for lock in LOCKS})
         self._switches = replace(self._switches, **changes)
-        self._rates.dry_run = JOG_RATE / 60.0 if self._switches.dry_run else 0.0
+        self._set_rates()
         for lane in self._lanes.values():
             lane.machinery.optional_stop = self._switches.optional_stop
+            lane.machinery.mst_lock = self._switches.mst_lock
         for lane in self._lanes.values():
             lane.automatic.single_block = bool(self._switches.single_block)
             self._apply_switches(lane.channel)
         self._revise()
         self._report("switch", **changes)
 
-    def _lock(self, *, on: bool) -> None:
-        """Machine lock: the axes stand while the display runs on; when it ends, the display shows the axes again."""
+    def _lock(self, locks: Mapping[str, bool]) -> None:
+        """Locked axes stand while the display runs on; when a lock ends, the display shows the axes again."""
         if self._manual.moving:
             raise CommandRefused("mainrun.moving")
         position = self.machine_position
-        if not on and self._locked_at is not None:
-            self._stand_at(self._locked_at)
-        self._locked_at = position if on else None
+        z = self.machine.geometry_indices(self.channel.number)[2]
+        wanted = set(range(len(position))) if locks["machine_lock"] else {z} if locks["z_lock"] else set()
+        released = self._locked_at.keys() - wanted
+        if released:
+            self._stand_at(
+                [self._locked_at[i] if i in released else value for i, value in enumerate(position)]
+            )
+        self._locked_at = {i: self._locked_at.get(i, position[i]) for i in wanted}
 
     # ---- time ----------------------------------------------------------------------------------------------
 
@@ -355,6 +411,13 @@ class VirtualControl(Readings):
     def _ask(self, command: Command) -> None:
         if not is_allowed(command, self.mode, self.state):
             raise CommandRefused("mainrun.refused", command=command, mode=self.mode, state=self.state)
+
+    def _ask_machine(self, *words: str) -> None:
+        """Ask the machine's controller for something; it answers with an alarm or a message where it refuses."""
+        for word in words:
+            if code := self._guard.refuses(word):
+                told = self.control.catalogue.text(code)
+                raise CommandRefused("mainrun.machine", code=code, text=told)
 
     def allows(self, command: Command | str) -> bool:
         """Whether a command may be given in this mode and state."""

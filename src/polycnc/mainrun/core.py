@@ -13,8 +13,10 @@ from polycnc.mainrun.ahead import Ahead
 from polycnc.mainrun.automatic import Automatic
 from polycnc.mainrun.display import MainRunDisplay
 from polycnc.mainrun.equipment import equipment
+from polycnc.mainrun.guard import Guard
 from polycnc.mainrun.items import Happening, Rates
 from polycnc.mainrun.lane import Lane
+from polycnc.mainrun.machine_states import axis_states, machine_states, turn_magazine
 from polycnc.mainrun.machinery import SKIP_SIGNAL, Machinery
 from polycnc.mainrun.manual import ManualAxes
 from polycnc.mainrun.program_signals import connect, give
@@ -41,6 +43,13 @@ if TYPE_CHECKING:
 #: Keys of the panel that signals can press.
 KEYS = frozenset({"CYCLE_START", "FEED_HOLD", "RESET", "EMERGENCY_STOP"})
 #: What the reasons of a halt lead to; every other one stops.
+LOCKED_STATES = frozenset((State.EMERGENCY, State.OFF))
+#: Jog rate and dry run speed at a feed override of 100 %, mm/min or degrees/min (Hartford manual).
+JOG_RATE = 1000.0
+#: Programmed stops that the machine's rules know of.
+HALT_SIGNALS = {"M00": "HALT_M00", "M0": "HALT_M00", "M01": "HALT_M01", "M1": "HALT_M01"}
+#: What the machine's rules make of the override switches.
+OVERRIDE_SIGNALS = frozenset({"FEED_IS_100", "SPINDLE_OVERRIDE_CANCELLED"})
 HALTS = {"end": State.READY, "alarm": State.ALARM}
 SINGLE_BLOCK_KINDS = ("", "SBL1", "SBL2", "SBL3")
 
@@ -76,7 +85,7 @@ class Core(ABC):
         self._switches = PanelSwitches(
             start.switches.single_block, start.switches.optional_stop, start.switches.block_skip
         )
-        self._rates = Rates()
+        self._rates, self._dials = Rates(), Rates()
         self._cycles = 0
         self._programs = Programs(self.control.form, search, files or {})
         self._program_mode = Mode.AUTO
@@ -84,7 +93,8 @@ class Core(ABC):
         self._giving_up = False
         self._returning = False
         self._hand: list[float] | None = None
-        self._locked_at: list[float] | None = None
+        self._tape: Program | None = None
+        self._locked_at: dict[int, float] = {}
         self._collected: list[Happening] = []
         self._pressed: list[str] = []
         self._build(start)
@@ -94,7 +104,11 @@ class Core(ABC):
         given = setup.switches.signals.items()
         signals = {name: float(value) for name, value in given if isinstance(value, int | float)}
         cycle = self.machine.interpolation_cycle_s
-        self._signals = SignalImage(signals, self.machine.rules, self._on_edge, lambda: self.time, cycle)
+        self._setup = setup
+        rules = (*self.control.plc.rules, *self.machine.rules)
+        states = {**machine_states(self), **axis_states(self)}
+        self._signals = SignalImage(signals, rules, self._on_edge, lambda: self.time, cycle, states)
+        self._guard = Guard(self.control.plc, self._signals, self._machine_alarm)
         self._shared = SharedAxes(self.machine)
         self._lanes: dict[int, Lane] = {}
         self._lane = lane = self._new_lane(self.machine.channels[0].number, setup)
@@ -105,6 +119,7 @@ class Core(ABC):
         self._manual = ManualAxes(self.channel.axis_data)
         self._signals[self.mode.upper()] = self._signals[self.state.upper()] = 1.0
         self._signals.scan()
+        self._guard.look()
 
     def _new_lane(self, number: int, setup: Setup) -> Lane:
         """A channel of the control; `_power_on` starts it."""
@@ -118,6 +133,7 @@ class Core(ABC):
             partial(self._on_block, number),
             partial(self._on_halt, number),
             lambda: give(channel, self._signals),
+            self._guard,
         )
         machinery = Machinery(
             self.machine, self._signals, lambda: self._lanes[number].automatic.time, reports
@@ -221,10 +237,19 @@ class Core(ABC):
             self._resume()
         elif self._hand is not None and self.state is State.READY and not self._manual.goals:
             self._stand_at(self._hand)
+        if self.mode is Mode.REFERENCE and not self._manual.goals:
+            self._note_references()
+
+    def _note_references(self) -> None:
+        """Axes that have come to their reference points know their position."""
+        for name in self.channel.axes:
+            if self._signals[f"NOT_REFERENCED_{name}"] and self._signals[f"{name}_AT_REFERENCE"]:
+                self._signals[f"NOT_REFERENCED_{name}"] = 0.0
 
     def _resume(self) -> None:
         self._returning, self._hand = False, None
         self._rates.hold = False
+        self._end_halt()
         self._set_state(State.RUNNING)
         for lane in list(self._lanes.values()):
             if lane.runs:
@@ -256,14 +281,17 @@ class Core(ABC):
     def _give_up(self) -> None:
         """The axes stand: the program is given up, the control is as after reset."""
         self._giving_up = self._rates.hold = False
+        self._end_halt()
+        self._pulse("ENDED")
         here = self.machine_position
         for lane in self._lanes.values():
             lane.give_up()
             lane.show_own_state()
         self._stand_at(here)
-        if self.state is not State.EMERGENCY:
+        if self.state not in LOCKED_STATES:
             self.alarms = ()
             self._set_state(State.READY)
+            self._guard.look()
 
     def _stand_at(self, position: Sequence[float]) -> None:
         """The axes stand here and no program runs."""
@@ -323,6 +351,10 @@ class Core(ABC):
                 here = lane.automatic.skip_signal()
                 if here is not None:
                     lane.channel.memory.note_skip(lane.display.work_of(here, lane.automatic.context))
+        if name in OVERRIDE_SIGNALS:
+            self._set_rates()
+        turn_magazine(self._signals, self.machine, name, value)
+        self._guard.watch(name)
 
     def _on_stop(self, number: int, code: str) -> None:
         if code == "alarm":
@@ -336,6 +368,8 @@ class Core(ABC):
             self._group.end(number)
         others = [other for other in self._lanes.values() if other is not lane and other.runs]
         if self.state is State.RUNNING:
+            if reason in HALT_SIGNALS:
+                self._signals[HALT_SIGNALS[reason]] = 1.0
             if reason == "alarm" or not any(other.automatic.running for other in others):
                 self._set_state(
                     HALTS.get("stop" if others and reason == "end" else reason, State.STOPPED), halt=reason
@@ -346,10 +380,56 @@ class Core(ABC):
             self._rates.hold = True
             self._revise()
         if reason == "end" and lane is self._lane:
-            self.parts += self._program_mode is Mode.AUTO
-            if self._program_mode is Mode.AUTO:
+            self.parts += self._program_mode is not Mode.MDI
+            if self._program_mode is not Mode.MDI:
                 self.control.reset(self.channel)
             lane.show_own_state()
+
+    def _end_halt(self) -> None:
+        for name in HALT_SIGNALS.values():
+            self._signals[name] = 0.0
+
+    def _pulse(self, signal: str) -> None:
+        """Something happens that has no length in time; the rules answer."""
+        self._signals[signal] = 1.0
+        self._signals[signal] = 0.0
+
+    def _set_rates(self) -> None:
+        """The speeds follow the override switches, unless the machine holds them at 100 %."""
+        dials, rates = self._dials, self._rates
+        rates.feed = 1.0 if self._signals["FEED_IS_100"] else dials.feed
+        rates.rapid = dials.rapid
+        rates.spindle = 1.0 if self._signals["SPINDLE_OVERRIDE_CANCELLED"] else dials.spindle
+        in_dry_run = self._switches.dry_run and self._program_mode is not Mode.TAPE
+        rates.dry_run = JOG_RATE / 60.0 if in_dry_run else 0.0
+        self._revise()
+
+    def _machine_alarm(self, code: str) -> None:
+        """The machine's controller raises an alarm: everything comes to rest, a reset ends it."""
+        if any(alarm.code == code for alarm in self.alarms):
+            return
+        block = self._automatic.block if self.state is State.RUNNING else None
+        place = (block.program, block.line) if block is not None else ("", 0)
+        self.alarms = (*self.alarms, Alarm(self.control.id, code, *place))
+        self._report("event", 1, type="alarm", code=code, line=place[1], program=place[0])
+        if self.state not in LOCKED_STATES and self.state is not State.BRAKING:
+            self._rates.hold = True
+            self._returning = False
+            self._revise()
+            self._manual.brake_all(self.time)
+            self._set_state(State.ALARM, halt="alarm")
+
+    @property
+    def program_spindle(self) -> int:
+        """Direction in which a program that waits wants to find the spindle turning: 1, -1, 0 for none."""
+        if self._collected:  # functions that cycle start still puts out
+            return 0
+        return self._automatic.context.spindle_direction
+
+    @property
+    def waiting_tool(self) -> int | str:
+        """The tool that stands by."""
+        return self._machinery.next_tool
 
     def _raise_alarm(self, error: AlarmError) -> None:
         self.alarms = (

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.mainrun.guard import Guard, word_of
 from polycnc.motion.waits import ORIENT
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
         Callable[[Block], None],
         Callable[[str], None],
         Callable[[], None],
+        Guard,
     ]
 
 #: Stops that the operator's switch decides on.
@@ -28,6 +30,7 @@ OPTIONAL_STOPS = frozenset({"M01", "M1"})
 #: The input that ends a skip move.
 SKIP_SIGNAL = "SKIP"
 MESSAGES = frozenset({"message", "print"})
+PROGRAM_ENDS = frozenset({"M2", "M30"})
 
 
 class Machinery:
@@ -38,10 +41,12 @@ class Machinery:
         signals: The signal image; its rules may finish functions.
         clock: Gives the simulated time.
         report: Called with each event that is carried out, with the code of a programmed stop (or `alarm`), with
-            each block that begins, with the reason when the run has halted, and before the program reads signals.
+            each block that begins, with the reason when the run has halted, and before the program reads signals;
+            last, what the machine's controller refuses.
 
     Attributes:
         optional_stop: M01 stops.
+        mst_lock: M, S and T do not reach the machine.
         next_tool: The tool that stands by, by number or name; 0 for none.
         messages: Texts of the program since it began.
     """
@@ -53,13 +58,13 @@ class Machinery:
         clock: Callable[[], float],
         report: Reports,
     ) -> None:
-        self.optional_stop = False
+        self.optional_stop = self.mst_lock = False
         self.next_tool: int | str = 0
         self.messages: list[str] = []
         self._machine = machine
         self._signals = signals
         self._clock = clock
-        self._report, self._stop, self.enter, self.halted, self.synchronise = report
+        self._report, self._stop, self.enter, self.halted, self.synchronise, self._guard = report
         self._running: dict[int, float] = {}
 
     @property
@@ -93,10 +98,15 @@ class Machinery:
         """Carry out an event."""
         event = happening.event
         self._report(event)
+        if event.type == "t":
+            self.next_tool = event.data.get("tool") or 0
+        word = word_of(event)
+        if word and ((self.mst_lock and word not in PROGRAM_ENDS) or self._guard.refuses(word)):
+            return
         if event.type == "m":
             self._begin(event.data.get("code"), happening.context)
-        elif event.type == "t":
-            self.next_tool = event.data.get("tool") or 0
+        elif word:
+            self._guard.answer(word)
         elif event.type == "signal":
             self._signals[str(event.data["name"])] = float(event.data["value"])
         elif event.type in MESSAGES:

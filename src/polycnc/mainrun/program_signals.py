@@ -41,6 +41,8 @@ def connect(channel: Channel, image: SignalImage) -> None:
         known = getattr(channel.memory, attribute, None)
         if isinstance(known, dict):
             setattr(channel.memory, attribute, ProgramSignals(known, channel, image))
+    if hasattr(channel.memory, "machine_signals"):
+        channel.memory.machine_signals = None  # the machine's controller is asked when a word reaches it
 
 
 def give(channel: Channel, image: SignalImage) -> None:

@@ -58,6 +58,13 @@ class Programs:
         self.store, self.main, self._inserted = store, main, 0
         return main
 
+    def from_outside(self, source: str | bytes | Path) -> Program:
+        """A program that is run without being stored; sources as for `load`."""
+        content = decode(source).text if isinstance(source, bytes) else source
+        if isinstance(source, bytes) or (isinstance(source, str) and "\n" in source):
+            return self._new_store().add_text(self._key("TAPE"), str(content))
+        return self._new_store().add_file(content)
+
     def insert(self, block: str, line: int | None) -> None:
         """Put a block behind a line of the main program's file, or behind the one that was put in last."""
         main = self.main

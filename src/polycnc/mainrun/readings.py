@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun.core import Core
@@ -26,6 +28,10 @@ if TYPE_CHECKING:
     from polycnc.messages import Alarm
 
 
+#: Cycles in which the spindle keeps to its programmed speed, whatever the override.
+TAPPING = frozenset({"G74", "G84", "G84.2", "G84.3"})
+
+
 class Readings(Core):
     """The readings; each is of the moment at which the clock stands, `snapshot` is all of them."""
 
@@ -39,7 +45,7 @@ class Readings(Core):
     def positions(self) -> Positions:
         """Positions as the displays show them."""
         axes, context = self.machine_position, self._automatic.context
-        real = axes if self._locked_at is None else self._locked_at
+        real = [self._locked_at.get(i, value) for i, value in enumerate(axes)]
         if self._hand is not None:
             return self._display.positions(axes, axes, real, without_transformation(context))
         return self._lane.positions(real)
@@ -71,8 +77,37 @@ class Readings(Core):
 
     @property
     def spindle(self) -> SpindleState:
-        """The spindle of the block in execution."""
-        return self._lane.spindle
+        """The spindle of the block in execution; where the machine's rules drive it, as they do."""
+        spindle = self._lane.spindle
+        if not self._guard.drives_spindle:
+            return spindle
+        direction = int(self._signals["SPINDLE_CW"] - self._signals["SPINDLE_CCW"])
+        if not direction or not self._signals["SPINDLE_TURNS"]:
+            return replace(spindle, rpm=0.0, direction=0)
+        context, data = self._automatic.context, self.machine.spindle.get(spindle.number)
+        asked = spindle.programmed_rpm * (1.0 if self.modal.get("cycle") in TAPPING else self._rates.spindle)
+        rpm = 0.0 if context.surface_speed else min(asked, data.max_rpm if data is not None else inf)
+        return replace(spindle, rpm=rpm, direction=direction)
+
+    @property
+    def notices(self) -> tuple[str, ...]:
+        """Numbers of the messages from the machine's controller; their texts are in the control's catalogue."""
+        return self._guard.messages
+
+    @property
+    def restart(self) -> Mapping[str, tuple[float, float]]:
+        """Where a program waits while its axes stand elsewhere: axis to position and way that is left, work units.
+
+        Empty where no program waits for axes that were moved by hand, or that a block search has left behind.
+        """
+        if self._hand is None or self.state not in (State.HOLD, State.STOPPED):
+            return {}
+        target = self._lane.positions().work
+        context = without_transformation(self._automatic.context)
+        left = self._display.positions(
+            self.machine_position, self._lane.real, self.machine_position, context
+        ).to_go
+        return {axis: (target[axis], left[axis]) for axis in target}
 
     @property
     def tool(self) -> ToolState:
@@ -105,7 +140,7 @@ class Readings(Core):
     @property
     def snapshot(self) -> Snapshot:
         """Everything at once, of one moment."""
-        rates = self._rates
+        dials = self._dials
         return Snapshot(
             time=self.time,
             mode=self.mode,
@@ -118,13 +153,14 @@ class Readings(Core):
             modal=self.modal,
             spindle=self.spindle,
             tool=self.tool,
-            overrides=Overrides(rates.feed, rates.rapid, rates.spindle),
+            overrides=Overrides(dials.feed, dials.rapid, dials.spindle),
             switches=self._switches,
             signals=self._signals.values,
             alarms=self.alarms,
             messages=self.messages,
             parts=self.parts,
             channels=self.channels,
+            notices=self.notices,
         )
 
     def alarm_text(self, alarm: Alarm, lang: str | None = None) -> str:

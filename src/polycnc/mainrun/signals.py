@@ -30,6 +30,7 @@ class SignalImage:
         on_edge: Called with name and value when a signal changes.
         clock: Gives the simulated time.
         cycle_s: How long outputs that chase each other wait.
+        states: Signals that follow from the state of the control, and how they are read.
     """
 
     def __init__(
@@ -39,6 +40,7 @@ class SignalImage:
         on_edge: Callable[[str, float], None],
         clock: Callable[[], float],
         cycle_s: float,
+        states: Mapping[str, Callable[[], bool]] | None = None,
     ) -> None:
         self._values: dict[str, float] = dict(start)
         self._edges: dict[str, float] = {}
@@ -48,6 +50,8 @@ class SignalImage:
         self._on_edge = on_edge
         self._clock = clock
         self._cycle_s = cycle_s
+        self._states = states or {}
+        self._acted = [False] * len(rules)
         self._scanning = False
         self.due = inf
 
@@ -59,7 +63,8 @@ class SignalImage:
         return dict(self._values)
 
     def __getitem__(self, name: str) -> float:
-        return self._values.get(name, 0.0)
+        state = self._states.get(name)
+        return self._values.get(name, 0.0) if state is None else float(state())
 
     def __setitem__(self, name: str, value: float) -> None:
         changed = self._values.get(name, 0.0) != value
@@ -103,9 +108,11 @@ class SignalImage:
             acts = since is not None and now >= since + rule.after_s
             if since is not None and not acts:
                 due = min(due, since + rule.after_s)
+            began = acts and not self._acted[number]
+            self._acted[number] = acts
             if rule.latch:
-                if acts:
-                    self[rule.output] = float(rule.latch == "on")
+                if began if rule.latch == "toggle" else acts:
+                    self[rule.output] = rule.latched(self[rule.output])
             else:
                 self[rule.output] = float(acts)
         return due

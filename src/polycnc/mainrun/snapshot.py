@@ -76,6 +76,8 @@ class PanelSwitches:
         block_skip: True for plain `/`, or the levels that are on, as the control writes them.
         dry_run: Feed moves run at the speed of the jog switch.
         machine_lock: The axes stand; the display runs on.
+        z_lock: The same for the tool axis alone.
+        mst_lock: M, S and T go to no machine; stops and program ends act.
     """
 
     single_block: str = ""
@@ -83,6 +85,8 @@ class PanelSwitches:
     block_skip: bool | tuple[int, ...] = False
     dry_run: bool = False
     machine_lock: bool = False
+    z_lock: bool = False
+    mst_lock: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,6 +143,7 @@ class Snapshot:
         messages: Texts that the program has put out.
         parts: How often a program has come to its end.
         channels: Every channel that has been spoken of, by number; what stands above is of the first.
+        notices: Numbers of the messages from the machine's controller.
     """
 
     time: float
@@ -159,6 +164,7 @@ class Snapshot:
     messages: tuple[str, ...] = ()
     parts: int = 0
     channels: Mapping[int, ChannelSnapshot] = field(default_factory=dict)
+    notices: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

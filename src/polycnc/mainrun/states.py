@@ -14,6 +14,10 @@ class Mode(StrEnum):
     INCREMENT = "increment"
     HANDLE = "handle"
     REFERENCE = "reference"
+    TAPE = "tape"
+    """A program is run as it comes from outside."""
+    EDIT = "edit"
+    """Programs are written; nothing runs."""
     TEACH = "teach"
 
 
@@ -34,6 +38,8 @@ class State(StrEnum):
     """An alarm waits for reset."""
     EMERGENCY = "emergency"
     """The emergency stop is pressed."""
+    OFF = "off"
+    """The power is off."""
 
 
 class Command(StrEnum):
@@ -54,7 +60,7 @@ class Command(StrEnum):
     RESET = "reset"
 
 
-PROGRAM_MODES = frozenset((Mode.AUTO, Mode.MDI))
+PROGRAM_MODES = frozenset((Mode.AUTO, Mode.MDI, Mode.TAPE))
 #: In teach-in the axes are moved by hand, in every way.
 HAND_MODES = frozenset((Mode.JOG, Mode.INCREMENT, Mode.HANDLE, Mode.TEACH))
 EVERY_MODE = frozenset(Mode)
