@@ -275,7 +275,9 @@ class Session:
         """
         for wait in self.group.run(self.result.program):
             if wait.reason == SINGLE_BLOCK:
-                self.result.stops.append(self._halt(wait))
+                halts = self.channel.inner_halts + 1
+                self.channel.inner_halts = 0
+                self.result.stops.extend([self._halt(wait)] * halts)
             elif progress is not None:
                 progress(self.channel)
         for consume in self.consumers:

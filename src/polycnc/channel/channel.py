@@ -52,6 +52,7 @@ class Channel:
         mark: Rows of the chunk when the running block began.
         control: The control, for the handlers of its family, which know its class.
         single_block: Hand over behind every block at which single block operation halts.
+        inner_halts: How often single block halts inside the block that runs, before its end.
         block_by_block: With it, behind every other block too.
         main_run: What executes the rows while the channel runs; None where nobody waits for that.
         share_after: The share of a skip move to an end, at a feed, that is done after some seconds (None: all of it);
@@ -112,6 +113,7 @@ class Channel:
         self.skip_levels = 0
         self.stroke_zone: Zone | None = None
         self.single_block = bool(setup.switches.single_block)
+        self.inner_halts = 0
         self.block_by_block = False
         self.main_run: MainRun | None = None
         self.share_after: Callable[[Channel, list[float], float, float], float | None] | None = None
@@ -338,6 +340,11 @@ class Channel:
         """Scan plain blocks; gives as many numbers as blocks are to be interpreted now."""
         burst = BURST if level.scanner is None else level.scanner.lead(self)
         return burst[: self.block_limit - self.blocks]
+
+    def halt_inside(self) -> None:
+        """Single block halts here, inside the block."""
+        if self.single_block:
+            self.inner_halts += 1
 
     def sequence_of(self, level: Level) -> str:
         """The block that a level runs, as its sequence number or else its line."""

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from polycnc.control import registry
-from tests.control.fanuc.lathe import run
+from polycnc.program.program import Program
+from tests.control.fanuc.lathe import moves, run
 
 if TYPE_CHECKING:
     from polycnc.session import Result
@@ -71,3 +72,30 @@ def test_a_reset_does_not_move_the_machine() -> None:
     result.control.reset(result.channel)
     assert result.channel.coordinates.machine == pytest.approx(before)
     assert registry.control("fanuc-0i-tf") is result.control
+
+
+@pytest.mark.parametrize(
+    ("clr", "c10", "cycle"), [(0, 0, "G84"), (0, 1, "G84"), (1, 0, "G80"), (1, 1, "G84")]
+)
+def test_a_tapping_cycle_stays_or_goes_by_clr_and_c10(clr: int, c10: int, cycle: str) -> None:
+    program = "G98 G0 X0 Z5.\nM29 S500\nG84 Z-10. R-3. F500"
+    result = after_reset(program, parameters={"3402#6": clr, "3407#2": c10})
+    assert codes(result, "cycle") == [cycle]
+
+
+@pytest.mark.parametrize(("clr", "code"), [(0, "G42"), (1, "G40")])
+def test_compensation_stays_modal_without_a_vector_or_ends(clr: int, code: str) -> None:
+    program = "T0101\nG42 G0 X20. Z2.\nG1 Z-10. F.2"
+    result = after_reset(program, tools={1: {"radius": 2.0}}, parameters={"3402#6": clr})
+    assert codes(result, "compensation") == [code]
+    assert result.channel.memory.compensation is None
+
+
+@pytest.mark.parametrize(("number", "start"), [("", 40.0), ("T0101", 44.0)])
+def test_compensation_that_stayed_modal_starts_with_the_next_offset_number(number: str, start: float) -> None:
+    result = after_reset("T0101\nG42 G0 X20. Z2.\nX30. Z5.", tools={1: {"radius": 2.0}})
+    program = Program("NEXT", f"G0 X60. Z5.\nX40. Z2. {number}\nZ-10.\nG40\nM30".splitlines())
+    for _ in result.channel.run(program, power_on=False):
+        pass
+    assert not result.channel.alarms
+    assert moves(result)[-2:] == [("rapid", start, 2.0), ("rapid", start, -10.0)]

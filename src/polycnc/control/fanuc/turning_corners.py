@@ -137,5 +137,8 @@ def plan_corner(builder: Builder) -> Callable[[Channel, list[float]], object] | 
             stage = corner_stage(channel)
             stage.expect(Expected(other, value, channel.line))
             stage.insert(shape, abs(value))
+            if channel.memory.parameters.bit(5105, 0):
+                # SBC: single block halts in front of the inserted block as well as behind it.
+                channel.halt_inside()
 
     return insert

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc import turning_tapping
 from polycnc.control.word_address import drilling as base
-from polycnc.control.word_address.drilling import DrillCycle, Drilling
+from polycnc.control.word_address.drilling import DrillCycle, Drilling, Halts
 from polycnc.control.word_address.path import PLANES
 from polycnc.cycles import drilling, drilling_lathe
 
@@ -91,6 +91,7 @@ def _rules(choice: _Choice) -> Drilling:
         relief=_relief,
         turn=_turn,
         dress=_dress,
+        halts=_halts,
     )
     peck: Cycle = drilling.peck_clearing_chips if choice.clears_chips else drilling.peck_breaking_chips
     tap: Cycle = drilling_lathe.tap_clearing_chips if choice.taps_clear else drilling_lathe.tap
@@ -244,6 +245,12 @@ def _dress(channel: Channel, code: str, hole: Hole, strokes: Iterator[Stroke]) -
         seconds = channel.memory.parameters.number(5111) / 1000.0
         strokes = drilling_lathe.clamped(strokes, clamp, _unclamp(channel, clamp), seconds)
     return strokes
+
+
+def _halts(channel: Channel, code: str) -> Halts:
+    """Single block halts over the hole, on R and at the end; in rigid tapping by 5200#6 FHD behind every action."""
+    rigid = code in turning_tapping.TAPS and turning_tapping.is_rigid(channel)
+    return Halts.ALL if rigid and channel.memory.parameters.bit(5200, 6) else Halts.APPROACH
 
 
 def is_clamp(channel: Channel, number: int) -> bool:

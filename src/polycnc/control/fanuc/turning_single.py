@@ -11,6 +11,7 @@ from polycnc.control.fanuc.turning_strokes import compensated_cycle, uncompensat
 from polycnc.control.fanuc.turning_threads import lead_in_force, plan_start_angle
 from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.control.word_address.path import PLANES
+from polycnc.control.word_address.skip import signal_position
 from polycnc.cycles import turning_single
 from polycnc.cycles.threading import Runout
 
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.geometry.arcs import Point
 
+#: Name of the feed hold input.
+FEED_HOLD = "*SP"
 CYCLES = frozenset({"G90", "G92", "G94"})
 #: M codes of the control itself: blocks with nothing else do not repeat a cycle.
 _PROGRAM_CODES = frozenset({2, 30, 98, 99, 198})
@@ -78,11 +81,40 @@ def _run(channel: Channel, code: str, axes: tuple[int, int], angle: float) -> No
     taper = data.get("taper", 0.0)
     if code == "G92":
         lead = data.get("lead") or lead_in_force(channel)
-        strokes = turning_single.threading(start, corner, taper, runout(channel, lead), angle)
-        uncompensated_cycle(channel, strokes, lead=lead)
+        out = runout(channel, lead)
+        held = _held_corner(channel, axes, (start[0], corner[1] + taper), corner, out)
+        if held is not None:
+            begins_at = corner[1] + taper - held[1]
+            uncompensated_cycle(
+                channel, turning_single.threading(start, held, begins_at, out, angle), lead=lead
+            )
+            channel.stop(FEED_HOLD)
+        uncompensated_cycle(channel, turning_single.threading(start, corner, taper, out, angle), lead=lead)
         return
     cycle = turning_single.longitudinal if code == "G90" else turning_single.facing
     compensated_cycle(channel, list(cycle(start, corner, taper)))
+
+
+def _held_corner(
+    channel: Channel, axes: tuple[int, int], begin: Point, end: Point, out: Runout
+) -> Point | None:
+    """Where a thread ends that feed hold breaks off; None where it does not come in the thread (II.6.3.2.1).
+
+    The tool runs out from where the signal comes, goes back to the start and halts; the next start cuts the thread.
+    """
+    at = channel.setup.switches.signals_at.get(FEED_HOLD)
+    here = channel.coordinates.position
+    first, last = here[:], here[:]
+    first[axes[0]], first[axes[1]] = begin
+    last[axes[0]], last[axes[1]] = end
+    reached = signal_position(channel, first, last, at)
+    if reached is None or begin[0] == end[0]:
+        return None
+    way = end[0] - begin[0]
+    part = (reached[axes[0]] - begin[0]) / way + out.length / abs(way)
+    if part >= 1.0:
+        return None
+    return (begin[0] + part * way, begin[1] + part * (end[1] - begin[1]))
 
 
 def _plan_inch_thread(builder: Builder) -> Step | None:

@@ -9,6 +9,7 @@ from the block that enters the mode until the mode ends.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from enum import Enum
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -102,6 +103,19 @@ def shift_by_center_words(_channel: Channel, data: CycleData, plane: tuple[int, 
     return data.amount("IJK"[plane[0]]), data.amount("IJK"[plane[1]])
 
 
+class Halts(Enum):
+    """Where single block halts in a hole, besides its end."""
+
+    NONE = "nowhere"
+    APPROACH = "over the hole and on R"
+    ALL = "behind every stroke"
+
+
+def halts_nowhere(_channel: Channel, _code: str) -> Halts:
+    """A block that drills is one block."""
+    return Halts.NONE
+
+
 @dataclass(frozen=True, slots=True)
 class Drilling:
     """How a control drills.
@@ -125,6 +139,7 @@ class Drilling:
         turn: What a reversal or stop of the spindle within a cycle does.
         least_increments: Words that count least increments even under calculator input.
         dress: What the machine adds to the strokes of a hole (clamping an axis), by cycle code.
+        halts: Where single block halts in a hole, by cycle code.
     """
 
     cycles: Mapping[str, DrillCycle]
@@ -145,6 +160,7 @@ class Drilling:
     check: Callable[[Channel, str], None] = nothing_to_check
     least_increments: Sequence[str] = ""
     dress: Callable[[Channel, str, Hole, Iterator[Stroke]], Iterator[Stroke]] = as_it_is
+    halts: Callable[[Channel, str], Halts] = halts_nowhere
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -216,9 +232,14 @@ def plan_drilling(builder: Builder, plan: Plan) -> Step:
             rules.check(channel, code)
         with suspended(channel):
             # Radius compensation does not act in drilling cycles.
-            for _ in range(count):
+            halts = rules.halts(channel, code)
+            for number in range(count):
+                if number and halts is not Halts.NONE:
+                    channel.halt_inside()
                 words.position(channel, values)
-                _perform(channel, _strokes(channel, code, data), data)
+                if halts is not Halts.NONE:
+                    channel.halt_inside()
+                _perform(channel, _with_halts(channel, _strokes(channel, code, data), halts), data)
 
     return run
 
@@ -319,6 +340,22 @@ def _hole(channel: Channel, code: str, data: CycleData) -> Hole:
         relief=rules.relief(channel, code),
         by_r=rules.by_r,
     )
+
+
+def _with_halts(channel: Channel, strokes: Iterator[Stroke], halts: Halts) -> Iterator[Stroke]:
+    """Note where single block halts: behind strokes and dwells; the end of the hole is not counted here."""
+    if halts is Halts.NONE or not channel.single_block:
+        yield from strokes
+        return
+    waits = False
+    for stroke in strokes:
+        if stroke.action not in (Action.OUTPUT, Action.SPINDLE):
+            if waits:
+                channel.halt_inside()
+            on_r = halts is Halts.APPROACH and stroke.action is Action.RAPID
+            waits = halts is Halts.ALL or on_r
+            halts = Halts.NONE if on_r else halts
+        yield stroke
 
 
 def _perform(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> None:
