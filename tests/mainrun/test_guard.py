@@ -1,4 +1,4 @@
-"""The machine's controller on the live signals: refusals, alarms that stand, messages, rules of the Hartford machines."""
+"""The machine's controller on the live signals: refusals, standing alarms, messages, rules of the Hartford machines."""
 
 from __future__ import annotations
 

@@ -37,13 +37,14 @@ def test_m73_moves_even_where_the_override_stands_at_zero() -> None:
 
 @pytest.mark.parametrize("control", ["fanuc-m", "meldas-m"])
 def test_m75_makes_the_spindle_override_one_hundred_per_cent_until_m76(control: str) -> None:
-    virtual = power_on("O1\nM3 S1000\nM0\nM75\nM0\nM76\nM0\nM30\n", control)
+    virtual = power_on("O1\nM3 S1000\nG4 P9000\nM75\nG4 P9000\nM76\nG4 P9000\nM30\n", control)
     virtual.override(spindle=1.2)
     speeds = []
     virtual.cycle_start()
-    while virtual.run(limit_s=1000.0) is State.STOPPED:
+    for line in (3, 5, 7):
+        assert virtual.run_until(lambda control, line=line: control.active_block.line == line)
+        virtual.step(5.0)
         speeds.append(virtual.spindle.rpm)
-        virtual.cycle_start()
     assert speeds == [1200.0, 1000.0, 1200.0]
 
 

@@ -48,8 +48,8 @@ LOCKED_STATES = frozenset((State.EMERGENCY, State.OFF))
 JOG_RATE = 1000.0
 #: Programmed stops that the machine's rules know of.
 HALT_SIGNALS = {"M00": "HALT_M00", "M0": "HALT_M00", "M01": "HALT_M01", "M1": "HALT_M01"}
-#: What the machine's rules make of the override switches.
-OVERRIDE_SIGNALS = frozenset({"FEED_IS_100", "SPINDLE_OVERRIDE_CANCELLED"})
+#: The soft key that holds the feed at 100 %.
+FEED_IS_100 = "F_100"
 HALTS = {"end": State.READY, "alarm": State.ALARM}
 SINGLE_BLOCK_KINDS = ("", "SBL1", "SBL2", "SBL3")
 
@@ -351,7 +351,7 @@ class Core(ABC):
                 here = lane.automatic.skip_signal()
                 if here is not None:
                     lane.channel.memory.note_skip(lane.display.work_of(here, lane.automatic.context))
-        if name in OVERRIDE_SIGNALS:
+        if name == FEED_IS_100:
             self._set_rates()
         turn_magazine(self._signals, self.machine, name, value)
         self._guard.watch(name)
@@ -395,11 +395,10 @@ class Core(ABC):
         self._signals[signal] = 0.0
 
     def _set_rates(self) -> None:
-        """The speeds follow the override switches, unless the machine holds them at 100 %."""
+        """The speeds follow the override switches; a soft key of the machine holds the feed at 100 %."""
         dials, rates = self._dials, self._rates
-        rates.feed = 1.0 if self._signals["FEED_IS_100"] else dials.feed
-        rates.rapid = dials.rapid
-        rates.spindle = 1.0 if self._signals["SPINDLE_OVERRIDE_CANCELLED"] else dials.spindle
+        rates.feed = 1.0 if self._signals[FEED_IS_100] else dials.feed
+        rates.rapid, rates.spindle = dials.rapid, dials.spindle
         in_dry_run = self._switches.dry_run and self._program_mode is not Mode.TAPE
         rates.dry_run = JOG_RATE / 60.0 if in_dry_run else 0.0
         self._revise()
@@ -422,7 +421,7 @@ class Core(ABC):
     @property
     def program_spindle(self) -> int:
         """Direction in which a program that waits wants to find the spindle turning: 1, -1, 0 for none."""
-        if self._collected:  # functions that cycle start still puts out
+        if self._collected or self._switches.mst_lock:  # cycle start still starts it, or the program cannot
             return 0
         return self._automatic.context.spindle_direction
 

@@ -28,10 +28,6 @@ if TYPE_CHECKING:
     from polycnc.messages import Alarm
 
 
-#: Cycles in which the spindle keeps to its programmed speed, whatever the override.
-TAPPING = frozenset({"G74", "G84", "G84.2", "G84.3"})
-
-
 class Readings(Core):
     """The readings; each is of the moment at which the clock stands, `snapshot` is all of them."""
 
@@ -85,8 +81,9 @@ class Readings(Core):
         if not direction or not self._signals["SPINDLE_TURNS"]:
             return replace(spindle, rpm=0.0, direction=0)
         context, data = self._automatic.context, self.machine.spindle.get(spindle.number)
-        asked = spindle.programmed_rpm * (1.0 if self.modal.get("cycle") in TAPPING else self._rates.spindle)
-        rpm = 0.0 if context.surface_speed else min(asked, data.max_rpm if data is not None else inf)
+        override = self._rates.spindle if context.spindle_override else 1.0
+        top = data.max_rpm if data is not None else inf
+        rpm = 0.0 if context.surface_speed else min(spindle.programmed_rpm * override, top)
         return replace(spindle, rpm=rpm, direction=direction)
 
     @property
