@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from benchmarks import interpreter, planner, sinumerik, startup
+from benchmarks import interpreter, planner, sinumerik, startup, turning
 
 BENCHMARKS = (
     interpreter.plain_blocks,
@@ -14,6 +14,7 @@ BENCHMARKS = (
     startup.small_run,
     sinumerik.loop,
     sinumerik.blocks,
+    turning.cycles,
     planner.speed,
     planner.optimum,
 )

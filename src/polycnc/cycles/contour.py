@@ -7,6 +7,7 @@ Points are (a, b): `a` runs along the strokes, `b` is the direction of infeed. F
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
 from math import sqrt
 from typing import TYPE_CHECKING
@@ -84,16 +85,19 @@ def reversal(contour: Sequence[Piece], axis: int, direction: float) -> float:
 
 def points(edge: Edge) -> list[Point]:
     """Start, turning points of an arc, and end of an edge, in the order of travel."""
-    if edge.center is None:
-        return [edge.start, edge.end]
-    center = edge.center
+    return [edge.start, edge.end] if edge.center is None else list(_arc_points(edge, edge.center))
+
+
+@lru_cache(maxsize=1024)
+def _arc_points(edge: Edge, center: Point) -> tuple[Point, ...]:
+    """As `points`. A roughing cycle asks for the same arcs at every level."""
     radius = arcs.radius_of(center, edge.end)
     turning = [
         (center[0] + da * radius, center[1] + db * radius) for da, db in ((1, 0), (0, 1), (-1, 0), (0, -1))
     ]
     inside = [p for p in turning if arcs.contains_direction(edge.start, edge.end, center, edge.ccw, p)]
     inside.sort(key=lambda p: abs(arcs.sweep_angle(edge.start, p, center, edge.ccw)) % arcs.TAU)
-    return [edge.start, *inside, edge.end]
+    return (edge.start, *inside, edge.end)
 
 
 def crossings(edge: Edge, level: float) -> list[Point]:
@@ -195,23 +199,47 @@ def _is_before(part: Edge, at: Point) -> bool:
 
 def deepest(contour: Sequence[Piece], towards: float) -> float:
     """The deepest `b` of a contour; `towards` is the direction of infeed, 1 or -1."""
-    return towards * max(towards * b for piece in contour for _, b in points(piece.edge))
+    most = towards * contour[0].edge.start[1]
+    for piece in contour:
+        edge = piece.edge
+        if edge.center is None:
+            most = max(most, towards * edge.end[1])
+        else:
+            most = max(most, *(towards * b for _, b in points(edge)))
+    return towards * most
 
 
 def runs(contour: Sequence[Piece], level: float, towards: float) -> list[tuple[bool, Contour]]:
     """The contour in runs that lie at a level or deeper (true), and above it (false), in turn."""
     result: list[tuple[bool, Contour]] = []
     for piece in contour:
-        for part in _split(piece.edge, level):
-            is_deep = towards * (_middle(part)[1] - level) > -_SAME
+        edge = piece.edge
+        below, above = _heights(edge, level, towards)
+        if below <= _SAME or above <= _SAME:
+            parts, is_whole = [edge], True  # most pieces do not cross the level
+        else:
+            parts, is_whole = list(_split(edge, level)), False
+        for part in parts:
+            is_deep = above <= _SAME if is_whole else towards * (_middle(part)[1] - level) > -_SAME
             if not result or result[-1][0] != is_deep:
                 result.append((is_deep, []))
-            result[-1][1].append(Piece(part, piece.is_rapid))
+            result[-1][1].append(piece if is_whole else Piece(part, piece.is_rapid))
     return result
+
+
+def _heights(edge: Edge, level: float, towards: float) -> Point:
+    """How far an edge lies below a level at most, and above it; 0 or less where it does not."""
+    first, last = towards * (edge.start[1] - level), towards * (edge.end[1] - level)
+    if edge.center is None:
+        return (first, -last) if first > last else (last, -first)
+    heights = [towards * (b - level) for _, b in points(edge)]
+    return max(heights), -min(heights)
 
 
 def bumps(contour: Sequence[Piece], towards: float) -> list[Contour]:
     """The parts of a contour that go down and come up again, from ridge to ridge; slopes and steps are none."""
+    if len(contour) == 1 and contour[0].edge.center is None:
+        return []
     pieces = slopes(contour)
     parts: list[Contour] = []
     falls = True

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from polycnc.cycles.turning_rough import Roughing
     from polycnc.geometry.arcs import Point
 
+    #: A stroke, or what makes further ones.
+    _Work = PlaneStroke | Iterator["_Work"]
+
 _SAME = 1e-9
 #: Strokes shorter than this are points, mm.
 _HAIR = 1e-6
@@ -54,7 +57,16 @@ def clear_pockets(
     onwards = copysign(1.0, contour[-1].edge.end[0] - begin[0])
     clearing = _Clearing(cuts, towards, onwards, contour[0], skips_bottom=skips_bottom)
     yield PlaneStroke(Kind.RAPID, begin)
-    yield from clearing.clear(contour, begin[1], _Tool(begin))
+    # Pockets within pockets wait on a stack of their own: recursion would hand every stroke through all levels.
+    open_pockets = [clearing.clear(contour, begin[1], _Tool(begin))]
+    while open_pockets:
+        item = next(open_pockets[-1], None)
+        if item is None:
+            open_pockets.pop()
+        elif isinstance(item, PlaneStroke):
+            yield item
+        else:
+            open_pockets.append(item)
 
 
 class _Clearing:
@@ -67,8 +79,8 @@ class _Clearing:
         self.infeed_from, self.infeed_to = infeed.edge.start, infeed.edge.end
         self.skips_bottom = skips_bottom
 
-    def clear(self, pocket: Contour, above: float, tool: _Tool) -> Iterator[PlaneStroke]:
-        """Everything of a pocket below the height `above`."""
+    def clear(self, pocket: Contour, above: float, tool: _Tool) -> Iterator[_Work]:
+        """Everything of a pocket below the height `above`: strokes, and pockets to be cleared in between."""
         towards = self.towards
         bottom = deepest(pocket, towards)
         if towards * (bottom - above) <= _HAIR:
@@ -78,7 +90,7 @@ class _Clearing:
         for number, (is_deep, run) in enumerate(found):
             if not is_deep:
                 for bump in bumps(run, towards):
-                    yield from self.clear(bump, above, tool)
+                    yield self.clear(bump, above, tool)
                 continue
             if abs(run[-1].edge.end[0] - run[0].edge.start[0]) <= _HAIR:
                 continue
@@ -90,7 +102,7 @@ class _Clearing:
             yield from self._enter(entry, run, level, above, tool)
             yield feed(run[-1].edge.end[0], level)
             yield from self._leave(leaving, run, level, tool, is_bottom=is_bottom)
-            yield from self.clear(run, level, tool)
+            yield self.clear(run, level, tool)
 
     def _entry(self, run: Contour, above: float, *, is_first: bool) -> Contour:
         """The way down to a stroke: what lies behind the last point at the height `above`, else behind the ridge."""
