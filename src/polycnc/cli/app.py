@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 #: Each command is the module of this name in `polycnc.cli`, which has a Typer `app`.
-COMMANDS = ("run", "check", "test", "plot", "features", "machines", "alarms")
+COMMANDS = ("run", "check", "test", "plot", "features", "machines", "alarms", "data", "parameters")
 BAD_USE, INTERRUPTED = 2, 130
 #: Libraries that polycnc can do without, and the extra that brings each.
 EXTRAS = {"numpy": "tables", "pyarrow": "tables", "resvg_py": "png"}

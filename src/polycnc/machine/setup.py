@@ -128,13 +128,14 @@ class Parameters:
 
 @dataclass(frozen=True, slots=True)
 class Offsets:
-    """One set of offsets of a tool."""
+    """One set of offsets of a tool; `axes` are those along further axes, by name."""
 
     x: float = 0.0
     y: float = 0.0
     z: float = 0.0
     length: float = 0.0
     radius: float = 0.0
+    axes: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +152,7 @@ class Tool:
         wear: Wear offsets.
         geom2: Second geometry offsets.
         edges: Further cutting edges by D number, from 2.
+        axes: Geometry along further axes (4th and 5th axis offsets of a lathe), by name.
     """
 
     length: float = 0.0
@@ -164,6 +166,7 @@ class Tool:
     wear: Offsets = Offsets()
     geom2: Offsets = Offsets()
     edges: Mapping[int, Tool] = field(default_factory=dict)
+    axes: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -227,7 +227,10 @@ def _tool_key(where: Where) -> int | str:
 _position = partial(_map_of, _axis_key, _number)
 _offsets = partial(_map_of, _offset_key, _position)
 _values = partial(_map_of, _text_key, _value)
-_OFFSETS: dict[str, Reader] = dict.fromkeys(("x", "y", "z", "length", "radius"), _number)
+_OFFSETS: dict[str, Reader] = {
+    **dict.fromkeys(("x", "y", "z", "length", "radius"), _number),
+    "axes": _position,
+}
 
 
 def _offset_set(where: Where, value: object) -> Offsets:

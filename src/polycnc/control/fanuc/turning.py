@@ -11,6 +11,7 @@ from polycnc.control.fanuc import (
     turning_data,
     turning_drawing,
     turning_drilling,
+    turning_files,
     turning_limits,
     turning_repetitive,
     turning_reset,
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from polycnc.channel.stack import Level
     from polycnc.channel.stack import Step as ProgramStep
     from polycnc.compensation.policies import Policy
+    from polycnc.control.data_files import DataFiles
     from polycnc.control.word_address.codes import GCode, Planner, Step
     from polycnc.control.word_address.drilling import Drilling
     from polycnc.control.word_address.plan import Builder, Plan
@@ -62,6 +64,8 @@ class FanucTurning(CustomMacroControl):
         "comp_avoidance_interferes": "PS5448",
     }
     foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
+    data_files: ClassVar[DataFiles] = turning_files
+    parameter_file: ClassVar[str] = "fanuc/turning_parameters.toml"
     EXTENDED_WORK_SYSTEMS: ClassVar[int] = 48
     DIAMETER_PROGRAMMING: ClassVar[bool] = True
     POINT_IN_WHOLE_NUMBERS: ClassVar[bool] = False

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from polycnc.control.data_files import DataFileError
 from polycnc.control.fanuc.turning_data import BASIC, GEOMETRY, MAX_OFFSET_MM, further_words
 from polycnc.control.fanuc.turning_tools import MAX_OFFSETS, offset_changed, refresh
 from polycnc.control.word_address.data_input import WORK_SYSTEMS
-from polycnc.messages import text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -35,18 +35,6 @@ KINDS: Mapping[str, str] = {
 }
 _WORD = re.compile(r"([A-Z])([+-]?(?:\d+\.?\d*|\.\d+))\s*")
 _COMMENT = re.compile(r"\([^)]*\)")
-
-
-class DataFileError(Exception):
-    """A data file that the control refuses: the line, and why."""
-
-    def __init__(self, line: int, reason: str, **args: str) -> None:
-        super().__init__(reason)
-        self.line, self.reason, self.args_by_name = line, reason, args
-
-    def text(self) -> str:
-        """The reason in the language of the user."""
-        return text(f"data.{self.reason}", **self.args_by_name)
 
 
 # ---- writing ----------------------------------------------------------------------------------------------------
@@ -173,8 +161,17 @@ class _Entry:
     words: dict[str, float] = field(default_factory=dict)
 
 
-def read(channel: Channel, content: str) -> int:
-    """Take a file over; gives the number of its blocks.
+@dataclass(frozen=True, slots=True)
+class Taken:
+    """What a file has written: how many blocks, into which offset numbers and work coordinate systems."""
+
+    blocks: int
+    numbers: frozenset[int]
+    systems: frozenset[str]
+
+
+def read(channel: Channel, content: str) -> Taken:
+    """Take a file over.
 
     Raises:
         DataFileError: The file is damaged; nothing has been changed.
@@ -186,7 +183,9 @@ def read(channel: Channel, content: str) -> int:
         _take_over(channel, entry)
     refresh(channel)
     offset_changed(channel)
-    return len(entries)
+    tools = (entry.number % GEOMETRY for entry in entries if entry.level is None)
+    systems = (_system(entry) for entry in entries if entry.level is not None)
+    return Taken(len(entries), frozenset(tools), frozenset(systems))
 
 
 def _blocks(content: str) -> Iterator[tuple[int, str]]:
@@ -260,12 +259,16 @@ def _addresses(channel: Channel, entry: _Entry) -> set[str] | None:
     return {*axes, *further_words(channel), "R", "Q"}
 
 
+def _system(entry: _Entry) -> str:
+    """The work coordinate system of a block with L2 or L20."""
+    return WORK_SYSTEMS[entry.number] if entry.level == 2 else f"G54.1 P{entry.number}"
+
+
 def _take_over(channel: Channel, entry: _Entry) -> None:
     memory: TurningMemory = channel.memory
     if entry.level is not None:
-        name = WORK_SYSTEMS[entry.number] if entry.level == 2 else f"G54.1 P{entry.number}"
         for address, value in entry.words.items():
-            memory.work_offset(name)[channel.axis_index[address]] = taken(channel, address, value)
+            memory.work_offset(_system(entry))[channel.axis_index[address]] = taken(channel, address, value)
         return
     group, number = divmod(entry.number, GEOMETRY)
     offset = memory.turning_offset(number)
@@ -286,3 +289,50 @@ def _set_radius(offset: TurningOffset, value: float, *, wear: bool) -> None:
         offset.radius_wear = value
     else:
         offset.radius = value
+
+
+# ---- setups -----------------------------------------------------------------------------------------------------
+
+
+def as_setup(channel: Channel, taken: Taken) -> dict[str, dict[Any, Any]]:
+    """What a file has written, as a setup writes it: mm, X as diameter."""
+    memory: TurningMemory = channel.memory
+    tools = {
+        number: _tool_of_setup(channel, memory.turning_offset(number)) for number in sorted(taken.numbers)
+    }
+    systems = {
+        name: _axes_of_setup(channel, dict(zip(channel.axes, memory.work_offset(name), strict=True)))
+        for name in sorted(taken.systems)
+    }
+    found: dict[str, dict[Any, Any]] = {"tools": tools, "work_offsets": systems}
+    return {key: values for key, values in found.items() if values}
+
+
+def _tool_of_setup(channel: Channel, offset: TurningOffset) -> dict[str, Any]:
+    common = channel.memory.common_offsets
+    main = offset.wear if common else offset.geometry
+    radius = offset.radius_wear if common else offset.radius
+    found = {**_offsets_of_setup(channel, main), "radius": radius, "tip": offset.tip}
+    if not common:
+        found["wear"] = {**_offsets_of_setup(channel, offset.wear), "radius": offset.radius_wear}
+    if offset.second:
+        found["geom2"] = _offsets_of_setup(channel, offset.second)
+    return found
+
+
+def _offsets_of_setup(channel: Channel, values: Mapping[str, float]) -> dict[str, Any]:
+    """Offsets along X, Y, Z, and those along further axes by their names."""
+    found: dict[str, Any] = {}
+    for axis, value in _axes_of_setup(channel, values).items():
+        if axis in BASIC:
+            found[axis.lower()] = value
+        else:
+            found.setdefault("axes", {})[axis] = value
+    return found
+
+
+def _axes_of_setup(channel: Channel, values: Mapping[str, float]) -> dict[str, float]:
+    diameters = {
+        name: channel.control.is_diameter(channel, index) for name, index in channel.axis_index.items()
+    }
+    return {axis: round(value * (2.0 if diameters.get(axis) else 1.0), 9) for axis, value in values.items()}

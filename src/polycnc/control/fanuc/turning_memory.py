@@ -144,7 +144,7 @@ class TurningMemory(MacroMemory):
 
     def _from_setup(self, tool: Tool) -> TurningOffset:
         def vector(values: Offsets | Tool) -> dict[str, float]:
-            named = {"X": values.x, "Y": values.y, "Z": values.z}
+            named = {"X": values.x, "Y": values.y, "Z": values.z, **values.axes}
             index = dict(self.channel.axis_index)
             if self.y_offset_axis >= 0:
                 index["Y"] = self.y_offset_axis
