@@ -184,3 +184,21 @@ def test_the_centre_is_equally_far_from_all_three_points(
     distances = [sqrt(sum((p - q) ** 2 for p, q in zip(x, center, strict=True))) for x in (a, b, c)]
     assert max(distances) - min(distances) < 1e-6
     assert sum(x * x for x in normal) == pytest.approx(1)
+
+
+@pytest.mark.parametrize(
+    ("end", "ccw", "stop"),
+    [
+        ((200.0, 0.0), False, (100.0, 0.0)),
+        ((60.0, 90.0), False, (60.0, 80.0)),
+        ((-90.0, -60.0), True, (-80.0, -60.0)),
+    ],
+)
+def test_an_arc_leaves_its_circle_where_it_reaches_a_coordinate_of_the_end_point(
+    end: arcs.Point, ccw: bool, stop: arcs.Point
+) -> None:
+    assert arcs.stop_on_circle((0.0, 100.0), end, (0.0, 0.0), ccw) == pytest.approx(stop)
+
+
+def test_where_the_circle_reaches_neither_coordinate_the_arc_stops_on_the_ray_to_the_end_point() -> None:
+    assert arcs.stop_on_circle((0.0, 5.0), (6.0, 8.0), (0.0, 0.0), False) == pytest.approx((3.0, 4.0))

@@ -85,6 +85,27 @@ def radius_mismatch(start: Point, end: Point, center: Point) -> float:
     return radius_of(center, end) - radius_of(center, start)
 
 
+def stop_on_circle(start: Point, end: Point, center: Point, ccw: bool) -> Point:
+    """Where an arc leaves its circle for an end point beside it.
+
+    It runs until one coordinate of the end point is reached in the quadrant of the end point; where the circle reaches
+    neither, until it is on the ray from the centre to the end point.
+    """
+    radius = radius_of(center, start)
+    to_end = (end[0] - center[0], end[1] - center[1])
+    found: list[Point] = []
+    for i in (0, 1):
+        other = radius * radius - to_end[i] * to_end[i]
+        if other >= 0.0:
+            height = sqrt(other) if to_end[1 - i] >= 0.0 else -sqrt(other)
+            at = (to_end[i], height) if i == 0 else (height, to_end[i])
+            found.append((center[0] + at[0], center[1] + at[1]))
+    if not found:
+        scale = radius / (hypot(*to_end) or 1.0)
+        return (center[0] + to_end[0] * scale, center[1] + to_end[1] * scale)
+    return min(found, key=lambda point: abs(sweep_angle(start, point, center, ccw)))
+
+
 def arc_length(
     start: Point, end: Point, center: Point, ccw: bool, turns: float = 0.0, rise: float = 0.0
 ) -> float:

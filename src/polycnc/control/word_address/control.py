@@ -253,6 +253,10 @@ class WordAddressControl:
         if abs(radius_mismatch(start, end, center)) > self.arc_tolerance(channel) + 1e-9:
             raise self.fail("arc_end")
 
+    def spiral_tolerance(self, channel: Channel) -> float:
+        """Difference between the radii at start and end that an arc takes up on its way, mm."""
+        return self.arc_tolerance(channel)
+
     def plan_arc_without_center(self, builder: Builder, _plan: Plan) -> Step | None:
         """An arc block without radius and centre."""
         raise self.fail("no_center", address=builder.mode["motion"])

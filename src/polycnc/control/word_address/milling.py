@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.memory import Memory, ToolOffset
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
+    from polycnc.geometry.arcs import Point
 
 
 CUTTING = frozenset({"G1", "G2", "G3"})
@@ -59,6 +60,16 @@ class MillingControl(CustomMacroControl):
         leaves_curve = builder.before["motion"] == "G6.2" != mode["motion"]
         step = nurbs.then(step) if leaves_curve else step
         return step and guarded_motion(step, builder, plan)
+
+    def check_arc(self, channel: Channel, start: Point, end: Point, center: Point) -> None:
+        """Alarm for an end point off the circle; none where the limit is 0."""
+        if self.arc_tolerance(channel) > 0.0:
+            super().check_arc(channel, start, end, center)
+
+    def spiral_tolerance(self, channel: Channel) -> float:
+        """What an arc takes up on its way; beyond it, where a parameter allows that, the rest is straight."""
+        limit, delivered = self.arc_tolerance(channel), self.ARC_TOLERANCE_PARAMETER[1]
+        return min(limit, delivered) if limit > 0.0 else delivered
 
     def plan_corner(self, builder: Builder) -> Step | None:
         """What ,R and ,C ask for."""

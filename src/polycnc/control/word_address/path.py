@@ -9,6 +9,7 @@ from __future__ import annotations
 from math import hypot, nan
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address import stretched_arcs
 from polycnc.control.word_address.plain import targets as targets_as_data
 from polycnc.control.word_address.plain import word as word_as_data
 from polycnc.geometry import arcs
@@ -17,10 +18,13 @@ from polycnc.language.bulk import Arc, Straight, declare
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import Step
+    from polycnc.control.word_address.numbers import Convert
     from polycnc.control.word_address.plan import AxisWord, Builder, Plan
-    from polycnc.geometry.frames import Vector
+    from polycnc.geometry.frames import Frame, Vector
 
 #: Feed codes of all word-address families to the meaning that the toolpath uses.
 FEED_MODES = {"G93": "G93", "G94": "G94", "G95": "G95", "G98": "G94", "G99": "G95"}
@@ -114,7 +118,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
     """
     control = builder.control
     words = plan.axis_words
-    u, v, w = PLANES[builder.mode["plane"]]
+    u, v, w = plane = PLANES[builder.mode["plane"]]
     centers = [CENTER_WORDS[axis] for axis in (u, v, w) if builder.has(CENTER_WORDS[axis])]
     builder.take("R", *centers)
     corner = control.plan_corner(builder)
@@ -127,8 +131,11 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
         return control.plan_arc_without_center(builder, plan)
     polar = builder.mode.codes.get("polar") == "G16"
     radius_of = builder.length("R") if radius_slot is not None else None
-    offsets = [(u, builder.slot(CENTER_WORDS[u])), (v, builder.slot(CENTER_WORDS[v]))]
-    converts = [builder.length(CENTER_WORDS[axis]) if slot is not None else None for axis, slot in offsets]
+    slots = (builder.slot(CENTER_WORDS[u]), builder.slot(CENTER_WORDS[v]))
+    converts = tuple(
+        builder.length(CENTER_WORDS[axis]) if builder.has(CENTER_WORDS[axis]) else None for axis in (u, v)
+    )
+    center_words = _center_words(radius_slot, radius_of, slots, converts)
 
     def move(channel: Channel, values: list[float]) -> None:
         feed = channel.feed
@@ -144,32 +151,50 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
             programmed = target(channel, words, values) if words else c.programmed[:]
         begin = (c.programmed[geometry[u]], c.programmed[geometry[v]])
         end = (programmed[geometry[u]], programmed[geometry[v]])
-        if radius_slot is not None:
-            radius = values[radius_slot]
-            center = center_by_radius(channel, begin, end, radius_of(radius) if radius_of else radius, ccw)
+        told_by = center_words(values)
+        center: arcs.Point | None
+        if isinstance(told_by, float):
+            center, ends_beside = center_by_radius(channel, begin, end, told_by, ccw), False
         else:
-            shift = [0.0, 0.0]
-            for i, (_, slot) in enumerate(offsets):
-                if slot is not None:
-                    convert = converts[i]
-                    shift[i] = convert(values[slot]) if convert else values[slot]
-            center = (begin[0] + shift[0], begin[1] + shift[1])
+            center = (begin[0] + told_by[0], begin[1] + told_by[1])
             control.check_arc(channel, begin, end, center)
+            ends_beside = abs(arcs.radius_mismatch(begin, end, center)) > control.spiral_tolerance(channel)
         if corner is not None:
             corner(channel, values)
-        if center is not None:
-            emit_arc(channel, programmed, center, (u, v, w), ccw=ccw, feed=feed)
-        else:
+        if center is None:
             channel.straight(Kind.FEED, c.to_position(programmed), feed, programmed)
+        elif ends_beside or stretched_arcs.is_stretched(c.programming, plane):
+            stretched_arcs.emit_stretched(channel, programmed, plane, told_by, ccw=ccw, feed=feed)
+        else:
+            emit_arc(channel, programmed, center, plane, ccw=ccw, feed=feed)
 
     told = targets_as_data(words)
     if told is None or polar or corner is not None:
         return move
-    first, second = (
-        word_as_data(slot, convert) for (_, slot), convert in zip(offsets, converts, strict=True)
-    )
+    first, second = (word_as_data(slot, convert) for slot, convert in zip(slots, converts, strict=True))
     radius_word = word_as_data(radius_slot, radius_of)
-    return declare(move, Arc(ccw, (u, v, w), told, (first, second), radius_word, line_without_way=True))
+    return declare(move, Arc(ccw, plane, told, (first, second), radius_word, line_without_way=True))
+
+
+def _center_words(
+    radius_slot: int | None,
+    radius_of: Convert | None,
+    slots: tuple[int | None, ...],
+    converts: tuple[Convert | None, ...],
+) -> Callable[[list[float]], float | arcs.Point]:
+    """What tells an arc in the values of a block: its radius, or the way from its start to its centre."""
+
+    def tell(values: list[float]) -> float | arcs.Point:
+        if radius_slot is not None:
+            return radius_of(values[radius_slot]) if radius_of else float(values[radius_slot])
+        shift = [0.0, 0.0]
+        for i, slot in enumerate(slots):
+            if slot is not None:
+                convert = converts[i]
+                shift[i] = convert(values[slot]) if convert else values[slot]
+        return (shift[0], shift[1])
+
+    return tell
 
 
 def center_by_radius(
@@ -185,6 +210,12 @@ def center_by_radius(
         return arcs.center_from_radius(begin, end, radius, ccw, control.arc_tolerance(channel))
     except ValueError as error:
         raise control.fail("radius_too_small", address="R") from error
+
+
+def mirrors_plane(frame: Frame, plane: tuple[int, int, int]) -> bool:
+    """Whether a frame that keeps a plane turns left and right round in it."""
+    u, v, _ = plane
+    return frame.m[u][u] * frame.m[v][v] - frame.m[u][v] * frame.m[v][u] < 0.0
 
 
 def emit_arc(
@@ -211,7 +242,6 @@ def emit_arc(
     middle: Vector = (point[0], point[1], point[2])
     if c.programming is not IDENTITY:
         middle = c.programming.apply(*point)
-        if c.programming.mirrors:
-            ccw = not ccw
+        ccw = ccw != mirrors_plane(c.programming, plane)
     kind = (Kind.HELIX_CCW if ccw else Kind.HELIX_CW) if helix else (Kind.CCW if ccw else Kind.CW)
     channel.curve(kind, position, feed, center=middle, normal=normal, turns=turns, programmed=programmed)

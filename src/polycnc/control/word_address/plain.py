@@ -59,6 +59,8 @@ class PlainBlocks:
             return False
         if channel.coordinates.transformation is not None:
             return False
+        if not channel.coordinates.direct and not _keeps_circles(channel):
+            return False
         stage = channel.head
         while stage is not None and stage is not channel.table:
             if getattr(stage, "active", True):
@@ -88,8 +90,8 @@ class PlainBlocks:
 
     def tolerance(self, channel: Channel) -> float:
         """The control's arc tolerance, mm."""
-        tolerance: float = channel.control.arc_tolerance(channel)
-        return tolerance
+        control = channel.control
+        return min(float(control.arc_tolerance(channel)), float(control.spiral_tolerance(channel)))
 
     def moved(self, channel: Channel, last: LastMoves) -> None:
         """Nothing is remembered of a move."""
@@ -103,6 +105,16 @@ class PlainBlocks:
         except AlarmError:
             return None  # the interpreter comes to the same block and raises it
         return recipe_of(channel, plan)
+
+
+def _keeps_circles(channel: Channel) -> bool:
+    """Whether the programming frame leaves circles of the plane circles, mirrored as a whole or not at all."""
+    # Imported late: `path` tells its plans as data with this module.
+    from polycnc.control.word_address import path, stretched_arcs
+
+    frame, plane = channel.coordinates.programming, path.PLANES[channel.mode["plane"]]
+    mirrored = path.mirrors_plane(frame, plane) == frame.mirrors
+    return mirrored and not stretched_arcs.is_stretched(frame, plane)
 
 
 def recipe_of(channel: Channel, plan: Plan) -> Recipe | None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.path import Move
 from polycnc.compensation import CutterCompensation, Plane, Violation
 from polycnc.control.word_address import corners
-from polycnc.control.word_address.path import PLANES
+from polycnc.control.word_address.path import PLANES, mirrors_plane
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -130,7 +130,8 @@ def suspended(channel: Channel) -> Iterator[None]:
 def side_on_display(channel: Channel) -> int:
     """Side in display coordinates: a mirror of one plane axis changes left and right."""
     side: int = channel.memory.side
-    return -side if channel.coordinates.programming.mirrors else side
+    plane = PLANES[channel.mode["plane"]]
+    return -side if mirrors_plane(channel.coordinates.programming, plane) else side
 
 
 def compensation_stage(channel: Channel) -> CutterCompensation:
