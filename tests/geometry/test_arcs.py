@@ -190,8 +190,8 @@ def test_the_centre_is_equally_far_from_all_three_points(
     ("end", "ccw", "stop"),
     [
         ((200.0, 0.0), False, (100.0, 0.0)),
-        ((60.0, 90.0), False, (60.0, 80.0)),
-        ((-90.0, -60.0), True, (-80.0, -60.0)),
+        ((60.0, 90.0), False, (sqrt(1900.0), 90.0)),
+        ((-90.0, -60.0), True, (-90.0, -sqrt(1900.0))),
     ],
 )
 def test_an_arc_leaves_its_circle_where_it_reaches_a_coordinate_of_the_end_point(
