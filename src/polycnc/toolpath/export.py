@@ -10,10 +10,10 @@ import csv
 import json
 from typing import IO, TYPE_CHECKING, Any, Protocol, TypeAlias
 
-from polycnc.toolpath.kinds import TYPE_NAMES
+from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from polycnc.toolpath.table import Chunk
     from polycnc.toolpath.trace import Display
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 _FIRST = ("type", "program", "line", "unit")
 _NUMBERS = ("feed", "turns", "seconds", "revolutions", "lead", "start_angle", "speed", "spindle")
 _TEXTS = ("code", "tool", "text")
+#: Columns of few names.
+_NAMES = ("type", "program", "unit")
 Record = dict[str, Any]
 #: What the schema of a table says of the whole run: control, machine.
 Metadata: TypeAlias = "Mapping[str, str]"
@@ -81,7 +83,9 @@ class Parquet:
 
         self._display = display
         self._metadata = metadata
-        self._writer = parquet.ParquetWriter(stream, arrow_schema(display, metadata))
+        # Coordinates hardly repeat: a dictionary of them costs time and saves nothing.
+        schema = arrow_schema(display, metadata)
+        self._writer = parquet.ParquetWriter(stream, schema, use_dictionary=[*_NAMES, *_TEXTS])
 
     def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""
@@ -137,38 +141,69 @@ def arrow_table(display: Display, chunks: Iterable[Chunk], metadata: Metadata) -
 
 
 def _batch(display: Display, chunk: Chunk, schema: Any) -> Any:
-    """The rows of one chunk: positions and feeds by whole columns, curves and events row by row."""
+    """The rows of one chunk: whole columns; what only few rows have, row by row."""
     import numpy as np
     import pyarrow as pa
 
     shown = display.columns(chunk)
-    programs = display.toolpath.programs
-    columns: dict[str, Any] = {
-        "type": np.array(TYPE_NAMES, object)[shown["kind"]],
-        "program": np.array(programs, object)[shown["program"]],
-        "line": shown["line"].astype(np.int32),
-        "unit": shown["unit"],
-    }
+    kinds, types = shown["kind"].astype(np.int32), list(TYPE_NAMES)
+    numbers: dict[str, Any] = {"line": shown["line"].astype(np.int32), "feed": shown["feed"]}
     for i, axis in enumerate(display.axes):
-        columns[axis.lower()] = shown["work"][:, i]
-        columns[f"machine_{axis.lower()}"] = shown["machine"][:, i]
-    columns["feed"] = shown["feed"]
-    sparse = {name: np.full(len(chunk), None, object) for name in schema.names if name not in columns}
-    columns |= sparse
-    _fill(display, chunk, columns, sparse)
-    return pa.record_batch(
-        [pa.array(columns[field.name], type=field.type, from_pandas=True) for field in schema], schema=schema
-    )
+        numbers[axis.lower()] = shown["work"][:, i]
+        numbers[f"machine_{axis.lower()}"] = shown["machine"][:, i]
+    numbers |= {name.lower(): values for name, values in display.arcs(shown).items()}
+    sparse = _sparse(display, chunk, kinds, types, numbers)
+    names = {
+        "type": _named(kinds, types),
+        "program": _named(shown["program"], display.toolpath.programs),
+        "unit": _named(shown["unit"] == "inch", ("mm", "inch"), shown["kind"] == Kind.EVENT),
+    }
+
+    def column(field: Any) -> Any:
+        if field.name in names:
+            return names[field.name]
+        values = sparse.get(field.name, numbers.get(field.name))
+        if values is None:
+            return pa.nulls(len(chunk), field.type)
+        return pa.array(values, type=field.type, from_pandas=True)
+
+    return pa.record_batch([column(field) for field in schema], schema=schema)
 
 
-def _fill(display: Display, chunk: Chunk, columns: Mapping[str, Any], sparse: Mapping[str, Any]) -> None:
-    """Fill in what rows with curve parameters add to the sparse columns, and events to all."""
-    for i, number in enumerate(chunk.curve):
-        if number < 0:
-            continue
+def _named(numbers: Any, names: Sequence[str], is_null: Any = None) -> Any:
+    """A column of names from their numbers."""
+    import numpy as np
+    import pyarrow as pa
+
+    indices = pa.array(numbers.astype(np.int32), mask=is_null)
+    return pa.DictionaryArray.from_arrays(indices, pa.array(names, pa.string()))
+
+
+def _sparse(
+    display: Display, chunk: Chunk, kinds: Any, types: list[str], numbers: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Columns that few rows fill: what curve parameters beside arcs add, and events.
+
+    The types of events join `types`, their numbers go into `kinds`; what events have of other columns goes into
+    `numbers`.
+    """
+    import numpy as np
+
+    known, sparse = frozenset(table_columns(display)), dict[str, Any]()
+    curve = np.frombuffer(chunk.curve, np.int32)
+    for i in np.flatnonzero((curve >= 0) & ~np.isin(kinds, tuple(ARC_KINDS))).tolist():
         row = display.toolpath.row_of(chunk, i)
-        filled = sparse if row.event is None else columns
         for name, value in flattened(display.record(row)).items():
-            if name in filled:
+            if name in _NAMES or name not in known:
+                if name == "type" and row.event is not None:
+                    if value not in types:
+                        types.append(value)
+                    kinds[i] = types.index(value)
+            elif name in numbers:
+                if row.event is not None:
+                    numbers[name][i] = value
+            else:
+                column = sparse.setdefault(name, np.full(len(chunk), None, object))
                 # Codes and tools may be numbers or names: as texts they are both.
-                filled[name][i] = str(value) if name in _TEXTS else value
+                column[i] = str(value) if name in _TEXTS else value
+    return sparse

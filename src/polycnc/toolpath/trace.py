@@ -239,6 +239,31 @@ class Display:
             record["turns"] = _shown(turns + 1)
         return record
 
+    def arcs(self, shown: Mapping[str, Any]) -> dict[str, Any]:
+        """`center_X` … and `turns` of the rows that `columns` gives, NaN where a row has none; as `_arc` for one."""
+        import numpy as np
+
+        is_arc = np.isin(shown["kind"], tuple(ARC_KINDS))
+        found: dict[str, Any] = {}
+        if not is_arc.any():
+            return found
+        for number in np.unique(shown["context"][is_arc]):
+            context = self.toolpath.contexts[number]
+            rows = np.flatnonzero(is_arc & (shown["context"] == number))
+            curves, scale = shown["curves"][shown["curve"][rows]], self.scale(context)
+            along = np.abs(curves[:, 3:6]) > 1e-9
+            tilted = along.sum(axis=1) > 1
+            for k, i in enumerate(self._geometry(context)):
+                if i >= 0:
+                    column = found.setdefault(f"center_{self.axes[i]}", np.full(len(is_arc), np.nan))
+                    values = np.rint(curves[:, k] * scale.work[i] * _STEPS) / _STEPS + 0.0
+                    column[rows] = np.where(tilted | ~along[:, k], values, np.nan)
+            turns = np.rint((curves[:, 6] + 1.0) * _STEPS) / _STEPS
+            found.setdefault("turns", np.full(len(is_arc), np.nan))[rows] = np.where(
+                curves[:, 6], turns, np.nan
+            )
+        return found
+
 
 def _shown(value: float) -> float:
     """A value without rounding noise and without -0.0, to the same bits as `Display.columns`."""
