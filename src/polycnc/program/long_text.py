@@ -33,6 +33,8 @@ PAGES_AT_HAND = 4
 #: Bytes of pages with characters beyond ASCII that decide on the encoding.
 SAMPLE_BYTES = 1024 * 1024
 HEADING_STARTS = frozenset("%oO:< \t")
+#: A line without any of these is no heading, however it begins.
+HEADING_SIGNS = b"%oO:<"
 _CONTROLS = TAPE_CONTROLS.encode("ascii")
 _HEADING, _NEWLINE = b"%", 10
 #: Maps every character that may begin a heading to one.
@@ -46,14 +48,16 @@ class TextFile:
     Attributes:
         path: The file.
         codec: Python codec by which it is read.
+        has_returns: Lines end with CR LF.
         replaced: Characters that the codec could not read.
         places: First byte of each page, and behind the last one the size of the file.
         numbers: Index of the first line of each page, and behind the last one how many lines there are.
-        headings: Lines that begin with one of `HEADING_STARTS`.
+        headings: Lines that begin with one of `HEADING_STARTS`, but for some without `HEADING_SIGNS`.
     """
 
     path: str
     codec: str = "ascii"
+    has_returns: bool = False
     replaced: int = 0
     places: array[int] = field(default_factory=lambda: array("q", [0]))
     numbers: array[int] = field(default_factory=lambda: array("q", [0]))
@@ -77,19 +81,17 @@ class TextFile:
         return data
 
     def _text(self, page: int) -> bytes:
-        """A page in UTF-8; every line ends with a line feed."""
+        """A page in UTF-8; every line ends with a line feed. Control codes of tapes are still in it."""
         data = self.raw(page)
-        if b"\r" in data:
+        if self.has_returns:
             data = data.replace(b"\r\n", b"\n")
         if not data.isascii():
             data = data.translate(None, _CONTROLS).decode(self.codec, "replace").encode("utf-8", "replace")
-        elif any(control in data for control in _CONTROLS):
-            data = data.translate(None, _CONTROLS)
-        return data if data.endswith(b"\n") else data + b"\n"
+        return data if data.endswith(b"\n") else _ended(data)
 
     def _page(self, page: int) -> list[str]:
         """The lines of a page."""
-        return self.text(page).decode("utf-8").split("\n")[:-1]
+        return self.text(page).translate(None, _CONTROLS).decode("utf-8").split("\n")[:-1]
 
     def page_of(self, line: int) -> int:
         """The page in which a line stands."""
@@ -153,7 +155,7 @@ class LongText(Sequence[str]):
         return LongText(self.file, self._lines, text)
 
     def headings(self) -> Iterator[int]:
-        """Lines that begin with one of `HEADING_STARTS`."""
+        """Every line that can be a heading, and some others."""
         first, found = self._lines.start, self.file.headings
         for i in range(bisect_right(found, first - 1), len(found)):
             if found[i] >= self._lines.stop:
@@ -193,27 +195,22 @@ def _look_through(file: TextFile) -> LongText | None:
     """Find the pages of a file; None where its line ends or its encoding ask for the whole of it."""
     sample = bytearray()
     beyond_ascii: list[int] = []
-    with Path(file.path).open("rb", buffering=0) as stream:
-        rest = b""
-        while True:
-            data = stream.read(READ_BYTES)
-            block = rest + data if rest else data
-            if not file.headings and len(file.places) == 1 and has_byte_order_mark(block):
+    with Path(file.path).open("rb") as stream:
+        while whole := stream.read(READ_BYTES):
+            whole += stream.readline(MAX_LINE + 1)
+            if len(file.places) == 1 and has_byte_order_mark(whole):
                 return None
-            end = block.rfind(b"\n") + 1 if data else len(block)
-            if data and end == 0 and len(block) > MAX_LINE:
-                refuse_long_line(file.path, file.numbers[-1] + 1, len(block))
-            whole, rest = block[:end], block[end:]
-            if b"\r" in whole and whole.count(b"\r") != whole.count(b"\r\n"):
-                return None
-            _add_headings(file, whole)
+            if b"\r" in whole:
+                file.has_returns = True
+                if whole.count(b"\r") != whole.count(b"\r\n"):
+                    return None
+            if any(sign in whole for sign in HEADING_SIGNS):
+                _add_headings(file, whole)
             first = len(file.places) - 1
             _add_pages(file, whole)
             if not whole.isascii():
                 beyond_ascii += range(first, len(file.places) - 1)
                 sample += whole[: max(SAMPLE_BYTES - len(sample), 0)]
-            if not data:
-                break
     if beyond_ascii:
         _find_codec(file, beyond_ascii, bytes(sample))
     return LongText(file, range(file.numbers[-1]))
@@ -221,9 +218,7 @@ def _look_through(file: TextFile) -> LongText | None:
 
 def _add_headings(file: TextFile, whole: bytes) -> None:
     """Note the lines that may be headings; `whole` begins behind the pages found so far."""
-    alike = whole.translate(_HEADINGS_ALIKE)
-    if any(control in alike for control in _CONTROLS):
-        alike = alike.translate(None, _CONTROLS)
+    alike = whole.translate(_HEADINGS_ALIKE, _CONTROLS)
     line, last = file.numbers[-1], 0
     if alike.startswith(_HEADING):
         file.headings.append(line)
@@ -242,10 +237,18 @@ def _add_pages(file: TextFile, whole: bytes) -> None:
     while at < len(whole):
         end = len(whole) if len(whole) - at <= PAGE_BYTES else whole.rfind(b"\n", at, at + PAGE_BYTES) + 1
         _refuse_long_lines(file, whole, at, end or at + PAGE_BYTES)
-        lines = whole.count(b"\n", at, end) + (whole[end - 1] != _NEWLINE)
+        lines = whole.count(b"\n", at, end)
+        if whole[end - 1] != _NEWLINE:
+            lines = _ended(whole[at:end]).count(b"\n")
         file.places.append(base + end)
         file.numbers.append(file.numbers[-1] + lines)
         at = end
+
+
+def _ended(page: bytes) -> bytes:
+    """The last page of a file with a line end; nothing behind the last one is no line, nor are codes of tapes."""
+    page = page.translate(None, _CONTROLS)
+    return page if not page or page.endswith(b"\n") else page + b"\n"
 
 
 def _refuse_long_lines(file: TextFile, whole: bytes, at: int, end: int) -> None:

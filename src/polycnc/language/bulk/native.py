@@ -117,7 +117,7 @@ class Native:
             for name, value in scope.items():
                 if isinstance(value, FunctionType) and value.__module__ == scope["__name__"]:
                     copy = FunctionType(value.__code__, scope, name, value.__defaults__)
-                    functions[name] = njit(error_model="numpy")(copy)
+                    functions[name] = njit(error_model="numpy", forceinline=True)(copy)
         # Numba compiles at the first call: from here on the copies find each other, not the plain functions.
         for scope in scopes:
             scope.update((name, function) for name, function in functions.items() if name in scope)
