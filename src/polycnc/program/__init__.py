@@ -1,10 +1,11 @@
 """Part programs as text: encodings, tape and archive formats, directories, search paths.
 
 A file goes through `encoding` (bytes to characters), `text` (characters to lines) and `split` (lines to
-programs); `store` keeps what a run can call, `detect` guesses the control. Nothing here knows what a block
-means.
+programs); `archive` makes a text of programs again, `store` keeps what a run can call, `detect` guesses the
+control. Nothing here knows what a block means.
 """
 
+from polycnc.program.archive import archive_of
 from polycnc.program.detect import Guess, guess_control
 from polycnc.program.encoding import Decoded, decode
 from polycnc.program.errors import ProgramFileError
@@ -19,6 +20,7 @@ __all__ = [
     "Program",
     "ProgramFileError",
     "ProgramStore",
+    "archive_of",
     "decode",
     "guess_control",
     "load_programs",

@@ -40,3 +40,16 @@ def test_the_retraction_itself_is_not_interrupted() -> None:
     result = run({"input": 2, "line": 4, "at": {"X": 60}}, {"input": 1, "line": 4, "at": {"Z": 3}})
     assert not result.alarms
     assert ends(result) == [(60, 0, 0), (60, 0, 5), (60, 0, 0), (100, 0, 0), (100, 50, 0)]
+
+
+def test_reset_keeps_the_watch_for_inputs() -> None:
+    session = open_session(
+        "SETINT(1) PRIO=1 ROUT\nG1 X20 F100\nM30\n",
+        control="sinumerik-840d",
+        setup={"switches": {"interrupts": [{"input": 1, "line": 2, "at": {"X": 10}}]}},
+        files={"ROUT.SPF": "M55\nM17\n"},
+    )
+    session.run()
+    channel = session.channel
+    channel.control.reset(channel)
+    assert channel.head is channel.memory.watch

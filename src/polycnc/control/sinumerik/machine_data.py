@@ -210,6 +210,10 @@ class MachineData:
         """Set a datum."""
         self._values[name, tuple(self._index(index) for index in indices)] = value
 
+    def items(self) -> list[tuple[Key, object]]:
+        """Every datum that setup or programs gave a value, sorted by name and index."""
+        return sorted(self._values.items(), key=lambda item: (item[0][0], tuple(map(str, item[0][1]))))
+
     def restore(self, name: str) -> None:
         """A datum takes the values that the setup gave it, or the delivered ones."""
         for key in [key for key in self._values if key[0] == name]:

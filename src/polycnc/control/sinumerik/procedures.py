@@ -12,6 +12,7 @@ from polycnc.control.sinumerik import (
     axis_exchange,
     coordination,
     d_numbers,
+    data_archive,
     interrupts,
     limits,
     protection,
@@ -235,4 +236,5 @@ PROCEDURES: dict[str, Callable[[Channel, Arguments], None]] = {
     **retraction.PROCEDURES,
     **splines.PROCEDURES,
     **protection.PROCEDURES,
+    **data_archive.PROCEDURES,
 }

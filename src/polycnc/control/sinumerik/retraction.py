@@ -4,6 +4,8 @@ The way is an ideal rapid move of the length DILF (else MD21200) in a direction 
 LFTXT: in the plane across the path's tangent, ALF=1 along the tool, ALF=3 to the right of the path, ALF=7 to its left.
 LFWP: in the working plane, ALF=1 along its first axis, ALF=3 along its second. ALF=0: no retraction.
 LFPOS: the axes of POLFMASK or POLFMLIN go to the positions of POLF.
+Right and left are those of the machine; with MD21202 a mirror in the plane swaps them, as it swaps the compensation
+side. The part along the tool is never mirrored.
 """
 
 from __future__ import annotations
@@ -27,6 +29,8 @@ if TYPE_CHECKING:
 
 DIRECTIONS = range(9)
 STEP_DEG = 45.0
+#: Directions of LFTXT that would lead into the contour beside which the tool runs.
+INTO_CONTOUR = {"G41": range(2, 5), "G42": range(6, 9)}
 #: Keys of `memory.values`.
 POSITIONS, ENABLED = "POLF", "POLFMASK"
 
@@ -53,13 +57,21 @@ def _along(channel: Channel, tangent: Vector) -> list[float] | None:
     direction = int(memory.values.get(("ALF", ()), 1.0))
     if direction == 0:
         return None
+    if (
+        direction in INTO_CONTOUR.get(channel.mode["side"], ())
+        and channel.mode["retraction_plane"] == "LFTXT"
+    ):
+        raise AlarmError("12560", text="ALF")
     angle = radians((direction - 1) * STEP_DEG)
     first, second, third = tables.PLANES[channel.mode["plane"]]
     if channel.mode["retraction_plane"] == "LFWP":
         along, across = _unit(first), _unit(second)
     else:
-        along = _unit(third)
-        across = _cross(tangent, along)
+        signs = [-1.0 if mirrored else 1.0 for mirrored in memory.frames.total().mirrored]
+        right = _cross(_signed(tangent, signs), _unit(third))
+        along, across = _signed(_unit(third), signs), _signed(right, signs)
+        if signs[first] * signs[second] < 0.0 and memory.data.integer("$MC_LIFTFAST_WITH_MIRROR"):
+            across = _signed(across, [-1.0, -1.0, -1.0])
     distance = memory.values.get(("DILF", ())) or memory.data.number("$MC_LIFTFAST_DIST")
     end = channel.coordinates.position.copy()
     for k, column in enumerate(channel.coordinates.geometry):
@@ -70,6 +82,10 @@ def _along(channel: Channel, tangent: Vector) -> list[float] | None:
 
 def _unit(axis: int) -> Vector:
     return (float(axis == 0), float(axis == 1), float(axis == 2))
+
+
+def _signed(vector: Vector, signs: list[float]) -> Vector:
+    return (vector[0] * signs[0], vector[1] * signs[1], vector[2] * signs[2])
 
 
 def _cross(a: Vector, b: Vector) -> Vector:

@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     from polycnc.program import Program
 
 _DEFINITION = re.compile(r"[ \t]*(?:DEF|REDEF|DEFINE|PROC|EXTERN)\b", re.IGNORECASE)
+#: Type of comments and of the screens of own cycles (cov.com, uc.com, 1.25.4): texts, not programs.
+_COMMENT_FILE = "_COM"
 #: A line that begins with none of these is a block.
 _BLANK = " \t;%\r\x00"
 _EMPTY = re.compile(r"[ \t\r\x00]*(?:;|%|$)")
@@ -147,6 +149,8 @@ class SinumerikProgram:
         step(channel)
 
     def _compiled(self, index: int, channel: Channel) -> Step:
+        if self.program.name.endswith(_COMMENT_FILE):
+            raise AlarmError("PC0011", text=self.program.name)
         line = self.text(index)
         shape = self._shapes.step(line)
         if shape is not None:
