@@ -18,6 +18,7 @@ from polycnc.control.fanuc import (
     turning_shape,
     turning_single,
     turning_tapping,
+    turning_threads,
     turning_tools,
 )
 from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     from polycnc.geometry.arcs import Point
     from polycnc.machine.motion_settings import MotionSettings
     from polycnc.messages import AlarmError
+    from polycnc.toolpath import Context
 
 #: M codes that cannot be passed over in a shape.
 _CALLS = frozenset({2, 30, 98, 99, 198})
@@ -184,6 +186,11 @@ class FanucTurning(CustomMacroControl):
             return float(channel.memory.radius_of(axis, float(shown)))
         return channel.axis_data[axis].reference_points[number - 1]
 
+    def context(self, channel: Channel) -> Context:
+        """The context that holds now, with what threads and taps keep from the operator."""
+        context = turning_threads.locked(channel, super().context(channel))
+        return replace(context, feed_hold=False) if channel.memory.tapping else context
+
     # ---- motion ----------------------------------------------------------------------------------------------
 
     def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
@@ -202,7 +209,7 @@ class FanucTurning(CustomMacroControl):
         motion = builder.mode["motion"]
         row = next(code for code in self.g_table(builder.channel).values() if _is_motion(code, motion))
         step = row.planner(builder, plan) if row.planner is not None else None
-        return turning_comp.plan_travel(builder, plan, step)
+        return turning_threads.plan_way_off(builder, turning_comp.plan_travel(builder, plan, step))
 
     def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
         """Modal macro calls; words of single cycles that a one-shot code clears."""

@@ -87,6 +87,7 @@ class TurningMemory(MacroMemory):
         cycle_values: Parameters of turning cycles that a program has overwritten.
         clamp: M code that clamps the C axis in drilling cycles, 0 for none.
         thread_step: Step of the last block that cut a thread.
+        thread_lock: What a thread, or the way off it, keeps from the operator.
         plane: Plane code given last.
         open_line: Line of drawing dimensions that waits for the next block.
         rotation_angle: Angle of the last G68.1, degrees.
@@ -120,6 +121,7 @@ class TurningMemory(MacroMemory):
         self.rotation_angle = 0.0
         self.open_line: OpenLine | None = None
         self.thread_step = -1
+        self.thread_lock = ""
         self.plane = ""
         self.increment_limits: dict[int, float] = {}
         self.balanced: frozenset[int] = frozenset()

@@ -178,6 +178,10 @@ def repeat_pattern(channel: Channel, words: Words) -> None:
     shape, contour = _read(channel, words)
     if not shape.first_code:
         raise channel.control.fail("shape_first_block", address="P")
+    # Single block halts behind every block of every pass; by 5125#2 PRS behind the way off the start and every pass.
+    merged = memory.parameters.bit(5125, 2)
+    for _ in range(passes + 1 if merged else passes * len(contour)):
+        channel.halt_inside()
     _cut(channel, pattern_strokes(contour, escape, passes, _allowance(channel, words)))
     _go_on_behind(channel, shape)
 

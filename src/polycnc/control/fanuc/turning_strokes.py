@@ -6,7 +6,7 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.turning_coordinates import drop_vector, plane_axes
-from polycnc.control.fanuc.turning_threads import thread_move
+from polycnc.control.fanuc.turning_threads import OFF_THREAD, lock, thread_move
 from polycnc.control.fanuc.turning_tools import nose_radius, nose_tip
 from polycnc.control.word_address.path import PLANES
 from polycnc.control.word_address.radius import suspended
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from polycnc.cycles.plane_stroke import PlaneStroke
 
 
+#: Moves that lead off a thread in a cycle: retract and return.
+RETRACT = 2
 #: A cycle with more strokes is taken for one that does not end (a depth of a micrometre, say).
 MAX_STROKES = 300_000
 
@@ -28,16 +30,25 @@ def emit(channel: Channel, strokes: Iterable[PlaneStroke], *, lead: float = 0.0)
     """Make the strokes, at the feed in force; threads at a lead (mm)."""
     first, second = plane_axes(channel)
     c = channel.coordinates
+    way_off = 0
     for number, stroke in enumerate(strokes):
         if number >= MAX_STROKES:
             raise channel.control.block_limit()
         end = c.position[:]
         end[first], end[second] = stroke.end
         if stroke.kind is Kind.RAPID:
+            if way_off:
+                # Feed hold waits for the return to the start, by 5109#3 TFH for the retract only (II.4.1.2).
+                held = way_off == RETRACT or not channel.memory.parameters.bit(5109, 3)
+                lock(channel, OFF_THREAD if held else "")
+                way_off -= 1
+            else:
+                lock(channel, "")
             channel.straight(Kind.RAPID, end, nan)
             continue
         if stroke.kind is Kind.THREAD:
             thread_move(channel, end, lead, stroke.start_angle_deg)
+            way_off = RETRACT
             continue
         feed = channel.feed
         if not feed > 0.0:
@@ -46,6 +57,7 @@ def emit(channel: Channel, strokes: Iterable[PlaneStroke], *, lead: float = 0.0)
             channel.straight(Kind.FEED, end, feed)
         else:
             _arc(channel, stroke, end, feed)
+    lock(channel, "")
 
 
 def _arc(channel: Channel, stroke: PlaneStroke, end: list[float], feed: float) -> None:

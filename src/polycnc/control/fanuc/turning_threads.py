@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.turning_coordinates import feed_number
+from polycnc.control.fanuc.turning_tools import THREADS
 from polycnc.control.word_address.path import CENTER_WORDS, PLANES, center_by_radius, target
 from polycnc.geometry import arcs
 from polycnc.toolpath import Kind
@@ -18,8 +20,11 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.frames import Vector
+    from polycnc.toolpath import Context
 
 MAX_START_ANGLE = 360_000
+#: What a thread takes out of the operator's hands: on a thread overrides and feed hold, on the way off it feed hold.
+ON_THREAD, OFF_THREAD = "thread", "off"
 MM_PER_INCH = 25.4
 #: Least and largest lead (II.3.1, table 3.1(a)).
 LEADS_MM, LEADS_INCH = (0.0001, 500.0), (0.000001, 9.999999)
@@ -117,6 +122,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
         sense = 1.0 if ccw != c.programming.mirrors else -1.0
         normal: Vector = (sense * (w == 0), sense * (w == 1), sense * (w == 2))
         parameters = (lead, angle_of(channel, values), x, y, z, *normal)
+        lock(channel, ON_THREAD)
         channel.curve(
             Kind.THREAD, c.to_position(programmed), lead, parameters=parameters, programmed=programmed
         )
@@ -195,7 +201,43 @@ def thread_move(
     if end == channel.coordinates.position:
         channel.coordinates.arrive(end, programmed)
         return
+    lock(channel, ON_THREAD)
     channel.curve(Kind.THREAD, end, lead, parameters=(lead, degrees), programmed=programmed)
+
+
+def lock(channel: Channel, kind: str) -> None:
+    """From now on moves are locked against the operator as on a thread, or off it; empty: no more."""
+    if channel.memory.thread_lock != kind:
+        channel.memory.thread_lock = kind
+        channel.context_changed()
+
+
+def locked(channel: Channel, context: Context) -> Context:
+    """A context with what threads keep from the operator (II.3.1: feed hold acts behind the first other block)."""
+    kind = channel.memory.thread_lock
+    if not kind:
+        return context
+    free = kind != ON_THREAD
+    return replace(
+        context,
+        feed_hold=False,
+        feed_override=context.feed_override and free,
+        spindle_override=context.spindle_override and free,
+    )
+
+
+def plan_way_off(builder: Builder, step: Step | None) -> Step | None:
+    """The step of the first block behind threads: feed hold waits for its end."""
+    if builder.before["motion"] not in THREADS or builder.mode["motion"] in THREADS:
+        return step
+
+    def move(channel: Channel, values: list[float]) -> None:
+        lock(channel, OFF_THREAD)
+        if step is not None:
+            step(channel, values)
+        lock(channel, "")
+
+    return move
 
 
 def check_last_lead(channel: Channel, end: list[float], lead: float, growth: float) -> None:

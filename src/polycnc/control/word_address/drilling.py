@@ -17,6 +17,7 @@ from polycnc.control.word_address.auxiliary import stand
 from polycnc.control.word_address.numbers import length_converter
 from polycnc.control.word_address.path import FEED_MODES, PLANES, target
 from polycnc.control.word_address.radius import suspended
+from polycnc.cycles import drilling_lathe
 from polycnc.cycles.drilling import Action, Cycle, Hole, Stroke, tap
 from polycnc.toolpath import Kind
 
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
 #: A value of the cycle data: in internal units (P as typed), and whether it is an increment.
 Datum = tuple[float, bool]
 BOTTOM = "bottom"
+#: Strokes of taps: overrides do not act in them.
+TAPS = frozenset({tap, drilling_lathe.tap, drilling_lathe.tap_clearing_chips})
 #: A hole with more strokes is taken for one that does not end (a peck of a micrometre, say).
 MAX_STROKES = 300_000
 
@@ -361,7 +364,7 @@ def _with_halts(channel: Channel, strokes: Iterator[Stroke], halts: Halts) -> It
 def _perform(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> None:
     """Let the tool make the strokes of one hole."""
     rules: Drilling = channel.control.drilling_rules(channel)
-    if rules.cycles[channel.mode["cycle"]].strokes is not tap:
+    if rules.cycles[channel.mode["cycle"]].strokes not in TAPS:
         _work(channel, strokes, data)
         return
     channel.memory.tapping = True
