@@ -35,6 +35,7 @@ from math import hypot, inf
 from typing import TYPE_CHECKING
 
 from polycnc.compensation import vectors
+from polycnc.compensation.avoidance import crosses, way_round
 from polycnc.compensation.policies import Violation
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Corner, Joint
@@ -81,6 +82,7 @@ class _Step:
         starts_square: The block in front ends square on itself.
         straight: Its vectors were left out, so it is a straight move.
         avoided: Its end was moved to avoid an interference.
+        behind_avoidance: Its start was.
         corner_arc: The block of G39 after it, and the direction on which the arc ends square.
         after: What came after it, in order.
     """
@@ -99,6 +101,7 @@ class _Step:
     starts_square: bool = False
     straight: bool = False
     avoided: bool = False
+    behind_avoidance: bool = False
     corner_arc: tuple[Move, Point | None] | None = None
     after: list[Callable[[], None]] = field(default_factory=list)
 
@@ -350,6 +353,7 @@ class CutterCompensation:
 
     def _release(self) -> None:
         """Pass on the first step of the window; without a following one it ends square on itself."""
+        self._keep_clear()
         step = self._window.pop(0)
         if step.corner is None:
             step.corner = self._blind_end(step)
@@ -395,15 +399,16 @@ class CutterCompensation:
     def _check(self, step: _Step, following: _Step) -> None:
         """Look for vectors that have changed places with those just found (FANUC 0i-TF Plus 5.4.6)."""
         policy, is_line = step.policy, step.edge.center is None
-        if len(self._window) < 2 or step.corner is None:
+        if step.corner is None:
+            return
+        self._check_behind_avoidance(step)
+        if len(self._window) < 2:
             return
         ends = step.corner.vectors
-        for earlier in self._window[:-2] if policy.checks_direction else ():
+        for earlier in self._window[:-2] if policy.checks_direction and not policy.looks_far else ():
             if earlier.corner is None or earlier.forced is not None:
                 continue
-            (u0, v0), (u1, v1) = earlier.edge.end, step.edge.end
-            (a0, b0), (a1, b1) = earlier.corner.vectors[-1], ends[0]
-            if (u1 - u0) * (u1 - u0 + a1 - a0) + (v1 - v0) * (v1 - v0 + b1 - b0) < -offset.BACKWARDS_MM:
+            if crosses(earlier.edge, earlier.corner.vectors[-1], step.edge, ends[0]):
                 self._violate(Violation.INTERFERENCE, step.move)
         previous = self._window[-2]
         if previous.corner is None or previous.forced is not None:
@@ -414,7 +419,11 @@ class CutterCompensation:
         # Of several vectors those that cross are left out in pairs, the inmost first; the last pair must
         # not cross.
         while offset.reverses(step.edge, starts[-1], ends[0]):
-            if step.policy.avoids or (len(starts) == 1 and len(ends) == 1):
+            is_last = len(starts) == 1 and len(ends) == 1
+            if policy.looks_far and is_last:
+                # Decided when the block in front is passed on.
+                return
+            if is_last or (policy.avoids and not policy.looks_far):
                 self._avoid(previous, step, following)
                 return
             if len(starts) > 1:
@@ -422,6 +431,62 @@ class CutterCompensation:
             if len(ends) > 1:
                 ends.pop(0)
             step.first, step.straight = starts[-1], True
+
+    def _keep_clear(self) -> None:
+        """Before a block is passed on: compare its end with those of the blocks read, the farthest first (5.4.6)."""
+        first = self._window[0]
+        if not first.policy.looks_far or first.corner is None or first.forced is not None:
+            return
+        for number in range(len(self._window) - 2, 0, -1):
+            step = self._window[number]
+            if step.corner is None or step.forced is not None or step.role is not _Role.CONTOUR:
+                continue
+            vector, other = first.corner.vectors[-1], step.corner.vectors[0]
+            if number > 1:
+                found = step.policy.checks_direction and crosses(first.edge, vector, step.edge, other)
+            else:
+                is_line = step.edge.center is None
+                checked = step.policy.checks_direction if is_line else step.policy.checks_arcs
+                found = checked and offset.reverses(step.edge, vector, other)
+            if found:
+                self._lead_round(number)
+                return
+
+    def _lead_round(self, number: int) -> None:
+        """Replace the blocks between the first one of the window and the one behind `number` (5.4.6.3)."""
+        first, last, following = self._window[0], self._window[number], self._window[number + 1]
+        if number == 1 and _meets_joint(first, last):
+            return
+        way = None
+        if first.role is following.role is _Role.CONTOUR:
+            way = way_round(first.edge, first.first, last.edge.end, following.edge, last.distance)
+        if way is None:
+            self._violate(Violation.NO_AVOIDANCE, last.move)
+            return
+        if way.is_dangerous and not first.policy.dares:
+            self._violate(Violation.AVOIDANCE_DANGEROUS, last.move)
+        first.corner = Corner([way.leaving])
+        between = self._window[1 : number + 1]
+        del self._window[1 : number + 1]
+        for step in between[:-1] if way.arriving is not None else between:
+            first.after.extend(step.after)
+        behind = first
+        if way.arriving is not None:
+            move = replace(
+                last.move, kind=Kind.FEED, start=first.move.end, center=None, turns=0.0, parameters=()
+            )
+            edge = offset.line(first.edge.end, last.edge.end)
+            behind = replace(last, move=move, edge=edge, first=way.leaving, corner=Corner([way.arriving]))
+            self._window.insert(1, behind)
+        following.first, following.behind_avoidance = self._end_of(behind, following), True
+        self._check_behind_avoidance(following)
+
+    def _check_behind_avoidance(self, step: _Step) -> None:
+        """The block behind an avoidance must not run backwards itself."""
+        if not step.behind_avoidance or step.corner is None or step.policy.dares:
+            return
+        if offset.reverses(step.edge, step.first, step.corner.vectors[0]):
+            self._violate(Violation.AVOIDANCE_INTERFERES, step.move)
 
     def _avoid(self, previous: _Step, step: _Step, following: _Step) -> None:
         """Leave a move out: the one in front runs on to the one that follows (FANUC 0i-TF Plus 5.4.6.3)."""
@@ -494,15 +559,9 @@ class CutterCompensation:
         elif joint is Joint.SPLINE:
             kind = Kind.SPLINE
         row = replace(
-            template,
-            kind=kind,
-            start=template.end,
-            end=end,
-            center=center,
-            normal=plane.normal,
-            turns=0.0,
-            parameters=(),
-        )
+            template, kind=kind, start=template.end, end=end, center=center,
+            normal=plane.normal, turns=0.0, parameters=(),
+        )  # fmt: skip
         u, v = plane.point(template.end)
         if hypot(target[0] - u, target[1] - v) > arcs.SAME_POINT_MM:
             self.after.move(row)

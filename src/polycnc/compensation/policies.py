@@ -54,6 +54,7 @@ class Policy:
         checks_direction: Interference is where a compensated line or arc runs against the programmed (5008).
         checks_arcs: The same for arcs alone.
         avoids: Interference is avoided by leaving moves out where possible; otherwise it is an alarm.
+        looks_far: The way round leads past all blocks read (FANUC 19607#5), not only past the next one.
         dares: A dangerous way round an interference is taken without an alarm (19607#6).
     """
 
@@ -67,6 +68,7 @@ class Policy:
     checks_direction: bool = True
     checks_arcs: bool = True
     avoids: bool = False
+    looks_far: bool = False
     dares: bool = False
 
 
