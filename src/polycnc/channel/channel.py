@@ -500,8 +500,8 @@ class Channel:
             turns,
             tuple(parameters),
         )
-        if self._limits or self.stroke_zone is not None:
-            self._check_limits(end)
+        if (self._limits or self.stroke_zone is not None) and kind != Kind.DWELL:
+            self._check_limits(end, straight=center is None)
         if self._head is None:
             self.write(move)
         else:

@@ -84,26 +84,7 @@ def _set_tool_offset(channel: Channel, words: Words, number: int) -> None:
     values = offset.geometry if is_geometry else offset.wear
     radius_word = words.length("R")
     by_increment = words.length("C")
-    further = further_words(channel)
-    for axis, value, incremental in words.axes():
-        name = channel.axes[axis]
-        if name == "C":
-            continue  # C is the increment of the nose radius, also where the machine has an axis of that name
-        if abs(value) > MAX_OFFSET_MM:
-            raise words.fail("g10_value", words.plan.axis_words[0].address)
-        if name not in BASIC and further.get(name) != name:
-            raise words.fail("g10_format", name)
-        if name not in BASIC and not _is_in_use(channel, name):
-            continue
-        values[name] = values.get(name, 0.0) + value if incremental else value
-    for address in FURTHER_AXES:
-        amount = words.length(address)
-        if amount is None:
-            continue
-        if address not in further:
-            raise words.fail("g10_format", address)
-        if _is_in_use(channel, further[address]):
-            values[further[address]] = amount
+    _set_axis_offsets(channel, words, values)
     field = "radius" if is_geometry else "radius_wear"
     if radius_word is not None:
         setattr(offset, field, radius_word)
@@ -115,6 +96,32 @@ def _set_tool_offset(channel: Channel, words: Words, number: int) -> None:
             raise words.fail("g10_value", "Q")
         offset.tip = tip
     offset_changed(channel)
+
+
+def _set_axis_offsets(channel: Channel, words: Words, values: dict[str, float]) -> None:
+    """The offsets along the axes of a block: X, Z, Y by their words, the 4th and 5th axis by E and F."""
+    further = further_words(channel)
+    for axis, value, incremental in words.axes():
+        name = channel.axes[axis]
+        if name == "C":
+            continue  # C is the increment of the nose radius, also where the machine has an axis of that name
+        if abs(value) > MAX_OFFSET_MM:
+            raise words.fail("g10_value", words.plan.axis_words[0].address)
+        if name not in BASIC and further.get(name) != name:
+            raise words.fail("g10_format", name)
+        if name not in BASIC and not _is_in_use(channel, name):
+            continue
+        if channel.memory.parameters.bit(5004, 1) and channel.control.is_diameter(channel, axis):
+            value *= 2.0  # ORC: the word of a diameter axis is a radius value
+        values[name] = values.get(name, 0.0) + value if incremental else value
+    for address in FURTHER_AXES:
+        amount = words.length(address)
+        if amount is None:
+            continue
+        if address not in further:
+            raise words.fail("g10_format", address)
+        if _is_in_use(channel, further[address]):
+            values[further[address]] = amount
 
 
 def further_words(channel: Channel) -> dict[str, str]:

@@ -88,7 +88,7 @@ def _work_lines(channel: Channel) -> Iterator[str]:
     systems = [(f"L2 P{p}", name) for p, name in enumerate(WORK_SYSTEMS)]
     for words, name in (*systems, *extended):
         values = dict(zip(channel.axes, memory.work_offset(name), strict=True))
-        yield _line(channel, words, values, axes, None)
+        yield _line(channel, words, values, axes, None, work=True)
 
 
 _WRITERS = {
@@ -116,12 +116,14 @@ def _line(
     values: Mapping[str, float],
     axes: Mapping[str, str],
     nose: tuple[float, int] | None,
+    *,
+    work: bool = False,
 ) -> str:
     """A block; the words of the nose stand where `axes` has an empty one."""
     words: list[str] = ["G10", start]
     for address, axis in axes.items():
         if address:
-            words.append(address + _number(channel, shown(channel, axis, values.get(axis, 0.0))))
+            words.append(address + _number(channel, shown(channel, axis, values.get(axis, 0.0), work=work)))
         elif nose is not None:
             words += [f"R{_number(channel, channel.memory.to_program_unit(nose[0]))}", f"Q{nose[1]}"]
     return " ".join(words)
@@ -131,21 +133,28 @@ def _number(channel: Channel, value: float) -> str:
     return f"{value + 0.0:.{4 if channel.memory.is_inch else 3}f}"
 
 
-def shown(channel: Channel, axis: str, value: float) -> float:
-    """An offset as the control shows it: diameter where the axis has one, in the input unit."""
+def shown(channel: Channel, axis: str, value: float, *, work: bool = False) -> float:
+    """A tool offset (or work offset) as the control shows it: diameter where it is one, in the input unit."""
     index = channel.axis_index.get(axis)
     if index is not None and channel.axis_data[index].rotary:
         return value
-    diameter = index is not None and channel.control.is_diameter(channel, index)
+    diameter = index is not None and has_diameter(channel, index, work=work)
     return float(channel.memory.to_program_unit(value * (2.0 if diameter else 1.0)))
 
 
-def taken(channel: Channel, axis: str, value: float) -> float:
+def taken(channel: Channel, axis: str, value: float, *, work: bool = False) -> float:
     """What is shown as the control keeps it: mm, X as radius."""
     index = channel.axis_index.get(axis)
     if index is None or channel.axis_data[index].rotary:
         return value
-    return float(channel.memory.radius_of(index, channel.memory.from_program_unit(value)))
+    length = channel.memory.from_program_unit(value)
+    return float(length / 2.0 if has_diameter(channel, index, work=work) else length)
+
+
+def has_diameter(channel: Channel, axis: int, *, work: bool = False) -> bool:
+    """Whether offsets of an axis are diameters (1006#3 DIA); 5004#1 ORC makes tool offsets radius values."""
+    radii = not work and channel.memory.parameters.bit(5004, 1)
+    return not radii and bool(channel.control.is_diameter(channel, axis))
 
 
 # ---- reading ----------------------------------------------------------------------------------------------------
@@ -268,7 +277,8 @@ def _take_over(channel: Channel, entry: _Entry) -> None:
     memory: TurningMemory = channel.memory
     if entry.level is not None:
         for address, value in entry.words.items():
-            memory.work_offset(_system(entry))[channel.axis_index[address]] = taken(channel, address, value)
+            length = taken(channel, address, value, work=True)
+            memory.work_offset(_system(entry))[channel.axis_index[address]] = length
         return
     group, number = divmod(entry.number, GEOMETRY)
     offset = memory.turning_offset(number)
@@ -301,7 +311,9 @@ def as_setup(channel: Channel, taken: Taken) -> dict[str, dict[Any, Any]]:
         number: _tool_of_setup(channel, memory.turning_offset(number)) for number in sorted(taken.numbers)
     }
     systems = {
-        name: _axes_of_setup(channel, dict(zip(channel.axes, memory.work_offset(name), strict=True)))
+        name: _axes_of_setup(
+            channel, dict(zip(channel.axes, memory.work_offset(name), strict=True)), work=True
+        )
         for name in sorted(taken.systems)
     }
     found: dict[str, dict[Any, Any]] = {"tools": tools, "work_offsets": systems}
@@ -331,8 +343,6 @@ def _offsets_of_setup(channel: Channel, values: Mapping[str, float]) -> dict[str
     return found
 
 
-def _axes_of_setup(channel: Channel, values: Mapping[str, float]) -> dict[str, float]:
-    diameters = {
-        name: channel.control.is_diameter(channel, index) for name, index in channel.axis_index.items()
-    }
+def _axes_of_setup(channel: Channel, values: Mapping[str, float], *, work: bool = False) -> dict[str, float]:
+    diameters = {name: has_diameter(channel, i, work=work) for name, i in channel.axis_index.items()}
     return {axis: round(value * (2.0 if diameters.get(axis) else 1.0), 9) for axis, value in values.items()}

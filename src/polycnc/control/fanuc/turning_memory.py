@@ -144,13 +144,17 @@ class TurningMemory(MacroMemory):
         number = int(self.parameters.number(5043))
         return number - 1 if 1 <= number <= len(self.channel.axes) else self.channel.axis_index.get("Y", -1)
 
+    def offset_of(self, axis: int, shown: float) -> float:
+        """A tool offset of the screens, in mm: with 5004#1 ORC a radius value also where the axis has diameters."""
+        return shown if self.parameters.bit(5004, 1) else self.radius_of(axis, shown)
+
     def _from_setup(self, tool: Tool) -> TurningOffset:
         def vector(values: Offsets | Tool) -> dict[str, float]:
             named = {"X": values.x, "Y": values.y, "Z": values.z, **values.axes}
             index = dict(self.channel.axis_index)
             if self.y_offset_axis >= 0:
                 index["Y"] = self.y_offset_axis
-            return {k: self.radius_of(index[k], v) if k in index else v for k, v in named.items() if v}
+            return {k: self.offset_of(index[k], v) if k in index else v for k, v in named.items() if v}
 
         if self.common_offsets:
             return TurningOffset(wear=vector(tool), radius_wear=tool.radius, tip=tool.tip)

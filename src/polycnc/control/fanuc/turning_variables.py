@@ -51,12 +51,17 @@ def _offset(memory: str, name: str) -> tuple[Read, Write]:
         values = getattr(cast("TurningMemory", m).turning_offset(i + 1), memory)
         value: float = values.get(name, 0.0)
         axis = m.channel.axis_index.get(name)
-        return m.to_program_unit(value) if axis is None else _shown(m, axis, value)
+        return (
+            m.to_program_unit(value) if axis is None or m.parameters.bit(5004, 1) else _shown(m, axis, value)
+        )
 
     def write(m: MacroMemory, i: int, value: float | None, _text: str) -> None:
         values = getattr(cast("TurningMemory", m).turning_offset(i + 1), memory)
         axis = m.channel.axis_index.get(name)
-        values[name] = m.from_program_unit(value) if axis is None else _taken(m, axis, value)
+        if axis is None or m.parameters.bit(5004, 1):
+            values[name] = m.from_program_unit(value)
+        else:
+            values[name] = _taken(m, axis, value)
         offset_changed(m.channel)
 
     return read, write
