@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 from polycnc.control.fanuc import (
     turning_balance,
     turning_comp,
+    turning_coordinates,
     turning_data,
     turning_drawing,
     turning_drilling,
@@ -203,12 +204,14 @@ class FanucTurning(CustomMacroControl):
 
     def _motion_step(self, builder: Builder, plan: Plan) -> Step | None:
         if builder.mode["cycle"] != "G80":
-            return turning_drilling.plan(builder, plan)
+            return turning_coordinates.without_rotation(turning_drilling.plan(builder, plan))
         turning_tapping.plan_waiting(builder, plan)
         turning_drilling.give_way(builder)
         motion = builder.mode["motion"]
         row = next(code for code in self.g_table(builder.channel).values() if _is_motion(code, motion))
         step = row.planner(builder, plan) if row.planner is not None else None
+        if step is not None and motion in turning_single.CYCLES:
+            step = turning_coordinates.without_rotation(step)
         return turning_threads.plan_way_off(builder, turning_comp.plan_travel(builder, plan, step))
 
     def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:

@@ -10,11 +10,12 @@ from polycnc.control.fanuc.turning_tools import refresh
 from polycnc.control.word_address import coordinates, extended, planes
 from polycnc.control.word_address.path import PLANES
 from polycnc.control.word_address.radius import suspended
-from polycnc.geometry.frames import about, rotation
+from polycnc.geometry.frames import IDENTITY, about, rotation
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.words import Words
 
 
@@ -191,6 +192,26 @@ def rotate(channel: Channel, words: Words) -> None:
     parts.rotation = about((x, y, z), rotation(PLANES[channel.mode["plane"]][2], angle))
     # 11600#5 AX1 = 0: an axis that the next block does not name keeps the value that it had before the rotation.
     c.set_programming(parts.product(), parts.shift, stays=bool(memory.parameters.bit(11600, 5)))
+
+
+def without_rotation(step: Step) -> Step:
+    """A cycle, in which coordinate rotation has no effect (II.5.9)."""
+
+    def run(channel: Channel, values: list[float]) -> None:
+        parts, c = channel.memory.frames, channel.coordinates
+        rotation_before = parts.rotation
+        if rotation_before.is_identity:
+            step(channel, values)
+            return
+        parts.rotation = IDENTITY
+        c.set_programming(parts.product(), parts.shift)
+        try:
+            step(channel, values)
+        finally:
+            parts.rotation = rotation_before
+            c.set_programming(parts.product(), parts.shift)
+
+    return run
 
 
 def mirror_turret(channel: Channel, words: Words) -> None:
