@@ -149,11 +149,12 @@ def test_reset_brakes_first_and_brings_modal_codes_back() -> None:
     assert virtual.state is State.BRAKING
     before = virtual.machine_position[0]
     assert virtual.run() is State.READY
-    assert virtual.machine_position[0] == pytest.approx(before + 100.0**2 / 6000.0)
+    braking = 100.0 * 0.03 + 100.0**2 / 3000.0  # half a ramp of 0.06 s behind, then at j·T/2 = 1500 mm/s²
+    assert virtual.machine_position[0] == pytest.approx(before + braking)
     assert virtual.modal["distance"] == "G90"
     virtual.cycle_start()
     virtual.run()
-    assert virtual.machine_position[0] == pytest.approx(before + 100.0**2 / 6000.0 + 100.0)
+    assert virtual.machine_position[0] == pytest.approx(before + braking + 100.0)
 
 
 def test_the_emergency_stop_ends_the_program() -> None:

@@ -11,7 +11,9 @@ from polycnc.session import open_session
 from tests.mainrun.support import power_on
 
 PROBE = "O1\nG90 G31 X100. F6000\n#100=#5061\n#101=#5041\nG91 G1 Y10.\nM30\n"
-BRAKING_MM = 100.0**2 / (2.0 * 3000.0)
+#: The axes are half a ramp behind, then they brake with what limited jerk leaves of 3000 mm/s² (`kernels/alone.py`).
+RAMP_S = 3000.0 / 50000.0
+BRAKING_MM = 100.0 * 0.5 * RAMP_S + 100.0**2 / (2.0 * 0.5 * 50000.0 * RAMP_S)
 
 
 def test_a_signal_of_the_setup_leaves_its_braking_distance_behind() -> None:
@@ -142,6 +144,23 @@ def test_a_surface_beside_the_way_ends_nothing() -> None:
     virtual.cycle_start()
     virtual.run()
     assert virtual.machine_position[:2] == pytest.approx([60.0, 30.0])
+
+
+@pytest.mark.parametrize("control", ["fanuc-m", "syntec-mill"])
+@pytest.mark.parametrize("seconds", [0.02, 0.6, 1.2])
+def test_a_signal_by_the_clock_comes_at_the_same_place_with_and_without_a_clock(
+    control: str, seconds: float
+) -> None:
+    text = TILTED if control == "fanuc-m" else "G54 G90 G31 X60. Y30. F3000\nM30\n"
+    names = ("#100", "#101") if control == "fanuc-m" else ("#1361", "#1362")
+    setup = {"switches": {"skip_signal_after": seconds}}
+    result = open_session(text, control=control, setup=setup).run()
+    virtual = power_on(text, control, setup=setup)
+    virtual.cycle_start()
+    assert virtual.run() is State.READY
+    skipped = [float(result.variables[name]) for name in names]
+    assert 0.0 < skipped[0] < 60.0
+    assert [virtual.read_variable(name) for name in names] == pytest.approx(skipped, abs=1e-6)
 
 
 def test_a_signal_after_the_move_ends_nothing() -> None:

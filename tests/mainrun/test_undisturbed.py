@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 import polycnc
-from polycnc.machine.motion_settings import BRISK
 from polycnc.mainrun import State, VirtualControl
-from polycnc.motion import plan
 from tests.mainrun.support import MILL, power_on, recorded, run_through
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -36,8 +33,7 @@ def control_of(path: Path) -> str:
 @pytest.mark.parametrize("path", examples(), ids=lambda path: path.name)
 def test_the_clock_says_what_the_planner_says(path: Path) -> None:
     result = polycnc.run(path, control=control_of(path), setup=setup_of(path))
-    brisk = replace(result.lead["settings"], acceleration=BRISK)  # the main run knows no limit of the jerk
-    planned = plan(result.toolpath, result.machine, **{**result.lead, "settings": brisk})
+    planned = result.plan
     virtual = VirtualControl(control_of(path), setup=setup_of(path))
     virtual.load(path)
     records = recorded(virtual)

@@ -8,41 +8,51 @@ from __future__ import annotations
 
 from array import array
 from collections import deque
-from math import inf, nan
+from dataclasses import replace
+from math import inf, sqrt
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.waits import PREPROCESSING, Wait
 from polycnc.mainrun.frames import carried, real_of
 from polycnc.mainrun.geometry import arc_laid, line_laid, way_along
 from polycnc.mainrun.items import Block, BlockEnd, Happening, Item, Piece, Rates, Standing
+from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.arcs import facing_radius
 from polycnc.motion.kernels.columns import (
     BLOCKS,
     CAP2,
-    CURVED,
     ENTRY2,
     FACING,
-    FEED,
     FORM,
+    FREE,
     GEOMETRY,
+    HOLD_WAY,
+    LENGTH,
     LIMIT_BLOCKS,
+    LOW2,
+    LOW_PULL,
     OFFSETS,
+    PAUSE,
     PER_REVOLUTION,
     PIECES,
     POSITION,
     REACH2,
+    ROW,
     ROW_LENGTH,
     STATE_BLOCKS,
     STOP,
+    STRAIGHT,
     SWEEP,
     TIMED,
+    TOP2,
+    WINDOW,
     Rows,
     piece_width,
 )
 from polycnc.motion.kernels.feeds import asked_speed, follows_radius, is_rapid
 from polycnc.motion.kernels.lay import lay
 from polycnc.motion.kernels.speeds import backward
-from polycnc.motion.limits import axis_limits, context_fields
+from polycnc.motion.limits import averages, axis_limits, context_fields
 from polycnc.motion.waits import ORIENT, Waits
 from polycnc.toolpath import Context, Kind, Toolpath
 from polycnc.toolpath.kinds import ARC_KINDS
@@ -61,6 +71,8 @@ if TYPE_CHECKING:
 
 #: Items that are prepared at most, and at how few the channel is asked for more.
 FULL, LOW = 512, 128
+#: Items that are prepared at most where short pieces do not make up the way that a bound reaches (`hold.py`).
+MOST = 4096
 #: Blocks that the channel runs in one interpolation cycle while it makes no item.
 BLOCKS_A_CYCLE = 1000
 #: Waits of the channel behind a block that counts as one even without rows.
@@ -89,6 +101,8 @@ class Ahead:
     def __init__(self, machine: Machine, number: int, left: SharedAxes) -> None:
         self.toolpath = Toolpath(machine.channel_axes(number), chunk_rows=1, on_full=self._take)
         self.items: deque[Item] = deque()
+        self._held: deque[Piece] = deque()  # those of the items that are pieces
+        self._planned = array("d")
         self.channel: Channel
         self.waiting: Wait | None = None
         self.finished = True
@@ -101,7 +115,9 @@ class Ahead:
         self.limits: array[float]
         self._machine, self._number = machine, number
         self._state = array("d", bytes(8 * (STATE_BLOCKS + BLOCKS * self._axes)))
-        self._pieces = array("d", bytes(8 * self._width * 64))
+        self._state[FREE] = 1.0
+        self._state[LOW2] = self._state[LOW_PULL] = inf
+        self._pieces = array("d", bytes(8 * self._width * 256))
         self._contexts = array("d")
         self._stations: dict[tuple[object, ...], int] = {}
         self._laid_contexts = 0
@@ -138,6 +154,8 @@ class Ahead:
     def clear(self, position: Sequence[float]) -> None:
         """Forget everything prepared."""
         self.items.clear()
+        self._held.clear()
+        del self._planned[:]
         self._blocks.clear()
         self._open = None
         self._state[PIECES] = 0.0
@@ -148,24 +166,29 @@ class Ahead:
 
     def fill(self) -> bool:
         """Let the channel run ahead; false if it made nothing although it may go on."""
-        if len(self.items) > LOW or self._rests():
+        if self._rests() or self._suffices(LOW):
             return True
         before = len(self.items)
         for _ in range(BLOCKS_A_CYCLE):
             self._step()
-            if self._rests() or len(self.items) >= FULL:
+            if self._rests() or self._suffices(FULL):
                 break
         made = len(self.items) > before
         self.revised = self.revised or made
         return made or self._rests()
+
+    def _suffices(self, items: int) -> bool:
+        """Whether so much is prepared, and enough for bounds that reach back."""
+        return len(self.items) > items and (len(self.items) > MOST or self._reaches())
 
     def _rests(self) -> bool:
         """Whether the channel does not go on by itself."""
         return self.finished or self.waiting is not None
 
     def end_in_rest(self) -> None:
-        """The axes come to rest behind what is prepared, for nobody knows when more will come."""
+        """The axes come to rest behind what is prepared."""
         self._state[STOP] = 1.0
+        settle_alone(self._pieces, self._axes, self.limits, self._state)
 
     def fail(self, error: AlarmError) -> None:
         """The run of the channel ends with an alarm that did not arise in a block."""
@@ -214,6 +237,8 @@ class Ahead:
             self.waiting = wait
         elif self._skips:
             self.waiting = PREPROCESSING
+        if self._rests():
+            self.end_in_rest()
 
     # ---- blocks --------------------------------------------------------------------------------------------
 
@@ -270,10 +295,10 @@ class Ahead:
                 stands = self._waits.stands_for(event)
                 self.items.append(Happening(event, context, stands))
                 if stands:
-                    self._state[STOP] = 1.0
+                    self.end_in_rest()
                 self._stopped = self._stopped or event.type == "stop"
             elif kind == Kind.DWELL:
-                self._state[STOP] = 1.0
+                self.end_in_rest()
             else:
                 self._lay(chunk, row)
         return True
@@ -292,46 +317,54 @@ class Ahead:
         for context in self.toolpath.contexts[self._laid_contexts :]:
             spindle = self._waits.spindle(context)
             turning = (context.spindle, context.spindle_rpm, context.spindle_direction, context.surface_speed)
-            key = (context.tool, context.tool_name, *turning)
+            smoothing = averages(context, self._machine, self._settings)
+            key = (context.tool, context.tool_name, *turning, smoothing)
             station = self._stations.setdefault(key, len(self._stations))
-            # Without averages: changes of speed that a command brings cannot wait for an average over time.
-            self._contexts.extend(context_fields(context, self._axes, spindle, station, self._settings))
+            self._contexts.extend(
+                context_fields(context, self._axes, spindle, station, self._settings, smoothing)
+            )
             self._laid_contexts += 1
 
     def _lay(self, chunk: Chunk, row: int) -> None:
-        """Lay a move out as pieces. Its feed is left out there, so that the pieces know what the axes allow."""
+        """Lay a move out as pieces. Its feed is FREE, so that the pieces know what the axes allow."""
         n, state = self._axes, self._state
         self._enter_context(self.toolpath.contexts[chunk.context[row]])
         end = chunk.end[row * n : (row + 1) * n]
-        rows = Rows([chunk.kind[row]], [chunk.context[row]], [nan], end, [chunk.curve[row]], [])
+        rows = Rows([chunk.kind[row]], [chunk.context[row]], [chunk.feed[row]], end, [chunk.curve[row]], [])
         first = STATE_BLOCKS + POSITION * n
-        start, before = tuple(state[first : first + n]), int(state[PIECES])
+        start = tuple(state[first : first + n])
         number = chunk.first + row
         while lay(rows, 0, chunk.curves, number, self._contexts, self.limits, self._pieces, state) == 0:
             self._pieces.frombytes(bytes(len(self._pieces) * 8))
-        count = int(state[PIECES]) - before
+        count = self._laid(number)
         if count == 0:
             return
+        before = int(state[PIECES]) - count
+        self._split(before)
         self._skips = self._skips or chunk.kind[row] == Kind.SKIP
         is_arc = (
             chunk.kind[row] in (*ARC_KINDS, Kind.THREAD)
-            and self._pieces[before * self._width + FORM] == CURVED
+            and self._pieces[before * self._width + FORM] != STRAIGHT
         )
         way = arc_laid(start, state, self.limits, n) if is_arc else line_laid(start, state, n)
-        state[FEED] = chunk.feed[row]
         is_cut_short = chunk.kind[row] == Kind.SKIP and chunk.curve[row] >= 0
         record = chunk.context[row] * (OFFSETS + n)
+        total = sum(self._pieces[(before + part) * self._width + LENGTH] for part in range(count))
+        done = 0.0
         for part in range(count):
             at = (before + part) * self._width
+            share = self._pieces[at + LENGTH] / total
             asked = asked_speed(
                 chunk.curves, self._contexts, record, state, state[ROW_LENGTH],
-                self._radius(record, part, count, is_arc=is_arc),
+                self._radius(record, done + 0.5 * share, is_arc=is_arc),
             )  # fmt: skip
-            self.items.append(
+            self._add_piece(
                 Piece(
                     way=way,
-                    first=part / count,
-                    share=1.0 / count,
+                    row=number,
+                    length=self._pieces[at + LENGTH],
+                    first=done,
+                    share=share if part < count - 1 else 1.0 - done,
                     kind=chunk.kind[row],
                     context=self.toolpath.contexts[chunk.context[row]],
                     program=self.toolpath.programs[chunk.program[row]],
@@ -348,6 +381,40 @@ class Ahead:
                     by_axis=self._pieces[at + FORM] == TIMED,
                 )
             )
+            done += share
+
+    def _add_piece(self, piece: Piece) -> None:
+        self.items.append(piece)
+        self._held.append(piece)
+
+    def _laid(self, number: int) -> int:
+        """The number of pieces of the row laid last."""
+        count, last = 0, int(self._state[PIECES]) - 1
+        while last - count >= 0 and self._pieces[(last - count) * self._width + ROW] == number:
+            count += 1
+        return count
+
+    def _split(self, count: int) -> None:
+        """A new row may bound and cut pieces before it (`hold.py`): the first `count` records and items agree again."""
+        width, held = self._width, self._held
+        reach = max(self._pieces[k * width + HOLD_WAY] for k in range(count, int(self._state[PIECES])))
+        at, way = count * width, 0.0
+        fresh: list[Piece] = []
+        while held and (way < reach or len(held) != at // width):
+            piece, left, parts = held.pop(), 0.0, list[tuple[float, int]]()
+            way += piece.length
+            while not parts or left < piece.length * (1.0 - 1e-9):
+                at -= width
+                parts.insert(0, (self._pieces[at + LENGTH], at))
+                left += self._pieces[at + LENGTH]
+            pieces = list(_parts(piece, parts, self._pieces))
+            if len(parts) > 1:
+                place = self.items.index(piece)
+                del self.items[place]
+                for part in reversed(pieces):
+                    self.items.insert(place, part)
+            fresh = [*pieces, *fresh]
+        held.extend(fresh)
 
     def _enter_context(self, context: Context) -> None:
         """Where a transformation begins or ends, the path goes on from where the real axes are."""
@@ -355,14 +422,13 @@ class Ahead:
         if context.transformation is not last.transformation:
             self.stand_at(carried(self.position, last, context, self._geometry))
 
-    def _radius(self, record: int, part: int, parts: int, *, is_arc: bool) -> float:
-        """Turning radius in the middle of a part of the row laid last, as the planner takes it."""
+    def _radius(self, record: int, middle: float, *, is_arc: bool) -> float:
+        """Turning radius at a share of the row laid last, as the planner takes it."""
         state, n = self._state, self._axes
         facing = int(self.limits[LIMIT_BLOCKS * n + GEOMETRY])
         if facing < 0:
             return 0.0
         follows = follows_radius(self._contexts, record)
-        middle = (part + 0.5) / parts
         if is_arc:
             return facing_radius(middle * state[SWEEP] if follows else 0.0, n, self.limits, state)
         return state[FACING] - (way_along(state, facing, n) * (1.0 - middle) if follows else 0.0)
@@ -378,7 +444,9 @@ class Ahead:
             gated: An auxiliary function is running: the next block must wait.
             single_block: Every block ends in a halt.
         """
-        at, width, pieces = 0, self._width, self._pieces
+        at, width = 0, self._width
+        # A copy: what the axes allow must be known again when the overrides change.
+        pieces = self._planned = self._pieces[: int(self._state[PIECES]) * width]
         closed = False
         for item in self.items:
             if isinstance(item, Piece):
@@ -395,27 +463,56 @@ class Ahead:
 
     def reach2(self) -> float:
         """Largest squared speed at which the next piece may be entered; 0 where none is prepared."""
-        return self._pieces[REACH2] if self._state[PIECES] else 0.0
+        return self._planned[REACH2] if self._planned else 0.0
 
     def pop_piece(self) -> array[Any]:
         """Take the piece in front out of the queue; its record."""
         self.items.popleft()
+        self._held.popleft()
         width, count = self._width, int(self._state[PIECES])
         record = self._pieces[:width]
         self._pieces[: (count - 1) * width] = self._pieces[width : count * width]
         self._state[PIECES] = count - 1
+        del self._planned[:width]
         return record
 
     @property
     def is_last_piece(self) -> bool:
-        """Whether the piece in front is the last, and a row to come could still change it."""
-        open_end = self._state[STOP] == 0.0 and not self.finished and self.waiting is None
-        return self._state[PIECES] <= 1.0 and open_end
+        """Whether a row to come could still change the piece in front, and nobody knows when one will come."""
+        if self._state[STOP] != 0.0 or self.finished or self.waiting is not None:
+            return False
+        return self._state[PIECES] <= 1.0 or not self._reaches()
+
+    def _reaches(self) -> bool:
+        """Whether so much is prepared behind the piece in front that no row to come can bound it."""
+        reach, way, width = 0.5 * sqrt(self._state[TOP2]) * self._state[WINDOW], 0.0, self._width
+        for k in range(int(self._state[PIECES]) - 1, 0, -1):
+            if way >= reach or self._pieces[k * width + PAUSE] > 0.0:
+                return True
+            way += self._pieces[k * width + LENGTH]
+        return way >= reach
 
     @property
     def axes(self) -> int:
         """Number of axes."""
         return self._axes
+
+
+def _parts(piece: Piece, lengths: list[tuple[float, int]], records: Sequence[float]) -> Iterator[Piece]:
+    """A piece as its records say now: bounds, and the parts that it was cut into."""
+    if len(lengths) == 1:
+        piece.entry2, piece.cap2 = (records[lengths[0][1] + field] for field in (ENTRY2, CAP2))
+        yield piece
+        return
+    first = piece.first
+    for k, (length, at) in enumerate(lengths):
+        is_last = k == len(lengths) - 1
+        share = piece.first + piece.share - first if is_last else piece.share * length / piece.length
+        yield replace(
+            piece, first=first, share=share, length=length, entry2=records[at + ENTRY2], cap2=records[at + CAP2],
+            left=piece.left if is_last else 0.0,
+        )  # fmt: skip
+        first += share
 
 
 def _without_function(delays: list[tuple[str, float]], code: object) -> list[tuple[str, float]]:

@@ -9,8 +9,10 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING, Protocol
 
+from polycnc.mainrun.follower import Follower
 from polycnc.mainrun.items import Block, BlockEnd, Happening, Piece, Rates, Standing
 from polycnc.mainrun.motion import AxesMotion, Motion, PathMotion
+from polycnc.motion.kernels.columns import BLEND, LENGTH, RAMP
 from polycnc.toolpath import Context, Kind
 
 if TYPE_CHECKING:
@@ -104,22 +106,36 @@ class Automatic:
         self._cycle_s = cycle_s
         self._skip_after_s = skip_after_s
         self._skips_at = inf
+        self._follower = Follower()
+        self._behind = 0.0
+        self._settles = 0.0
 
     # ---- what a panel reads --------------------------------------------------------------------------------
 
     @property
     def moving(self) -> bool:
         """Whether the axes move now."""
-        return self.speed > 0.0
+        leads = self.motion is not None and self.motion.speed(self.time) > 0.0
+        return leads or self.time < self._settles
 
     @property
     def speed(self) -> float:
         """Path speed now, mm/s."""
+        if self._follows:
+            return self._follower.speed(self.time)
         return self.motion.speed(self.time) if self.motion is not None else 0.0
+
+    @property
+    def _follows(self) -> bool:
+        """Whether the axes are behind the interpolator, which leads them."""
+        leads = self.motion is not None and self.time < self.motion.rest
+        return self._follower.window > 0.0 and (leads or self.time < self._settles)
 
     @property
     def machine(self) -> list[float]:
         """Machine position now."""
+        if self._follows:
+            return self._follower.machine(self.time)
         return self.motion.machine(self.time) if self.motion is not None else list(self.position)
 
     @property
@@ -162,10 +178,8 @@ class Automatic:
     def _due(self) -> float:
         """When something happens next, as far as it is known."""
         if self.motion is not None:
-            rest = self.motion.rest
-            return min(
-                self.motion.end, rest if rest > self.time else inf, self._skips_at, self._machinery.due
-            )
+            rests = [at for at in (self.motion.rest, self._settles) if at > self.time]
+            return min(self.motion.end, *rests, self._skips_at, self._machinery.due)
         if self._waiting and self._machinery.busy:
             return self._machinery.due
         return min(max(self._until, self.time), self._machinery.due)
@@ -184,11 +198,33 @@ class Automatic:
         self.position = motion.piece.at(1.0)
         self.motion, self._skips_at = None, inf
         if motion.piece.left > 0.0 and isinstance(motion, PathMotion):
-            self._coast(motion)
+            self._coast(motion, 0.5 * self._follower.window)
+        if self.motion is None:
+            self._behind = motion.piece.length
+            if self._x2 == 0.0:
+                self._settle()
 
-    def _coast(self, motion: PathMotion) -> None:
+    def _settle(self) -> None:
+        """The interpolator rests; nothing follows before the axes do."""
+        self._settles = self.time + self._follower.window
+        self._until = max(self._until, self._settles)
+
+    def _lead(self) -> None:
+        """The axes follow what has just been decided."""
+        motion = self.motion
+        if motion is None or self._follower.window == 0.0:
+            return
+        motion.lead(self._follower)
+        if self.time < motion.rest < inf:
+            self._settles = motion.rest + self._follower.window
+
+    def _coast(self, motion: PathMotion, late: float) -> None:
         """A skip signal has come: the axes brake on the line of the move, and the rest of it is dropped."""
-        self.motion = motion.after_signal(self.time)
+        done = motion.done(self.time)
+        coasting = self.motion = motion.after_signal(self.time, late)
+        if coasting is not None:
+            self._follower.enter(coasting.piece, coasting.length, done)
+            self._lead()
         self._x2, self._moved_on = 0.0, True
         while self.ahead.items and isinstance(self.ahead.items[0], Piece):
             self.ahead.pop_piece()
@@ -198,9 +234,11 @@ class Automatic:
         motion = self.motion
         if not isinstance(motion, PathMotion) or motion.piece.kind != Kind.SKIP or motion.piece.is_coasting:
             return None
-        here = motion.machine(self.time)
-        self.position = here
-        self._coast(motion)
+        here = self.machine
+        self.position = motion.machine(self.time)
+        self._coast(motion, 0.0)
+        if self.motion is None:
+            self._settle()
         return here
 
     def _go_on(self) -> bool:
@@ -299,10 +337,17 @@ class Automatic:
             self._enter(Block(piece.program, piece.line, self.modal))
         if piece.kind == Kind.SKIP and piece.first == 0.0 and self._skip_after_s is not None:
             self._skips_at = self.time + self._skip_after_s
+        follower = self._follower
+        if self._x2 == 0.0:
+            follower.begin(self.time, record[RAMP], record[BLEND])
+        follower.enter(piece, record[LENGTH], self._behind)
         if piece.by_axis:
-            self.motion = AxesMotion(piece, ahead.limits, self.time, self.rates.rapid)
+            self.motion = AxesMotion(piece, ahead.limits, self.time, self.rates.rapid, record[RAMP])
         else:
-            self.motion = PathMotion(piece, record, ahead.limits, self.time, self._x2, ahead.reach2(), cap2)
+            self.motion = PathMotion(
+                piece, record, ahead.limits, self.time, self._x2, ahead.reach2(), cap2, follower.window
+            )
+        self._lead()
         return True
 
     # ---- changes -------------------------------------------------------------------------------------------
@@ -323,6 +368,7 @@ class Automatic:
         self._look_ahead()
         held = self.rates.hold and motion.piece.context.feed_hold
         motion.revise(self.time, self.ahead.reach2(), self._cap2, 0.0 if held else self.rates.rapid)
+        self._lead()
 
     def start(self) -> None:
         """Go on, or begin."""
@@ -344,5 +390,6 @@ class Automatic:
         self.motion = None
         self.running, self.halt = False, ""
         self._x2, self._until, self._skips_at = 0.0, self.time, inf
+        self._settles = self.time
         self.block = None
         self.ahead.clear(self.position)

@@ -57,7 +57,8 @@ class Piece:
     """A piece of the path: a line, a chord, or 7.5° of an arc.
 
     Attributes:
-        way: The row that it is a part of.
+        way: The row that it is a part of; `row` is its number.
+        length: Of the piece, mm.
         first: Share of the row that lies before it; `share` is its own.
         kind: Kind of the row.
         context: What holds in it.
@@ -74,6 +75,8 @@ class Piece:
     """
 
     way: Way
+    row: int
+    length: float
     first: float
     share: float
     kind: int

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import inf
+from math import inf, sqrt
 from typing import TYPE_CHECKING, Any, Protocol
 
 from polycnc.mainrun.axis_move import AxisMove, axis_move
 from polycnc.mainrun.geometry import Line
 from polycnc.mainrun.speed import NO_WAY_MM, profile_of
-from polycnc.motion.kernels.columns import ACCELERATION, LENGTH, PULL, TOP_RAPID
+from polycnc.motion.kernels.columns import LENGTH, PULL, TOP_RAPID
+from polycnc.motion.kernels.jerk import axis_pull
 
 if TYPE_CHECKING:
     from array import array
     from collections.abc import Sequence
 
+    from polycnc.mainrun.follower import Follower
     from polycnc.mainrun.items import Piece
 
 
@@ -42,6 +44,9 @@ class Motion(Protocol):
     def revise(self, time: float, aim2: float, cap2: float, rapid: float) -> None:
         """The limits of the speed have changed."""
 
+    def lead(self, follower: Follower) -> None:
+        """Say what the axes follow from now on."""
+
 
 class PathMotion:
     """Along the path, all axes together.
@@ -54,6 +59,7 @@ class PathMotion:
         start2: Squared speed then.
         aim2: Largest squared speed at its end.
         cap2: Largest squared speed on it.
+        window: Seconds by which the axes are behind.
     """
 
     def __init__(
@@ -65,8 +71,10 @@ class PathMotion:
         start2: float,
         aim2: float,
         cap2: float,
+        window: float = 0.0,
     ) -> None:
         self.piece = piece
+        self._window = window
         self._record = record
         self._limits = limits
         self._axes = len(piece.way.start)
@@ -96,12 +104,32 @@ class PathMotion:
     @property
     def coasting2(self) -> float:
         """Largest squared speed at its end from which the axes rest within the way that is left behind it."""
-        return 2.0 * float(self._record[PULL]) * self.piece.left
+        pull, left, late = float(self._record[PULL]), self.piece.left, 0.5 * self._window
+        if late == 0.0 or left <= 0.0:
+            return 2.0 * pull * left
+        speed = pull * (sqrt(late * late + 2.0 * left / pull) - late)
+        return speed * speed
 
-    def after_signal(self, time: float) -> PathMotion | None:
-        """The motion that brakes on the line of this one from now on; None where the axes stand."""
+    @property
+    def length(self) -> float:
+        """Of the piece, mm."""
+        return float(self._record[LENGTH])
+
+    def lead(self, follower: Follower) -> None:
+        """Say what the axes follow from now on."""
+        follower.follow(self._since, self._done, self._profile.phases)
+
+    def done(self, time: float) -> float:
+        """How far along the piece the motion is."""
+        return self._after(time)[0]
+
+    def after_signal(self, time: float, late: float) -> PathMotion | None:
+        """The motion that brakes on the line of this one; None where the axes stand.
+
+        It goes on for `late` seconds, if the signal comes when the axes are where this motion is now.
+        """
         way, speed = self._after(time)
-        brakes = speed * speed / (2.0 * self._record[PULL])
+        brakes = speed * speed / (2.0 * self._record[PULL]) + speed * late
         if brakes <= NO_WAY_MM:
             return None
         piece, length = self.piece, self._record[LENGTH]
@@ -113,7 +141,7 @@ class PathMotion:
         )
         record = self._record[:]
         record[LENGTH] = brakes
-        return PathMotion(rest, record, self._limits, time, speed * speed, 0.0, speed * speed)
+        return PathMotion(rest, record, self._limits, time, speed * speed, 0.0, speed * speed, self._window)
 
     def revise(self, time: float, aim2: float, cap2: float, rapid: float) -> None:  # noqa: ARG002 - is in cap2
         """The limits of the speed have changed."""
@@ -129,20 +157,28 @@ class AxesMotion:
         limits: The machine, as the planner's kernels take it.
         since: When it begins.
         rapid: Rapid override.
+        ramp: Seconds over which the axes' motion is averaged.
     """
 
-    def __init__(self, piece: Piece, limits: Sequence[float], since: float, rapid: float) -> None:
+    def __init__(
+        self, piece: Piece, limits: Sequence[float], since: float, rapid: float, ramp: float = 0.0
+    ) -> None:
         self.piece = piece
         self.end2 = 0.0
         n = len(piece.way.start)
         self._top = tuple(limits[TOP_RAPID * n : (TOP_RAPID + 1) * n])
-        self._pull = tuple(limits[ACCELERATION * n : (ACCELERATION + 1) * n])
+        bounds = list(limits)
+        self._pull = tuple(axis_pull(ramp, n, bounds, i) for i in range(n))
         self._moves = tuple(AxisMove(start, (), since, start) for start in piece.way.start)
         self.revise(since, 0.0, 0.0, rapid)
 
     def machine(self, time: float) -> list[float]:
         """Machine position."""
         return [move.after(time)[0] for move in self._moves]
+
+    def lead(self, follower: Follower) -> None:
+        """Say what the axes follow from now on."""
+        follower.follow_alone(self._moves[0].since, [(move.start, move.phases) for move in self._moves])
 
     def speed(self, time: float) -> float:
         """Speed of the fastest axis."""

@@ -114,8 +114,8 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
     """RAMP_S and BLEND_S of a context, seconds; zero without limited jerk.
 
     RAMP_S is the time in which the slowest axis builds up its acceleration: a balance between short ways, which it
-    delays, and long ones, which need acceleration. Lines from rest to rest choose theirs (`kernels/alone.py`). BLEND_S lets a corner use
-    up its parts of the tolerance and of the jerk alike (`kernels/jerk.py`).
+    delays, and long ones, which need acceleration. Lines from rest to rest choose theirs (`kernels/alone.py`).
+    BLEND_S lets a corner use up its parts of the tolerance and of the jerk alike (`kernels/jerk.py`).
     """
     axes = [axis for axis in machine.axes if axis.jerk > 0.0 and axis.acceleration > 0.0]
     if (context.acceleration or settings.acceleration) != SOFT or not axes:

@@ -31,6 +31,7 @@ from polycnc.motion.kernels.columns import (
     TANGENT,
     UNIT,
     VECTORS,
+    WANTED,
     WINDOW,
     Floats,
     piece_width,
@@ -60,7 +61,8 @@ def settle_alone(pieces: Floats, n: int, limits: Floats, state: Floats) -> None:
         if share > 0.0:
             pull = min(pull, limits[ACCELERATION * n + i] / share)
             jerk = min(jerk, limits[JERK * n + i] / share)
-    ramp = best_ramp(length, sqrt(pieces[at + CAP2]), jerk, pieces[at + RAMP])
+    top = min(sqrt(pieces[at + CAP2]), state[WANTED])
+    ramp = best_ramp(length, top, jerk, pieces[at + RAMP])
     pieces[at + PULL] = min(pull, 0.5 * jerk * ramp)
     pieces[at + RAMP], pieces[at + BLEND], pieces[at + PAUSE] = ramp, 0.0, ramp
 
@@ -73,13 +75,17 @@ def pays_to_rest(
     state: Floats,
     length: float,
     corner2: float,
-    top2: float,
+    wanted: float,
 ) -> bool:
-    """Whether two lines take less time with a rest between them than if the corner is passed at `corner2`."""
+    """Whether two lines take less time with a rest between them than if the corner is passed at `corner2`.
+
+    `wanted` is the speed of the second line, WANTED that of the first one.
+    """
     if state[ALONE] == 0.0:
         return False
     passing, resting, window = 0.0, 0.0, state[WINDOW]
-    corner, top = sqrt(corner2), sqrt(top2)
+    top = min(wanted, state[WANTED])
+    corner = min(sqrt(corner2), top)
     for side in range(2):
         direction = STATE_BLOCKS + (TANGENT if side == 0 else UNIT) * n
         way = state[ROW_LENGTH] if side == 0 else length

@@ -62,6 +62,7 @@ from polycnc.motion.kernels.columns import (
 from polycnc.motion.kernels.corners import join
 from polycnc.motion.kernels.feeds import (
     asked_speed,
+    bound,
     bounded,
     follows_radius,
     has_room,
@@ -216,7 +217,7 @@ def lay_arc(
     if gentle:
         cap2, pull = arc_hold(contexts, record, n, limits, state, curvature(n, limits, weight, state), speed)
         entry2 = min(entry2, cap2)
-    entry2 = join(contexts, record, n, limits, state, length, weight, min(entry2, speed * speed), False)
+    entry2 = join(contexts, record, n, limits, state, length, weight, min(entry2, speed * speed), 0.0)
     if state[REST] > 0.0:
         settle_alone(pieces, n, limits, state)
     state[ALONE] = 0.0
@@ -225,7 +226,7 @@ def lay_arc(
         if follows_radius(contexts, record):
             radius = facing_radius((part + 0.5) * step, n, limits, state)
             speed = asked_speed(curves, contexts, record, state, length, radius)
-            speed = speed if speed > 0.0 else inf
+            speed = bound(speed, state)
         at = next_piece(pieces, state, BENT if gentle else CURVED, 0.0, n)
         if part == 0:
             open_joint(pieces, at, state, entry2)

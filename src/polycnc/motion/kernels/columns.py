@@ -75,15 +75,15 @@ STRAIGHT, BENT, CURVED, TIMED = 0, 1, 2, 3
 STOP, EXIT2, ROW_LENGTH, METRIC, AT_STATION, SMOOTH, PIECES, WITHOUT_FEED = range(8)
 # for limited jerk: pull of the last row around its end; highest cap and pull since the axes last stood, lowest
 # holds within reach, way for which holds reach ahead; seconds that a change of speed is spread over; the last row
-# is a line (1), and one from rest (2),
-EXIT_PULL, TOP2, TOP_PULL, LOW2, LOW_PULL, AHEAD, WINDOW, ALONE = range(8, 16)
+# is a line (1), and one from rest (2); speed that it asks for; whether overrides will act on feeds (not the planner's),
+EXIT_PULL, TOP2, TOP_PULL, LOW2, LOW_PULL, AHEAD, WINDOW, ALONE, WANTED, FREE = range(8, 18)
 # the joint at hand: pull around it, seconds of rest, averages of a run that begins there,
-JOINT_PULL, REST, RUN_RAMP, RUN_BLEND = range(16, 20)
+JOINT_PULL, REST, RUN_RAMP, RUN_BLEND = range(18, 22)
 # the row at hand (CURVE: where its record in `curves` begins, or -1; FACING: its end in X, work coordinates),
-KIND, NUMBER, ROW_SLOT, FEED, CURVE, FACING = range(20, 26)
+KIND, NUMBER, ROW_SLOT, FEED, CURVE, FACING = range(22, 28)
 # its arc (unit vectors to the start, along the way there, and of the axis; angle, radius, growth of the
 # radius, rise),
-BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 26, 35, 36, 37, 38, 39
+BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 28, 37, 38, 39, 40, 41
 # and blocks of n numbers: machine position before the row, q' at the end of the last piece; end of the row,
 # way there, and room for one q' and q''; q'' at the end of the last piece.
 POSITION, TANGENT, TARGET, DELTA, UNIT, BEND, BENT_BEFORE, BLOCKS = range(8)

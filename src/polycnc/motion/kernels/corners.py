@@ -46,7 +46,7 @@ def join(
     length: float,
     weight: float,
     cap2: float,
-    is_line: bool,
+    wanted: float,
 ) -> float:
     """Largest x at the joint between the row before and this one, which starts along `unit` with `cap2`.
 
@@ -74,7 +74,6 @@ def join(
         state[REST], state[JOINT_PULL] = state[WINDOW], inf
         return 0.0
     cap2 = min(cap2, state[EXIT2])
-    top2 = cap2
     if smooth and cosine > SMOOTH_COS:
         state[SMOOTH] = 2.0
         if ramp == 0.0:
@@ -89,9 +88,9 @@ def join(
     if ramp > 0.0:
         cap2 = corner_hold2(contexts, record, n, limits, state, length, cap2)
         if (
-            is_line
+            wanted > 0.0
             and state[SMOOTH] != 2.0
-            and pays_to_rest(contexts, record, n, limits, state, length, cap2, top2)
+            and pays_to_rest(contexts, record, n, limits, state, length, cap2, wanted)
         ):
             state[REST], state[JOINT_PULL] = state[WINDOW], inf
             return 0.0

@@ -13,6 +13,7 @@ from polycnc.motion.kernels.columns import (
     EXIT2,
     FEED,
     FORM,
+    FREE,
     HOLD2,
     HOLD_PULL,
     INVERSE_TIME,
@@ -114,10 +115,18 @@ def asked_speed(
 
 def bounded(asked: float, state: Floats) -> float:
     """The speed asked for, or no bound where none is; such rows are counted."""
-    if asked > 0.0:
-        return asked
-    state[WITHOUT_FEED] += 1.0
-    return inf
+    if not asked > 0.0:
+        state[WITHOUT_FEED] += 1.0
+    return bound(asked, state)
+
+
+def bound(asked: float, state: Floats) -> float:
+    """The speed asked for, or no bound where none is.
+
+    Where the feed is FREE, because overrides will act on it, it bounds threads and taps alone.
+    """
+    is_free = state[FREE] != 0.0 and state[KIND] != THREAD and state[KIND] != TAP
+    return inf if is_free or not asked > 0.0 else asked
 
 
 def follows_radius(contexts: Floats, record: int) -> bool:
@@ -139,13 +148,13 @@ def next_piece(pieces: Floats, state: Floats, form: int, cap2: float, n: int) ->
     state[EXIT2] = cap2
     pieces[at + FORM], pieces[at + ROW], pieces[at + SLOT] = form, state[NUMBER], state[ROW_SLOT]
     pieces[at + HOLD2], pieces[at + HOLD_PULL], pieces[at + PAUSE], pieces[at + MARGIN] = inf, inf, 0.0, 1.0
+    pieces[at + RAMP], pieces[at + BLEND] = state[RUN_RAMP], state[RUN_BLEND]
     return at
 
 
 def open_joint(pieces: Floats, at: int, state: Floats, entry2: float) -> None:
     """Give the first piece of a row what `join` has found."""
     pieces[at + HOLD2], pieces[at + HOLD_PULL], pieces[at + PAUSE] = entry2, state[JOINT_PULL], state[REST]
-    pieces[at + RAMP], pieces[at + BLEND] = state[RUN_RAMP], state[RUN_BLEND]
 
 
 def place(pieces: Floats, at: int, n: int, state: Floats, first: float, last: float) -> None:

@@ -75,6 +75,7 @@ from polycnc.motion.kernels.columns import (
     TOP_RAPID,
     UNIT,
     VECTORS,
+    WANTED,
     Floats,
     Rows,
     piece_width,
@@ -83,6 +84,7 @@ from polycnc.motion.kernels.corners import join
 from polycnc.motion.kernels.feeds import (
     asked_speed,
     axes_of,
+    bound,
     bounded,
     follows_radius,
     has_room,
@@ -256,14 +258,17 @@ def lay_straight(
         asked = asked_speed(curves, contexts, record, state, length, radius)
         if part == 0:
             speed = min(top, bounded(asked, state))
+            wanted = min(top, asked) if asked > 0.0 else top
             is_line = parts == 1 and state[KIND] not in (SPLINE, THREAD, TAP)
-            entry2 = join(contexts, record, n, limits, state, length, weight, speed * speed, is_line)
+            wanted = wanted if is_line else 0.0
+            entry2 = join(contexts, record, n, limits, state, length, weight, speed * speed, wanted)
             state[JOINT_PULL] = min(state[JOINT_PULL], pull)
             if state[REST] > 0.0:
                 settle_alone(pieces, n, limits, state)
             state[ALONE] = (2.0 if state[REST] > 0.0 else 1.0) if is_line else 0.0
+            state[WANTED] = wanted
         else:
-            speed = min(top, asked if asked > 0.0 else inf)
+            speed = min(top, bound(asked, state))
             entry2 = min(state[EXIT2], speed * speed)
         at = next_piece(pieces, state, STRAIGHT, speed * speed, n)
         place(pieces, at, n, state, part / parts, (part + 1) / parts)
