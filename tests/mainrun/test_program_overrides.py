@@ -94,7 +94,7 @@ def test_a_rapid_goes_at_45_degrees_until_the_shorter_axis_is_there(control: str
     virtual = power_on("O1\nG91 G00 X25. Y-10.\nM30\n", control)
     places = []
     virtual.cycle_start()
-    while virtual.run(limit_s=0.02) is State.RUNNING:
+    while virtual.run(limit_s=0.004) is State.RUNNING:
         places.append(virtual.machine_position[:2])
     moving = [(x, y) for x, y in places if 0.0 < x < 25.0]
     assert any(0.1 < x < 2.0 for x, _ in moving)
