@@ -5,12 +5,15 @@ from __future__ import annotations
 import os
 import sys
 
-from benchmarks import interpreter, planner, sinumerik, startup, turning
+from benchmarks import bulk, interpreter, planner, sinumerik, startup, turning
 
 BENCHMARKS = (
     interpreter.plain_blocks,
     interpreter.macro_loop,
     interpreter.memory,
+    bulk.whole_process,
+    bulk.scanner,
+    bulk.streaming,
     startup.small_run,
     sinumerik.loop,
     sinumerik.blocks,

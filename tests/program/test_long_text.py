@@ -79,7 +79,8 @@ def test_a_line_too_long_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(long_text, "MAX_LINE", 30)
     with pytest.raises(ProgramFileError) as error:
         long(tmp_path / "part.nc", ["G1 X1."] * 20 + ["G1 " + "X" * 40, "M30"], monkeypatch)
-    assert error.value.args_by_name == {"line": 21, "length": 43, "limit": 30}
+    named = error.value.args_by_name
+    assert (named["line"], named["length"]) == (21, 43)
 
 
 def test_a_file_that_shrinks_is_no_traceback(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
