@@ -1,7 +1,7 @@
 """Plain blocks in bulk: a CAM program of a million blocks against LinuxCNC's rs274, the scanner alone, the export.
 
-The same contour is written for FANUC and for LinuxCNC, about 30 MB each. The commands run as whole processes, in turn with
-the peer; shortest processor times count. Kernels are warm, but for the figure that says what the first run costs.
+The same contour is written for FANUC and for LinuxCNC, about 30 MB each. The commands run as whole processes, in turn
+with the peer; shortest processor times count. Kernels are warm, but for the figure that says what the first run costs.
 """
 
 from __future__ import annotations
