@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from polycnc.cycles.threading import Runout, ThreadCuts, depths, multiple_threading, thread_strokes
+from polycnc.cycles.threading import Runout, ThreadCuts, depths, thread_pass, thread_passes, thread_strokes
 from polycnc.toolpath import Kind
 
 
@@ -62,7 +62,8 @@ def test_a_run_out_longer_than_the_thread_is_all_of_it() -> None:
 
 def test_taper_moves_the_start_of_every_pass() -> None:
     cuts = ThreadCuts(1.0, 1.0, finishing=0)
-    strokes = list(multiple_threading((5.0, 20.0), (-20.0, 10.0), -2.0, cuts, Runout()))
+    ((begin, last),) = thread_passes((5.0, 20.0), (-20.0, 10.0), -2.0, cuts)
+    strokes = list(thread_pass((5.0, 20.0), begin, last, Runout()))
     assert strokes[0].end == pytest.approx((5.0, 8.0))
     assert strokes[1].end == pytest.approx((-20.0, 10.0))
     assert strokes[-1].end == (5.0, 20.0)
@@ -70,11 +71,6 @@ def test_taper_moves_the_start_of_every_pass() -> None:
 
 def test_flank_infeed_moves_the_start_along_with_the_depth_and_zigzag_only_every_other_one() -> None:
     cuts = ThreadCuts(1.0, 0.5, finishing=0, constant_depth=True)
-    starts = [
-        stroke.end[0]
-        for stroke in multiple_threading(
-            (5.0, 20.0), (-20.0, 10.0), 0.0, cuts, Runout(), half_angle_deg=45.0, zigzag=True
-        )
-        if stroke.kind is Kind.RAPID and stroke.end[1] < 20.0
-    ]
+    passes = thread_passes((5.0, 20.0), (-20.0, 10.0), 0.0, cuts, half_angle_deg=45.0, zigzag=True)
+    starts = [begin[0] for begin, _ in passes]
     assert starts == pytest.approx([4.5, 5.0])

@@ -40,6 +40,16 @@ def thread_strokes(
     yield PlaneStroke(Kind.THREAD, (end[0], leaving[1] + rise), start_angle_deg=start_angle_deg)
 
 
+def thread_pass(
+    start: Point, begin: Point, last: Point, runout: Runout, start_angle_deg: float = 0.0
+) -> Iterator[PlaneStroke]:
+    """One pass of a cycle: to where it begins, along the thread, off it, and back to the start."""
+    yield rapid(*begin)
+    yield from thread_strokes(begin, last, start[1], runout, start_angle_deg)
+    yield rapid(last[0], start[1])
+    yield rapid(*start)
+
+
 @dataclass(frozen=True, slots=True)
 class ThreadCuts:
     """How a thread is divided into passes; all depths mm of radius.
@@ -85,29 +95,25 @@ def depths(cuts: ThreadCuts) -> Iterator[float]:
         yield cuts.height
 
 
-def multiple_threading(
+def thread_passes(
     start: Point,
     end: Point,
     taper: float,
     cuts: ThreadCuts,
-    runout: Runout,
     *,
     half_angle_deg: float = 0.0,
     zigzag: bool = False,
-    start_angle_deg: float = 0.0,
-) -> Iterator[PlaneStroke]:
-    """G76: passes from the crest to full depth, and back to the start.
+) -> Iterator[tuple[Point, Point]]:
+    """G76: where each pass begins and ends, from the crest to full depth.
 
     Args:
         start: Where the cycle begins.
         end: End of the thread at full depth.
         taper: How much further along the second axis the thread begins.
         cuts: The passes.
-        runout: Run-out of each pass.
         half_angle_deg: Infeed along the flank of half the tip angle; 0 for straight infeed. A pass of depth t
             begins t·tan(half angle) further on, so that the tool cuts with one edge.
         zigzag: Every other pass is infed along the other flank.
-        start_angle_deg: Spindle angle at which each pass begins.
     """
     outside = copysign(1.0, start[1] - end[1])
     onwards = copysign(1.0, end[0] - start[0])
@@ -119,7 +125,4 @@ def multiple_threading(
             shift = 0.0
         begin = (start[0] + shift, end[1] + taper + above)
         last = (end[0], end[1] + above)
-        yield rapid(*begin)
-        yield from thread_strokes(begin, last, start[1], runout, start_angle_deg)
-        yield rapid(last[0], start[1])
-        yield rapid(*start)
+        yield begin, last

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.plane_stroke import PlaneStroke, feed, rapid
-from polycnc.cycles.threading import Runout, thread_strokes
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -26,15 +25,4 @@ def facing(start: Point, corner: Point, taper: float) -> Iterator[PlaneStroke]:
     yield rapid(corner[0] + taper, start[1])
     yield feed(*corner)
     yield feed(start[0], corner[1])
-    yield rapid(*start)
-
-
-def threading(
-    start: Point, corner: Point, taper: float, runout: Runout, start_angle_deg: float = 0.0
-) -> Iterator[PlaneStroke]:
-    """G92: one thread pass along the first axis, with its run-out, and back in rapid."""
-    begin = (start[0], corner[1] + taper)
-    yield rapid(*begin)
-    yield from thread_strokes(begin, corner, start[1], runout, start_angle_deg)
-    yield rapid(corner[0], start[1])
     yield rapid(*start)

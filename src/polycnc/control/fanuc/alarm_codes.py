@@ -75,6 +75,7 @@ ALARMS: dict[str, str] = {
     "surface_axis": "PS0190",
     "thread_lead": "PS0313",
     "circular_thread": "PS5058",
+    "thread_retract": "PS0429",
     "thread_words": "PS0062",
     "cycle_axis": "PS0330",
     "cycle_depth": "PS0062",

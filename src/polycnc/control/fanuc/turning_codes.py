@@ -92,6 +92,7 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G9", handler=extended.exact_stop_block)),
     *same(_point("G10", turning_data.input_data, "L P R Q C E F")),
     *same(GCode("G11", handler=parameter_input.end)),
+    *same(_point("G10.6", turning_threads.prepare_retract)),
     *same(GCode("G7.1", handler=cylinder.cylinder, axis_words=True, order=Order.MOTION), "G107"),
     *same(GCode("G12.1", polar_interpolation.GROUP, polar_interpolation.start_polar), "G112"),
     *same(GCode("G13.1", polar_interpolation.GROUP, polar_interpolation.end_polar), "G113"),
@@ -164,7 +165,7 @@ ROWS: tuple[Row, ...] = (
     *by_system("", "G98", "G98", GCode("G98", "return")),
     *by_system("", "G99", "G99", GCode("G99", "return")),
     *not_yet(
-        "G4.1", "G10.6", "G31.8", "G41.1", "G42.1", "G50.4", "G50.5", "G50.6",
+        "G4.1", "G31.8", "G41.1", "G42.1", "G50.4", "G50.5", "G50.6",
         "G51.2", "G251", "G51.4", "G51.5", "G51.6", "G53.1", "G53.6", "G68.2", "G68.3", "G68.4", "G80.4", "G80.5",
         "G81.1", "G81.4", "G81.5", "G96.1", "G96.2", "G96.3", "G96.4",
     ),

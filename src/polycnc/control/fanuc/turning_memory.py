@@ -88,6 +88,9 @@ class TurningMemory(MacroMemory):
         clamp: M code that clamps the C axis in drilling cycles, 0 for none.
         thread_step: Step of the last block that cut a thread.
         thread_lock: What a thread, or the way off it, keeps from the operator.
+        thread_held: The feed hold that a setup presses in a thread has come.
+        thread_retracts: A thread runs along an axis of G10.6.
+        retract_axes: Axes on which G10.6 wants the tool to retract.
         plane: Plane code given last.
         open_line: Line of drawing dimensions that waits for the next block.
         rotation_angle: Angle of the last G68.1, degrees.
@@ -122,6 +125,8 @@ class TurningMemory(MacroMemory):
         self.open_line: OpenLine | None = None
         self.thread_step = -1
         self.thread_lock = ""
+        self.thread_held = self.thread_retracts = False
+        self.retract_axes: frozenset[int] = frozenset()
         self.plane = ""
         self.increment_limits: dict[int, float] = {}
         self.balanced: frozenset[int] = frozenset()

@@ -14,7 +14,7 @@ from polycnc.control.fanuc.turning_comp import SHAPE_KIND
 from polycnc.control.fanuc.turning_coordinates import plane_axes
 from polycnc.control.fanuc.turning_drilling import is_series_15
 from polycnc.control.fanuc.turning_shape import Section, contour_of, read_shape, section_steps
-from polycnc.control.fanuc.turning_single import runout
+from polycnc.control.fanuc.turning_single import cut_pass, runout
 from polycnc.control.fanuc.turning_strokes import (
     emit,
     enter_compensation,
@@ -25,7 +25,7 @@ from polycnc.control.fanuc.turning_strokes import (
 from polycnc.control.fanuc.turning_threads import lead_in_force, start_angle
 from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.cycles.contour import reversal, swapped, swapped_stroke
-from polycnc.cycles.threading import ThreadCuts, multiple_threading
+from polycnc.cycles.threading import ThreadCuts, thread_passes
 from polycnc.cycles.turning_pattern import repeat_pattern as pattern_strokes
 from polycnc.cycles.turning_peck import Pecks, peck_columns
 from polycnc.cycles.turning_rough import Roughing, rough
@@ -352,11 +352,10 @@ def thread(channel: Channel, words: Words) -> None:
     )
     if cuts.allowance >= height:
         raise words.fail("cycle_depth", "R")
-    strokes = multiple_threading(
-        start, end, taper, cuts, runout(channel),
-        half_angle_deg=angle / 2.0, zigzag=method in (2, 4), start_angle_deg=turn,
-    )  # fmt: skip
-    uncompensated_cycle(channel, strokes, lead=lead)
+    out = runout(channel, lead)
+    passes = thread_passes(start, end, taper, cuts, half_angle_deg=angle / 2.0, zigzag=method in (2, 4))
+    for begin, last in passes:
+        cut_pass(channel, (start, begin, last), out, lead, turn)
 
 
 def _store_thread(channel: Channel, words: Words) -> None:

@@ -59,7 +59,8 @@ def _clear_memory(channel: Channel, *, clears: bool) -> None:
     memory.side = memory.engaged_side = {"G41": 1, "G42": -1}.get(channel.mode["compensation"], 0)
     memory.d = 0
     memory.reading_shape = False
-    memory.thread_lock = ""
+    memory.thread_lock, memory.thread_held, memory.thread_retracts = "", False, False
+    memory.retract_axes = frozenset()
     if memory.balanced:
         # Balance cutting always ends (II.7.1), whatever becomes of other modal codes.
         memory.balanced = frozenset()

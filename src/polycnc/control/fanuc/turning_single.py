@@ -13,7 +13,7 @@ from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.control.word_address.path import PLANES
 from polycnc.control.word_address.skip import signal_position
 from polycnc.cycles import turning_single
-from polycnc.cycles.threading import Runout
+from polycnc.cycles.threading import Runout, thread_pass
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -81,27 +81,33 @@ def _run(channel: Channel, code: str, axes: tuple[int, int], angle: float) -> No
     taper = data.get("taper", 0.0)
     if code == "G92":
         lead = data.get("lead") or lead_in_force(channel)
-        out = runout(channel, lead)
-        held = _held_corner(channel, axes, (start[0], corner[1] + taper), corner, out)
-        if held is not None:
-            begins_at = corner[1] + taper - held[1]
-            uncompensated_cycle(
-                channel, turning_single.threading(start, held, begins_at, out, angle), lead=lead
-            )
-            channel.stop(FEED_HOLD)
-        uncompensated_cycle(channel, turning_single.threading(start, corner, taper, out, angle), lead=lead)
+        begin = (start[0], corner[1] + taper)
+        cut_pass(channel, (start, begin, corner), runout(channel, lead), lead, angle)
         return
     cycle = turning_single.longitudinal if code == "G90" else turning_single.facing
     compensated_cycle(channel, list(cycle(start, corner, taper)))
 
 
-def _held_corner(
-    channel: Channel, axes: tuple[int, int], begin: Point, end: Point, out: Runout
-) -> Point | None:
-    """Where a thread ends that feed hold breaks off; None where it does not come in the thread (II.6.3.2.1).
+def cut_pass(
+    channel: Channel, way: tuple[Point, Point, Point], out: Runout, lead: float, angle: float
+) -> None:
+    """One pass of G92 or G76: from the start to where it begins, to its end, and back.
 
-    The tool runs out from where the signal comes, goes back to the start and halts; the next start cuts the thread.
+    Feed hold breaks it off (II.4.1.2, 4.2.7): the tool runs out where the signal comes, goes back to the start and
+    halts; the next start cuts the pass again.
     """
+    start, begin, end = way
+    held = None if channel.memory.thread_held else _held_end(channel, begin, end, out)
+    if held is not None:
+        channel.memory.thread_held = True
+        uncompensated_cycle(channel, thread_pass(start, begin, held, out, angle), lead=lead)
+        channel.stop(FEED_HOLD)
+    uncompensated_cycle(channel, thread_pass(start, begin, end, out, angle), lead=lead)
+
+
+def _held_end(channel: Channel, begin: Point, end: Point, out: Runout) -> Point | None:
+    """Where a thread ends that feed hold breaks off; None where it does not come in the thread."""
+    axes = plane_axes(channel)
     at = channel.setup.switches.signals_at.get(FEED_HOLD)
     here = channel.coordinates.position
     first, last = here[:], here[:]

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.plan import Builder, Plan
+    from polycnc.control.word_address.words import Words
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.frames import Vector
     from polycnc.toolpath import Context
@@ -62,6 +63,7 @@ def _plan_straight(builder: Builder, plan: Plan, *, grows: bool) -> Step | None:
             growth = values[growth_slot]
             check_last_lead(channel, programmed, lead, growth_of(growth) if growth_of else growth)
         end = channel.coordinates.to_position(programmed)
+        note_retract(channel, end)
         thread_move(channel, end, lead, angle_of(channel, values), programmed)
         channel.memory.thread_step = channel.level.current
 
@@ -226,6 +228,18 @@ def locked(channel: Channel, context: Context) -> Context:
     )
 
 
+def prepare_retract(channel: Channel, words: Words) -> None:
+    """G10.6: axes and ways of a retract that the operator asks for; without words none is prepared."""
+    channel.memory.retract_axes = frozenset(axis for axis, _, _ in words.axes())
+
+
+def note_retract(channel: Channel, end: list[float]) -> None:
+    """A retract along the long axis of a thread is not made: an alarm follows behind the thread (II.3.1)."""
+    ways = [abs(e - p) for e, p in zip(end, channel.coordinates.position, strict=True)]
+    if ways.index(max(ways)) in channel.memory.retract_axes:
+        channel.memory.thread_retracts = True
+
+
 def plan_way_off(builder: Builder, step: Step | None) -> Step | None:
     """The step of the first block behind threads: feed hold waits for its end."""
     if builder.before["motion"] not in THREADS or builder.mode["motion"] in THREADS:
@@ -236,6 +250,10 @@ def plan_way_off(builder: Builder, step: Step | None) -> Step | None:
         if step is not None:
             step(channel, values)
         lock(channel, "")
+        if channel.memory.thread_retracts:
+            channel.memory.thread_retracts = False
+            # The block itself is executed, so its rows stay.
+            channel.fail(channel.control.fail("thread_retract"))
 
     return move
 
