@@ -110,6 +110,9 @@ def is_variable(scope: Scope, text: str) -> bool:
     name = found[1].upper()
     indices = None if found[2] is None else [index.strip() for index in found[2].split(",")]
     variable = scope.find(name)
+    if variable is None and name[0] == "R" and (name[1:].isdecimal() or (name == "R" and indices)):
+        number = name[1:] or (indices or [""])[0]
+        return number.isdecimal() and int(number) < len(scope.memory.r)
     if variable is None:
         return name.startswith("$") and _is_system_variable(scope, name)
     if indices is None:
