@@ -17,6 +17,7 @@ from polycnc.control.sinumerik import (
     init_programs,
     interrupts,
     limits,
+    measuring,
     positions,
     procedures,
     sections,
@@ -106,7 +107,9 @@ class Sinumerik:
         if channel.group is None or channel is channel.group.first:
             for name, value in channel.setup.variables.items():
                 self.write_variable(channel, name, value)
+        measuring.watch(channel)
         interrupts.watch(channel)
+        stages.relax(channel)
         init_programs.call(channel)
 
     def begin(self, channel: Channel) -> None:

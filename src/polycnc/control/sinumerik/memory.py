@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
+    from collections import deque
     from collections.abc import Callable, Mapping
 
     from polycnc.channel.path import PathStage
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.interrupts import Assignment, Watch
     from polycnc.control.sinumerik.limits import Limit
     from polycnc.control.sinumerik.machine_data import MachineData
+    from polycnc.control.sinumerik.measuring import Prober
     from polycnc.control.sinumerik.protection import Guard, Protection
     from polycnc.control.sinumerik.spindles import Spindles
     from polycnc.control.sinumerik.stages import Stages
@@ -78,6 +80,11 @@ class Memory:
         repos_mode: Point of the last REPOS (`$AC_REPOS_PATH_MODE`), 0 before.
         protection: Protection zones; None before the first.
         guard: The last stage of the path while protection zones are active.
+        prober: The last stage of the path while the setup has touch probes.
+        measured: Measured work and machine position of an axis by number of the value and column.
+        measured_from: Where the running measuring block began.
+        triggered: $AC_MEA by probe.
+        fifos: $AC_FIFOn by number.
         shares_axes: Another channel can use axes of this one.
         nck: As `values`, of variables that all channels share.
         values: Values of system variables that only store (`$AC_PARAM`, `$A_DLB` …), by name and index.
@@ -115,6 +122,11 @@ class Memory:
     repos_mode: int = 0
     protection: Protection | None = None
     guard: Guard | None = None
+    prober: Prober | None = None
+    measured: dict[tuple[int, int], tuple[float, float]] = field(default_factory=dict)
+    measured_from: list[float] | None = None
+    triggered: dict[int, bool] = field(default_factory=dict)
+    fifos: dict[int, deque[float]] = field(default_factory=dict)
     shares_axes: bool = False
     nck: dict[tuple[str, tuple[Any, ...]], Any] = field(default_factory=dict)
     values: dict[tuple[str, tuple[Any, ...]], Any] = field(default_factory=dict)

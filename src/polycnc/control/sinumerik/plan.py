@@ -16,6 +16,7 @@ from polycnc.control.sinumerik import (
     frames,
     gcodes,
     limits,
+    measuring,
     motion,
     repositioning,
     smooth_approach,
@@ -112,13 +113,20 @@ def make_plan(channel: Channel, block: Block) -> Plan:
     leaves = codes.get("block_motion") in smooth_approach.RETRACTIONS and codes.get("side") == "G40"
     late = [name for name, _ in modal if name in LATE_EFFECTS and not (leaves and name == "side")]
     draft.steps += [LATE_EFFECTS[name] for name in late]
+    measures = measuring.measure(draft)
+    if measures is not None:
+        draft.steps.append(measures[0])
     in_spline = mode["motion"] in splines.SPLINES
     check = splines.positioned(draft) if in_spline else None
     draft.steps += [check] if check is not None else []
     draft.steps += motion.positioning(draft)
+    if measures is not None:
+        draft.steps.append(measures[1])
     for step in (own, moving):
         if step is not None:
             draft.steps += _around(draft, step)
+    if measures is not None:
+        draft.steps.append(measures[2])
     for position, word in draft.open_words():
         if word.address in AXIS_DIAMETERS:
             continue

@@ -174,3 +174,13 @@ def _rotary_target(now: float, value: float, term: AxisTerm) -> float:
     if (term.way is Way.SHORTEST and way > TURN / 2) or (term.way is Way.NEGATIVE and way > 0.0):
         way -= TURN
     return now + way
+
+
+def shown(channel: Channel, column: int, value: float, *, work: bool = True) -> float:
+    """A position as a program reads it: in diameter, inches under G700, modulo axes within a turn."""
+    axis = channel.axis_data[column]
+    if axis.rotary:
+        return value % 360.0 if axis.modulo else value
+    if work and is_diameter(channel.mode, Way.ABSOLUTE, column, channel.memory.transverse):
+        value *= 2.0
+    return value / MM_PER_INCH if channel.mode["units"] == "G700" else value

@@ -84,9 +84,14 @@ class Stages:
         chain: tuple[SplineStage | SmoothApproach | CornerStage | CutterCompensation, ...]
         chain = (self.spline, self.approach, self.corner, self.cutter)
         memory: Memory = channel.memory
-        rest = memory.recorder or memory.guard
+        rest = memory.recorder or last(channel)
         head = self.spline if collects else next((stage for stage in chain if stage.active), rest)
         _begin_path(channel, head)
+
+
+def last(channel: Channel) -> PathStage | None:
+    """The last stage of the path, where it is more than writing rows (protection zones, probes)."""
+    return channel.table if channel.table is not channel.rows else None
 
 
 def _begin_path(channel: Channel, head: PathStage | None) -> None:
@@ -102,7 +107,7 @@ def clear(channel: Channel) -> None:
     """Take all stages out of the path but those that watch it (reset)."""
     memory: Memory = channel.memory
     memory.stages = None
-    _begin_path(channel, memory.guard)
+    _begin_path(channel, last(channel))
 
 
 def stages(channel: Channel) -> Stages:
@@ -122,7 +127,7 @@ def relax(channel: Channel) -> None:
     if memory.stages is not None:
         memory.stages.into_path(channel)
     else:
-        _begin_path(channel, memory.recorder or memory.guard)
+        _begin_path(channel, memory.recorder or last(channel))
 
 
 def change_plane(channel: Channel) -> None:

@@ -19,10 +19,11 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frame_variables import FRAME_VARIABLES
 from polycnc.control.sinumerik.known_variables import is_known
 from polycnc.control.sinumerik.machine_data import DELIVERED, MachineData
-from polycnc.control.sinumerik.positions import Way, is_diameter
+from polycnc.control.sinumerik.measuring import MEASURE_VARIABLES
+from polycnc.control.sinumerik.positions import shown
 from polycnc.control.sinumerik.repositioning import REPOS_VARIABLES
 from polycnc.control.sinumerik.sections import SECTION_VARIABLES
-from polycnc.control.sinumerik.tables import MINUTE, MM_PER_INCH
+from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.control.sinumerik.tool_variables import TOOL_VARIABLES
 from polycnc.language.sinumerik.nc_frame import NcFrame
 from polycnc.language.sinumerik.values import Axis, Type
@@ -165,17 +166,6 @@ def _work_frame(channel: Channel, outer: str) -> list[float]:
     return point
 
 
-def _shown(channel: Channel, column: int, value: float, *, work: bool = True) -> float:
-    """A position as a program reads it: in diameter, inches under G700, modulo axes within a turn."""
-    memory: Memory = channel.memory
-    axis = channel.axis_data[column]
-    if axis.rotary:
-        return value % 360.0 if axis.modulo else value
-    if work and is_diameter(channel.mode, Way.ABSOLUTE, column, memory.transverse):
-        value *= 2.0
-    return value / MM_PER_INCH if channel.mode["units"] == "G700" else value
-
-
 def _position(name: str, system: str, *, stop: bool = True) -> SystemVariable:
     def read(channel: Channel, indices: Indices) -> float:
         axis = axis_of(indices, name)
@@ -184,8 +174,8 @@ def _position(name: str, system: str, *, stop: bool = True) -> SystemVariable:
             return spindle.position
         column = channel.memory.column(axis)
         if system in ("machine", "basic"):
-            return _shown(channel, column, channel.coordinates.machine[column], work=False)
-        return _shown(channel, column, _work_frame(channel, system)[column])
+            return shown(channel, column, channel.coordinates.machine[column], work=False)
+        return shown(channel, column, _work_frame(channel, system)[column])
 
     return SystemVariable(name, Type.REAL, read, stop=stop)
 
@@ -330,4 +320,5 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in TOOL_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in SECTION_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},
 }
