@@ -126,6 +126,15 @@ class Result:
         """Moves and events in order, as the trace shows them."""
         return list(self.display.records())
 
+    @property
+    def rows_of_other_channels(self) -> Iterator[dict[str, Any]]:
+        """As `rows`, of every further channel that has run; each row names its `channel`."""
+        group = self.channel.group
+        for other in group.channels[1:] if group is not None else ():
+            if other.memory is not None:
+                display = Display(other.toolpath, axis_layout(self.machine, other.number))
+                yield from ({"channel": other.number, **record} for record in display.records())
+
     @cached_property
     def moves(self) -> Any:
         """The rows as a pyarrow table, one column for each value; needs pyarrow."""

@@ -59,6 +59,20 @@ def test_the_trace_is_json_lines_with_what_the_report_counts(console: Console) -
     assert moves[3]["line"] == 7
 
 
+def test_rows_of_further_channels_stand_behind_those_of_the_first(console: Console) -> None:
+    console.file("main.mpf", 'INIT(2,"SECOND")\nSTART(2)\nG0 X10\nWAITE(2)\nM30\n')
+    console.file("second.mpf", "G0 Z5\nM30\n")
+    console.file("setup.yaml", "channels: {1: [X, Y], 2: [Z]}\n")
+    machine = ("--control", "sinumerik-840d", "--machine", "mill3-2ch", "--setup", "setup.yaml")
+    console("run", "main.mpf", *machine, "--trace", "out.jsonl")
+    lines = (console.folder / "out.jsonl").read_text(encoding="utf-8").splitlines()
+    records = [json.loads(line) for line in lines]
+    assert [(record.get("channel"), record["to"]) for record in records] == [
+        (None, {"X": 10, "Y": 0}),
+        (2, {"Z": 5}),
+    ]
+
+
 def test_the_trace_is_csv_by_its_suffix(console: Console) -> None:
     console.file("good.nc", GOOD)
     console("run", "good.nc", "--control", "fanuc-m", "--trace", "out.CSV")

@@ -72,11 +72,12 @@ def run(
     with ExitStack() as files:
         if print_to is not None:
             session.consumers.append(_Prints(_whole(files, print_to, "w"), session.result.display).take)
-        if trace is not None:
-            _trace_to(trace, session, files)
+        traced = trace and _trace_to(trace, session, files)
         sampled = sample and _sample_to(sample[1], period or 0.0, session, files)
         progress = files.enter_context(_Progress(session))
         result = session.run(progress)
+        if traced:
+            traced(result)
         if sampled:
             sampled(result)
     if state is not None:
@@ -91,15 +92,24 @@ def _whole(files: ExitStack, path: Path, mode: str) -> IO[Any]:
     return files.enter_context(whole_file(path, mode))
 
 
-def _trace_to(path: Path, session: Session, files: ExitStack) -> None:
-    """Write the trace while the program runs."""
-    from polycnc.toolpath.export import WRITERS
+def _trace_to(path: Path, session: Session, files: ExitStack) -> Callable[[Result], None]:
+    """Write the trace while the program runs; gives what ends it.
+
+    Rows of further channels stand behind those of the first one, in JSON lines alone: their axes are other ones.
+    """
+    from polycnc.toolpath.export import WRITERS, JsonLines
 
     mode, writer_of = WRITERS[path.suffix.lower()]
     result = session.result
     writer = writer_of(_whole(files, path, mode), result.display, result.metadata)
     files.callback(writer.close)
     session.consumers.append(writer.take)
+
+    def end(result: Result) -> None:
+        if isinstance(writer, JsonLines):
+            writer.add(result.rows_of_other_channels)
+
+    return end
 
 
 def period_s(written: str) -> float | None:

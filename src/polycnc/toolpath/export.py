@@ -49,7 +49,11 @@ class JsonLines:
 
     def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""
-        encode, records = self._encode, self._display.records_of(chunk)
+        self.add(self._display.records_of(chunk))
+
+    def add(self, records: Iterable[Record]) -> None:
+        """Write records that come from elsewhere (further channels)."""
+        encode = self._encode
         self._stream.writelines(encode(record) + "\n" for record in records)
 
     def close(self) -> None:
