@@ -208,7 +208,7 @@ def _check_first_block(channel: Channel, shape: Shape, infeed: int) -> None:
     """The first block says G00 or G01, and moves the axis of infeed."""
     if not shape.first_code:
         raise channel.control.fail("shape_first_block", address="P")
-    if infeed not in (shape.first_axes or ()):
+    if infeed not in shape.first_ways:
         raise channel.control.fail("shape_command", address="P")
 
 

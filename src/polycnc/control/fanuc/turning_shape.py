@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 GROUP, READING = "shape", "reading"
 MAX_SHAPE_BLOCKS = 10_000
+#: Ways below this are none.
+SAME_MM = 1e-9
 _INFEED_CODES = ("G0", "G1")
 _ALLOWED = frozenset({"G0", "G1", "G2", "G3"})
 
@@ -41,13 +43,16 @@ class Shape:
 
     Attributes:
         moves: Its moves, the infeed first.
-        first_axes: Axes that the first block names.
+        start: Programmed point in front of it.
+        first_axes: Axes that the first block names, and `first_ways` those that it moves.
         first_code: G0 or G1 of the first block; empty where it has none.
         end: Step of the last block.
     """
 
     moves: list[Move] = field(default_factory=list)
+    start: list[float] = field(default_factory=list)
     first_axes: frozenset[int] | None = None
+    first_ways: frozenset[int] = frozenset()
     first_code: str = ""
     end: int = 0
 
@@ -89,6 +94,10 @@ def plan_note(builder: Builder, plan: Plan) -> Step | None:
         shape: Shape | None = channel.memory.shape
         if shape is not None and shape.first_axes is None:
             shape.first_axes, shape.first_code = axes, code
+            ends = channel.coordinates.programmed
+            shape.first_ways = frozenset(
+                axis for axis in axes if abs(ends[axis] - shape.start[axis]) > SAME_MM
+            )
 
     return note
 
@@ -108,7 +117,7 @@ def read_shape(channel: Channel, first: int, last: int) -> Shape:
     level = channel.level
     code: Any = level.code
     begin, end = section_steps(channel, code, first, last)
-    shape, catcher = Shape(end=end), Catcher()
+    shape, catcher = Shape(start=channel.coordinates.programmed[:], end=end), Catcher()
     kept = _Kept(channel)
     channel.mode = channel.mode.with_code(GROUP, READING)
     channel.memory.shape, channel.memory.reading_shape = shape, True
