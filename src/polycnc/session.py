@@ -15,10 +15,12 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
 from polycnc.channel.group import ChannelGroup
+from polycnc.control.alarm_text import alarm_text
 from polycnc.language.bulk.scanner import Bulk
+from polycnc.machine.layout import axis_layout
 from polycnc.messages import text
 from polycnc.toolpath import Toolpath
-from polycnc.toolpath.trace import AxisLayout, Display
+from polycnc.toolpath.trace import Display
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -201,12 +203,7 @@ class Result:
 
     def alarm_text(self, alarm: Alarm, lang: str | None = None) -> str:
         """The control's own text of an alarm, with the hint on this very case if there is one."""
-        catalogue = self.control.catalogue
-        told = alarm.detail or (
-            catalogue.text(alarm.code, lang, **alarm.args) if alarm.code in catalogue else ""
-        )
-        hint = text(alarm.hint, lang, **alarm.args) if alarm.hint else ""
-        return ": ".join(filter(None, (told, hint)))
+        return alarm_text(self.control, alarm, lang)
 
     def program_of(self, alarm: Alarm) -> Program | None:
         """The program in which an alarm arose."""
@@ -341,16 +338,6 @@ def block_number(program: Program, line: int) -> str:
     index = line - program.first_line
     match = _BLOCK_NUMBER.match(program.lines[index]) if 0 <= index < len(program.lines) else None
     return match[1].upper() if match else str(line)
-
-
-def axis_layout(machine: Machine, channel: int) -> AxisLayout:
-    """What the displays must know of a channel's axes."""
-    axes = [machine.axis[name] for name in machine.channel(channel).axes]
-    return AxisLayout(
-        geometry=machine.geometry_indices(channel),
-        rotary=frozenset(i for i, axis in enumerate(axes) if axis.rotary),
-        modulo=frozenset(i for i, axis in enumerate(axes) if axis.modulo),
-    )
 
 
 # ---- preparing a run ---------------------------------------------------------------------------------------

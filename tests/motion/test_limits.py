@@ -181,3 +181,18 @@ def test_an_axis_of_a_transformation_is_as_slow_as_the_slowest_linear_one() -> N
     numbers = axis_limits(machine, 1, ("X", "Y", "Z", "C"), Settings())
     linear = [axis.rapid for axis in machine.axes if not axis.rotary]
     assert numbers[1] == pytest.approx(min(linear))
+
+
+def test_a_control_may_cap_what_the_machine_can_do() -> None:
+    rows = Build().feed(300.0, 0.0, 0.0, feed=1e4)
+    free = rows.plan(MILL).total_s
+    assert rows.plan(MILL, settings=Settings(path_feed=50.0)).total_s == pytest.approx(6.0, rel=0.01)
+    assert rows.plan(MILL, settings=Settings(feed_caps={"X": 30.0})).total_s == pytest.approx(10.0, rel=0.01)
+    assert rows.plan(MILL, settings=Settings(feed_caps={"Y": 30.0, "X": 1e9})).total_s == free
+    turn = Build().arc(20.0, 0.0, 0.0, center=(10.0, 0.0), feed=1e4)
+    assert turn.plan(MILL, settings=Settings(path_feed=10.0)).total_s == pytest.approx(3.1416, rel=0.01)
+    rapid = Build().rapid(300.0, 0.0, 0.0)
+    assert rapid.plan(MILL, settings=Settings(rapid_caps={"X": 100.0})).total_s == pytest.approx(
+        3.0, rel=0.02
+    )
+    assert rapid.plan(MILL, settings=Settings(path_feed=10.0)).total_s == rapid.plan(MILL).total_s

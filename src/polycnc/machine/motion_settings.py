@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from math import inf
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 #: Words for exact stop, block by block or until further notice.
 EXACT_STOP_MODES = frozenset({"G9", "G09", "G60", "G61", "G61.1"})
@@ -27,6 +32,10 @@ class MotionSettings:
         tolerance_mm: Contour tolerance of the modes that round corners, where the program names none.
         overload: At a corner without deviation an axis may change its velocity within one interpolation cycle
             by this many times its acceleration (SINUMERIK MD32310 MAX_ACCEL_OVL_FACTOR).
+        path_feed: Highest speed of a cut along the path, mm/s (SYNTEC Pr405).
+        rapid_caps: Highest rapid traverse of axes by their name in programs, mm/s or degrees/s, where it is below that
+            of the machine (SYNTEC Pr461 on).
+        feed_caps: The same for cutting (SYNTEC Pr621 on).
         acceleration: `BRISK` or `SOFT` where the context does not say.
         drive_speed: `DRIVE`: from this part of its velocity on an axis accelerates less (MD35220).
         drive_reduction: `DRIVE`: by this part of its acceleration (MD35230).
@@ -38,6 +47,9 @@ class MotionSettings:
     without_deviation: frozenset[str] = WITHOUT_DEVIATION_MODES
     tolerance_mm: float = 0.01
     overload: float = 1.2
+    path_feed: float = inf
+    rapid_caps: Mapping[str, float] = field(default_factory=dict)
+    feed_caps: Mapping[str, float] = field(default_factory=dict)
     acceleration: str = BRISK
     drive_speed: float = 1.0
     drive_reduction: float = 0.0

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.machine.layout import axis_layout
 from polycnc.mainrun.frames import real_of, work_of
 from polycnc.mainrun.snapshot import Positions
-from polycnc.toolpath.trace import AxisLayout, Display
+from polycnc.toolpath.trace import Display
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,12 +26,7 @@ class MainRunDisplay:
     """
 
     def __init__(self, toolpath: Toolpath, machine: Machine, number: int) -> None:
-        axes = [machine.axis[name] for name in machine.channel(number).axes]
-        layout = AxisLayout(
-            geometry=machine.geometry_indices(number),
-            rotary=frozenset(i for i, axis in enumerate(axes) if axis.rotary),
-            modulo=frozenset(i for i, axis in enumerate(axes) if axis.modulo),
-        )
+        layout = axis_layout(machine, number)
         self.axes = toolpath.axes
         self.geometry = layout.geometry
         self._display = Display(toolpath, layout)

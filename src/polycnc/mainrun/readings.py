@@ -6,6 +6,7 @@ from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.control.alarm_text import alarm_text
 from polycnc.mainrun.core import Core
 from polycnc.mainrun.frames import without_transformation
 from polycnc.mainrun.snapshot import (
@@ -19,7 +20,6 @@ from polycnc.mainrun.snapshot import (
     ToolState,
 )
 from polycnc.mainrun.states import State
-from polycnc.messages import text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -162,9 +162,4 @@ class Readings(Core):
 
     def alarm_text(self, alarm: Alarm, lang: str | None = None) -> str:
         """The control's own text of an alarm, with the hint on this very case if there is one."""
-        catalogue = self.control.catalogue
-        told = alarm.detail
-        if not told and alarm.code in catalogue:
-            told = catalogue.text(alarm.code, lang, **alarm.args)
-        hint = text(alarm.hint, lang, **alarm.args) if alarm.hint else ""
-        return ": ".join(filter(None, (told, hint)))
+        return alarm_text(self.control, alarm, lang)

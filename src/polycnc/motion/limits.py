@@ -53,14 +53,17 @@ def axis_limits(machine: Machine, channel: int, names: tuple[str, ...], settings
     acceleration = numbers("acceleration")
     step = settings.overload * machine.interpolation_cycle_s
     blocks = (
-        numbers("rapid"),
-        numbers("max_feed"),
+        [min(a, settings.rapid_caps.get(name, inf)) for a, name in zip(numbers("rapid"), names, strict=True)],
+        [
+            min(a, settings.feed_caps.get(name, inf))
+            for a, name in zip(numbers("max_feed"), names, strict=True)
+        ],
         acceleration,
         [a * step for a in acceleration],
         [float(axis is not None and axis.rotary) for axis in axes],
         numbers("jerk"),
         geometry,
-        (settings.rapid_stops,),
+        (settings.rapid_stops, min(settings.path_feed, 1e9)),
     )
     return array("d", [number for block in blocks for number in block])
 

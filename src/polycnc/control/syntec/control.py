@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import hypot
+from math import hypot, inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.compensation.policies import SYNTEC, Policy
@@ -97,9 +97,21 @@ class SyntecMill(WordAddressControl):
     # ---- states ------------------------------------------------------------------------------------------
 
     def motion_settings(self, channel: Channel) -> MotionSettings:
-        """Pr411: each axis runs a rapid by itself."""
-        by_axis = parameter(channel.setup.parameters, 411) == 1
-        return replace(super().motion_settings(channel), rapid_by_axis=by_axis)
+        """Pr411: each axis runs a rapid by itself; Pr405, Pr461 on and Pr621 on: highest speeds, mm/min; 0 for none."""
+        given = channel.setup.parameters
+
+        def caps(first: int) -> dict[str, float]:
+            """Caps of the axes that have one, by their names."""
+            numbers = {name: parameter(given, first + axis) for axis, name in enumerate(channel.axes)}
+            return {name: number / 60.0 for name, number in numbers.items() if number > 0}
+
+        return replace(
+            super().motion_settings(channel),
+            rapid_by_axis=parameter(given, 411) == 1,
+            path_feed=(parameter(given, 405) or inf) / 60.0,
+            rapid_caps=caps(461),
+            feed_caps=caps(621),
+        )
 
     def make_memory(self, channel: Channel) -> SyntecMemory:
         """Offsets, tools and variables."""

@@ -36,6 +36,7 @@ from polycnc.motion.kernels.columns import (
     METRIC,
     MIRROR,
     OFFSETS,
+    PATH_FEED,
     PIECES_PER_TURN,
     PLACES,
     POSITION,
@@ -212,6 +213,8 @@ def lay_arc(
     speed = bounded(
         asked_speed(curves, contexts, record, state, length, facing_radius(0.0, n, limits, state)), state
     )
+    highest = limits[LIMIT_BLOCKS * n + PATH_FEED]
+    speed = min(speed, highest)
     entry2 = point_cap2(n, limits, state, margin)
     pull = inf
     if gentle:
@@ -226,7 +229,7 @@ def lay_arc(
         if follows_radius(contexts, record):
             radius = facing_radius((part + 0.5) * step, n, limits, state)
             speed = asked_speed(curves, contexts, record, state, length, radius)
-            speed = bound(speed, state)
+            speed = min(bound(speed, state), highest)
         at = next_piece(pieces, state, BENT if gentle else CURVED, 0.0, n)
         if part == 0:
             open_joint(pieces, at, state, entry2)

@@ -45,6 +45,7 @@ from polycnc.motion.kernels.columns import (
     METRIC,
     NUMBER,
     OFFSETS,
+    PATH_FEED,
     PAUSE,
     PER_REVOLUTION,
     PIECES,
@@ -295,7 +296,8 @@ def line_limits(
     """
     delta, unit = STATE_BLOCKS + DELTA * n, STATE_BLOCKS + UNIT * n
     top_block = (TOP_RAPID if is_rapid(state) else TOP_FEED) * n
-    top, pull = inf, inf
+    top = inf if is_rapid(state) else limits[LIMIT_BLOCKS * n + PATH_FEED]
+    pull = inf
     for i in range(n):
         state[unit + i] = state[delta + i] / length
         state[STATE_BLOCKS + BEND * n + i] = 0.0
