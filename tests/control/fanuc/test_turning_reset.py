@@ -99,3 +99,9 @@ def test_compensation_that_stayed_modal_starts_with_the_next_offset_number(numbe
         pass
     assert not result.channel.alarms
     assert moves(result)[-2:] == [("rapid", start, 2.0), ("rapid", start, -10.0)]
+
+
+def test_a_series_15_cycle_and_its_data_outlive_a_reset_in_a_hole() -> None:
+    result = after_reset("G0 X20. Z10.\nG83 Z-8. R-6. Q4. F.1", parameters={"1#1": 1})
+    assert codes(result, "cycle") == ["G83"]
+    assert result.channel.memory.cycle_data.amount("Q") == 4.0

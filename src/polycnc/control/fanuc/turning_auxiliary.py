@@ -37,6 +37,12 @@ def dwell(channel: Channel, words: Words) -> None:
             return
 
 
+def wait_for_blocks(channel: Channel, _words: Words) -> None:
+    """G04.1: blocks behind are taken in when those in front have ended."""
+    channel.flush()
+    channel.synchronise()
+
+
 def plan_spindle_speed(builder: Builder) -> Step:
     """S: a whole number without sign."""
     slot, form = builder.slots["S"]

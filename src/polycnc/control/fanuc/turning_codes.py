@@ -85,6 +85,7 @@ ROWS: tuple[Row, ...] = (
     *same(_motion("G2", path.plan_arc_cw)),
     *same(_motion("G3", path.plan_arc_ccw)),
     *same(_point("G4", turning_auxiliary.dwell, "X P U")),
+    *same(GCode("G4.1", handler=turning_auxiliary.wait_for_blocks, takes="P")),
     *same(GCode("G5", handler=extended.high_speed_machining, takes="P")),
     *same(GCode("G5.1", handler=extended.contour_control, takes="Q R")),
     *same(GCode("G5.4", handler=turning_auxiliary.switch_by_q, takes="Q")),
@@ -165,7 +166,7 @@ ROWS: tuple[Row, ...] = (
     *by_system("", "G98", "G98", GCode("G98", "return")),
     *by_system("", "G99", "G99", GCode("G99", "return")),
     *not_yet(
-        "G4.1", "G31.8", "G41.1", "G42.1", "G50.4", "G50.5", "G50.6",
+        "G31.8", "G41.1", "G42.1", "G50.4", "G50.5", "G50.6",
         "G51.2", "G251", "G51.4", "G51.5", "G51.6", "G53.1", "G53.6", "G68.2", "G68.3", "G68.4", "G80.4", "G80.5",
         "G81.1", "G81.4", "G81.5", "G96.1", "G96.2", "G96.3", "G96.4",
     ),
