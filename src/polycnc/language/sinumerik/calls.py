@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from polycnc.program import Program
 
 MAX_PASSES = 9999
+#: Characters of a search path.
+MAX_PATH = 128
 #: Digits of a subprogram number behind L, leading zeros included (1.25.1.2).
 MAX_DIGITS = 7
 
@@ -185,12 +187,15 @@ def _argument(compiler: BlockCompiler, parameter: Variable) -> str:
     place = compiler.scope.place(compiler, token)
     if place.type is not parameter.type:
         raise NcSyntaxError("12330", token.column, token.text)
-    whole = isinstance(place, ElementPlace) and not place.offset
-    if whole != bool(parameter.dims) or (
-        whole and isinstance(place, ElementPlace) and len(place.variable.dims) != len(parameter.dims)
-    ):
+    dims = place.variable.dims if isinstance(place, ElementPlace) and not place.offset else ()
+    if len(dims) != len(parameter.dims) or not all(map(_sizes_fit, dims, parameter.dims)):
         raise NcSyntaxError("12360", token.column, token.text)
     return place.reference(compiler)
+
+
+def _sizes_fit(size: int, wanted: int) -> bool:
+    """Whether an array's size is that of the parameter; an open one takes any, and one that is open itself any one."""
+    return size == wanted or not wanted or not size
 
 
 def call(compiler: BlockCompiler) -> None:
@@ -346,7 +351,8 @@ def search_path(compiler: BlockCompiler) -> None:
 def set_search_path(channel: Channel, directory: str) -> None:
     """Search a directory before the cycle directories; alarm 14009 if it does not exist."""
     directory = directory.strip()
-    if directory and not (directory.startswith("/") and channel.store.has_directory(directory)):
+    is_path = directory.startswith("/") and len(directory) <= MAX_PATH
+    if directory and not (is_path and channel.store.has_directory(directory)):
         raise AlarmError("14009", text=directory)
     memory: LanguageMemory = channel.memory.language
     memory.call_path = directory

@@ -84,6 +84,8 @@ def read_attributes(compiler: BlockCompiler) -> Attributes:
             found.unit = _unit(compiler, channel)
         elif name in _RIGHTS:
             compiler.take()
+            if not compiler.program.is_definition_file:
+                raise NcSyntaxError("12500", token.column, name)
             assert found.rights is not None
             found.rights[name] = _level(compiler, channel)
         elif name in _INIT_TIMES or name in _STOPS or name in _RANGES:
