@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik import calcposi, d_numbers, frame_codes
+from polycnc.control.sinumerik import adding_frames, calcposi, d_numbers, frame_codes
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frame_variables import frame_axis
 from polycnc.geometry import fit
@@ -126,6 +126,7 @@ FUNCTIONS: dict[str, Callable[[Channel, Arguments], Any]] = {
     "ISAXIS": is_axis,
     "MEAFRAME": measured_frame,
     "MODAXVAL": modulo_position,
+    "ADDFRAME": adding_frames.add,
     "CALCPOSI": calcposi.calculate,
     "AXTOSPI": spindle_of,
     "SPI": axis_of_spindle,

@@ -213,7 +213,8 @@ def _take_polynomials(draft: Draft) -> tuple[list[Polynomial], int | None]:
             if word.address == "PO" and not name:
                 raise WordAlarm("12040", position, text=str(word.index or ""))
             column = draft.memory.column(name or word.address)
-            found.append(Polynomial(position, axis_term(draft.channel, draft.mode, position, column, "")))
+            way = word.modifier if word.address == "PO" else ""
+            found.append(Polynomial(position, axis_term(draft.channel, draft.mode, position, column, way)))
         else:
             continue
         draft.close(position)

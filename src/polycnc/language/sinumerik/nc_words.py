@@ -208,6 +208,11 @@ class WordReader:
         code = "None"
         if compiler.at("["):
             index, code = self._index()
+        elif name == "PO" and compiler.accept("("):  # the denominator, in the newer spelling
+            listed = self._list()
+            compiler.expect(")")
+            self._add(token, name, "", "''", "", listed)
+            return
         if self._assigned():
             self._word(token, name, index, code)
             return
@@ -254,8 +259,15 @@ class WordReader:
             if modifier == "GP":
                 return self._general_position(token, address, index, index_code)
             compiler.expect("(")
-            code = self._list() if modifier in ("FPO", "PO") else self._value(address)
+            if modifier == "PO" and compiler.token.text in _ENDS and compiler.ahead().text == "(":
+                self._relative_polynomial(token, address)
+                compiler.expect(")")
+                return None
+            code = self._list() if modifier in ("FPO", "PO") or address == "PO" else self._value(address)
             compiler.expect(")")
+        elif value.text == "PO" and value.kind == "name" and compiler.ahead().text in _ENDS:
+            compiler.take()
+            return self._relative_polynomial(token, address)
         elif value.text == "(" and address in keywords.LIST_ADDRESSES:
             compiler.take()
             code = self._list()
@@ -263,6 +275,20 @@ class WordReader:
         else:
             code = self._value(address)
         return self._add(token, address, index, index_code, modifier, code)
+
+    def _relative_polynomial(self, token: Token, address: str) -> None:
+        """`axis=PO IC(end,a2,…)`, `axis=PO(IC(end),a2,…)`: as `PO[axis]=IC(end,a2,…)` (4.5)."""
+        compiler = self.compiler
+        axis = compiler.scope.memory.axes.get(address)
+        if axis is None:
+            raise compiler.error(token)
+        modifier = compiler.take().text
+        compiler.expect("(")
+        code = self._list()
+        compiler.expect(")")
+        if compiler.accept(","):
+            code = f"({code[1:-1]}{self._list()[1:]}"
+        self._add(token, "PO", axis, f"Axis({axis.name!r})", modifier, code)
 
     def _general_position(self, token: Token, address: str, index: object, index_code: str) -> None:
         """`=GP(position,attribute)`: the attribute is a keyword or a number (1.2.2)."""
@@ -347,6 +373,9 @@ class WordReader:
         self.values.append(value)
         self.word_columns.append(token.column)
 
+
+#: How the end point of a polynomial may be meant.
+_ENDS = ("IC", "AC")
 
 _RUNNING = object()
 """Index that is known only when the block runs."""
