@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -76,3 +77,23 @@ def test_every_variable_is_read_and_written_or_alarms(
     line = f"{place}={value}" if writes else f"R1={place}"
     result = run(line, "G0 X1", machine="mill4")
     assert all(alarm.code in CATALOGUE for alarm in result.alarms), [alarm.code for alarm in result.alarms]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        'MEASA[X]=("a",1) X5',
+        'POLY X=PO(IC(1),"a") F1',
+        "REDEF",
+        'CPROTDEF("a",1)',
+        "ADISPOSA[X]=5",
+        "R1=CALCPOSI(5,5,5,5)",
+        'IPOBRKA(X,"a")',
+        "FINEA[5]",
+        'R1=ADDFRAME(CTRANS(X,1),"$P_UIFR")',
+    ],
+)
+def test_a_value_of_the_wrong_kind_alarms(line: str) -> None:
+    alarms = run(line).alarms
+    assert len(alarms) == 1
+    assert alarms[0].code in CATALOGUE

@@ -253,7 +253,7 @@ def _job(
 def _listed(name: str, value: Any, position: int) -> tuple[int, int, tuple[int, ...]]:
     """Mode, FIFO and events of `(mode, [memory,] event, …)`; 14020 and 12560 for what cannot be."""
     listed = list(value) if isinstance(value, tuple) else [value]
-    if not listed or any(item != int(item) for item in listed):
+    if not listed or any(not isinstance(item, (int, float)) or item != int(item) for item in listed):
         raise WordAlarm("14020", position, text=name)
     mode, *rest = (int(item) for item in listed)
     if mode // 10 not in SYSTEMS or mode % 10 not in range(4):

@@ -227,6 +227,8 @@ def _list(values: Values, position: int) -> tuple[Any, ...]:
     numbers = value if isinstance(value, tuple) else (value,)
     if not 1 <= len(numbers) <= MAX_COEFFICIENTS:
         raise WordAlarm("12560", position, text="PO")
+    if any(not isinstance(each, (int, float)) for each in numbers):
+        raise WordAlarm("12150", position, text="PO")
     return numbers
 
 

@@ -46,6 +46,8 @@ def redefine(compiler: BlockCompiler) -> None:
     compiler.emitter.knows_place = True
     compiler.program.forget_shapes()
     token = compiler.take()
+    if token.kind == "end":
+        raise compiler.error(token)
     variable = compiler.scope.memory.global_variables.get(token.text)
     if variable is not None:
         _redefine_global(compiler, token, variable)
