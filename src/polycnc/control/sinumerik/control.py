@@ -20,6 +20,7 @@ from polycnc.control.sinumerik import (
     measuring,
     positions,
     procedures,
+    protection,
     sections,
     single_block,
     stages,
@@ -183,6 +184,7 @@ class Sinumerik:
         if len(channel.stack) > 1:
             end_of_subprogram(channel)
         else:
+            protection.check_end(channel)
             channel.end()
 
     def plain_blocks(self, _channel: Channel) -> SinumerikPlainBlocks:

@@ -129,6 +129,7 @@ def begin(kind: str) -> Callable[[Channel, Arguments], None]:
     def run(channel: Channel, args: Arguments) -> None:
         if not 2 <= len(args) <= 5 or any(arg is None for arg in args[:2]):
             raise AlarmError("14020", text=f"{kind}PROTDEF")
+        arguments.whole(args[0])
         state = protection(channel)
         memory: Memory = channel.memory
         if state.open is not None:
@@ -163,17 +164,33 @@ def execute(channel: Channel, _args: Arguments) -> None:
     definition = state.open
     if definition is None:
         raise AlarmError("14020", text="EXECUTE")
-    channel.flush()
+    leave(channel)
+    zone = _zone(channel, definition)
+    state.zones[zone.kind, zone.number] = zone
+
+
+def leave(channel: Channel) -> None:
+    """A definition ends, or is abandoned: position, path and feed are as before it."""
     memory: Memory = channel.memory
-    state.open = None
+    definition = memory.protection.open if memory.protection is not None else None
+    if memory.protection is None or definition is None:
+        return
+    channel.flush()
+    memory.protection.open = None
     memory.recorder, memory.stages = None, definition.stages
     channel.table, channel.head = definition.table, definition.head
     channel.coordinates.arrive(definition.position)
     if isnan(definition.feed) and channel.feed == 1.0:
         channel.feed = nan
     limits.refresh(channel)
-    zone = _zone(channel, definition)
-    state.zones[zone.kind, zone.number] = zone
+
+
+def check_end(channel: Channel) -> None:
+    """PC0009: the program ends while a zone is being defined."""
+    memory: Memory = channel.memory
+    if memory.protection is not None and memory.protection.open is not None:
+        leave(channel)
+        raise AlarmError("PC0009", text="M30")
 
 
 def _zone(channel: Channel, definition: Definition) -> Zone:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik import frames, gcodes, limits, stages, tables
+from polycnc.control.sinumerik import frames, gcodes, limits, protection, stages, tables
 from polycnc.control.sinumerik.memory import Polar
 from polycnc.language.sinumerik.nc_frame import NEUTRAL
 
@@ -21,6 +21,7 @@ def reset(channel: Channel, codes: dict[str, str]) -> None:
         codes: The function of every G group.
     """
     memory: Memory = channel.memory
+    protection.leave(channel)
     machine = channel.coordinates.machine
     channel.mode = channel.modes.mode(codes)
     memory.previous = memory.recorder = None
