@@ -20,8 +20,8 @@ SUFFIXES = (
 )  # fmt: skip
 """Suffixes of part programs on a PC, in the order in which they are preferred."""
 
-_NUMBERED = re.compile(r"([oO]?)(\d{1,8})")
-_HEADING = re.compile(rb"(?:^|[\r\n])[ \t]*%?[ \t]*(?:[oO]|:)[ \t]*(\d{1,8})(?![\d.])")
+_NUMBERED = re.compile(r"([oO]?)(\d{1,9})")
+_HEADING = re.compile(rb"(?:^|[\r\n])[ \t]*%?[ \t]*(?:[oO]|:)[ \t]*(\d{1,9})(?![\d.])")
 _HEADING_BYTES = 65_536
 
 

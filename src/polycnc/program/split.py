@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
 _TAPE_MARK = re.compile(r"\s*%")
-_NUMBER = re.compile(r"\s*(?:%\s*)?(?:[oO]|:)[ \t]*(\d{1,8})(?![\d.])")
+_NUMBER = re.compile(r"\s*(?:%\s*)?(?:[oO]|:)[ \t]*(\d{1,9})(?![\d.])")
 _NAME = re.compile(r"\s*(?:%\s*)?<([A-Za-z0-9+\-_.]{1,32})>")
 _BLOCK = re.compile(r"\s*(?:/\d?\s*)?(?:[A-Za-z]\s*[-+.\d#\[]|[#@]|[A-Za-z]+\s*[\[=])")
 """A line with a word, an assignment or a macro statement; the label in front of a tape has none."""

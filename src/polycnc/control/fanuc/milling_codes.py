@@ -122,7 +122,7 @@ ROWS = table(
     GCode("G44", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
     GCode("G43.4", "length", tool_center_point.start_following, takes="H", order=Order.LENGTH),
     GCode("G43.5", "length", tool_center_point.start_following, takes="H", order=Order.LENGTH),
-    *(moves(code, position_offset.offset_move, "D", idle_in_cycle=True) for code in position_offset.TIMES),
+    *(moves(code, position_offset.offset_move, "D I J K R", idle_in_cycle=True) for code in position_offset.TIMES),
     GCode("G49", "length", tool_length(length.cancel_length), order=Order.LENGTH),
     GCode("G50", "scaling", frames.end_scale),
     GCode("G51", "scaling", frames.scale, takes="I J K P", axis_words=True),

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 KINDS = ("sub", "macro", "modal", "each")
 #: M codes that no parameter can register.
 NEVER_M = frozenset({0, 1, 2, 30, 96, 97, 98, 99})
+#: Cycles that users write ("user control cycle" of the G table); each calls O1000nnn0 of its own.
+USER_CYCLES = (70, 71, 72, 75, 77, 78, 79)
+FIRST_CYCLE_PROGRAM = 100_000_000
 
 
 def registered_codes(channel: Channel) -> CodeCalls:
@@ -24,7 +27,7 @@ def registered_codes(channel: Channel) -> CodeCalls:
 
 @lru_cache(maxsize=64)
 def _registered(parameters: Parameters) -> CodeCalls:
-    g: dict[str, CodeCall] = {}
+    g = {f"G{number}": CodeCall(FIRST_CYCLE_PROGRAM + 10 * number) for number in USER_CYCLES}
     m: dict[int, CodeCall] = {}
     for i in range(10):
         if call := _call(parameters, 7200 + 10 * i):

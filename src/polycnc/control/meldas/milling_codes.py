@@ -12,7 +12,7 @@ from polycnc.control.word_address import (
     skip,
     tool_measuring,
 )
-from polycnc.control.word_address.codes import GCode, Order, not_yet, table, with_aliases
+from polycnc.control.word_address.codes import GCode, Order, table, with_aliases
 
 #: Codes of FANUC that the manual's table does not have.
 FOREIGN = frozenset({
@@ -41,6 +41,5 @@ _ROWS = table(
     moves("G53", coordinates.move_in_machine_system),
     GCode("G61.1", "path", coordinates.note_context),
     GCode("G7", handler=hypothetical_axis.switch, axis_words=True, order=Order.MOTION),
-    not_yet("G70", "G71", "G72", "G75", "G77", "G78", "G79"),
 )
 G_CODES = with_aliases(_ROWS, ALIASES)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import copysign, nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.path import target
-from polycnc.messages import AlarmError
+from polycnc.control.word_address import path
+from polycnc.control.word_address.path import CENTER_WORDS, PLANES, target
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
 #: How often each code adds the offset, in the direction of the move.
 TIMES = {"G45": 1.0, "G46": -1.0, "G47": 2.0, "G48": -2.0}
+ARCS = ("G2", "G3")
+MOTIONS = ("G0", "G1", *ARCS)
+CENTER_LETTERS = "IJKR"
 
 
 def offset_move(channel: Channel, words: Words) -> None:
@@ -25,19 +28,48 @@ def offset_move(channel: Channel, words: Words) -> None:
     if channel.mode["compensation"] != "G40":
         raise words.fail("comp_g45", code)
     motion = channel.mode["motion"]
-    if motion not in ("G0", "G1"):
-        raise AlarmError("PC0001", address=code, hint="hint.not-supported", code=f"{code} {motion}")
+    if motion not in MOTIONS:
+        raise words.fail("address", code)
     number = words.integer("D") if "D" in words else None
     memory.d = memory.d if number is None else number
     amount = TIMES[code] * channel.control.radius_value(channel, memory.d)
     end = target(channel, words.plan.axis_words, words.values)
     for word in words.plan.axis_words:
         end[word.axis] += amount * _direction(words, word, end[word.axis] - c.programmed[word.axis])
+    if motion in ARCS:
+        _offset_arc(channel, words, end, amount)
+        return
+    if stray := next((letter for letter in CENTER_LETTERS if letter in words), ""):
+        raise words.fail("address", stray)
     rapid = motion == "G0"
     if not rapid and not channel.feed > 0.0:
         raise words.fail("no_feed")
     kind = Kind.RAPID if rapid else Kind.FEED
     channel.straight(kind, c.to_position(end), nan if rapid else channel.feed, end)
+
+
+def _offset_arc(channel: Channel, words: Words, end: list[float], amount: float) -> None:
+    """A quarter or three quarters of a circle: its radius grows by the offset, as the way of each axis does."""
+    control, c = channel.control, channel.coordinates
+    if not channel.feed > 0.0:
+        raise words.fail("no_feed")
+    ccw = channel.mode["motion"] == "G3"
+    plane = PLANES[channel.mode["plane"]]
+    columns = [c.geometry[axis] for axis in plane[:2]]
+    begin, goal = ((point[columns[0]], point[columns[1]]) for point in (c.programmed, end))
+    radius = words.length("R")
+    if radius is not None:
+        center = path.center_by_radius(channel, begin, goal, copysign(abs(radius) + amount, radius), ccw)
+        if center is None:
+            raise words.fail("radius_zero", "R")
+    else:
+        way = [words.length(CENTER_WORDS[axis]) or 0.0 for axis in plane[:2]]
+        if not any(way):
+            raise words.fail("no_center", channel.mode["motion"])
+        longer = [part + copysign(1.0, part) * amount if part else 0.0 for part in way]
+        center = (begin[0] + longer[0], begin[1] + longer[1])
+        control.check_arc(channel, begin, goal, center)
+    path.emit_arc(channel, end, center, plane, ccw=ccw, feed=channel.feed)
 
 
 def _direction(words: Words, word: AxisWord, way: float) -> float:
