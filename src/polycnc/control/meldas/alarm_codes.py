@@ -58,6 +58,7 @@ ALARMS: dict[str, str] = {
     "corner_no_move": "P382",
     "corner_next_block": "P385",
     "corner_too_short": "P383",
+    "drawing_end": "P392",
     # frames and transformations
     "scale": "P35",
     "rotation_angle": "P33",

@@ -10,6 +10,7 @@ from polycnc.control.word_address.codes import MCode
 from polycnc.control.word_address.custom_macro import CustomMacroControl
 from polycnc.control.word_address.interlocks import guarded, guarded_motion, unlisted
 from polycnc.control.word_address.length import renew_length
+from polycnc.control.word_address.line_by_angle import plan_line_by_angle
 from polycnc.control.word_address.normal_line import NormalLineParameters
 from polycnc.control.word_address.parameter_input import plan_parameter_block
 from polycnc.control.word_address.tool_center_point import plan_with_direction
@@ -56,10 +57,16 @@ class MillingControl(CustomMacroControl):
         mode = builder.mode
         if mode["feed"] == "G93" and mode["motion"] in CUTTING and plan.axis_words and not builder.has("F"):
             raise self.fail("inverse_time_feed", address=mode["motion"])
-        step = plan_with_direction(builder, plan) or super().plan_motion(builder, plan)
+        step = self._straight_words(builder, plan) or super().plan_motion(builder, plan)
         leaves_curve = builder.before["motion"] == "G6.2" != mode["motion"]
         step = nurbs.then(step) if leaves_curve else step
         return step and guarded_motion(step, builder, plan)
+
+    def _straight_words(self, builder: Builder, plan: Plan) -> Step | None:
+        """The step of a straight block that tells its end otherwise: by an angle, or by the direction of the tool."""
+        if builder.mode["cycle"] != "G80":
+            return None
+        return plan_line_by_angle(builder, plan) or plan_with_direction(builder, plan)
 
     def check_arc(self, channel: Channel, start: Point, end: Point, center: Point) -> None:
         """Alarm for an end point off the circle; none where the limit is 0."""
