@@ -167,7 +167,9 @@ class NormalStage:
             self.after.move(move)
             return
         first = way.first_angle(before)
-        if direction.turns_first and abs(first - before) > direction.least_turn_deg:
+        if direction.turns_first and abs(first - before) <= direction.least_turn_deg:
+            first = before
+        if direction.turns_first and first != before:
             turned = list(move.start)
             turned[axis] = first
             rapid = move.kind == Kind.RAPID
