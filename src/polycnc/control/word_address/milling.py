@@ -105,7 +105,9 @@ class MillingControl(CustomMacroControl):
         if number != builder.m_codes[-1] and not self.several_m_codes(builder.channel):
             return MCode(number, silent=True)
         row = super().m_row(builder, number)
-        listed = number in self.m_codes or number in builder.channel.machine.m_functions
+        channel = builder.channel
+        known = (self.m_codes, channel.machine.m_functions, self.code_calls(channel).m)
+        listed = any(number in table for table in known)
         if listed or row.silent or self.plc.knows(f"M{number}"):
             return guarded(row, self.plc)
         return unlisted(row, self.plc)
