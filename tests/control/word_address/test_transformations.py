@@ -87,3 +87,14 @@ def test_the_turn_of_a_normal_line_has_the_feed_of_its_parameter_and_small_turns
     turns = [row for row in rows if row.feed == pytest.approx(6.0)]
     assert [row.line for row in turns] == [1, 3]
     assert [round(row.end[3], 3) for row in rows] == [90.0, 90.0, 90.0, 180.0, 180.0]
+
+
+@pytest.mark.parametrize("tilt", ["G68.2 X5. I0 J30. K0", "G68.2 X5. I0 J30. K0\nG53.1\nG43 H1 Z5."])
+def test_a_reset_ends_a_tilted_plane_where_the_axes_stand(tilt: str) -> None:
+    text = f"{tilt}\nG0 X10. Y5.\nM30\n"
+    channel = run(text, machine="mill5-ac-table", setup={"tools": {1: {"length": 20}}})
+    before = channel.coordinates.machine
+    channel.control.reset(channel)
+    assert channel.coordinates.machine == pytest.approx(before)
+    assert channel.coordinates.zero.is_identity
+    assert channel.mode["rotation"] == "G69"

@@ -83,7 +83,7 @@ class Memory:
         local_shift: G52.
         preset_shift: G92.
         zero_frame: Turn of the work coordinate system (SYNTEC G92.1); identity on most controls.
-        tilted_plane: The tilted plane inside the work system.
+        tilted_plane: The tilted plane inside the work system; `told_plane` what blocks have told of the next one.
         tool_direction: Direction in which the tool's length counts, where it is not Z.
         length_offset: Shift of each axis by the active tool length.
         tool: Tool in the spindle; `next_tool` is selected.
@@ -126,6 +126,7 @@ class Memory:
         self.zero_frame = IDENTITY
         self.length_offset = [0.0] * count
         self.tilted_plane: Frame | None = None
+        self.told_plane: list[tuple[Vector, Vector]] = []
         self.tool_direction: Vector | None = None
         self.tool = 0
         self.next_tool = 0

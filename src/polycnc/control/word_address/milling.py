@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policies import HARTFORD, Policy
-from polycnc.control.word_address import corners, normal_line, nurbs
+from polycnc.control.word_address import corners, normal_line, nurbs, tilted_plane
 from polycnc.control.word_address.codes import MCode
 from polycnc.control.word_address.custom_macro import CustomMacroControl
 from polycnc.control.word_address.interlocks import guarded, guarded_motion, unlisted
@@ -44,6 +44,11 @@ class MillingControl(CustomMacroControl):
     REFUSED_ON_CYLINDER: ClassVar[frozenset[str]] = CustomMacroControl.REFUSED_ON_CYLINDER | {
         "G51", "G51.1", "G68", "G68.2", "G43.4", "G43.5",
     }  # fmt: skip
+
+    def reset(self, channel: Channel) -> None:
+        """The state after reset: the work system stands straight again."""
+        tilted_plane.forget(channel)
+        super().reset(channel)
 
     # ---- motion --------------------------------------------------------------------------------------
 

@@ -18,7 +18,7 @@ CLEARED = (
     "cycle_data", "intermediate", "interruptions", "armed_tapping", "exact_stop_block", "contour_control",
     "single_cycle", "grinding", "open_line", "shape", "reading_shape", "zone", "stack",
     "mid_point", "tilt", "rotates_work", "scale_factors", "modal_longs", "modal_doubles", "skip_groups",
-    "feeds", "feed_mode", "interrupt", "curve",
+    "feeds", "feed_mode", "interrupt", "curve", "told_plane",
     "cancelled_overrides", "tapping",
 )  # fmt: skip
 

@@ -6,11 +6,12 @@ with the table when the tool is aligned; on one with a swivel head the length of
 
 from __future__ import annotations
 
-from math import nan
+from math import hypot, nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address import frames, length
 from polycnc.control.word_address.coordinates import refresh_zero
+from polycnc.geometry.arcs import cross
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.messages import AlarmError
@@ -21,15 +22,22 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.words import Words
     from polycnc.geometry.frames import Vector
 
-#: P of G68.2: how I, J, K turn the plane.
-EULER, ROLL_PITCH_YAW, OTHERS = 0, 1, (2, 3, 4)
+#: P of G68.2: how the plane is told.
+EULER, ROLL_PITCH_YAW, POINTS, VECTORS, PROJECTION = 0, 1, 2, 3, 4
+#: Blocks of the ways that need several, by Q.
+BLOCKS = {POINTS: 3, VECTORS: 2}
+#: Vectors that are not longer have no direction.
+SHORTEST_MM = 1e-6
 ORDERS = {123, 132, 213, 231, 312, 321}
 
 
 def tilt_plane(channel: Channel, words: Words) -> None:
-    """G68.2 [P0, P1 Q] X Y Z I J K: origin in the work system, and the turn of the plane."""
+    """G68.2 [P0, P1 Q] X Y Z I J K: origin in the work system, and the turn of the plane; P2, P3 in several blocks."""
     way = words.integer("P") if "P" in words else EULER
-    if way in OTHERS:
+    if way in BLOCKS:
+        _tell(channel, words, way)
+        return
+    if way == PROJECTION:
         raise AlarmError("PC0001", address="P", hint="hint.not-supported", code=f"G68.2 P{way}")
     if way not in (EULER, ROLL_PITCH_YAW):
         raise words.fail("tilt_format", "P")
@@ -37,6 +45,43 @@ def tilt_plane(channel: Channel, words: Words) -> None:
     turn = _euler(i, j, k) if way == EULER else _roll_pitch_yaw(words, (i, j, k))
     channel.memory.tilted_plane = translation(*_origin(channel, words)) @ turn
     _renew(channel, channel.memory.tilted_plane, None)
+
+
+def _tell(channel: Channel, words: Words, way: int) -> None:
+    """One block of P2 (Q1 to Q3: origin, a point of X, a point on the side of Y) or P3 (Q1 origin and X, Q2 Z)."""
+    memory = channel.memory
+    number = words.integer("Q") if "Q" in words else 0
+    told: list[tuple[Vector, Vector]] = memory.told_plane if number != 1 else []
+    if number != len(told) + 1 or number > BLOCKS[way]:
+        raise words.fail("tilt_format", "Q")
+    i, j, k = (words.length(letter) or 0.0 for letter in "IJK")
+    memory.told_plane = [*told, (_origin(channel, words), (i, j, k))]
+    if number < BLOCKS[way]:
+        return
+    (origin, first), *others = memory.told_plane
+    memory.told_plane = []
+    if way == POINTS:
+        (second, _), (third, _) = others
+        along = _unit(words, _minus(second, origin))
+        upright = _unit(words, cross(along, _minus(third, origin)))
+    else:
+        along, wanted = _unit(words, first), others[0][1]
+        upright = _unit(words, cross(along, cross(wanted, along)))
+    across = cross(upright, along)
+    rows = tuple(zip(along, across, upright, strict=True))
+    memory.tilted_plane = translation(*origin) @ Frame((rows[0], rows[1], rows[2]))
+    _renew(channel, memory.tilted_plane, None)
+
+
+def _minus(a: Vector, b: Vector) -> Vector:
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def _unit(words: Words, vector: Vector) -> Vector:
+    length = hypot(*vector)
+    if length < SHORTEST_MM:
+        raise words.fail("tilt_format", "G68.2")
+    return (vector[0] / length, vector[1] / length, vector[2] / length)
 
 
 def _euler(i: float, j: float, k: float) -> Frame:
@@ -96,6 +141,13 @@ def end_tilt(channel: Channel, words: Words) -> None:
     if channel.memory.tilted_plane is not None:
         channel.memory.tilted_plane = None
         _renew(channel, IDENTITY, None)
+
+
+def forget(channel: Channel) -> None:
+    """Reset: no plane is tilted; the coordinates follow when the zero is worked out anew."""
+    memory = channel.memory
+    memory.tilted_plane = memory.tool_direction = None
+    memory.zero_frame = IDENTITY
 
 
 def _renew(channel: Channel, frame: Frame, tool: Vector | None) -> None:
