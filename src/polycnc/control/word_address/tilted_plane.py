@@ -114,9 +114,18 @@ def _origin(channel: Channel, words: Words) -> Vector:
 
 def align_tool(channel: Channel, words: Words) -> None:
     """G53.1: the rotary axes turn at rapid until the tool stands on the tilted plane; X, Y and Z stay."""
+    _align(channel, words, "G53.1", holds_tip=False)
+
+
+def align_tool_about_tip(channel: Channel, words: Words) -> None:
+    """G53.6: as G53.1, while X, Y and Z go along so that the tip stays where it is on the work."""
+    _align(channel, words, "G53.6", holds_tip=True)
+
+
+def _align(channel: Channel, words: Words, code: str, *, holds_tip: bool) -> None:
     memory, c = channel.memory, channel.coordinates
     if memory.tilted_plane is None:
-        raise words.fail("tilt_missing", "G53.1")
+        raise words.fail("tilt_missing", code)
     kinematics = Kinematics.of(channel.machine)
     near = dict(zip(channel.axes, c.machine, strict=True))
     wanted = memory.tilted_plane.direct(0.0, 0.0, 1.0)
@@ -124,15 +133,21 @@ def align_tool(channel: Channel, words: Words) -> None:
         return
     angles = kinematics.angles_for(wanted, near)
     if angles is None or not set(angles) <= set(channel.axes):
-        raise words.fail("tilt_unreachable", "G53.1")
+        raise words.fail("tilt_unreachable", code)
     zero = [c.offsets[axis] - memory.length_offset[axis] if axis >= 0 else 0.0 for axis in c.geometry]
     shift = translation(zero[0], zero[1], zero[2])
     turned = shift.inverse() @ kinematics.work_turn(angles) @ shift @ memory.tilted_plane
-    end = c.machine
+    tip, end = c.position, c.machine
     for name, angle in angles.items():
         end[channel.axis_index[name]] = angle
     _renew(channel, turned, kinematics.tool_on_machine(angles))
-    channel.straight(Kind.RAPID, c.from_machine(end), nan)
+    goal = c.from_machine(end)
+    if holds_tip:
+        for axis in c.geometry:
+            goal[axis] = tip[axis]
+        for axis in c.geometry:
+            c.pending[axis] = 0.0
+    channel.straight(Kind.RAPID, goal, nan)
 
 
 def end_tilt(channel: Channel, words: Words) -> None:
