@@ -8,9 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from polycnc.cycles.contour import Contour
+from polycnc.cycles.contour import Contour, Piece
 from polycnc.cycles.plane_stroke import PlaneStroke
 from polycnc.cycles.turning_rough import Roughing, rough
+from polycnc.geometry import offset
 from polycnc.toolpath import Kind
 from tests.cycles.test_contour import lines
 
@@ -120,3 +121,32 @@ def _on_line(start: tuple[float, float], end: tuple[float, float], a: float) -> 
     if not low <= a <= high or low == high:
         return None
     return start[1] + (a - start[0]) / (end[0] - start[0]) * (end[1] - start[1])
+
+
+@pytest.mark.parametrize("depth", [1.0, 3.0, 5.0, 20.0])
+def test_a_pocket_without_a_flat_is_cut_down_to_where_a_stroke_would_be_a_point(depth: float) -> None:
+    vee = lines((2.0, 30.0), (2.0, 25.0), (-5.0, 25.0), (-10.0, 15.0), (-15.0, 25.0), (-20.0, 30.0))
+    strokes = [stroke.end for stroke in rough(vee, Roughing(depth, 1.0, pockets=True))]
+    assert len(strokes) < 200
+    assert strokes.count((-10.0, 15.0)) == 1, "only the pass along the shape comes to the point"
+
+
+def test_an_arc_is_a_pocket_too_and_is_followed_as_an_arc() -> None:
+    bowl = lines((2.0, 30.0), (2.0, 25.0), (-10.0, 25.0))
+    bowl += [Piece(offset.arc((-10.0, 25.0), (-30.0, 25.0), (-20.0, 36.18034), ccw=False))]
+    bowl += [Piece(piece.edge) for piece in lines((-30.0, 25.0), (-34.0, 30.0))]
+    strokes = list(rough(bowl, Roughing(3.0, 0.5, pockets=True)))
+    arcs = [stroke for stroke in strokes if stroke.center is not None]
+    assert [stroke.kind for stroke in arcs[:2]] == [Kind.CW, Kind.CW]
+    assert len(arcs) == 3
+
+
+def test_inside_turning_is_the_mirror_image_of_outside_turning() -> None:
+    inside = lines(*((a, 60.0 - b) for a, b in _corners(TWO_POCKETS)))
+    mirrored = [(stroke.end[0], 60.0 - stroke.end[1]) for stroke in cuts(inside)]
+    for stroke, end in zip(cuts(TWO_POCKETS), mirrored, strict=True):
+        assert stroke.end == pytest.approx(end)
+
+
+def _corners(contour: Contour) -> list[tuple[float, float]]:
+    return [contour[0].edge.start, *(piece.edge.end for piece in contour)]

@@ -90,7 +90,9 @@ class _Clearing:
         for number, (is_deep, run) in enumerate(found):
             if not is_deep:
                 for bump in bumps(run, towards):
-                    yield self.clear(bump, above, tool)
+                    # One that just touches the level is a point there: nothing to clear.
+                    if towards * (deepest(bump, towards) - level) < -_HAIR:
+                        yield self.clear(bump, above, tool)
                 continue
             if abs(run[-1].edge.end[0] - run[0].edge.start[0]) <= _HAIR:
                 continue
