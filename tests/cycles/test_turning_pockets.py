@@ -78,15 +78,15 @@ def test_a_sloped_infeed_is_the_line_on_which_strokes_begin() -> None:
 heights = st.lists(st.integers(5, 29), min_size=2, max_size=7)
 
 
-@given(heights, st.floats(1.0, 8.0), st.sampled_from([0.0, 0.5]), st.booleans())
+@given(heights, st.floats(1.0, 8.0), st.sampled_from([0.0, 0.5]), st.booleans(), st.sampled_from([0.0, 4.0]))
 def test_no_rapid_runs_through_material_and_no_stroke_below_the_shape(
-    bottoms: list[int], depth: float, clearance: float, steep: bool
+    bottoms: list[int], depth: float, clearance: float, steep: bool, flat: float
 ) -> None:
-    """Flats at random heights, joined by slopes or by walls; columns every quarter millimetre are watched."""
+    """Flats or points at random heights, joined by slopes or by walls; columns every quarter millimetre are watched."""
     points: list[tuple[float, float]] = [(2.0, 30.0), (2.0, float(bottoms[0]))]
     for number, bottom in enumerate(bottoms):
         points.append((-8.0 * number, float(bottom)) if number else (0.0, float(bottom)))
-        points.append((-8.0 * number - 4.0, float(bottom)))
+        points.append((-8.0 * number - flat, float(bottom)))
         if steep and number + 1 < len(bottoms):
             points.append((-8.0 * number - 8.0, float(bottom)))
     points.append((-8.0 * len(bottoms), 30.0))

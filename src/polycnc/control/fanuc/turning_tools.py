@@ -26,7 +26,7 @@ TIPS = {1: (1, 1), 2: (-1, 1), 3: (-1, -1), 4: (1, -1), 5: (1, 0), 6: (0, 1), 7:
 THREADS = frozenset({"G32", "G34", "G35", "G36"})
 _ARCS = frozenset({"G2", "G3"})
 #: One-shot codes beside which a T is allowed.
-_BESIDE_T = frozenset({"G50"})
+_BESIDE_T = frozenset({"G50", "G71", "G72", "G73"})
 _MEASURING = frozenset({"G36", "G37", "G37.1", "G37.2"})
 MAX_OFFSETS = 999
 
