@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from polycnc.compensation import CutterCompensation, Plane
+from polycnc.control.fanuc.turning_comp import SHAPE_KIND
 from polycnc.control.fanuc.turning_coordinates import plane_axes
 from polycnc.control.fanuc.turning_corners import TurningCorner
 from polycnc.control.fanuc.turning_tools import nose_radius, nose_tip
@@ -103,7 +104,12 @@ def plan_note(builder: Builder, plan: Plan) -> Step | None:
 
 
 def section_steps(channel: Channel, code: Any, first: int, last: int) -> tuple[int, int]:
-    """First and last step of a shape. No other block of the program may have its numbers (II.4.2.8)."""
+    """First and last step of a shape. No other block of the program may have its numbers (II.4.2.8).
+
+    A shape holds no further cycle: its blocks might lead back into it without end.
+    """
+    if channel.level.kind == SHAPE_KIND:
+        raise channel.control.fail("shape_command", address="P")
     begin = code.find_sequence(first, channel.level.current, "no_shape_start")
     end = code.find_sequence(last, begin - 1, "no_shape_end")
     for number, address in ((first, "P"), (last, "Q")):
