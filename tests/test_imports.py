@@ -26,6 +26,7 @@ LAYERS = (
     "control",
     "motion",
     "mainrun",
+    "panel",
     "session",
     "cases",
     "cli",

@@ -193,11 +193,12 @@ class VirtualControl(Readings):
 
     def power_off(self) -> None:
         """Switch off: the axes come to rest, outputs drop. Programs, offsets and variables stay."""
+        if self.state is State.OFF:
+            return
         self._brake(State.OFF)
         for rule in self.control.plc.rules:
             if rule.latch:
                 self._signals[rule.output] = 0.0
-        self._signals["POWER_OFF"] = 0.0
 
     def power_on(self) -> None:
         """Switch on again: as after reset; machines without absolute encoders have to return to their references."""
@@ -208,12 +209,23 @@ class VirtualControl(Readings):
                 self._signals[f"NOT_REFERENCED_{axis}"] = 1.0
         self._brake(State.BRAKING)
 
+    def key(self, name: str, *, pressed: bool = True) -> None:
+        """Press a key of the machine panel by its name in the machine's rules (`B3`, `D1`), or let it go.
+
+        Raises:
+            CommandRefused: The machine refuses it; where that is an alarm, it has come.
+        """
+        if pressed:
+            self._ask_machine(f"KEY_{name}")
+        self._signals[f"KEY_{name}"] = float(pressed)
+
     def _press(self, key: str) -> None:
         press = {
             "CYCLE_START": self.cycle_start,
             "FEED_HOLD": self.feed_hold,
             "RESET": self.reset,
             "EMERGENCY_STOP": self.emergency_stop,
+            "POWER_OFF": self.power_off,
         }[key]
         with suppress(CommandRefused):  # a key that cannot act now does nothing
             press()

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from polycnc.toolpath import Event
 
 #: Keys of the panel that signals can press.
-KEYS = frozenset({"CYCLE_START", "FEED_HOLD", "RESET", "EMERGENCY_STOP"})
+KEYS = frozenset({"CYCLE_START", "FEED_HOLD", "RESET", "EMERGENCY_STOP", "POWER_OFF"})
 #: What the reasons of a halt lead to; every other one stops.
 LOCKED_STATES = frozenset((State.EMERGENCY, State.OFF))
 #: Jog rate and dry run speed at a feed override of 100 %, mm/min or degrees/min (Hartford manual).
@@ -424,6 +424,11 @@ class Core(ABC):
         if self._collected or self._switches.mst_lock:  # cycle start still starts it, or the program cannot
             return 0
         return self._automatic.context.spindle_direction
+
+    @property
+    def switches(self) -> PanelSwitches:
+        """The panel's switches."""
+        return self._switches
 
     @property
     def waiting_tool(self) -> int | str:

@@ -15,6 +15,10 @@ if TYPE_CHECKING:
 
     States = Mapping[str, Callable[[], bool]]
 
+#: Panel switches, which are signals by their names in capitals.
+SWITCHES = (
+    "single_block", "optional_stop", "block_skip", "dry_run", "machine_lock", "z_lock", "mst_lock",
+)  # fmt: skip
 #: How close to a reference point an axis counts as standing there, mm or degrees.
 WINDOW = 0.01
 #: The pocket at the change point, counted from 1, and what turns the magazine.
@@ -42,7 +46,12 @@ def machine_states(core: Core) -> States:
         "SPINDLE_COMMANDED": lambda: core.program_spindle != 0,
         "T_NOT_IN_MAGAZINE": lambda: _is_not_in_magazine(core.machine, core.waiting_tool),
         "HAS_AXIS_A": lambda: "A" in names,
+        **{switch.upper(): partial(_is_switched, core, switch) for switch in SWITCHES},
     }
+
+
+def _is_switched(core: Core, switch: str) -> bool:
+    return bool(getattr(core.switches, switch))
 
 
 def stands_at(core: Core, axis: int, number: int) -> bool:

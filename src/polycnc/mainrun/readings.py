@@ -13,7 +13,6 @@ from polycnc.mainrun.snapshot import (
     ActiveBlock,
     ChannelSnapshot,
     Overrides,
-    PanelSwitches,
     Positions,
     Snapshot,
     SpindleState,
@@ -128,11 +127,6 @@ class Readings(Core):
     def feed(self) -> float:
         """Path speed now, mm/min; of the fastest axis where axes are moved by hand."""
         return 60.0 * max(self._automatic.speed, self._manual.speed(self.time))
-
-    @property
-    def switches(self) -> PanelSwitches:
-        """The panel's switches."""
-        return self._switches
 
     @property
     def snapshot(self) -> Snapshot:

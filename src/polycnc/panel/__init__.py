@@ -1,0 +1,6 @@
+"""The operator panel: what stands on it (`description`, data), and what its keys, switches and lamps do (`panel`)."""
+
+from polycnc.panel.description import PanelDescription, describe
+from polycnc.panel.panel import Light, Panel
+
+__all__ = ["Light", "Panel", "PanelDescription", "describe"]
