@@ -52,6 +52,8 @@ RETURN = 5139
 THREAD_LEAST, THREAD_ALLOWANCE, THREAD_FINISHING, THREAD_ANGLE = 5140, 5141, 5142, 5143
 CHAMFER = 5130
 MAX_TIP_ANGLE = 120.0
+#: A thread with more passes is taken for one that does not end.
+MAX_PASSES = 10_000
 TIP_ANGLES = (80, 60, 55, 30, 29, 0)
 
 
@@ -354,7 +356,9 @@ def thread(channel: Channel, words: Words) -> None:
         raise words.fail("cycle_depth", "R")
     out = runout(channel, lead)
     passes = thread_passes(start, end, taper, cuts, half_angle_deg=angle / 2.0, zigzag=method in (2, 4))
-    for begin, last in passes:
+    for number, (begin, last) in enumerate(passes):
+        if number >= MAX_PASSES:
+            raise channel.control.block_limit()
         cut_pass(channel, (start, begin, last), out, lead, turn)
 
 
