@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.coordinates import Coordinates
 from polycnc.channel.mode import Mode, ModeTable
-from polycnc.channel.path import Move, PathStage
+from polycnc.channel.path import Move, PathStage, points_of_arc
 from polycnc.channel.stack import Executable, Level
 from polycnc.channel.waits import BLOCK, CHUNK, PREPROCESSING, PreprocessingStop, Wait
 from polycnc.messages import Alarm, AlarmError
@@ -502,6 +502,9 @@ class Channel:
         )
         if (self._limits or self.stroke_zone is not None) and kind != Kind.DWELL:
             self._check_limits(end, straight=center is None)
+            if center is not None and self.stroke_zone is not None:
+                for point in points_of_arc(move, self.coordinates.geometry):
+                    self.stroke_zone.check_point(self, self.coordinates.to_machine(point))
         if self._head is None:
             self.write(move)
         else:

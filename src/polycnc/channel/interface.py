@@ -62,3 +62,6 @@ class Zone(Protocol):
 
     def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:
         """Raise the control's alarm where the way to a machine position (or its end, if not straight) is forbidden."""
+
+    def check_point(self, channel: Channel, machine: list[float]) -> None:
+        """Raise the control's alarm where a point on the way, machine coordinates, is forbidden."""

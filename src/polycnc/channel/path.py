@@ -11,9 +11,12 @@ from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING, Protocol
 
-from polycnc.toolpath.kinds import Kind
+from polycnc.geometry import arcs
+from polycnc.toolpath.kinds import ARC_KINDS, Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
     from polycnc.geometry.frames import Vector
     from polycnc.toolpath import Event
 
@@ -70,3 +73,30 @@ class PathStage(Protocol):
 
     def flush(self) -> None:
         """Pass on everything that is held back: no more moves will come that could change it."""
+
+
+#: Chords of an arc may be this far off it where it is looked at point by point, mm.
+CHORD_ERROR_MM = 0.05
+_LARGEST_PARTS = 720
+
+
+def points_of_arc(move: Move, geometry: Sequence[int]) -> Iterator[list[float]]:
+    """Points along a circular move between its ends (absolute display, all axes), about evenly spaced."""
+    if move.center is None or move.kind not in ARC_KINDS:
+        return
+    w = max(range(3), key=lambda i: abs(move.normal[i]))
+    u, v = (w + 1) % 3, (w + 2) % 3
+    first, second = geometry[u], geometry[v]
+    if first < 0 or second < 0:
+        return
+    center = (move.center[u], move.center[v])
+    start, end = (move.start[first], move.start[second]), (move.end[first], move.end[second])
+    ccw = (move.kind in (Kind.CCW, Kind.HELIX_CCW)) == (move.normal[w] > 0.0)
+    sweep = arcs.sweep_angle(start, end, center, ccw)
+    radius = arcs.radius_of(center, start)
+    count = min(arcs.parts_for_chord_error(radius, sweep, CHORD_ERROR_MM), _LARGEST_PARTS)
+    for number, (a, b) in enumerate(arcs.split(start, end, center, ccw, count)):
+        part = (number + 1) / count
+        point = [s + part * (e - s) for s, e in zip(move.start, move.end, strict=True)]
+        point[first], point[second] = a, b
+        yield point

@@ -85,7 +85,7 @@ class Barrier:
     bodies: tuple[Polygon, ...]
 
     def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:
-        """The control's alarm for a way into a body; of a curve only the end is looked at."""
+        """The control's alarm for a way into a body; of a curve the end and points on it are looked at."""
         c = channel.coordinates
         end = c.from_machine(machine)
         start = c.position if straight else end
@@ -96,6 +96,10 @@ class Barrier:
                     axis = self.x if end[self.x] != start[self.x] else self.z
                     direction = 1 if end[axis] >= start[axis] else -1
                     raise channel.control.forbidden_zone(channel.axes[axis], direction)
+
+    def check_point(self, channel: Channel, machine: list[float]) -> None:
+        """The control's alarm for a point of a curve in a body."""
+        self.check(channel, machine, straight=False)
 
 
 def _enters(start: Point, end: Point, polygon: Polygon) -> bool:

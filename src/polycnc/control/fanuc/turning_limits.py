@@ -121,6 +121,11 @@ class Zones:
         for zone in self.zones:
             zone.check(channel, machine, straight=straight)
 
+    def check_point(self, channel: Channel, machine: list[float]) -> None:
+        """The same for a point of a curve."""
+        for zone in self.zones:
+            zone.check_point(channel, machine)
+
 
 @dataclass(frozen=True, slots=True)
 class IncrementCheck:
@@ -135,6 +140,9 @@ class IncrementCheck:
             if abs(machine[axis] - here[axis]) > limit + 1e-9:
                 raise channel.control.fail("increment_limit", address=channel.axes[axis])
 
+    def check_point(self, channel: Channel, machine: list[float]) -> None:
+        """What counts is the end of the block."""
+
 
 @dataclass(frozen=True, slots=True)
 class TravelCheck:
@@ -147,3 +155,7 @@ class TravelCheck:
         for axis, (low, high) in self.limits.items():
             if not low - 1e-9 <= machine[axis] <= high + 1e-9:
                 raise channel.control.over_travel(channel.axes[axis], 1 if machine[axis] > high else -1)
+
+    def check_point(self, channel: Channel, machine: list[float]) -> None:
+        """The same for a point of a curve."""
+        self.check(channel, machine, straight=False)

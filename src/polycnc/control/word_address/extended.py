@@ -94,12 +94,16 @@ class StrokeZone:
     inside: bool
 
     def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:
-        """The control's alarm for a way into the zone, or out of it; of a curve only the end is looked at."""
+        """The control's alarm for a way into the zone, or out of it; of a curve the end and points on it."""
         start = channel.coordinates.machine if straight else machine
         axis = self._entered(start, machine) if self.inside else self._left(machine)
         if axis >= 0:
             direction = 1 if machine[axis] >= channel.coordinates.machine[axis] else -1
             raise channel.control.forbidden_zone(channel.axes[axis], direction)
+
+    def check_point(self, channel: Channel, machine: list[float]) -> None:
+        """The control's alarm for a point of a curve."""
+        self.check(channel, machine, straight=False)
 
     def _left(self, end: list[float]) -> int:
         """The first axis that stands outside, or -1."""
