@@ -39,6 +39,8 @@ class MotionSettings:
         acceleration: `BRISK` or `SOFT` where the context does not say.
         drive_speed: `DRIVE`: from this part of its velocity on an axis accelerates less (MD35220).
         drive_reduction: `DRIVE`: by this part of its acceleration (MD35230).
+        taps_overridden: The feed override acts on rigid taps (FANUC 5203#4 OVS).
+        taps_held: Feed hold stops a rigid tap at once (FANUC 5200#6 FHD).
     """
 
     rapid_by_axis: bool = False
@@ -53,6 +55,8 @@ class MotionSettings:
     acceleration: str = BRISK
     drive_speed: float = 1.0
     drive_reduction: float = 0.0
+    taps_overridden: bool = False
+    taps_held: bool = False
 
 
 DEFAULT = MotionSettings()

@@ -379,6 +379,8 @@ class Ahead:
                     if part == count - 1 and is_cut_short
                     else 0.0,
                     by_axis=self._pieces[at + FORM] == TIMED,
+                    overridden=chunk.kind[row] == Kind.TAP and self._settings.taps_overridden,
+                    held=chunk.kind[row] == Kind.TAP and self._settings.taps_held,
                 )
             )
             done += share

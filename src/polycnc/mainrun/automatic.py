@@ -254,10 +254,15 @@ class Automatic:
         item = self.ahead.items[0]
         if isinstance(item, Piece):
             return self._begin(item)
-        held = self.rates.hold and self.context.feed_hold
+        held = self.rates.hold and (self.context.feed_hold or (isinstance(item, Block) and self._may_hold()))
         if held and self._x2 == 0.0 and not isinstance(item, BlockEnd):
             return False
         return self._pass(item)
+
+    def _may_hold(self) -> bool:
+        """Whether feed hold stops in front of the next block: behind a tap it does, unless that block knows none."""
+        contexts = (item.context for item in self.ahead.items if not isinstance(item, Block | BlockEnd))
+        return next((context.feed_hold for context in contexts), True)
 
     def _run_out(self, *, filled: bool) -> bool:
         """Nothing is prepared."""

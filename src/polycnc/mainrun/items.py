@@ -67,7 +67,8 @@ class Piece:
         cap2: Largest squared speed that the axes allow in it.
         asked: Speed that the program asks for, mm/s; infinite where it asks for none.
         rapid: Runs at rapid traverse.
-        fixed: Bound to the spindle (thread, tap): no override, no feed hold.
+        fixed: Bound to the spindle (thread, tap): no override, no feed hold, but for what follows.
+        overridden: A tap on which the feed override acts all the same; `held` one that feed hold stops.
         per_revolution: Its speed follows the spindle.
         left: Way from its end to the programmed end of a skip move that a signal cuts there, mm.
         is_coasting: What is run behind a skip signal.
@@ -92,6 +93,8 @@ class Piece:
     left: float
     by_axis: bool
     is_coasting: bool = False
+    overridden: bool = False
+    held: bool = False
 
     def at(self, share: float) -> list[float]:
         """Machine position after a share of the piece."""
@@ -123,7 +126,10 @@ class Rates:
     def cap2(self, piece: Piece) -> float:
         """Largest squared speed on a piece."""
         if piece.fixed:
-            return min(piece.cap2, piece.asked * piece.asked)
+            feed = self.feed if piece.overridden else 1.0
+            if feed == 0.0 or (self.hold and piece.held):
+                return 0.0
+            return min(piece.cap2, piece.asked * piece.asked * feed * feed)
         if self.hold and piece.context.feed_hold:
             return 0.0
         if piece.by_axis:

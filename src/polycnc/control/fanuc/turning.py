@@ -104,9 +104,14 @@ class FanucTurning(CustomMacroControl):
         return written_codes(self.system(channel)).get((group, code), code)
 
     def motion_settings(self, channel: Channel) -> MotionSettings:
-        """1401#1 LRP: rapids run on a line; else every axis by itself."""
-        by_axis = not channel.setup.parameters.bit(1401, 1)
-        return replace(super().motion_settings(channel), rapid_by_axis=by_axis)
+        """1401#1 LRP: rapids run on a line, else every axis by itself; what acts on a rigid tap (5203#4, 5200#6)."""
+        bit = channel.setup.parameters.bit
+        return replace(
+            super().motion_settings(channel),
+            rapid_by_axis=not bit(1401, 1),
+            taps_overridden=bool(bit(5203, 4)),
+            taps_held=bool(bit(5200, 6)),
+        )
 
     def make_memory(self, channel: Channel) -> TurningMemory:
         """Offsets, tools and variables."""
