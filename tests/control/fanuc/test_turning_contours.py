@@ -6,7 +6,7 @@ from itertools import pairwise
 from math import atan2, cos, degrees, hypot, radians, sin
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from shapely.geometry import LineString, Point
 
@@ -16,6 +16,8 @@ from tests.control.fanuc.lathe import alarms, moves, run
 #: A point of a profile: Z, and X as a radius.
 Spot = tuple[float, float]
 NOSE = 0.8
+#: A busy computer is no mistake of the program.
+SLOW = [HealthCheck.too_slow, HealthCheck.filter_too_much]
 TIPS = {
     0: (0, 0),
     1: (1, 1),
@@ -65,7 +67,7 @@ def edge(one: Spot, two: Spot, bulge: int) -> tuple[str, list[Spot]]:
     return f"{code} {words(two)} R{radius:.3f}", [one, *arcs.split(one, two, center, ccw, 64)]
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40, deadline=None, suppress_health_check=SLOW)
 @given(st.data(), profile(), st.sampled_from([-1, 1]), st.sampled_from(sorted(TIPS)), st.booleans())
 def test_the_nose_touches_every_edge_and_cuts_none(
     data: st.DataObject, spots: list[Spot], side: int, tip: int, arc_corners: bool
@@ -114,7 +116,7 @@ def test_the_nose_touches_every_edge_and_cuts_none(
     assert Point(path[0]).distance(contour) == pytest.approx(NOSE, abs=1e-3)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60, deadline=None, suppress_health_check=SLOW)
 @given(profile(), st.floats(0.2, 1.5), st.booleans(), st.booleans())
 def test_angles_describe_the_same_figure_as_points(
     spots: list[Spot], size: float, rounds: bool, supplement: bool
@@ -146,7 +148,7 @@ def test_angles_describe_the_same_figure_as_points(
         assert (kind, x, z) == (other, pytest.approx(u, abs=2e-2), pytest.approx(w, abs=2e-2))
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40, deadline=None, suppress_health_check=SLOW)
 @given(profile(), st.floats(2.0, 178.0))
 def test_one_coordinate_and_an_angle_lead_along_the_line(spots: list[Spot], angle: float) -> None:
     (z, x), end = spots[0], spots[1]
