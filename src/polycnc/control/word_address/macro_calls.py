@@ -150,7 +150,7 @@ def plan_modal_call(builder: Builder, plan: Plan) -> Step | None:
 
     def follow(channel: Channel, _values: list[float]) -> None:
         calls = channel.memory.modal_calls
-        inside = sum(1 for level in channel.stack if level.kind == "modal")
+        inside = sum(1 for level in channel.stack if level.kind in ("modal", "b-macro"))
         if inside < len(calls):
             call = calls[-1 - inside]
             enter_macro(channel, call.program, list(call.arguments), call.repeats, kind="modal")
