@@ -18,7 +18,7 @@ from polycnc.channel.path import Move, PathStage, points_of_arc
 from polycnc.channel.stack import Executable, Level
 from polycnc.channel.waits import BLOCK, CHUNK, PREPROCESSING, PreprocessingStop, Wait
 from polycnc.messages import Alarm, AlarmError
-from polycnc.toolpath import NO_CURVE, Event, Kind, Toolpath
+from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
 from polycnc.toolpath.table import CHUNK_ROWS
 
 if TYPE_CHECKING:
@@ -446,7 +446,9 @@ class Channel:
     def context_number(self) -> int:
         """Number of the context that holds now."""
         if self._context_changed:
-            self._context = self.toolpath.context_number(self._control.context(self))
+            # An alarm of the setup comes before there is a state that a context could tell of.
+            context = Context() if self.memory is None else self._control.context(self)
+            self._context = self.toolpath.context_number(context)
             self._context_changed = False
         return self._context
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
+from math import inf
 from typing import Any
 
 from polycnc.channel.channel import Channel
@@ -25,17 +27,21 @@ def run(
     control_id: str,
     setup: Mapping[str, Any] | None = None,
     bulk: Bulk | None = None,
+    *,
+    travel: float = inf,
     **limits: Any,
 ) -> Channel:
-    """Run a program to its end; programmed stops are started again."""
+    """Run a program to its end; programmed stops are started again. `travel` limits every axis to either side."""
     built = control(control_id)
     store = ProgramStore(form=built.form)
     name = "/_N_WKS_DIR/_N_TEST_WPD/_N_MAIN_MPF" if built.form is Form.SINUMERIK else "MAIN"
     program = store.add_text(name, text)
     start = parse_setup(setup or {})
-    channel = Channel(
-        built, machine(start.machine or built.default_machine), start, store, bulk=bulk, **limits
-    )
+    chosen = machine(start.machine or built.default_machine)
+    if travel < inf:
+        axes = (replace(axis, limit_minus=-travel, limit_plus=travel) for axis in chosen.axes)
+        chosen = replace(chosen, axes=tuple(axes))
+    channel = Channel(built, chosen, start, store, bulk=bulk, **limits)
     for _ in channel.run(program):
         pass
     return channel

@@ -98,9 +98,15 @@ def test_limits_of_machine_data_give_the_same(text: str, travel: int) -> None:
     assert differences(text, CONTROL, {**SETUP, "parameters": limits}) == []
 
 
+@settings(max_examples=30, deadline=None)
+@given(MILLING, st.sampled_from((400.0, 310.0)))
+def test_axes_with_limits_give_the_same(text: str, travel: float) -> None:
+    assert differences(text, CONTROL, SETUP, travel=travel) == []
+
+
 @settings(max_examples=40, deadline=None)
 @given(MILLING)
-def test_a_machine_with_limits_and_rotary_axes_gives_the_same(text: str) -> None:
+def test_a_machine_with_rotary_axes_gives_the_same(text: str) -> None:
     assert differences(text, CONTROL, {**SETUP, "machine": "mill5-ac-table"}) == []
 
 

@@ -69,8 +69,14 @@ def test_block_limits_and_rooms_of_any_size_give_the_same(text: str, limit: int,
 
 
 @settings(max_examples=60, deadline=None)
+@given(FANUC, st.sampled_from((400.0, 310.0)), st.sampled_from(("fanuc-m", "meldas-m")))
+def test_axes_with_limits_give_the_same(text: str, travel: float, control_id: str) -> None:
+    assert differences(text, control_id, SETUP, travel=travel) == []
+
+
+@settings(max_examples=30, deadline=None)
 @given(FANUC)
-def test_axes_with_limits_give_the_same(text: str) -> None:
+def test_a_machine_with_rotary_axes_gives_the_same(text: str) -> None:
     assert differences(text, "fanuc-m", {**SETUP, "machine": "mill5-ac-table"}) == []
 
 
