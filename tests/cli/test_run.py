@@ -181,3 +181,22 @@ def test_a_long_list_of_messages_is_cut(console: Console) -> None:
     said = console("run", "loud.nc", "--control", "fanuc-m")
     assert said.out.count("LOOK") < 60
     assert "more messages" in said.out
+
+
+def test_a_run_without_time_tells_none(console: Console) -> None:
+    console.file("good.nc", GOOD)
+    said = console("run", "good.nc", "--control", "fanuc-m", "--no-time", "--state", "state.json")
+    assert said.status == 0
+    assert "no alarm" in said.out
+    assert "cycle time" not in said.out
+    state = json.loads((console.folder / "state.json").read_text(encoding="utf-8"))
+    assert "time_s" not in state
+    assert state["final"]
+
+
+def test_a_long_program_is_the_same_with_and_without_bulk(console: Console) -> None:
+    console.file("long.nc", "O1\nG90 G1 F1000.\n" + "X10. Y5.\nX0 Y0\n" * 3000 + "X1. Q1.\nM30\n")
+    bulk = console("run", "long.nc", "--control", "fanuc-m", "--no-time", "--trace", "a.csv")
+    none = console("run", "long.nc", "--control", "fanuc-m", "--no-time", "--trace", "b.csv", "--no-bulk")
+    assert bulk.out == none.out
+    assert (console.folder / "a.csv").read_text() == (console.folder / "b.csv").read_text()
