@@ -22,7 +22,7 @@ from tests.language.bulk.test_word_address import FANUC, FANUC_COMMENTS, LATHE, 
 SUBPROGRAM = "M30\nO0002\nG91 X1.\nX2. F300.\nN77 Y1.\nG90\nX3. Z1.\nM99\n"
 JUMPS = st.sampled_from(
     (
-        "N77 X7.", "N77", "N78 G91 X1.", "/X9.", "/2 Y9.", "#9=#9+1", "IF[#9LT3]GOTO77", "#9=#9+1\nIF[#9LT4]GOTO78", "M98 P2", "M98 P0002 L2", "M98 P20002",
+        "N77 X7.", "N77", "N78 G91 X1.", "/X9.", "/2 Y9.", "#9=#9+1", "#9=#9+1\nIF[#9LT3]GOTO77", "#9=#9+1\nIF[#9LT4]GOTO78", "M98 P2", "M98 P0002 L2", "M98 P20002",
         "#8=0\nWHILE[#8LT3]DO1\nG91 X1.\nX2. Y1.\n#8=#8+1\nEND1", "G65 P2 A1.", "#1=#5001\nX[#1+1]", "#2=#5041", "#3=#4109", "M0", "G90 G1 F500.",
         "g1 x3. y4.", "n77 x1.", "X1.;", "(N77 X5.)", "G1 F700. X#5001", "G43 H1", "G54", "G1 X5.(A) Y6.",
     )
@@ -34,8 +34,8 @@ SINUMERIK_FLOW = program(
     plain("XYZ", SINUMERIK_COMMENTS, equals=True),
     st.sampled_from(
         (
-            "N77 X7", "ANF: X8", "ENDE: Y1", "R9=R9+1", "IF R9<3 GOTOB ANF", "IF R9<3 GOTOF ENDE", "FOR R8=0 TO 3\nG91 X1\nX2 Y1\nENDFOR", "REPEAT ANF ENDE P=2",
-            "R1=$P_EP[X]\nX=R1+1", "R2=$AA_IM[Y]", "REPEATB ANF", "LOOP\nR9=R9+1\nX1\nIF R9>5\nGOTOF ENDE\nENDIF\nENDLOOP", "G90 G1 F500", "/X3", "M0", "CT X5 Y9\nG1", "X5 ; N5",
+            "N77 X7", "ANF: X8", "ENDE: Y1", "R9=R9+1", "R9=R9+1\nIF R9<3 GOTOB ANF", "IF R9<3 GOTOF ENDE", "FOR R8=0 TO 3\nG91 X1\nX2 Y1\nENDFOR", "REPEAT ANF ENDE P=2",
+            "R1=$P_EP[X]\nX=R1+1", "R2=$AA_IM[Y]", "LOOP\nR9=R9+1\nX1\nIF R9>5\nGOTOF ENDE\nENDIF\nENDLOOP", "G90 G1 F500", "/X3", "M0", "CT X5 Y9\nG1", "X5 ; N5",
         )
     ),
     st.just("GOTOF NIRGENDS"),
