@@ -13,9 +13,9 @@ from math import inf, sqrt
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.waits import PREPROCESSING, Wait
-from polycnc.mainrun.frames import carried, real_of
 from polycnc.mainrun.geometry import arc_laid, line_laid, way_along
 from polycnc.mainrun.items import Block, BlockEnd, Happening, Item, Piece, Rates, Standing
+from polycnc.motion.frames import carried, real_of
 from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.arcs import facing_radius
 from polycnc.motion.kernels.columns import (
@@ -52,7 +52,8 @@ from polycnc.motion.kernels.columns import (
 from polycnc.motion.kernels.feeds import asked_speed, follows_radius, is_rapid
 from polycnc.motion.kernels.lay import lay
 from polycnc.motion.kernels.speeds import backward
-from polycnc.motion.limits import averages, axis_limits, context_fields
+from polycnc.motion.limits import averages, axis_limits, channel_axes, context_fields
+from polycnc.motion.transformed import RealAxes
 from polycnc.motion.waits import ORIENT, Waits
 from polycnc.toolpath import Context, Kind, Toolpath
 from polycnc.toolpath.kinds import ARC_KINDS
@@ -129,6 +130,7 @@ class Ahead:
         self._geometry = machine.geometry_indices(number)
         self._last_context = Context()
         self._left = left
+        self._real = RealAxes(channel_axes(machine, number, self.toolpath.axes), self._geometry, ())
 
     # ---- the channel ---------------------------------------------------------------------------------------
 
@@ -160,6 +162,7 @@ class Ahead:
         self._open = None
         self._state[PIECES] = 0.0
         self._last_context = Context()
+        self._real.stand(position)
         self.stand_at(position)
         self._run = iter(())
         self.waiting, self.finished = None, True
@@ -279,6 +282,7 @@ class Ahead:
         """Turn the rows of a block into items."""
         self._add_contexts()
         self._take_over()
+        caps = self._real.caps(chunk, self.toolpath.contexts)
         self._delays.clear()
         self._waits.take(chunk, int(self.limits[LIMIT_BLOCKS * self._axes + GEOMETRY]))
         self._waits.parallel.clear()
@@ -300,7 +304,7 @@ class Ahead:
             elif kind == Kind.DWELL:
                 self.end_in_rest()
             else:
-                self._lay(chunk, row)
+                self._lay(chunk, row, caps.get(row, inf))
         return True
 
     def _take_over(self) -> None:
@@ -325,8 +329,11 @@ class Ahead:
             )
             self._laid_contexts += 1
 
-    def _lay(self, chunk: Chunk, row: int) -> None:
-        """Lay a move out as pieces. Its feed is FREE, so that the pieces know what the axes allow."""
+    def _lay(self, chunk: Chunk, row: int, cap: float) -> None:
+        """Lay a move out as pieces. Its feed is FREE, so that the pieces know what the axes allow.
+
+        `cap` is the highest speed that the real axes allow under a transformation.
+        """
         n, state = self._axes, self._state
         self._enter_context(self.toolpath.contexts[chunk.context[row]])
         end = chunk.end[row * n : (row + 1) * n]
@@ -353,6 +360,8 @@ class Ahead:
         done = 0.0
         for part in range(count):
             at = (before + part) * self._width
+            for field in (ENTRY2, CAP2):
+                self._pieces[at + field] = min(self._pieces[at + field], cap * cap)
             share = self._pieces[at + LENGTH] / total
             asked = asked_speed(
                 chunk.curves, self._contexts, record, state, state[ROW_LENGTH],

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.machine.layout import axis_layout
-from polycnc.mainrun.frames import real_of, work_of
 from polycnc.mainrun.snapshot import Positions
+from polycnc.motion.frames import real_of, work_of
 from polycnc.toolpath.trace import Display
 
 if TYPE_CHECKING:

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING
 
-from polycnc.mainrun.frames import carried
 from polycnc.mainrun.programs import text_of
 from polycnc.mainrun.snapshot import ActiveBlock, ChannelSnapshot, Positions, SpindleState, ToolState
+from polycnc.motion.frames import carried
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.alarm_text import alarm_text
 from polycnc.mainrun.core import Core
-from polycnc.mainrun.frames import without_transformation
 from polycnc.mainrun.snapshot import (
     ActiveBlock,
     ChannelSnapshot,
@@ -19,6 +18,7 @@ from polycnc.mainrun.snapshot import (
     ToolState,
 )
 from polycnc.mainrun.states import State
+from polycnc.motion.frames import without_transformation
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

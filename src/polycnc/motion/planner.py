@@ -40,9 +40,10 @@ from polycnc.motion.kernels.columns import (
     Rows,
     piece_width,
 )
-from polycnc.motion.limits import averages, axis_limits, context_fields
+from polycnc.motion.limits import averages, axis_limits, channel_axes, context_fields
 from polycnc.motion.plan import Plan, Times, ToolTimes
 from polycnc.motion.settings import DEFAULT, Settings
+from polycnc.motion.transformed import RealAxes
 from polycnc.motion.waits import Waits
 
 if TYPE_CHECKING:
@@ -109,6 +110,9 @@ class Planner:
         self._kernels = PLAIN
         self._limits = axis_limits(machine, channel, toolpath.axes, settings)
         self._state = _new_state(self._axes, start)
+        built = next((c for c in machine.channels if c.number == channel), machine.channels[0])
+        geometry = machine.geometry_indices(built.number)
+        self._real = RealAxes(channel_axes(machine, channel, toolpath.axes), geometry, start)
         self._pieces = array("d", bytes(8 * self._width * FIRST_ROOM))
         self._room = FULL_ROOM
         self._contexts = array("d")
@@ -155,6 +159,7 @@ class Planner:
         stops = array("B", [self._waits.stands_for(event) for event in chunk.events])
         see = self._kernels.see
         feed = chunk.feed if self._feed_profile is None else self._feed_profile(chunk)
+        feed = self._within_real_axes(chunk, feed)
         rows = Rows(
             see(chunk.kind), see(chunk.context), see(feed), see(chunk.end), see(chunk.curve), see(stops)
         )
@@ -165,6 +170,23 @@ class Planner:
             if row == len(chunk):
                 return True
             self._make_room()
+
+    def _within_real_axes(self, chunk: Chunk, feed: array[float]) -> array[float]:
+        """Feeds that real axes under a transformation can follow."""
+        contexts = self._toolpath.contexts
+        caps = self._real.caps(chunk, contexts)
+        if not caps:
+            return feed
+        feed = feed[:]
+        for row, cap in caps.items():
+            mode = contexts[chunk.context[row]].feed_mode
+            if mode == "G94":
+                feed[row] = min(feed[row], cap) if feed[row] > 0.0 else cap
+            elif mode == "G95":
+                context = contexts[chunk.context[row]]
+                turns = self._waits.rpm(context, 0.0) / 60.0
+                feed[row] = min(feed[row], cap / turns) if turns > 0.0 else feed[row]
+        return feed
 
     def finish(self) -> Plan:
         """Plan what the toolpath still holds, to a stop behind the last row, and give the result."""
