@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from math import sqrt
 from pathlib import Path
 
 import pytest
@@ -149,7 +150,9 @@ def test_reset_brakes_first_and_brings_modal_codes_back() -> None:
     assert virtual.state is State.BRAKING
     before = virtual.machine_position[0]
     assert virtual.run() is State.READY
-    braking = 100.0 * 0.03 + 100.0**2 / 3000.0  # half a ramp of 0.06 s behind, then at j·T/2 = 1500 mm/s²
+    # Half of the line's ramp T = √(2·v/j) behind, then at j·T/2 (`kernels/alone.py`).
+    ramp = sqrt(2.0 * 100.0 / 50000.0)
+    braking = 100.0 * 0.5 * ramp + 100.0**2 / (50000.0 * ramp)
     assert virtual.machine_position[0] == pytest.approx(before + braking)
     assert virtual.modal["distance"] == "G90"
     virtual.cycle_start()

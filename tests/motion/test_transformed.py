@@ -34,7 +34,8 @@ def test_the_real_axes_keep_their_velocity_near_the_centre() -> None:
     while virtual.state is State.RUNNING:
         virtual.step()
         now = virtual.machine_position
-        fastest = [max(f, abs(b - a) / cycle) for f, a, b in zip(fastest, before, now, strict=True)]
+        ways = [abs((b - a + 180.0) % 360.0 - 180.0) for a, b in zip(before, now, strict=True)]
+        fastest = [max(f, way / cycle) for f, way in zip(fastest, ways, strict=True)]
         before = now
     assert virtual.state is State.READY
     for name, speed in zip(virtual.channel.axes, fastest, strict=True):

@@ -25,7 +25,6 @@ from polycnc.motion.kernels.columns import (
     PLACES,
     PULL,
     RAMP,
-    RAMP_S,
     ROW_LENGTH,
     STATE_BLOCKS,
     TANGENT,
@@ -41,9 +40,12 @@ from polycnc.motion.kernels.columns import (
 SHARED = 0.35
 
 
-def best_ramp(length: float, top: float, jerk: float, longest: float) -> float:
-    """Seconds to average a line from rest to rest over, so that it takes the least time; at most `longest`."""
-    ramp: float = min(longest, (2.0 * length / jerk) ** (1.0 / 3.0))
+def best_ramp(length: float, top: float, pull: float, jerk: float) -> float:
+    """Seconds to average a line from rest to rest over, so that it takes the least time.
+
+    More than it takes to allow the whole acceleration is of no use.
+    """
+    ramp: float = min(2.0 * pull / jerk, (2.0 * length / jerk) ** (1.0 / 3.0))
     return min(ramp, sqrt(2.0 * top / jerk)) if top < inf else ramp
 
 
@@ -62,14 +64,12 @@ def settle_alone(pieces: Floats, n: int, limits: Floats, state: Floats) -> None:
             pull = min(pull, limits[ACCELERATION * n + i] / share)
             jerk = min(jerk, limits[JERK * n + i] / share)
     top = min(sqrt(pieces[at + CAP2]), state[WANTED])
-    ramp = best_ramp(length, top, jerk, pieces[at + RAMP])
+    ramp = best_ramp(length, top, pull, jerk)
     pieces[at + PULL] = min(pull, 0.5 * jerk * ramp)
     pieces[at + RAMP], pieces[at + BLEND], pieces[at + PAUSE] = ramp, 0.0, ramp
 
 
 def pays_to_rest(
-    contexts: Floats,
-    record: int,
     n: int,
     limits: Floats,
     state: Floats,
@@ -95,7 +95,7 @@ def pays_to_rest(
             if share > 0.0:
                 pull = min(pull, limits[ACCELERATION * n + i] / share)
                 jerk = min(jerk, limits[JERK * n + i] / share)
-        ramp = best_ramp(way, top, jerk, contexts[record + RAMP_S])
+        ramp = best_ramp(way, top, pull, jerk)
         resting += ramp + rest_to_rest(way, 0.0, top, min(pull, 0.5 * jerk * ramp))
         held = corner * window
         if held >= way:

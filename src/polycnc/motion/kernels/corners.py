@@ -87,11 +87,7 @@ def join(
         cap2 = min(cap2, own2)
     if ramp > 0.0:
         cap2 = corner_hold2(contexts, record, n, limits, state, length, cap2)
-        if (
-            wanted > 0.0
-            and state[SMOOTH] != 2.0
-            and pays_to_rest(contexts, record, n, limits, state, length, cap2, wanted)
-        ):
+        if wanted > 0.0 and state[SMOOTH] != 2.0 and pays_to_rest(n, limits, state, length, cap2, wanted):
             state[REST], state[JOINT_PULL] = state[WINDOW], inf
             return 0.0
     return cap2

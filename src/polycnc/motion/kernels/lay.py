@@ -211,7 +211,7 @@ def lay_rapid_by_axis(
         way = abs(state[delta + i])
         if way > 0.0 and contexts[record + RAMP_S] > 0.0:
             top, jerk = limits[TOP_RAPID * n + i], limits[JERK * n + i]
-            ramp = max(ramp, best_ramp(way, top, jerk, contexts[record + RAMP_S]))
+            ramp = max(ramp, best_ramp(way, top, limits[ACCELERATION * n + i], jerk))
     for i in range(n):
         way, top = abs(state[delta + i]), limits[TOP_RAPID * n + i]
         if way > 0.0:
