@@ -40,6 +40,35 @@ def test_a_word_that_is_refused_stops_the_program(control: str, program: str, co
     assert virtual.alarms == ()
 
 
+def test_maintenance_codes_are_typed_in_at_mdi() -> None:
+    virtual = VirtualControl("meldas-m")
+    virtual.select_mode("mdi")
+    virtual.mdi("M31")
+    assert virtual.run() is State.READY
+    virtual.signals["PLC_SWITCH_32_OFF"] = 1.0
+    virtual.mdi("M36")
+    assert virtual.run() is State.ALARM
+    assert codes(virtual) == ["3030"]
+
+
+def test_a_mode_that_the_machine_refuses_is_not_chosen() -> None:
+    virtual = VirtualControl("meldas-m", setup={"switches": {"NOT_REFERENCED_B": 1}})
+    virtual.select_mode("jog")
+    with pytest.raises(CommandRefused, match="3015"):
+        virtual.select_mode("mdi")
+    assert str(virtual.mode) == "jog"
+
+
+def test_a_tool_change_while_the_magazine_is_opened_stops() -> None:
+    virtual = power_on("O1\nT2\nG4 P500\nM6\nM30\n")
+    virtual.cycle_start()
+    virtual.step(0.2)
+    virtual.signals["MAGAZINE_DOOR_OPEN"] = 1.0
+    assert (virtual.state, codes(virtual)) == (State.ALARM, ["1063"])
+    virtual.run()
+    assert virtual.tool.tool == 0
+
+
 def test_a_refused_m_function_does_nothing() -> None:
     virtual = power_on("O1\nM11\nM3 S500\nM30\n")
     virtual.cycle_start()

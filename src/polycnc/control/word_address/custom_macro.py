@@ -14,6 +14,7 @@ from polycnc.control.word_address import (
 )
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.numbers import NumberRules, length_converter
+from polycnc.language.word_address.executable import SkippedBlock
 from polycnc.messages import AlarmError
 from polycnc.program import ProgramFileError
 
@@ -159,11 +160,13 @@ class CustomMacroControl(WordAddressControl):
         """A main program begins: it has the local variables."""
         channel.level.locals = channel.memory.locals
 
-    def halts(self, channel: Channel, level: Level, _step: ProgramStep) -> bool:
+    def halts(self, channel: Channel, level: Level, step: ProgramStep) -> bool:
         """Single block halts behind blocks of words, and with 6000#5 behind macro statements; never under #3003 bit 0.
 
-        Calls and returns do not count; the program end does.
+        Calls and returns do not count, and no block that block skip leaves out; the program end does.
         """
+        if isinstance(step, SkippedBlock) and step.is_left_out(channel):
+            return False
         memory = channel.memory
         if memory.control_switches.get("cntl1", 0) & 1 and not memory.parameters.bit(6000, 7):
             return False

@@ -391,6 +391,10 @@ class SkippedBlock:
         self._off = off
         self._on = on
 
+    def is_left_out(self, channel: Channel) -> bool:
+        """Whether nothing of the block is left under the operator's switches."""
+        return bool(channel.skip_levels & self._levels) and self._on is empty_block
+
     def __call__(self, channel: Channel) -> None:
         """Run the step that the switches choose."""
         (self._on if channel.skip_levels & self._levels else self._off)(channel)
