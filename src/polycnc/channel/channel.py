@@ -377,7 +377,11 @@ class Channel:
         self.mark = self.toolpath.mark()
 
     def _stand_at_last_row(self) -> None:
-        self.coordinates.arrive(self.toolpath.last_end() or list(self._start))
+        c = self.coordinates
+        end = self.toolpath.last_end() or list(self._start)
+        if self.table is not self.rows and c.transformation is not None:
+            end = c.transformation.display(end)
+        c.arrive(end)
 
     def flush(self) -> None:
         """Pass on every move that a stage still holds back."""

@@ -98,3 +98,12 @@ def test_a_reset_ends_a_tilted_plane_where_the_axes_stand(tilt: str) -> None:
     assert channel.coordinates.machine == pytest.approx(before)
     assert channel.coordinates.zero.is_identity
     assert channel.mode["rotation"] == "G69"
+
+
+def test_an_alarm_on_a_cylinder_leaves_the_axes_where_the_last_block_has_led_them() -> None:
+    text = "G1 X0 A0 F100\nG7.1 A10.\nX10. A30.\nG2 X20. Y5. R1.\nM30\n"
+    channel = run(text, machine="mill4")
+    assert codes(channel) == ["PS0023"]
+    assert channel.coordinates.machine == pytest.approx([10.0, 0.0, 0.0, 30.0])
+    channel.control.reset(channel)
+    assert channel.coordinates.machine == pytest.approx([10.0, 0.0, 0.0, 30.0])
