@@ -236,3 +236,13 @@ def test_times_of_rows_add_up_to_the_total() -> None:
 def test_the_start_position_is_where_the_first_row_begins() -> None:
     result = plan(Build().feed(200.0, 0.0, 0.0).toolpath, MACHINE, start=(100.0, 0.0, 0.0))
     assert result.times.cutting_mm == pytest.approx(100.0)
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_a_circular_thread_is_as_long_as_its_arc(sense: float) -> None:
+    """A thread with a normal turns about its centre: a quarter one way, three quarters the other."""
+    rows = Build().feed(20.0, 0.0, 0.0)
+    curve = (2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, sense)
+    rows.row(Kind.THREAD, 0.0, 20.0, 0.0, feed=2.0, curve=curve)
+    quarters = 1.0 if sense > 0.0 else 3.0
+    assert rows.plan(MACHINE).times.cutting_mm == pytest.approx(20.0 + quarters * 10.0 * pi, rel=1e-9)
