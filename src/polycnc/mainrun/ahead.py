@@ -13,7 +13,7 @@ from math import inf, sqrt
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.waits import PREPROCESSING, Wait
-from polycnc.mainrun.geometry import arc_laid, line_laid, way_along
+from polycnc.mainrun.geometry import Arc, arc_laid, line_laid, way_along
 from polycnc.mainrun.items import Block, BlockEnd, Happening, Item, Piece, Rates, Standing
 from polycnc.motion.frames import carried, real_of
 from polycnc.motion.kernels.alone import settle_alone
@@ -65,6 +65,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.machine.model import Machine
     from polycnc.machine.motion_settings import MotionSettings
+    from polycnc.mainrun.geometry import Way
     from polycnc.mainrun.shared_axes import SharedAxes
     from polycnc.messages import AlarmError
     from polycnc.program import Program
@@ -354,14 +355,19 @@ class Ahead:
             and self._pieces[before * self._width + FORM] != STRAIGHT
         )
         way = arc_laid(start, state, self.limits, n) if is_arc else line_laid(start, state, n)
+        self._add_pieces(chunk, row, way, before, count, cap * cap)
+
+    def _add_pieces(self, chunk: Chunk, row: int, way: Way, before: int, count: int, cap2: float) -> None:
+        """Make items of the last `count` records, the pieces of a row."""
+        state, is_arc = self._state, isinstance(way, Arc)
         is_cut_short = chunk.kind[row] == Kind.SKIP and chunk.curve[row] >= 0
-        record = chunk.context[row] * (OFFSETS + n)
+        record = chunk.context[row] * (OFFSETS + self._axes)
         total = sum(self._pieces[(before + part) * self._width + LENGTH] for part in range(count))
         done = 0.0
         for part in range(count):
             at = (before + part) * self._width
             for field in (ENTRY2, CAP2):
-                self._pieces[at + field] = min(self._pieces[at + field], cap * cap)
+                self._pieces[at + field] = min(self._pieces[at + field], cap2)
             share = self._pieces[at + LENGTH] / total
             asked = asked_speed(
                 chunk.curves, self._contexts, record, state, state[ROW_LENGTH],
@@ -370,7 +376,7 @@ class Ahead:
             self._add_piece(
                 Piece(
                     way=way,
-                    row=number,
+                    row=chunk.first + row,
                     length=self._pieces[at + LENGTH],
                     first=done,
                     share=share if part < count - 1 else 1.0 - done,

@@ -210,13 +210,9 @@ def lay_arc(
     end_way = arc_point(sweep, n, limits, weight, state)
     way = arc_point(0.0, n, limits, weight, state)
     length = 0.5 * (way + end_way) * sweep
-    speed = bounded(
-        asked_speed(curves, contexts, record, state, length, facing_radius(0.0, n, limits, state)), state
-    )
-    highest = limits[LIMIT_BLOCKS * n + PATH_FEED]
-    speed = min(speed, highest)
-    entry2 = point_cap2(n, limits, state, margin)
-    pull = inf
+    radius, highest = facing_radius(0.0, n, limits, state), limits[LIMIT_BLOCKS * n + PATH_FEED]
+    speed = min(bounded(asked_speed(curves, contexts, record, state, length, radius), state), highest)
+    entry2, pull = point_cap2(n, limits, state, margin), inf
     if gentle:
         cap2, pull = arc_hold(contexts, record, n, limits, state, curvature(n, limits, weight, state), speed)
         entry2 = min(entry2, cap2)
@@ -228,8 +224,7 @@ def lay_arc(
     for part in range(parts):
         if follows_radius(contexts, record):
             radius = facing_radius((part + 0.5) * step, n, limits, state)
-            speed = asked_speed(curves, contexts, record, state, length, radius)
-            speed = min(bound(speed, state), highest)
+            speed = min(bound(asked_speed(curves, contexts, record, state, length, radius), state), highest)
         at = next_piece(pieces, state, BENT if gentle else CURVED, 0.0, n)
         if part == 0:
             open_joint(pieces, at, state, entry2)
