@@ -83,6 +83,9 @@ class Native:
             from llvmlite import binding
         except ImportError:
             return None
+        folder = _folder()
+        if folder is None:
+            return None
         digest = blake2b(digest_size=_DIGEST_BYTES)
         names = {function.__module__ for function in (self._entry, Native)}
         files = {str(sys.modules[name].__file__) for name in names}
@@ -91,7 +94,7 @@ class Native:
         features = binding.get_host_cpu_features().flatten()
         for part in (sys.version, llvmlite.__version__, binding.get_host_cpu_name(), features):
             digest.update(part.encode())
-        return _folder() / f"{self._name}-{digest.hexdigest()}.kernel"
+        return folder / f"{self._name}-{digest.hexdigest()}.kernel"
 
     def _stored(self) -> tuple[str, bytes] | None:
         """Symbol and object code in the file; None where there is none, or a damaged one."""
@@ -162,15 +165,21 @@ def _machine() -> Any:
     )
 
 
-def _folder() -> Path:
-    """Where kernels are kept: Numba's own folder if the user named one, beside this module, or the user's cache."""
+def _folder() -> Path | None:
+    """Where kernels are kept: Numba's own folder if the user named one, beside this module, or the user's cache.
+
+    None for a user without a home: a folder that all share is no place for code that is run.
+    """
     named = os.environ.get("NUMBA_CACHE_DIR")
     if named:
         return Path(named)
     beside = Path(__file__).parent / "__pycache__"
     if os.access(beside if beside.is_dir() else beside.parent, os.W_OK):
         return beside
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "polycnc"
+    try:
+        return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "polycnc"
+    except RuntimeError:
+        return None
 
 
 def _write(file: Path, stored: tuple[str, bytes]) -> None:

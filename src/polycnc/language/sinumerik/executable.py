@@ -56,10 +56,8 @@ class SinumerikProgram:
         self.control = control
         self.is_definition_file = definitions
         self.declared: dict[str, int] = {}
-        blocks = [
-            i for i, line in enumerate(program.lines) if line[:1] not in _BLANK or not _EMPTY.match(line)
-        ]
-        self._lines = array("I", blocks)
+        lines = enumerate(program.lines)
+        self._lines = array("I", (i for i, line in lines if line[:1] not in _BLANK or not _EMPTY.match(line)))
         numbers = array("I", (program.first_line + i for i in self._lines))
         numbers.append(numbers[-1] if numbers else program.first_line)
         #: The line in the file of a step. Asked for every row, so it is the array's own method.
