@@ -416,8 +416,7 @@ class CutterCompensation:
         if not (policy.checks_direction if is_line else policy.checks_arcs):
             return
         starts = previous.corner.vectors
-        # Of several vectors those that cross are left out in pairs, the inmost first; the last pair must
-        # not cross.
+        # Of several vectors those that cross are left out in pairs, the inmost first; the last must not cross.
         while offset.reverses(step.edge, starts[-1], ends[0]):
             is_last = len(starts) == 1 and len(ends) == 1
             if policy.looks_far and is_last:
@@ -437,6 +436,7 @@ class CutterCompensation:
         first = self._window[0]
         if not first.policy.looks_far or first.corner is None or first.forced is not None:
             return
+        numbers: list[int] = []
         for number in range(len(self._window) - 2, 0, -1):
             step = self._window[number]
             if step.corner is None or step.forced is not None or step.role is not _Role.CONTOUR:
@@ -449,24 +449,31 @@ class CutterCompensation:
                 checked = step.policy.checks_direction if is_line else step.policy.checks_arcs
                 found = checked and offset.reverses(step.edge, vector, other)
             if found:
-                self._lead_round(number)
-                return
+                numbers.append(number)
+        # A way round that would cut gives way to one past fewer blocks.
+        if numbers and not any(self._lead_round(number) for number in numbers):
+            self._lead_round(numbers[0], dares=True)
 
-    def _lead_round(self, number: int) -> None:
-        """Replace the blocks between the first one of the window and the one behind `number` (5.4.6.3)."""
+    def _lead_round(self, number: int, *, dares: bool = False) -> bool:
+        """Replace the blocks between the first one of the window and the one behind `number` (5.4.6.3).
+
+        False where there is no way, or a dangerous one; with `dares` these are alarms, as far as the control has them.
+        """
         first, last, following = self._window[0], self._window[number], self._window[number + 1]
         if number == 1 and _meets_joint(first, last):
-            return
-        way = None
+            return True
+        way, between = None, self._window[1 : number + 1]
         if first.role is following.role is _Role.CONTOUR:
-            way = way_round(first.edge, first.first, last.edge.end, following.edge, last.distance)
+            edges = [step.edge for step in between]
+            way = way_round(first.edge, first.first, edges, following.edge, last.distance)
+        if not dares and (way is None or way.is_dangerous):
+            return False
         if way is None:
             self._violate(Violation.NO_AVOIDANCE, last.move)
-            return
+            return True
         if way.is_dangerous and not first.policy.dares:
             self._violate(Violation.AVOIDANCE_DANGEROUS, last.move)
         first.corner = Corner([way.leaving])
-        between = self._window[1 : number + 1]
         del self._window[1 : number + 1]
         for step in between[:-1] if way.arriving is not None else between:
             first.after.extend(step.after)
@@ -480,6 +487,7 @@ class CutterCompensation:
             self._window.insert(1, behind)
         following.first, following.behind_avoidance = self._end_of(behind, following), True
         self._check_behind_avoidance(following)
+        return True
 
     def _check_behind_avoidance(self, step: _Step) -> None:
         """The block behind an avoidance must not run backwards itself."""
@@ -539,7 +547,7 @@ class CutterCompensation:
                 row = replace(row, kind=Kind.FEED, center=None, turns=0.0)
             else:
                 row = replace(row, center=plane.moved_center(move, step.shift))
-        if row.center is not None or way > arcs.SAME_POINT_MM or _moves_elsewhere(move, plane):
+        if row.center is not None or way > arcs.SAME_POINT_MM or plane.moves_elsewhere(move):
             self.after.move(row)
         template = replace(step.corner_arc[0] if step.corner_arc else move, start=row.end, end=row.end)
         for vector in corner.vectors[1:]:
@@ -590,8 +598,3 @@ def _meets_joint(previous: _Step, step: _Step) -> bool:
     step.first = _subtract(point, step.edge.start)
     step.corner.vectors[0] = _subtract(point, about)
     return True
-
-
-def _moves_elsewhere(move: Move, plane: Plane) -> bool:
-    """Whether a move has a way along other axes than the plane's."""
-    return plane.at(move.start, _NO_VECTOR) != plane.at(move.end, _NO_VECTOR)

@@ -82,6 +82,10 @@ class Plane:
         (u0, v0), (u1, v1) = self.point(move.start), self.point(move.end)
         return hypot(u1 - u0, v1 - v0) > arcs.SAME_POINT_MM
 
+    def moves_elsewhere(self, move: Move) -> bool:
+        """Whether a move has a way along other axes than the plane's."""
+        return self.at(move.start, (0.0, 0.0)) != self.at(move.end, (0.0, 0.0))
+
     def edge(self, move: Move) -> offset.Edge | None:
         """The plane edge of a move; None for an arc without a radius."""
         start, end, center = self.point(move.start), self.point(move.end), self.center(move)
