@@ -160,6 +160,18 @@ def test_an_open_door_refuses_the_start_with_an_alarm() -> None:
     assert (virtual.state, codes(virtual)) == (State.ALARM, ["1098"])
 
 
+@pytest.mark.parametrize(("control", "code"), [("fanuc-m", "1097"), ("meldas-m", "3008")])
+def test_a_clamped_axis_is_not_moved_by_a_program(control: str, code: str) -> None:
+    virtual = power_on("O1\nM24\nG0 X5.\nA10.\nM30\n", control, machine="mill4")
+    virtual.cycle_start()
+    assert virtual.run() is State.ALARM
+    assert codes(virtual) == [code]
+    assert virtual.machine_position == [5.0, 0.0, 0.0, 0.0]
+    virtual = power_on("O1\nM24\nM25\nG0 X5.\nA10.\nM30\n", control, machine="mill4")
+    virtual.cycle_start()
+    assert virtual.run() is State.READY
+
+
 def test_a_clamped_axis_does_not_move_by_hand() -> None:
     virtual = power_on("O1\nM24\nM30\n", machine="mill4")
     virtual.cycle_start()

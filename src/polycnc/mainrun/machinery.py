@@ -97,6 +97,9 @@ class Machinery:
     def perform(self, happening: Happening) -> None:
         """Carry out an event."""
         event = happening.event
+        if event.type == "ask":
+            self._guard.refuses(str(event.data["word"]))
+            return
         self._report(event)
         if event.type == "t":
             self.next_tool = event.data.get("tool") or 0

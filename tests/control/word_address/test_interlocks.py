@@ -207,6 +207,12 @@ def test_a_clamped_axis_does_not_move(control_id: str, code: str) -> None:
     assert codes(run("M24\nM25\nG1 A90. F500\nM30\n", control_id, machine="mill4")) == []
 
 
+def test_plain_blocks_are_asked_for_too_while_a_brake_is_on() -> None:
+    plain = "".join(f"G1 X{i} A{i}. F500\n" for i in range(200))
+    assert codes(run(f"{plain}M24\n{plain}M30\n", machine="mill4")) == ["1097"]
+    assert codes(run(f"M24\nM25\n{plain}M30\n", machine="mill4")) == []
+
+
 def test_the_fifth_axis_has_its_own_brake() -> None:
     assert codes(run("M26\nG0 A9.\nM30\n", "meldas-m", machine="mill5-ac-table")) == []
     assert codes(run("M26\nG0 C9.\nM30\n", "meldas-m", machine="mill5-ac-table")) == ["3075"]

@@ -29,7 +29,7 @@ SHARED_M_CODES = (
     MCode(4, handler=auxiliary.spindle_counter_clockwise),
     *after(5, 19, handler=auxiliary.spindle_stop),
     *after(6, handler=auxiliary.change_tool),
-    *together(7, 8, 12, 22, 23, 50, 53, 58, 61, 63, 68),
+    *together(7, 8, 12, 17, 18, 22, 23, 50, 53, 58, 61, 63, 68),
     *after(9, 10, 11, 24, 25, 54, 62, 64, 69, 82, 83, 84, 85, 86, 87, 93, 96, 97),
     *after(13, handler=auxiliary.spindle_clockwise),
     *after(14, handler=auxiliary.spindle_counter_clockwise),

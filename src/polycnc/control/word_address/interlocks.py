@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from polycnc.language.bulk import declare, declared
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
 #: How close to its change point an axis must stand, mm.
 WINDOW_MM = 0.01
+#: Brakes of rotary axes.
+BRAKES = ("FOURTH_AXIS_CLAMPED", "FIFTH_AXIS_CLAMPED")
 #: Two-digit M codes belong to the builder's list; longer ones are left to users.
 LISTED_M_CODES = range(100)
 
@@ -50,6 +53,8 @@ def refuse(channel: Channel, word: str) -> None:
     plc: Plc = channel.control.plc
     signals: dict[str, float] | None = channel.memory.machine_signals
     if signals is None:
+        if word.startswith("MOVE_"):
+            channel.event("ask", word=word)  # asked when the axes are there
         return
 
     def value(name: str) -> float:
@@ -121,7 +126,15 @@ def guarded_motion(step: Step, builder: Builder, plan: Plan) -> Step:
     moved = [builder.channel.axes[word.axis] for word in plan.axis_words]
     words = [f"MOVE_{axis}" for axis in moved if axis in rotary]
     fifth = ["MOVE_FIFTH_AXIS"] if any(axis in rotary[1:2] for axis in moved) else []
-    return guarded_step(step, (*words, *fifth), control.plc)
+    told = declared(step)
+    act = guarded_step(step, (*words, *fifth), control.plc)
+    return act if told is None else declare(act, told)  # plain as long as no brake is on
+
+
+def holds_an_axis(channel: Channel) -> bool:
+    """Whether a brake is on, so that moves have to be asked for."""
+    signals: dict[str, float] = getattr(channel.memory, "machine_signals", None) or {}
+    return any(signals.get(brake) for brake in BRAKES)
 
 
 def note_reference_return(channel: Channel, axes: Iterable[str]) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.interlocks import holds_an_axis
 from polycnc.control.word_address.numbers import conversion
 from polycnc.language.bulk import Arc, Recipe, SetFeed, Spelling, Straight, Target, Word, declared
 from polycnc.language.bulk.layout import FIRST_CODE, FORMS
@@ -57,7 +58,7 @@ class PlainBlocks:
         """Single blocks are watched; forbidden zones, unrolled surfaces and held moves are the interpreter's."""
         if channel.single_block or channel.stroke_zone is not None or channel.table is not channel.rows:
             return False
-        if channel.coordinates.transformation is not None:
+        if channel.coordinates.transformation is not None or holds_an_axis(channel):
             return False
         if not channel.coordinates.direct and not _keeps_circles(channel):
             return False
