@@ -105,6 +105,8 @@ class Ahead:
         self.items: deque[Item] = deque()
         self._held: deque[Piece] = deque()  # those of the items that are pieces
         self._planned = array("d")
+        self._way_ahead = 0.0  # of them, mm
+        self._rests_ahead = 0  # those at whose start the axes rest
         self.channel: Channel
         self.waiting: Wait | None = None
         self.finished = True
@@ -158,6 +160,7 @@ class Ahead:
         """Forget everything prepared."""
         self.items.clear()
         self._held.clear()
+        self._way_ahead, self._rests_ahead = 0.0, 0
         del self._planned[:]
         self._blocks.clear()
         self._open = None
@@ -348,6 +351,7 @@ class Ahead:
         if count == 0:
             return
         before = int(state[PIECES]) - count
+        self._rests_ahead += self._pieces[before * self._width + PAUSE] > 0.0
         self._split(before)
         self._skips = self._skips or chunk.kind[row] == Kind.SKIP
         is_arc = (
@@ -401,6 +405,7 @@ class Ahead:
             done += share
 
     def _add_piece(self, piece: Piece) -> None:
+        self._way_ahead += piece.length
         self.items.append(piece)
         self._held.append(piece)
 
@@ -488,6 +493,8 @@ class Ahead:
         self._held.popleft()
         width, count = self._width, int(self._state[PIECES])
         record = self._pieces[:width]
+        self._way_ahead -= record[LENGTH]
+        self._rests_ahead -= record[PAUSE] > 0.0
         self._pieces[: (count - 1) * width] = self._pieces[width : count * width]
         self._state[PIECES] = count - 1
         del self._planned[:width]
@@ -502,12 +509,12 @@ class Ahead:
 
     def _reaches(self) -> bool:
         """Whether so much is prepared behind the piece in front that no row to come can bound it."""
-        reach, way, width = 0.5 * sqrt(self._state[TOP2]) * self._state[WINDOW], 0.0, self._width
-        for k in range(int(self._state[PIECES]) - 1, 0, -1):
-            if way >= reach or self._pieces[k * width + PAUSE] > 0.0:
-                return True
-            way += self._pieces[k * width + LENGTH]
-        return way >= reach
+        if not self._held:
+            return False
+        if self._rests_ahead > (self._pieces[PAUSE] > 0.0):
+            return True
+        reach = 0.5 * sqrt(self._state[TOP2]) * self._state[WINDOW]
+        return self._way_ahead - self._pieces[LENGTH] >= reach
 
     @property
     def axes(self) -> int:
