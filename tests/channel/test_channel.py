@@ -59,6 +59,16 @@ def test_a_check_behind_the_motion_of_a_block_keeps_it() -> None:
     assert channel.coordinates.position == [1.0, 0.0, 0.0]
 
 
+@pytest.mark.parametrize("chunk_rows", [1, 65_536])
+def test_the_axes_stand_where_they_were_when_offsets_changed_before_an_alarm(chunk_rows: int) -> None:
+    program = "O1\nG54 G90 G0 X10. Y10.\nG41 D1 G1 X20. F100.\nX30.\nG52 X3.\nX#[1/0]\nM30\n"
+    setup = {"work_offsets": {"G54": {"X": 5}}, "tools": {1: {"radius": 2}}}
+    channel = run(program, setup=setup, chunk_rows=chunk_rows)
+    assert [alarm.code for alarm in channel.alarms] == ["PS0112"]
+    assert channel.coordinates.machine == pytest.approx([35.0, 12.0, 0.0])
+    assert channel.coordinates.position == pytest.approx([27.0, 12.0, 0.0])
+
+
 def test_an_alarm_names_program_line_column_and_the_calls_that_led_there() -> None:
     channel = run("O1\nM98 P2\nM30\nO2\nG90\nG0 X5. Q1.\nM99\n")
     (alarm,) = channel.alarms

@@ -377,8 +377,12 @@ class Channel:
         self.mark = self.toolpath.mark()
 
     def _stand_at_last_row(self) -> None:
-        c = self.coordinates
+        c, context = self.coordinates, self.toolpath.last_context()
         end = self.toolpath.last_end() or list(self._start)
+        if context is not None and (context.frame != c.zero or context.offsets != tuple(c.offsets)):
+            # The block has changed offsets before it alarmed: the axes stand, what is displayed follows.
+            c.arrive_machine(self.toolpath.to_machine(end, context, c.geometry))
+            return
         if self.table is not self.rows and c.transformation is not None:
             end = c.transformation.display(end)
         c.arrive(end)

@@ -170,6 +170,7 @@ class Toolpath:
         self._on_full = on_full
         self._rows_before = 0
         self._last_end: list[float] = []
+        self._last_context = 0
         self.chunk = Chunk(len(axes), 0)
         self.chunks.append(self.chunk)
 
@@ -227,6 +228,7 @@ class Toolpath:
         full = self.chunk
         self._rows_before += len(full.kind)
         self._last_end = list(full.end[-len(self.axes) :])
+        self._last_context = full.context[-1]
         if self._on_full is not None and self._on_full(full):
             self.chunks.remove(full)
         self.chunk = Chunk(len(self.axes), self._rows_before)
@@ -236,6 +238,13 @@ class Toolpath:
         """The position in the last row; empty where there is none."""
         chunk = self.chunk
         return list(chunk.end[-len(self.axes) :]) if len(chunk) else list(self._last_end)
+
+    def last_context(self) -> Context | None:
+        """The context of the last row; None where there is no row."""
+        chunk = self.chunk
+        if not len(chunk) and not self._last_end:
+            return None
+        return self.contexts[chunk.context[-1] if len(chunk) else self._last_context]
 
     def mark(self) -> int:
         """The number of rows now; `truncate` goes back to it as long as no block boundary lies between."""
