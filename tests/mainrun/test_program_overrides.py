@@ -98,8 +98,8 @@ def test_a_rapid_goes_at_45_degrees_until_the_shorter_axis_is_there(control: str
     while virtual.run(limit_s=0.004) is State.RUNNING:
         places.append(virtual.machine_position[:2])
     moving = [(x, y) for x, y in places if 0.0 < x < 25.0]
-    assert any(0.1 < x < 2.0 for x, _ in moving)
-    assert all(y == pytest.approx(-x, abs=1e-6) for x, y in moving if x < 2.0), "until the shorter one brakes"
+    assert any(0.1 < x < 0.8 for x, _ in moving)
+    assert all(y == pytest.approx(-x, abs=1e-6) for x, y in moving if x < 0.8), "until the shorter one brakes"
     assert any(x < 22.0 and y == pytest.approx(-10.0, abs=1e-3) for x, y in moving)
 
 
