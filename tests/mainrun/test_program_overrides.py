@@ -100,7 +100,7 @@ def test_a_rapid_goes_at_45_degrees_until_the_shorter_axis_is_there(control: str
     moving = [(x, y) for x, y in places if 0.0 < x < 25.0]
     assert any(0.1 < x < 0.8 for x, _ in moving)
     assert all(y == pytest.approx(-x, abs=1e-6) for x, y in moving if x < 0.8), "until the shorter one brakes"
-    assert any(x < 22.0 and y == pytest.approx(-10.0, abs=1e-3) for x, y in moving)
+    assert any(x < 24.0 and y == pytest.approx(-10.0, abs=1e-3) for x, y in moving)
 
 
 @pytest.mark.parametrize(("control", "parameter"), [("fanuc-m", {"1401#1": 1}), ("meldas-m", {"1086": 0})])
