@@ -22,7 +22,7 @@ def codes(virtual: VirtualControl) -> list[str]:
         ("fanuc-m", "O1\nT99\nM30\n", "1041", 2),
         ("fanuc-m", "O1\nM11\nM3\nM30\n", "1095", 3),
         ("fanuc-m", "O1\nM3 S100\nM11\nM30\n", "1104", 3),
-        ("fanuc-m", "O1\nG0 X1.\nM77\nM30\n", "1093", 3),
+        ("fanuc-m", "O1\nG0 X1.\nM88\nM30\n", "1093", 3),
         ("meldas-m", "O1\nM11\nS200\nM30\n", "3007", 3),
         ("meldas-m", "O1\nM82\nM4\nM30\n", "3036", 3),
         ("meldas-m", "O1\nM33\nM30\n", "3010", 2),

@@ -147,7 +147,7 @@ REFUSED = [
     ("fanuc-m", "M3 S9\nM11\n", "1104"),
     ("fanuc-m", "M3 S9\nM5\nM11\n", ""),
     ("fanuc-m", "M4 S9\nM19\nM11\n", ""),
-    ("fanuc-m", "M77\n", "1093"),
+    ("fanuc-m", "M77\n", ""),
     ("fanuc-m", "M88\n", "1093"),
     ("fanuc-m", "M177\n", ""),
     ("fanuc-m", "M60\n", ""),
@@ -226,5 +226,7 @@ def test_maintenance_codes_need_mdi_and_their_switch() -> None:
     ]
 
 
-def test_an_m_code_that_the_machine_file_names_is_known() -> None:
-    assert codes(run("M77\nM30\n", setup={"parameters": {"6071": 77}})) != ["1093"]
+def test_a_machine_that_checks_refuses_an_m_code_that_no_list_has() -> None:
+    checked = {"switches": {"M_CODES_CHECKED": 1}}
+    assert codes(run("M77\nM30\n", setup=checked)) == ["1093"]
+    assert codes(run("M77\nM30\n", setup=checked | {"parameters": {"6071": 77}})) != ["1093"]

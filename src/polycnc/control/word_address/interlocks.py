@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 
 #: How close to its change point an axis must stand, mm.
 WINDOW_MM = 0.01
+#: What the rules call an M code that is in no list.
+UNKNOWN_M = "UNKNOWN_M"
 #: Brakes of rotary axes.
 BRAKES = ("FOURTH_AXIS_CLAMPED", "FIFTH_AXIS_CLAMPED")
-#: Two-digit M codes belong to the builder's list; longer ones are left to users.
-LISTED_M_CODES = range(100)
 
 
 def _z_stands_at(channel: Channel, *points: int) -> bool:
@@ -48,12 +48,18 @@ STATES: Mapping[str, Callable[[Channel], bool]] = {
 }
 
 
-def refuse(channel: Channel, word: str) -> None:
-    """Raise the machine's alarm if it refuses a word now; else let its rules answer to the word."""
+def refuse(channel: Channel, word: str, address: str = "") -> None:
+    """Raise the machine's alarm if it refuses a word now; else let its rules answer to the word.
+
+    Args:
+        channel: The channel.
+        word: A word of the rules.
+        address: How the program writes it, where that differs.
+    """
     plc: Plc = channel.control.plc
     signals: dict[str, float] | None = channel.memory.machine_signals
     if signals is None:
-        if word.startswith("MOVE_"):
+        if word.startswith("MOVE_") or word == UNKNOWN_M:
             channel.event("ask", word=word)  # asked when the axes are there
         return
 
@@ -64,7 +70,7 @@ def refuse(channel: Channel, word: str) -> None:
     row = plc.refusal(word, value)
     if row is not None and row.stops:
         channel.mark = channel.toolpath.mark()  # what the block has done before stays: the machine stops here
-        raise AlarmError(row.code, address=word.removesuffix("_CODE"))
+        raise AlarmError(row.code, address=address or word.removesuffix("_CODE"))
     plc.latch(word, signals)
 
 
@@ -84,14 +90,12 @@ def guarded(row: MCode, plc: Plc) -> MCode:
 
 
 def unlisted(row: MCode, plc: Plc) -> MCode:
-    """A row of an M code that neither the builder's list nor the machine file has."""
-    refusal = plc.refusal("UNKNOWN_M", lambda _name: 0.0)
-    if refusal is None or row.code not in LISTED_M_CODES:
+    """A row of an M code that no list and no machine file has: an event, unless the machine checks."""
+    if not plc.knows(UNKNOWN_M):
         return row
-    code = refusal.code
 
-    def act(_channel: Channel, _block: Words) -> None:
-        raise AlarmError(code, address=f"M{row.code}")
+    def act(channel: Channel, _block: Words) -> None:
+        refuse(channel, UNKNOWN_M, f"M{row.code}")
 
     return replace(row, handler=act)
 

@@ -111,9 +111,10 @@ class MillingControl(CustomMacroControl):
             return MCode(number, silent=True)
         row = super().m_row(builder, number)
         channel = builder.channel
-        known = (self.m_codes, channel.machine.m_functions, self.code_calls(channel).m)
-        listed = any(number in table for table in known)
-        if listed or row.silent or self.plc.knows(f"M{number}"):
+        named = number in channel.machine.m_functions or number in self.code_calls(channel).m
+        if named and number not in self.m_codes:
+            return row  # whoever names the code has given it a meaning
+        if number in self.m_codes or row.silent or self.plc.knows(f"M{number}"):
             return guarded(row, self.plc)
         return unlisted(row, self.plc)
 
