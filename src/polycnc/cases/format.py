@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
 from polycnc.messages import text
 
@@ -13,6 +13,24 @@ if TYPE_CHECKING:
 
 Number = float
 Match = Literal["exact", "subsequence"]
+#: What an operator can do in a case: commands of the virtual control, and letting time pass.
+COMMANDS = frozenset({
+    "cycle_start", "feed_hold", "reset", "emergency_stop", "power_off", "power_on", "key", "select_mode", "mdi",
+    "teach", "block_search", "jog", "stop_jog", "increment", "handle", "home", "override", "set_switches", "step",
+    "run",
+})  # fmt: skip
+#: Expectations that a case with an operator cannot have: they are of the calculated run.
+CALCULATED = frozenset({"moves", "variables", "events", "stops", "no_stop"})
+
+
+def _is_command(step: str | dict[str, Any]) -> str | dict[str, Any]:
+    names = [step] if isinstance(step, str) else list(step)
+    if len(names) != 1 or names[0] not in COMMANDS:
+        raise ValueError(text("case.unknown-command", known=", ".join(sorted(COMMANDS))))
+    return step
+
+
+Step = Annotated[str | dict[str, Any], AfterValidator(_is_command)]
 
 
 class _Strict(BaseModel):
@@ -68,6 +86,21 @@ class ExpectedEvent(_Strict):
     stop: str | None = None
 
 
+class ExpectedPanel(_Strict):
+    """What an operator's panel shows at the end: state, mode, simulated time (s), spindle speed (rpm), finished parts.
+
+    `refused` names the commands that the control refused on the way; `tolerance` is that of times and speeds.
+    """
+
+    state: str | None = None
+    mode: str | None = None
+    time: Number | None = None
+    spindle: Number | None = None
+    parts: int | None = None
+    refused: list[str] = Field(default_factory=list)
+    tolerance: Number = Field(default=0.0, exclude=True)
+
+
 class Expectation(_Strict):
     """What a run must give. Absent keys are not compared, except `alarms`: without it none may come."""
 
@@ -80,6 +113,7 @@ class Expectation(_Strict):
     stops: list[str | int] | None = None
     stops_match: Match = "exact"
     no_stop: list[str | int] = Field(default_factory=list)
+    panel: ExpectedPanel = Field(default_factory=ExpectedPanel)
     tolerance: Number = 0.001
 
 
@@ -94,6 +128,7 @@ class Case(_Strict):
     setup: dict[str, Any] = Field(default_factory=dict)
     files: dict[str, str] = Field(default_factory=dict)
     program: str
+    operate: list[Step] = Field(default_factory=list)
     expect: Expectation = Field(default_factory=Expectation)
 
 
@@ -117,9 +152,14 @@ def parse_case(data: object) -> Case:
     if not isinstance(data, dict):
         raise CaseError(text("case.no-mapping"))
     try:
-        return Case.model_validate(_without_empty(data))
+        case = Case.model_validate(_without_empty(data))
     except ValidationError as error:
         raise CaseError("; ".join(_explain(e) for e in error.errors())) from None
+    expected = case.expect.model_fields_set
+    wrong = expected & CALCULATED if case.operate else expected & {"panel"}
+    if wrong:
+        raise CaseError(text("case.other-run", name=", ".join(sorted(wrong))))
+    return case
 
 
 def _without_empty(data: dict[Any, Any]) -> dict[str, Any]:
@@ -137,6 +177,8 @@ def _explain(error: Any) -> str:
         return text("case.unknown-key", name=where)
     if error["type"] == "missing":
         return text("case.missing-key", name=where)
+    if error["type"] == "value_error":
+        return f"{where}: {error['ctx']['error']}"
     return text("case.wrong-value", name=where, reason=error["msg"], value=repr(error["input"])[:60])
 
 

@@ -61,8 +61,8 @@ def _skipped(case: Case) -> Outcome:
 def run_case(case: Case, folder: Path) -> Outcome:
     """Run one case."""
     try:
-        differences = _differences(case, folder)
-    except (SessionError, FileError, ProgramFileError) as error:
+        differences = _operated(case, folder) if case.operate else _differences(case, folder)
+    except (CaseError, SessionError, FileError, ProgramFileError) as error:
         return Outcome(case.id, "failed", str(error), case.feature, case.control, readable=False)
     except Exception as error:  # noqa: BLE001 - a mistake of polycnc in one case must not end all others
         where = _where(error)
@@ -79,6 +79,12 @@ def _where(error: BaseException) -> str:
     if trace is None:
         return ""
     return f"{trace.tb_frame.f_code.co_filename.rpartition('polycnc/')[2]}:{trace.tb_lineno}"
+
+
+def _operated(case: Case, folder: Path) -> list[str]:
+    from polycnc.cases.operation import operated
+
+    return operated(case, folder)
 
 
 def _differences(case: Case, folder: Path) -> list[str]:

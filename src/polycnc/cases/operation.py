@@ -1,0 +1,113 @@
+"""Cases with an operator: the commands of a case's `operate` are given to a virtual control, one after the other.
+
+A step is the name of a command of `VirtualControl`, alone (`cycle_start`) or with what it takes: a mapping
+(`override: {feed: 0.5}`), a list (`jog: [X, 1]`), or one value (`select_mode: jog`). Time passes in `step: SECONDS`,
+and in `run`, which ends when the control stands.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from inspect import signature
+from typing import TYPE_CHECKING, Any
+
+from polycnc.cases import compare
+from polycnc.cases.format import CaseError
+from polycnc.control.alarm_text import alarm_text
+from polycnc.mainrun import CommandRefused, VirtualControl
+from polycnc.messages import text
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from polycnc.cases.format import Case, Step
+    from polycnc.messages import Alarm
+
+#: A run that has not come to an end after this simulated time is given up, s.
+LIMIT_S = 3600.0
+
+
+@dataclass
+class Operator:
+    """Works a virtual control and remembers what it refused.
+
+    Attributes:
+        control: The control, with the case's program loaded.
+        refused: Names of the commands that were refused, in order.
+    """
+
+    control: VirtualControl
+    refused: list[str] = field(default_factory=list)
+
+    def does(self, step: Step) -> None:
+        """Give one command; a refusal is remembered.
+
+        Raises:
+            CaseError: The command does not take what the case gives it.
+        """
+        name, given = (step, None) if isinstance(step, str) else next(iter(step.items()))
+        try:
+            if name == "run":
+                self.control.run(limit_s=LIMIT_S)
+            else:
+                _call(getattr(self.control, name), given)
+        except CommandRefused:
+            self.refused.append(name)
+
+
+def _call(command: Any, given: Any) -> None:
+    named: dict[str, Any] = given if isinstance(given, dict) else {}
+    listed = [] if given is None or named else given if isinstance(given, list) else [given]
+    try:
+        signature(command).bind(*listed, **named)
+    except TypeError as error:
+        name = f"operate.{command.__name__}"
+        raise CaseError(text("case.wrong-value", name=name, value=repr(given), reason=error)) from None
+    command(*listed, **named)
+
+
+def operated(case: Case, folder: Path) -> list[str]:
+    """Load the program of a case, give the commands of its operator, and tell what differs at the end."""
+    control = VirtualControl(case.control, setup=_beside(case.setup, folder), files=case.files)
+    control.load(case.program.removesuffix("\n") + "\n")
+    operator = Operator(control)
+    for step in case.operate:
+        operator.does(step)
+    expect = case.expect
+    differences = compare.compare_alarms(
+        case.control, expect.alarms, control.alarms, lambda alarm: alarm.block, lambda a: _shown(control, a)
+    )
+    if expect.final is not None:
+        shown = control.positions
+        positions = compare.Positions(expect.tolerance)
+        differences += compare.compare_final(expect.final, shown.work, shown.machine, positions)
+    return differences + _panel_differences(case, operator)
+
+
+def _panel_differences(case: Case, operator: Operator) -> list[str]:
+    """What the panel shows at the end, and what was refused on the way."""
+    control, wanted = operator.control, case.expect.panel
+    came = {
+        "state": str(control.state),
+        "mode": str(control.mode),
+        "time": control.time,
+        "spindle": control.spindle.rpm,
+        "parts": control.snapshot.parts,
+        "refused": operator.refused,
+    }
+    return [
+        text("case.panel-differs", name=name, expected=value, came=came[name])
+        for name, value in wanted.model_dump(exclude_none=True).items()
+        if not compare.values_equal(value, came[name], max(case.expect.tolerance, wanted.tolerance))
+    ]
+
+
+def _beside(setup: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """The setup with a machine file looked up beside the case file."""
+    machine = setup.get("machine")
+    found = folder / str(machine) if machine is not None else None
+    return setup | {"machine": str(found)} if found is not None and found.is_file() else setup
+
+
+def _shown(control: VirtualControl, alarm: Alarm) -> str:
+    return f"{alarm.code} {alarm_text(control.control, alarm)} ({alarm.program}:{alarm.line})"
