@@ -9,7 +9,7 @@ from polycnc.language.sinumerik.values import Axis
 from polycnc.machine.setup import Parameters, Value, parameter_key
 from polycnc.messages import AlarmError
 
-AXES = {"X": Axis("X"), "X1": Axis("X"), "AX1": Axis("X"), "Y": Axis("Y")}
+AXES = {"X": "X", "X1": "X", "AX1": "X", "Y": "Y"}
 
 
 def data(**parameters: Value) -> MachineData:
