@@ -8,6 +8,7 @@ import pytest
 
 from polycnc.machine import MFunction
 from polycnc.machine.model import Text
+from polycnc.motion import Settings
 from polycnc.toolpath import Context, Kind
 from tests.motion.paths import LATHE, MILL, Build
 
@@ -123,3 +124,40 @@ def test_each_thread_waits_half_a_turn_for_the_zero_mark() -> None:
         rows.row(Kind.THREAD, 20.0, -10.0, curve=(1.0, 0.0)).row(Kind.THREAD, 21.0, -15.0, curve=(1.0, 0.0))
     ramp = 300.0 / LATHE.spindles[0].acceleration_rpm_s
     assert rows.plan(LATHE).times.spindle_s == pytest.approx(ramp + 2.0 * 0.1)
+
+
+SETTLING = replace(MILL, settle_fine_s=0.05, settle_coarse_s=0.02)
+
+
+@pytest.mark.parametrize(("window", "seconds"), [("fine", 0.05), ("coarse", 0.02), ("none", 0.0)])
+@pytest.mark.parametrize("mode", ["G9", "G09", "G60", "G61"])
+def test_behind_each_exact_stop_the_axes_settle_within_the_window(
+    mode: str, window: str, seconds: float
+) -> None:
+    rows = Build(context=Context(path_mode=mode, stop_window=window)).feed(10.0, 0.0, 0.0)
+    rows.feed(20.0, 0.0, 0.0).feed(20.0, 0.0, 0.0).event("m", code=30)
+    settled, at_once = rows.plan(SETTLING), rows.plan()
+    assert settled.times.cutting_s == pytest.approx(at_once.times.cutting_s + 2.0 * seconds)
+    waits = [after - before for after, before in zip(settled.row_s, at_once.row_s, strict=True)]
+    assert waits == pytest.approx([0.0, seconds, seconds, 0.0])
+
+
+def test_nothing_settles_on_a_continuous_path() -> None:
+    rows = Build(context=Context(path_mode="G64")).feed(10.0, 0.0, 0.0).feed(20.0, 9.0, 0.0)
+    assert rows.event("m", code=30).plan(SETTLING).total_s == rows.plan().total_s
+
+
+def test_a_rapid_settles_where_rapids_stop() -> None:
+    rows = Build(context=Context(path_mode="G64")).rapid(10.0, 0.0, 0.0).feed(20.0, 0.0, 0.0)
+    for stops, seconds in ((True, 0.05), (False, 0.0)):
+        settings = Settings(rapid_stops=stops)
+        times, before = (rows.plan(machine, settings=settings).times for machine in (SETTLING, MILL))
+        assert times.rapid_s == pytest.approx(before.rapid_s + seconds)
+
+
+def test_settling_does_not_depend_on_the_chunks() -> None:
+    whole, cut = (Build(context=Context(path_mode="G61"), chunk_rows=rows) for rows in (65_536, 1))
+    for rows in (whole, cut):
+        for k in range(5):
+            rows.feed(10.0 * k, 0.0, 0.0)
+    assert list(whole.plan(SETTLING).row_s) == list(cut.plan(SETTLING).row_s)

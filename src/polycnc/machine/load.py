@@ -173,6 +173,8 @@ def build(machine_id: str, data: Mapping[str, Any]) -> Machine:
         joints=_joints(data.get("joint", ()), channels, {axis.name: axis.rotary for axis in axes}),
         solids=tuple(_solid(table) for table in data.get("solid", ())),
         interpolation_cycle_s=float(data.get("interpolation_cycle_s", 0.004)),
+        settle_fine_s=float(data.get("settle_fine_s", 0.0)),
+        settle_coarse_s=float(data.get("settle_coarse_s", 0.0)),
         rules=tuple(
             Rule(table["when"], table["output"], float(table.get("after_s", 0.0)), table.get("latch", ""))
             for table in data.get("rule", ())

@@ -193,7 +193,11 @@ class Solid:
 
 @dataclass(frozen=True)
 class Machine:
-    """A machine, complete. `axes` are in the order of the channels that own them, `rules` in that of their scan."""
+    """A machine, complete. `axes` are in the order of the channels that own them, `rules` in that of their scan.
+
+    From the end of the interpolation `settle_fine_s` and `settle_coarse_s` pass until the axes are within their
+    windows `in_position_fine` and `in_position_coarse`.
+    """
 
     id: str
     name: Text
@@ -206,6 +210,8 @@ class Machine:
     joints: tuple[Joint, ...]
     solids: tuple[Solid, ...]
     interpolation_cycle_s: float = 0.004
+    settle_fine_s: float = 0.0
+    settle_coarse_s: float = 0.0
     rules: tuple[Rule, ...] = ()
 
     @cached_property

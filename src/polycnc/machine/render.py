@@ -79,7 +79,8 @@ def _explained(table: str, keys: _Keys, lang: str | None) -> Iterator[str]:
 def _tables(machine: Machine) -> Iterator[tuple[str, str, _Keys]]:
     """Every table: its kind, its header and its keys in file units; None leaves a key out."""
     top: _Keys = [("name", machine.name), ("description", _or_none(machine.description))]
-    yield "", "", [*top, ("interpolation_cycle_s", machine.interpolation_cycle_s)]
+    times = ("interpolation_cycle_s", "settle_fine_s", "settle_coarse_s")
+    yield "", "", [*top, *((key, getattr(machine, key)) for key in times)]
     for channel in machine.channels:
         yield "channel", f"[channel.{channel.number}]", _channel(channel)
     for axis in machine.axes:

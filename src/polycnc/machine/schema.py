@@ -162,6 +162,8 @@ class MachineTable(_Table):
     name: TextKey | None = None
     description: TextKey | None = None
     interpolation_cycle_s: Positive | None = None
+    settle_fine_s: NotNegative | None = None
+    settle_coarse_s: NotNegative | None = None
     defaults: Defaults | None = None
     channel: dict[Number, ChannelTable] | None = None
     axis: dict[Name, AxisTable] | None = None

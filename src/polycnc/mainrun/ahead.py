@@ -140,6 +140,7 @@ class Ahead:
     def use(self, channel: Channel, settings: MotionSettings) -> None:
         """Say whose channel it is, and how the control leads the axes."""
         self.channel, self._settings = channel, settings
+        self._waits.rapid_stops = settings.rapid_stops
         channel.main_run = self
         self.limits = axis_limits(self._machine, self._number, self.toolpath.axes, settings)
 

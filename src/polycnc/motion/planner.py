@@ -123,6 +123,7 @@ class Planner:
         self._first_row = 0
         self._next_row = 0
         self._waits = Waits(machine, toolpath.contexts, tool, self._wait)
+        self._waits.rapid_stops = settings.rapid_stops
 
     @property
     def facing(self) -> int:
@@ -311,7 +312,7 @@ class Planner:
             rapid_s, rapid_mm, cutting_s, cutting_mm = self._slots[4 * number : 4 * number + 4]
             times = Times(cutting_s=cutting_s, rapid_s=rapid_s, cutting_mm=cutting_mm, rapid_mm=rapid_mm)
             for share, seconds in self._waited.get(number, {}).items():
-                setattr(times, share, seconds)
+                setattr(times, share, getattr(times, share) + seconds)
             key = (context.tool, context.tool_name)
             tools.setdefault(key, ToolTimes(*key)).times += times
             total += times

@@ -6,6 +6,7 @@ from itertools import groupby
 from math import pi
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.motion.settings import EXACT_STOP_MODES
 from polycnc.toolpath import Kind
 from polycnc.toolpath.table import CURVE_WIDTH
 
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 #: Events that the control puts out between two blocks and waits for: the axes stand still.
 STANDING = frozenset({"m", "s", "t", "h", "stop", "alarm"})
 ORIENT = 19
+#: Moves that lead nowhere where they end at their start.
+STRAIGHT = frozenset((Kind.RAPID, Kind.FEED, Kind.REF))
 
 
 class Parallel(NamedTuple):
@@ -38,6 +41,9 @@ class Waits:
         contexts: The toolpath's contexts.
         tool: Tool in the spindle at the start.
         wait: Called with row number, share (a field of `Times`), context number and seconds.
+
+    Attributes:
+        rapid_stops: Rapids end with an exact stop.
     """
 
     def __init__(
@@ -55,6 +61,10 @@ class Waits:
         self._rpm: dict[int, float] = {}
         self._context = -1
         self._last_kind: int = Kind.EVENT
+        self.rapid_stops = False
+        self._windows = {"fine": machine.settle_fine_s, "coarse": machine.settle_coarse_s}
+        self._settling: tuple[str, int, float] | None = None
+        self._place: tuple[int, list[float]] = (-1, [])
 
     def spindle(self, context: Context) -> Spindle | None:
         """The spindle that a context speaks of."""
@@ -86,6 +96,8 @@ class Waits:
         for row in _places(kinds, Kind.DWELL):
             self._dwell(chunk, row, radius(row))
         self._threads(chunk, kinds, radius)
+        if any(self._windows.values()):
+            self._settle(chunk, kinds)
 
     def _new_context(self, row: int, number: int, radius_mm: float) -> None:
         context = self.contexts[number]
@@ -148,6 +160,24 @@ class Waits:
                     self.wait(chunk.first + row, "spindle_s", number, 30.0 / rpm)
         if kinds:
             self._last_kind = kinds[-1]
+
+    def _settle(self, chunk: Chunk, kinds: bytes) -> None:
+        """The row behind an exact stop waits until the axes are within the window."""
+        for row, (kind, number) in enumerate(zip(kinds, chunk.context, strict=True)):
+            if self._settling is not None:
+                self.wait(chunk.first + row, *self._settling)
+                self._settling = None
+            rapid = kind in (Kind.RAPID, Kind.REF)
+            place = (number, list(chunk.end[row * chunk.axes : (row + 1) * chunk.axes]))
+            still, self._place = place == self._place and kind in STRAIGHT, place
+            if still or kind >= Kind.DWELL or not (self._exact(number) or (rapid and self.rapid_stops)):
+                continue
+            seconds = self._windows.get(self.contexts[number].stop_window, 0.0)
+            if seconds > 0.0:
+                self._settling = ("rapid_s" if rapid else "cutting_s", number, seconds)
+
+    def _exact(self, number: int) -> bool:
+        return self.contexts[number].path_mode in EXACT_STOP_MODES
 
 
 def _places(kinds: bytes, kind: Kind) -> Iterator[int]:

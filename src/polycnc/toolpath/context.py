@@ -34,6 +34,7 @@ class Context:
         side: Cutter compensation: 0 off, 1 left, -1 right.
         spindle_rpm: Programmed speed (rpm; m/min under constant surface speed), spindle direction 1, -1 or 0.
         path_mode: The control's own word for exact stop or continuous path (`G61`, `G64`, `G642` …).
+        stop_window: What an exact stop waits for: the axes within their `fine` or `coarse` window, or `none`.
         tolerance_mm: Contour tolerance for the planner where a code names one, else 0.
         acceleration: `BRISK`, `SOFT` or `DRIVE`; empty for the control's own.
         rapid_by_axis: On a rapid every axis runs alone, whatever the control's parameters say.
@@ -61,6 +62,7 @@ class Context:
     surface_speed: bool = False
     spindle_limit_rpm: float = 0.0
     path_mode: str = "G64"
+    stop_window: str = "fine"
     tolerance_mm: float = 0.0
     acceleration: str = ""
     rapid_by_axis: bool = False

@@ -311,6 +311,7 @@ class Sinumerik:
             surface_speed=feed.surface_speed,
             spindle_limit_rpm=spindle.limit if spindle and spindle.limit < inf else 0.0,
             path_mode="G9" if memory.exact_stop_block else mode["path_mode"],
+            stop_window=tables.STOP_WINDOWS[mode["exact_stop"]],
             tolerance_mm=_tolerance(memory, mode["path_mode"]),
             acceleration=mode["acceleration"],
             rapid_by_axis=mode["rapid"] == "RTLIOF",

@@ -368,6 +368,7 @@ IN_CONTEXT = frozenset(
         "feed",
         "diameter",
         "path_mode",
+        "exact_stop",
         "side",
         "dynamics",
         "acceleration",

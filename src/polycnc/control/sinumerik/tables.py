@@ -27,6 +27,8 @@ class FeedType(NamedTuple):
     surface_speed: bool = False
 
 
+#: What an exact stop waits for; G603: the end of the interpolation.
+STOP_WINDOWS = {"G601": "fine", "G602": "coarse", "G603": "none"}
 _PER_MINUTE = FeedType("G94", 1.0 / MINUTE)
 _PER_REVOLUTION = FeedType("G95", 1.0)
 FEED_TYPES = {
