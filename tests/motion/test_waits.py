@@ -161,3 +161,9 @@ def test_settling_does_not_depend_on_the_chunks() -> None:
         for k in range(5):
             rows.feed(10.0 * k, 0.0, 0.0)
     assert list(whole.plan(SETTLING).row_s) == list(cut.plan(SETTLING).row_s)
+
+
+def test_the_axes_settle_behind_the_last_row_too() -> None:
+    rows = Build(context=Context(path_mode="G61")).feed(10.0, 0.0, 0.0)
+    assert rows.plan(SETTLING).total_s == pytest.approx(rows.plan().total_s + 0.05)
+    assert sum(rows.plan(SETTLING).row_s) == pytest.approx(rows.plan(SETTLING).total_s)

@@ -194,6 +194,7 @@ class Planner:
         for chunk in self._toolpath.chunks:
             if chunk.first >= self._next_row:
                 self.take(chunk)
+        self._waits.settle(self._next_row)
         settle_alone(self._pieces, self._axes, self._limits, self._state)
         self._look_ahead(finish=True)
         self._settle_parallel(self._next_row)
@@ -287,10 +288,10 @@ class Planner:
             self._slots.extend((0.0, 0.0, 0.0, 0.0))
 
     def _wait(self, row: int, share: str, context: int, seconds: float) -> None:
-        """A row waits: called before its motion is planned."""
+        """A row waits: called before its motion is planned. What comes behind the last row counts for it."""
         if self.on_wait is not None:
             self.on_wait(row, share, context, seconds)
-        self._row_s[row - self._first_row] += seconds
+        self._row_s[min(row, self._next_row - 1) - self._first_row] += seconds
         shares = self._waited.setdefault(context, {})
         shares[share] = shares.get(share, 0.0) + seconds
 

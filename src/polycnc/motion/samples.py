@@ -134,7 +134,7 @@ class Sampler:
     def close(self) -> None:
         """Give what is left, when the planner has finished."""
         self._close_run()
-        self._stand(max(self._facts, default=-1))
+        self._stand(max((*self._facts, *self._waits), default=-1))
 
     # ---- time ----------------------------------------------------------------------------------------------
 

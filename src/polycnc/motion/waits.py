@@ -97,7 +97,13 @@ class Waits:
             self._dwell(chunk, row, radius(row))
         self._threads(chunk, kinds, radius)
         if any(self._windows.values()):
-            self._settle(chunk, kinds)
+            self._exact_stops(chunk, kinds)
+
+    def settle(self, row: int) -> None:
+        """What the exact stop before a row waits for; at the end of the toolpath, that before a row still to come."""
+        if self._settling is not None:
+            self.wait(row, *self._settling)
+            self._settling = None
 
     def _new_context(self, row: int, number: int, radius_mm: float) -> None:
         context = self.contexts[number]
@@ -161,12 +167,10 @@ class Waits:
         if kinds:
             self._last_kind = kinds[-1]
 
-    def _settle(self, chunk: Chunk, kinds: bytes) -> None:
+    def _exact_stops(self, chunk: Chunk, kinds: bytes) -> None:
         """The row behind an exact stop waits until the axes are within the window."""
         for row, (kind, number) in enumerate(zip(kinds, chunk.context, strict=True)):
-            if self._settling is not None:
-                self.wait(chunk.first + row, *self._settling)
-                self._settling = None
+            self.settle(chunk.first + row)
             rapid = kind in (Kind.RAPID, Kind.REF)
             place = (number, list(chunk.end[row * chunk.axes : (row + 1) * chunk.axes]))
             still, self._place = place == self._place and kind in STRAIGHT, place

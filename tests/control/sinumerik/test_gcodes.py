@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import pytest
 
 from polycnc.control.sinumerik import gcodes
 from polycnc.control.sinumerik.frame_codes import FRAME_CODES
 from polycnc.control.sinumerik.plan import BLOCK_MOTIONS, MOTIONS
+from polycnc.session import open_session
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 def test_every_function_belongs_to_one_group() -> None:
@@ -53,3 +59,14 @@ def test_every_motion_and_frame_function_is_executed_or_says_that_it_is_not() ->
 def test_what_is_not_executed_exists() -> None:
     assert set(gcodes.GROUP_OF) >= gcodes.NOT_EXECUTED
     assert not gcodes.NOT_EXECUTED & set(gcodes.START_CODES.values())
+
+
+def test_the_codes_of_an_exact_stop_say_which_window_it_waits_for(tmp_path: Path) -> None:
+    machine = tmp_path / "settling.toml"
+    machine.write_text('base = "mill3"\nsettle_fine_s = 10\nsettle_coarse_s = 1\n', encoding="utf-8")
+    program = "G1 G60 X10 F5000\nG602 X20\nG603 X30\nG64 X40\nG601 G9 X50\nM30\n"
+
+    def seconds(machine: str | Path) -> float:
+        return open_session(program, control="sinumerik-840d", machine=machine).run().plan.total_s
+
+    assert seconds(machine) - seconds("mill3") == pytest.approx(10 + 1 + 0 + 0 + 10)
