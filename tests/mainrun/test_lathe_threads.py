@@ -54,3 +54,30 @@ def test_a_thread_runs_at_one_hundred_per_cent_whatever_the_overrides() -> None:
 def test_feed_hold_in_a_tap_acts_back_at_the_initial_level() -> None:
     text = "O1\nG99 G97 S600 M03\nG00 X0 Z5.\nG84 Z-20. R-3. F1.\nG80\nG00 X30.\nM30\n"
     assert held(text, at_z=-5.0).machine_position == pytest.approx([0.0, 5.0])
+
+
+@pytest.mark.parametrize(("roc", "slower"), [(0, 5.0), (1, 0.0)])
+def test_the_rapid_override_acts_on_a_retract_at_its_own_speed_unless_a_parameter_forbids(
+    roc: int, slower: float
+) -> None:
+    # 5 mm at 1 mm/s, at half of it with the override; the other rapids are fast.
+    times = []
+    for rapid in (1.0, 0.5):
+        parameters = {"1466": 60, "1403#4": roc, "5109#3": 1}
+        setup = parse_setup({"parameters": parameters, "switches": {"thread_chamfer": False}})
+        virtual = power_on(CYCLE, "fanuc-0i-tf", setup=setup)
+        virtual.override(rapid=rapid)
+        assert run_through(virtual) is State.READY
+        times.append(virtual.time)
+    assert times[1] - times[0] == pytest.approx(slower, abs=0.6)
+
+
+def test_the_rapid_override_leaves_a_retract_at_rapid_traverse_alone_by_parameter() -> None:
+    speeds = []
+    for roc in (0, 1):
+        setup = parse_setup({"parameters": {"1403#4": roc}, "switches": {"thread_chamfer": False}})
+        virtual = power_on(CYCLE, "fanuc-0i-tf", setup=setup)
+        virtual.override(rapid=0.01)
+        assert run_through(virtual) is State.READY
+        speeds.append(virtual.time)
+    assert speeds[0] > speeds[1] + 0.5

@@ -347,7 +347,7 @@ class Automatic:
             follower.begin(self.time, record[RAMP], record[BLEND])
         follower.enter(piece, record[LENGTH], self._behind)
         if piece.by_axis:
-            self.motion = AxesMotion(piece, ahead.limits, self.time, self.rates.rapid, record[RAMP])
+            self.motion = AxesMotion(piece, ahead.limits, self.time, self.rates.rapid_on(piece), record[RAMP])
         else:
             self.motion = PathMotion(
                 piece, record, ahead.limits, self.time, self._x2, ahead.reach2(), cap2, follower.window
@@ -372,7 +372,8 @@ class Automatic:
         self._cap2 = self.rates.cap2(motion.piece)
         self._look_ahead()
         held = self.rates.hold and motion.piece.context.feed_hold
-        motion.revise(self.time, self.ahead.reach2(), self._cap2, 0.0 if held else self.rates.rapid)
+        rapid = 0.0 if held else self.rates.rapid_on(motion.piece)
+        motion.revise(self.time, self.ahead.reach2(), self._cap2, rapid)
         self._lead()
 
     def start(self) -> None:

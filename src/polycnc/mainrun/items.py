@@ -123,6 +123,10 @@ class Rates:
     dry_run: float = 0.0
     hold: bool = False
 
+    def rapid_on(self, piece: Piece) -> float:
+        """Rapid override that acts on a piece."""
+        return self.rapid if piece.context.rapid_override else 1.0
+
     def cap2(self, piece: Piece) -> float:
         """Largest squared speed on a piece."""
         if piece.fixed:
@@ -133,9 +137,9 @@ class Rates:
         if self.hold and piece.context.feed_hold:
             return 0.0
         if piece.by_axis:
-            return self.rapid * self.rapid
+            return self.rapid_on(piece) ** 2
         if piece.rapid:
-            return piece.cap2 * self.rapid * self.rapid
+            return piece.cap2 * self.rapid_on(piece) ** 2
         if self.dry_run:
             speed = self.dry_run * self.feed
             return min(piece.cap2, speed * speed)

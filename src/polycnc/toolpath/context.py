@@ -38,11 +38,13 @@ class Context:
         tolerance_mm: Contour tolerance for the planner where a code names one, else 0.
         acceleration: `BRISK`, `SOFT` or `DRIVE`; empty for the control's own.
         rapid_by_axis: On a rapid every axis runs alone, whatever the control's parameters say.
+        rapid_speed: Speed of rapids along the path, mm/s, where they have one of their own (FANUC 1466), else 0.
         diameter_axes: Bit mask of channel axes that show diameters.
         wcs: Name of the active work coordinate system.
         part: From the display to the system of the work offset, where programmed frames lie behind the display: in
             that system the path of a whole program is one picture.
-        feed_override: The operator's feed override acts; else it counts 100 %. `spindle_override` the same.
+        feed_override: The operator's feed override acts; else it counts 100 %. `spindle_override` and `rapid_override`
+            the same.
         feed_hold: The operator's feed hold acts.
         transformation: From the positions of the toolpath to those of the real axes, where they differ.
     """
@@ -66,10 +68,12 @@ class Context:
     tolerance_mm: float = 0.0
     acceleration: str = ""
     rapid_by_axis: bool = False
+    rapid_speed: float = 0.0
     diameter_axes: int = 0
     wcs: str = "G54"
     part: Frame = IDENTITY
     feed_override: bool = True
     spindle_override: bool = True
+    rapid_override: bool = True
     feed_hold: bool = True
     transformation: Transformation | None = None

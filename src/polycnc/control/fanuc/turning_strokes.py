@@ -6,7 +6,7 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.turning_coordinates import drop_vector, plane_axes
-from polycnc.control.fanuc.turning_threads import OFF_THREAD, lock, thread_move
+from polycnc.control.fanuc.turning_threads import OFF_THREAD, RETRACT, lock, retract_speed, thread_move
 from polycnc.control.fanuc.turning_tools import nose_radius, nose_tip
 from polycnc.control.word_address.path import PLANES
 from polycnc.control.word_address.radius import suspended
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 #: Moves that lead off a thread in a cycle: retract and return.
-RETRACT = 2
+WAYS_OFF = 2
 #: A cycle with more strokes is taken for one that does not end (a depth of a micrometre, say).
 MAX_STROKES = 300_000
 
@@ -37,18 +37,13 @@ def emit(channel: Channel, strokes: Iterable[PlaneStroke], *, lead: float = 0.0)
         end = c.position[:]
         end[first], end[second] = stroke.end
         if stroke.kind is Kind.RAPID:
-            if way_off:
-                # Feed hold waits for the return to the start, by 5109#3 TFH for the retract only (II.4.1.2).
-                held = way_off == RETRACT or not channel.memory.parameters.bit(5109, 3)
-                lock(channel, OFF_THREAD if held else "")
-                way_off -= 1
-            else:
-                lock(channel, "")
-            channel.straight(Kind.RAPID, end, nan)
+            speed = _lead_off(channel, way_off)
+            way_off = max(way_off - 1, 0)
+            channel.straight(Kind.RAPID, end, speed or nan)
             continue
         if stroke.kind is Kind.THREAD:
             thread_move(channel, end, lead, stroke.start_angle_deg)
-            way_off = RETRACT
+            way_off = WAYS_OFF
             continue
         feed = channel.feed
         if not feed > 0.0:
@@ -58,6 +53,18 @@ def emit(channel: Channel, strokes: Iterable[PlaneStroke], *, lead: float = 0.0)
         else:
             _arc(channel, stroke, end, feed)
     lock(channel, "")
+
+
+def _lead_off(channel: Channel, ways: int) -> float:
+    """Lock the next rapid as the first or last of the ways off a thread, or free it; its speed, 0 for rapid traverse.
+
+    Feed hold waits for the return to the start, by 5109#3 TFH for the retract only (II.4.1.2).
+    """
+    if ways == WAYS_OFF:
+        lock(channel, RETRACT)
+        return retract_speed(channel)
+    lock(channel, OFF_THREAD if ways and not channel.memory.parameters.bit(5109, 3) else "")
+    return 0.0
 
 
 def _arc(channel: Channel, stroke: PlaneStroke, end: list[float], feed: float) -> None:

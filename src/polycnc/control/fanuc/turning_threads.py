@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
 MAX_START_ANGLE = 360_000
 #: What a thread takes out of the operator's hands: on a thread overrides and feed hold, on the way off it feed hold.
-ON_THREAD, OFF_THREAD = "thread", "off"
+#: The first move off the thread of a cycle, its retract, has a speed of its own besides.
+ON_THREAD, OFF_THREAD, RETRACT = "thread", "off", "retract"
 MM_PER_INCH = 25.4
 #: Least and largest lead (II.3.1, table 3.1(a)).
 LEADS_MM, LEADS_INCH = (0.0001, 500.0), (0.000001, 9.999999)
@@ -219,6 +220,8 @@ def locked(channel: Channel, context: Context) -> Context:
     kind = channel.memory.thread_lock
     if not kind:
         return context
+    if kind == RETRACT:
+        context = _retract(channel, context)
     free = kind != ON_THREAD
     return replace(
         context,
@@ -226,6 +229,21 @@ def locked(channel: Channel, context: Context) -> Context:
         feed_override=context.feed_override and free,
         spindle_override=context.spindle_override and free,
     )
+
+
+def _retract(channel: Channel, context: Context) -> Context:
+    """The retract of G92 and G76 runs at 1466, or at rapid traverse; 1403#4 ROC keeps its override off (II.4.1.2)."""
+    parameters = channel.memory.parameters
+    speed = retract_speed(channel)
+    if speed > 0.0:
+        context = replace(context, feed_mode="G94", rapid_speed=speed)
+    return replace(context, rapid_override=not parameters.bit(1403, 4))
+
+
+def retract_speed(channel: Channel) -> float:
+    """1466, mm/s; 0 for rapid traverse, as with 1611#0 CFR."""
+    parameters = channel.memory.parameters
+    return 0.0 if parameters.bit(1611, 0) else parameters.number(1466) / 60.0
 
 
 def prepare_retract(channel: Channel, words: Words) -> None:

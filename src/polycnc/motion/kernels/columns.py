@@ -49,10 +49,12 @@ GEOMETRY, RAPID_STOPS, PATH_FEED, LIMIT_TAIL = 0, 3, 4, 5
 
 # `contexts`: one record a context. RAMP_S is the time over which the speed along the path is averaged (0: the
 # jerk has no limit), BLEND_S that over which the axes' positions are, twice; DRIVE_SPEED and DRIVE_REDUCTION
-# are those of the settings (1 and 0 without DRIVE). Behind OFFSETS stand n numbers.
+# are those of the settings (1 and 0 without DRIVE). RAPID_SPEED bounds rapids along the path (0: nothing does).
+# Behind OFFSETS stand n numbers.
 PER_REVOLUTION, INVERSE_TIME, RPM, SURFACE_MM_S, RPM_LIMIT, SPINDLE_REV_S2 = 0, 1, 2, 3, 4, 5
 EXACT_STOP, TOLERANCE, ROTARY_WEIGHT, STATION, HAS_FRAME, MIRROR = 6, 7, 8, 9, 10, 11
-RAPID_BY_AXIS, RAMP_S, BLEND_S, DRIVE_SPEED, DRIVE_REDUCTION, FRAME, OFFSETS = 12, 13, 14, 15, 16, 17, 29
+RAPID_BY_AXIS, RAMP_S, BLEND_S, DRIVE_SPEED, DRIVE_REDUCTION, RAPID_SPEED = 12, 13, 14, 15, 16, 17
+FRAME, OFFSETS = 18, 30
 
 # `pieces`: one record a piece. CAP2 bounds x inside the piece, ENTRY2 at its start; REACH2 is what `backward`
 # finds there, SPEED2 what `forward` chooses, END2 the x that it leaves the piece with, TIME the seconds. PULL

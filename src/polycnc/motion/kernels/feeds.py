@@ -29,6 +29,7 @@ from polycnc.motion.kernels.columns import (
     RAMP,
     RAMP_S,
     RAPID,
+    RAPID_SPEED,
     REF,
     REST,
     ROTARY,
@@ -92,9 +93,13 @@ def lead_of(curves: Floats, state: Floats) -> float:
 def asked_speed(
     curves: Floats, contexts: Floats, record: int, state: Floats, length: float, radius_mm: float
 ) -> float:
-    """Path speed that the program asks for by its feed mode, mm/s; infinite for a rapid, 0 for none."""
+    """Path speed that the program asks for by its feed mode, mm/s; 0 for none.
+
+    That of a rapid is infinite, unless rapids have a speed of their own.
+    """
     if is_rapid(state):
-        return inf
+        speed = contexts[record + RAPID_SPEED]
+        return speed if speed > 0.0 else inf
     lead = lead_of(curves, state)
     if lead > 0.0:
         # The lead counts along the axis with the longest way; the others follow it.
@@ -123,9 +128,9 @@ def bounded(asked: float, state: Floats) -> float:
 def bound(asked: float, state: Floats) -> float:
     """The speed asked for, or no bound where none is.
 
-    Where the feed is FREE, because overrides will act on it, it bounds threads and taps alone.
+    Where the feed is FREE, because overrides will act on it, it bounds threads, taps and rapids alone.
     """
-    is_free = state[FREE] != 0.0 and state[KIND] != THREAD and state[KIND] != TAP
+    is_free = state[FREE] != 0.0 and state[KIND] != THREAD and state[KIND] != TAP and not is_rapid(state)
     return inf if is_free or not asked > 0.0 else asked
 
 
