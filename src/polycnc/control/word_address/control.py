@@ -325,7 +325,7 @@ class WordAddressControl:
             spindle_direction=memory.spindle_direction,
             surface_speed=mode.codes.get("surface_speed") == "G96",
             spindle_limit_rpm=memory.spindle_limit_rpm,
-            path_mode=mode.codes.get("path", "G64"),
+            path_mode="G9" if memory.exact_stop_block else mode.codes.get("path", "G64"),
             diameter_axes=diameters,
             wcs=memory.wcs,
             # A last stage that turns positions into those of the axes leaves nothing to transform.

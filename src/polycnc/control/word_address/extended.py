@@ -41,6 +41,12 @@ def exact_stop_block(channel: Channel, _words: Words) -> None:
     channel.context_changed()
 
 
+def end_of_exact_stop(channel: Channel, _values: list[float]) -> None:
+    """The block of a G09 ends."""
+    channel.memory.exact_stop_block = False
+    channel.context_changed()
+
+
 def _refuse_company(words: Words, *own: str) -> None:
     """Alarm for any other word in the block."""
     for key in words.plan.order:

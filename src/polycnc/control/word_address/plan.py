@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.codes import GCode, MCode, Order, Step
+from polycnc.control.word_address.extended import end_of_exact_stop, exact_stop_block
 from polycnc.control.word_address.numbers import Convert, NumberRules, length_converter
 from polycnc.control.word_address.words import Words
 from polycnc.language.word_address.words import FORMS, is_fixed_code
@@ -203,6 +204,8 @@ class Builder:
             if motion is not None:
                 steps.append(motion)
         steps += [self.handled(r.handler, plan) for r in rows if r.handler and r.order >= Order.MOTION]
+        if any(row.handler is exact_stop_block for row in rows):
+            steps.append(end_of_exact_stop)
         plan.steps = (*steps, *self.control.after_motion(self, plan), *after)
         self._check_all_taken()
         return plan
