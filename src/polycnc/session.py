@@ -18,7 +18,7 @@ from polycnc.channel.group import ChannelGroup
 from polycnc.control.alarm_text import alarm_text
 from polycnc.language.bulk.scanner import Bulk
 from polycnc.machine.layout import axis_layout
-from polycnc.messages import text
+from polycnc.messages import UserError
 from polycnc.toolpath import Toolpath
 from polycnc.toolpath.trace import Display
 
@@ -41,25 +41,8 @@ SINGLE_BLOCK = "single-block"
 _BLOCK_NUMBER = re.compile(r"\s*(?:/\d*\s*)?(N\d+)", re.IGNORECASE)
 
 
-class SessionError(Exception):
-    """A run cannot even begin: the caller asked for something that does not exist or cannot be decided.
-
-    Args:
-        message: Id of the text.
-        args: Values for its placeholders.
-    """
-
-    def __init__(self, message: str, **args: object) -> None:
-        super().__init__(message)
-        self.message = message
-        self.args_by_name = args
-
-    def text(self, lang: str | None = None) -> str:
-        """What is wrong, for the user."""
-        return text(self.message, lang, **self.args_by_name)
-
-    def __str__(self) -> str:
-        return self.text()
+class SessionError(UserError):
+    """A run cannot even begin: the caller asked for something that does not exist or cannot be decided."""
 
 
 class Variables(Mapping[str, Any]):

@@ -115,7 +115,7 @@ def test_a_mistake_is_told_with_its_line(
     with pytest.raises(MachineFileError) as caught:
         load_machine(path)
     error = caught.value
-    assert (error.line, error.column, error.message_id) == (line, column, message)
+    assert (error.line, error.column, error.message) == (line, column, message)
     place = f"{path}:{line}:{column}: " if line else f"{path}: "
     for lang in ("en", "zh-TW"):
         shown = error.text(lang)
@@ -141,7 +141,7 @@ def test_the_first_of_several_mistakes_is_told(write: Write) -> None:
 def test_an_unknown_machine_is_not_a_traceback(name: str) -> None:
     with pytest.raises(MachineFileError) as caught:
         load_machine(name)
-    assert caught.value.message_id == "no-such-machine"
+    assert caught.value.message == "no-such-machine"
 
 
 def test_a_file_that_is_not_text_is_told(tmp_path: Path) -> None:
@@ -149,7 +149,7 @@ def test_a_file_that_is_not_text_is_told(tmp_path: Path) -> None:
     path.write_bytes(b"\xff\xfe\x00")
     with pytest.raises(MachineFileError) as caught:
         load_machine(path)
-    assert caught.value.message_id == "unreadable"
+    assert caught.value.message == "unreadable"
 
 
 def test_every_message_exists_in_both_languages() -> None:

@@ -222,7 +222,7 @@ def test_a_mistake_names_its_line_and_key(
     with pytest.raises(SetupError) as caught:
         load_setup(path)
     error = caught.value
-    assert (error.line, error.message_id, error.args_by_name["where"]) == (line, message, key)
+    assert (error.line, error.message, error.args_by_name["where"]) == (line, message, key)
     for lang in ("en", "zh-TW"):
         assert key in error.text(lang)
         assert "{where}" not in error.text(lang)
@@ -257,7 +257,7 @@ def test_a_wrong_setup_file_names_its_line(
         path.write_text(text, encoding="utf-8")
     with pytest.raises(SetupError) as caught:
         load_setup(path)
-    assert (caught.value.line, caught.value.message_id) == (line, message)
+    assert (caught.value.line, caught.value.message) == (line, message)
 
 
 def test_an_empty_setup_file_is_the_default_setup(tmp_path: Path) -> None:

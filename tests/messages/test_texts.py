@@ -18,6 +18,7 @@ CATALOGUES = sorted(
     for path in SOURCE.rglob("*.toml")
     if path.name.endswith(("messages.toml", "alarms.toml")) or path.stem == "fields"
 )
+ERRORS = ("SessionError", "UnreadableError", "CommandRefused")
 OWN = tomllib.loads((SOURCE / "messages" / "messages.toml").read_text(encoding="utf-8"))
 
 
@@ -39,20 +40,18 @@ def test_every_text_exists_in_both_languages_with_the_same_values_in_it(path: Pa
 
 
 def named_in(path: Path) -> set[str]:
-    """Ids that a module passes to `text(…)`, `SessionError(…)` and `UnreadableError(…)` as they stand."""
+    """Ids that a module passes to `text(…)` and to the errors with these texts, as they stand."""
     found: set[str] = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Call) and node.args and isinstance(node.func, ast.Name):
             first = node.args[0]
-            if node.func.id in ("text", "SessionError", "UnreadableError") and isinstance(
-                first, ast.Constant
-            ):
+            if node.func.id in ("text", *ERRORS) and isinstance(first, ast.Constant):
                 found.add(str(first.value))
     return found
 
 
-@pytest.mark.parametrize("folder", ["cli", "cases", "session.py"])
-def test_every_text_that_the_command_line_asks_for_exists(folder: str) -> None:
+@pytest.mark.parametrize("folder", ["cli", "cases", "mainrun", "panel", "session.py"])
+def test_every_text_that_a_folder_asks_for_exists(folder: str) -> None:
     paths = [SOURCE / folder] if folder.endswith(".py") else sorted((SOURCE / folder).glob("*.py"))
     named = set().union(*map(named_in, paths))
     assert named

@@ -39,7 +39,12 @@ def test_only_returns_and_line_feeds_end_a_line() -> None:
 def test_a_line_of_megabytes_is_refused_with_its_number() -> None:
     with pytest.raises(ProgramFileError) as error:
         split_lines("M0\n" + "X" * (MAX_LINE + 1) + "\nM30", "PART.NC")
-    assert error.value.args_by_name == {"line": 2, "length": MAX_LINE + 1, "limit": MAX_LINE}
+    assert error.value.args_by_name == {
+        "path": "PART.NC",
+        "line": 2,
+        "length": MAX_LINE + 1,
+        "limit": MAX_LINE,
+    }
     assert "PART.NC" in str(error.value)
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
-from polycnc.messages import text
+from polycnc.messages import UserError
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -31,22 +31,8 @@ for _tag, _pattern, _first in (
     )
 
 
-class UnreadableError(Exception):
-    """A case file that cannot be read at all.
-
-    Args:
-        message: Id of the text that says why.
-        args: Values for its placeholders.
-    """
-
-    def __init__(self, message: str, **args: object) -> None:
-        super().__init__(message)
-        self.message = message
-        self.args_by_name = args
-
-    def text(self, lang: str | None = None) -> str:
-        """Why the file cannot be read."""
-        return text(self.message, lang, **self.args_by_name)
+class UnreadableError(UserError):
+    """A case file that cannot be read at all."""
 
 
 def read_cases(path: Path) -> list[Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Protocol
 
-from polycnc.messages import text
+from polycnc.messages import UserError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -12,16 +12,12 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
 
 
-class DataFileError(Exception):
+class DataFileError(UserError):
     """A data file that a control refuses: the line, and why (a text of the table `data`)."""
 
     def __init__(self, line: int, reason: str, **args: str) -> None:
-        super().__init__(reason)
-        self.line, self.reason, self.args_by_name = line, reason, args
-
-    def text(self) -> str:
-        """The reason in the language of the user."""
-        return text(f"data.{self.reason}", None, **self.args_by_name)
+        super().__init__(f"data.{reason}", **args)
+        self.line = line
 
 
 class Taken(Protocol):

@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from polycnc.messages import Catalogue
+from polycnc.messages import Catalogue, UserError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -25,33 +25,32 @@ def nearest(key: str, known: Iterable[str]) -> str:
     return next(iter(get_close_matches(key, sorted(known), 1, 0.7)), "")
 
 
-class FileError(Exception):
-    """A mistake in a file that the user wrote.
+class FileError(UserError):
+    """A mistake in a file that the user wrote; the text is `file:line:column: what is wrong`.
 
-    Attributes:
+    Args:
         path: The file as the user named it, or what stands for it (a case id); may be empty.
         line: From 1; 0 when the whole file is meant.
         column: From 1; 0 when the whole line is meant.
-        message_id: Id of the text in the folder's catalogue.
-        args_by_name: Values for the placeholders of the text.
+        message: Id of the text in the folder's catalogue.
+        args: Values for the placeholders of the text.
     """
 
-    def __init__(self, path: str, line: int, column: int, message_id: str, **args: object) -> None:
-        super().__init__(message_id)
+    def __init__(self, path: str, line: int, column: int, message: str, **args: object) -> None:
+        super().__init__(message, **args)
         self.path = path
         self.line = line
         self.column = column
-        self.message_id = message_id
-        self.args_by_name = args
+
+    def catalogue(self) -> Catalogue:
+        """The texts of this folder."""
+        return catalogue()
 
     def text(self, lang: str | None = None) -> str:
-        """`file:line:column: what is wrong`; parts that are not known are left out."""
+        """What is wrong, behind the parts of the place that are known."""
         place = ":".join(str(part) for part in (self.path, self.line, self.column) if part)
-        message = catalogue().text(self.message_id, lang, **self.args_by_name)
+        message = super().text(lang)
         return f"{place}: {message}" if place else message
-
-    def __str__(self) -> str:
-        return self.text()
 
 
 class MachineFileError(FileError):

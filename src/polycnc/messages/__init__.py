@@ -2,5 +2,6 @@
 
 from polycnc.messages.alarm import Alarm, AlarmError
 from polycnc.messages.catalogue import Catalogue, text
+from polycnc.messages.errors import UserError
 
-__all__ = ["Alarm", "AlarmError", "Catalogue", "text"]
+__all__ = ["Alarm", "AlarmError", "Catalogue", "UserError", "text"]

@@ -84,10 +84,11 @@ def fill(template: str, args: dict[str, object]) -> str:
 
 
 @cache
-def _messages() -> Catalogue:
+def messages() -> Catalogue:
+    """The texts of polycnc itself."""
     return Catalogue(resources.files("polycnc.messages").joinpath("messages.toml"))
 
 
 def text(key: str, lang: str | None = None, **args: object) -> str:
     """A text of polycnc itself (command line, reports, hints)."""
-    return _messages().text(key, lang, **args)
+    return messages().text(key, lang, **args)

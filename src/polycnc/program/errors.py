@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from importlib import resources
 
-from polycnc.messages import Catalogue
+from polycnc.messages import Catalogue, UserError
 
 
 @cache
@@ -14,24 +14,19 @@ def texts() -> Catalogue:
     return Catalogue(resources.files("polycnc.program").joinpath("messages.toml"))
 
 
-class ProgramFileError(Exception):
+class ProgramFileError(UserError):
     """A file or folder of programs cannot be used; the command line ends with status 2.
 
     Args:
         message: Message id in `messages.toml`, such as `program.missing`.
-        path: The file or folder as the user named it.
+        path: The file or folder as the user named it: the placeholder that all these texts share.
         args: Values for the other placeholders of the text.
     """
 
     def __init__(self, message: str, path: str, **args: object) -> None:
-        super().__init__(message, path, args)
-        self.message = message
+        super().__init__(message, path=path, **args)
         self.path = path
-        self.args_by_name = args
 
-    def text(self, lang: str | None = None) -> str:
-        """The message in the given language, or in the active one."""
-        return texts().text(self.message, lang, path=self.path, **self.args_by_name)
-
-    def __str__(self) -> str:
-        return self.text()
+    def catalogue(self) -> Catalogue:
+        """The texts of this folder."""
+        return texts()

@@ -115,7 +115,7 @@ def test_a_damaged_file_is_refused_whole(content: str, line: int, reason: str) -
     before = turning_files.write(lathe, "offsets")
     with pytest.raises(DataFileError) as refused:
         turning_files.read(lathe, content)
-    assert (refused.value.line, refused.value.reason) == (line, reason)
+    assert (refused.value.line, refused.value.message) == (line, f"data.{reason}")
     assert refused.value.text()
     assert turning_files.write(lathe, "offsets") == before
 

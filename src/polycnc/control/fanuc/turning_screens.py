@@ -15,7 +15,7 @@ from polycnc.control.fanuc.turning_limits import renew_zones
 from polycnc.control.fanuc.turning_tools import MAX_OFFSETS, offset_changed, refresh
 from polycnc.control.word_address.parameter_input import set_parameter
 from polycnc.machine.setup import ParameterKey
-from polycnc.messages import text
+from polycnc.messages import UserError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -56,16 +56,12 @@ class Page(Enum):
     SECOND = "second"
 
 
-class ScreenRefusal(Exception):  # noqa: N818 - the screen shows a warning, nothing is wrong
+class ScreenRefusal(UserError):  # noqa: N818 - the screen shows a warning, nothing is wrong
     """The screen does not take an input: why (a text of the table `screen`), and how many values it has set."""
 
     def __init__(self, reason: str, done: int = 0) -> None:
-        super().__init__(reason)
+        super().__init__(f"screen.{reason}")
         self.reason, self.done = reason, done
-
-    def text(self) -> str:
-        """The warning in the language of the user."""
-        return text(f"screen.{self.reason}")
 
 
 # ---- offsets ----------------------------------------------------------------------------------------------------

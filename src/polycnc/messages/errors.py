@@ -1,0 +1,32 @@
+"""What polycnc answers when it cannot do what it was asked for: a text id with its values, told in any language."""
+
+from __future__ import annotations
+
+from polycnc.messages.catalogue import Catalogue, messages
+
+
+class UserError(Exception):
+    """What the user asked for does not exist or cannot be done; `str()` says why, in the active language.
+
+    A folder that keeps its texts in a catalogue of its own overrides `catalogue`.
+
+    Args:
+        message: Id of the text in the catalogue.
+        args: Values for its placeholders.
+    """
+
+    def __init__(self, message: str, **args: object) -> None:
+        super().__init__(message)
+        self.message = message
+        self.args_by_name = args
+
+    def catalogue(self) -> Catalogue:
+        """Where the text stands: among polycnc's own, unless a subclass says otherwise."""
+        return messages()
+
+    def text(self, lang: str | None = None) -> str:
+        """Why not, for the user."""
+        return self.catalogue().text(self.message, lang, **self.args_by_name)
+
+    def __str__(self) -> str:
+        return self.text()
