@@ -75,6 +75,54 @@ class PathStage(Protocol):
         """Pass on everything that is held back: no more moves will come that could change it."""
 
 
+class PassingStage:
+    """A stage that holds nothing back; what it does to moves is up to those that inherit.
+
+    Args:
+        after: The next stage.
+    """
+
+    def __init__(self, after: PathStage) -> None:
+        self.after = after
+
+    def move(self, move: Move) -> None:
+        """Pass a move on."""
+        self.after.move(move)
+
+    def event(self, event: Event, program: int, line: int, context: int) -> None:
+        """Pass an event on."""
+        self.after.event(event, program, line, context)
+
+    def block(self) -> None:
+        """Pass the end of a block on."""
+        self.after.block()
+
+    def flush(self) -> None:
+        """Nothing is held back here; the stages behind may do so."""
+        self.after.flush()
+
+
+class Recorder:
+    """The only stage while the control reads a contour without moving: keeps the moves, drops the events."""
+
+    def __init__(self) -> None:
+        self.after: PathStage = self
+        self.moves: list[Move] = []
+
+    def move(self, move: Move) -> None:
+        """Keep a move."""
+        self.moves.append(move)
+
+    def event(self, event: Event, program: int, line: int, context: int) -> None:
+        """Auxiliary functions of a contour that is only read do nothing."""
+
+    def block(self) -> None:
+        """Nothing waits here."""
+
+    def flush(self) -> None:
+        """Nothing is held back here."""
+
+
 #: Chords of an arc may be this far off it where it is looked at point by point, mm.
 CHORD_ERROR_MM = 0.05
 _LARGEST_PARTS = 720

@@ -11,6 +11,7 @@ from copy import copy
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.path import Recorder
 from polycnc.compensation import CutterCompensation, Plane
 from polycnc.control.fanuc.turning_comp import SHAPE_KIND
 from polycnc.control.fanuc.turning_coordinates import plane_axes
@@ -23,12 +24,11 @@ from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.channel.path import Move, PathStage
+    from polycnc.channel.path import Move
     from polycnc.channel.stack import Level
     from polycnc.channel.stack import Step as BlockStep
     from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.plan import Builder, Plan
-    from polycnc.toolpath import Event
 
 GROUP, READING = "shape", "reading"
 MAX_SHAPE_BLOCKS = 10_000
@@ -56,27 +56,6 @@ class Shape:
     first_ways: frozenset[int] = frozenset()
     first_code: str = ""
     end: int = 0
-
-
-class Catcher:
-    """The path's stage while a shape is read: it keeps moves and drops events."""
-
-    def __init__(self) -> None:
-        self.after: PathStage = self
-        self.moves: list[Move] = []
-
-    def move(self, move: Move) -> None:
-        """Keep a move."""
-        self.moves.append(move)
-
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
-        """Drop an event."""
-
-    def block(self) -> None:
-        """Nothing waits here."""
-
-    def flush(self) -> None:
-        """Nothing is held back here."""
 
 
 def plan_note(builder: Builder, plan: Plan) -> Step | None:
@@ -123,16 +102,16 @@ def read_shape(channel: Channel, first: int, last: int) -> Shape:
     level = channel.level
     code: Any = level.code
     begin, end = section_steps(channel, code, first, last)
-    shape, catcher = Shape(start=channel.coordinates.programmed[:], end=end), Catcher()
+    shape, recorder = Shape(start=channel.coordinates.programmed[:], end=end), Recorder()
     kept = _Kept(channel)
     channel.mode = channel.mode.with_code(GROUP, READING)
     channel.memory.shape, channel.memory.reading_shape = shape, True
-    channel.head = catcher
+    channel.head = recorder
     try:
         _run_blocks(channel, level, begin, end)
     finally:
         kept.put_back(channel)
-    shape.moves = [m for m in catcher.moves if m.kind is not Kind.DWELL and (m.center or m.start != m.end)]
+    shape.moves = [m for m in recorder.moves if m.kind is not Kind.DWELL and (m.center or m.start != m.end)]
     return shape
 
 
@@ -220,15 +199,15 @@ def contour_of(channel: Channel, shape: Shape) -> Contour:
 
 def _compensated(channel: Channel, moves: list[Move], plane: Plane) -> list[Move]:
     """The moves off the contour by the nose: start-up in the first one, square at the end (II.4.2.1)."""
-    catcher = Catcher()
+    recorder = Recorder()
     codes = violation_codes(channel.control.alarms)
-    stage = CutterCompensation(plane, channel.control.compensation_policy(channel), codes, catcher)
+    stage = CutterCompensation(plane, channel.control.compensation_policy(channel), codes, recorder)
     stage.engage(channel.memory.side, nose_radius(channel), nose_tip(channel))
     for move in moves:
         stage.move(replace(move))
         stage.block()
     stage.flush()
-    return catcher.moves
+    return recorder.moves
 
 
 class Section:

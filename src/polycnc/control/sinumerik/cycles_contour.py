@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from polycnc.channel.path import Recorder
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.contour import Contour, Piece
 from polycnc.geometry import offset
@@ -18,7 +19,7 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Iterator
+    from collections.abc import Container, Generator, Iterator
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.path import Move, PathStage
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.control.sinumerik.stages import Stages
     from polycnc.geometry.arcs import Point
-    from polycnc.toolpath import Event
 
 #: Before a contour is read the tool is thought this far away, mm: so the first block always is a move, and an axis
 #: that it does not name shows that.
@@ -35,25 +35,14 @@ AWAY_MM = 1e6
 COUNTER_CLOCKWISE = (Kind.CCW, Kind.HELIX_CCW)
 
 
-class Recorder:
-    """The stage of the path while a contour is read: it keeps moves and drops events."""
+def sent_away(position: list[float], columns: Container[int]) -> list[float]:
+    """The position from which a contour is read: away from the tool in these columns (-1 for none)."""
+    return [value + AWAY_MM if column in columns else value for column, value in enumerate(position)]
 
-    def __init__(self) -> None:
-        self.after: PathStage = self
-        self.moves: list[Move] = []
 
-    def move(self, move: Move) -> None:
-        """Keep a move."""
-        self.moves.append(move)
-
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
-        """Auxiliary functions of a contour do nothing."""
-
-    def block(self) -> None:
-        """Nothing waits here."""
-
-    def flush(self) -> None:
-        """Nothing is held back here."""
+def without_away(value: float) -> float:
+    """A value of a contour's point; an axis that the first block does not name stays where the tool stands."""
+    return value - AWAY_MM if value > AWAY_MM / 2.0 else value
 
 
 @dataclass(slots=True)
@@ -153,12 +142,8 @@ def read(moves: Moves, name: str) -> Generator[None, None, Contour]:
         memory.previous,
     )
     recorder = Recorder()
-    begin = state.position.copy()
-    for column in moves.columns[:2]:
-        if column >= 0:
-            begin[column] += AWAY_MM
     _call(channel, _place(channel, name))
-    channel.coordinates.arrive(begin)
+    channel.coordinates.arrive(sent_away(state.position, moves.columns[:2]))
     channel.feed = channel.feed if channel.feed > 0.0 else 1.0
     memory.stages = None
     memory.recorder = recorder
@@ -183,8 +168,5 @@ def _piece(moves: Moves, move: Move) -> Piece:
 
 def _point(moves: Moves, position: list[float]) -> Point:
     """A position in the plane; an axis that the first block does not name stays where the tool stands."""
-    u, v = (
-        (position[column] - (AWAY_MM if position[column] > AWAY_MM / 2.0 else 0.0)) if column >= 0 else nan
-        for column in moves.columns[:2]
-    )
+    u, v = (without_away(position[column]) if column >= 0 else nan for column in moves.columns[:2])
     return u, v

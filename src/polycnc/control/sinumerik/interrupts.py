@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.path import PassingStage
 from polycnc.channel.way import Way
 from polycnc.control.sinumerik import arguments, retraction, single_block
 from polycnc.language.sinumerik.calls import call_without_arguments, named_program
@@ -18,12 +19,11 @@ from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.channel.path import Move, PathStage
+    from polycnc.channel.path import Move
     from polycnc.channel.stack import Level
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.machine.setup import Interrupt
     from polycnc.program import Program
-    from polycnc.toolpath import Event
 
 INPUTS, PRIORITIES = range(1, 9), range(1, 129)
 LEVEL = "interrupt"
@@ -71,11 +71,11 @@ class Interrupted:
     resume_at: float | None = None
 
 
-class Watch:
+class Watch(PassingStage):
     """The first stage of the path while inputs may come. Other stages stand behind it."""
 
     def __init__(self, channel: Channel) -> None:
-        self.after: PathStage = channel.table
+        super().__init__(channel.table)
         self.came: set[int] = set()
         self.running: list[Interrupted] = []
         self._channel = channel
@@ -148,10 +148,6 @@ class Watch:
         self._pending.append((interrupt, assignment))
         self._pending.sort(key=lambda each: each[1].priority)
         return not self.running or assignment.priority < self.running[-1].priority
-
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
-        """Pass an event on."""
-        self.after.event(event, program, line, context)
 
     def flush(self) -> None:
         """Pass on everything that stages hold back."""

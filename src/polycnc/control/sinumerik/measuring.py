@@ -11,7 +11,7 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.path import Move
+from polycnc.channel.path import Move, PassingStage
 from polycnc.channel.way import Way
 from polycnc.control.sinumerik.positions import shown
 from polycnc.language.sinumerik.values import Axis, Type
@@ -23,12 +23,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from polycnc.channel.channel import Channel
-    from polycnc.channel.path import PathStage
     from polycnc.control.sinumerik.block import Draft, Step, Values
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.language.sinumerik.words import WordShape
     from polycnc.machine.setup import ProbeEdge
-    from polycnc.toolpath import Event
 
 Indices = tuple[Any, ...]
 #: Words of a block for all its axes, and those for one axis each; the first of each pair deletes the distance to go.
@@ -85,11 +83,11 @@ class Job:
         return None if place in self.came else place
 
 
-class Prober:
+class Prober(PassingStage):
     """The last stage of the path while the setup has probes."""
 
     def __init__(self, channel: Channel) -> None:
-        self.after: PathStage = channel.table
+        super().__init__(channel.table)
         self.jobs: list[Job] = []
         self.continuous: dict[int, Job] = {}
         self.stopped: list[float] | None = None
@@ -163,18 +161,6 @@ class Prober:
                     if abs(e) == probe
                 )
                 self._channel.memory.triggered[probe] = came
-
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
-        """Pass an event on."""
-        self.after.event(event, program, line, context)
-
-    def block(self) -> None:
-        """Pass the end of a block on."""
-        self.after.block()
-
-    def flush(self) -> None:
-        """Nothing is held back here."""
-        self.after.flush()
 
 
 def watch(channel: Channel) -> None:

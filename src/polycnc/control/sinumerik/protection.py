@@ -12,9 +12,10 @@ from itertools import pairwise
 from math import inf, isnan, nan
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.path import PassingStage, Recorder
 from polycnc.channel.way import Way
 from polycnc.control.sinumerik import arguments, limits, tables
-from polycnc.control.sinumerik.cycles_contour import AWAY_MM, COUNTER_CLOCKWISE, Recorder
+from polycnc.control.sinumerik.cycles_contour import COUNTER_CLOCKWISE, sent_away, without_away
 from polycnc.geometry import arcs, zones
 from polycnc.language.sinumerik.nc_frame import NcFrame
 from polycnc.messages import AlarmError
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.control.sinumerik.stages import Stages
     from polycnc.geometry.arcs import Point
-    from polycnc.toolpath import Event
 
 Arguments = tuple[Any, ...]
 #: Kinds of zones: of the machine (NPROTDEF) and of the channel (CPROTDEF), with the alarm for running into one.
@@ -142,13 +142,9 @@ def begin(kind: str) -> Callable[[Channel, Arguments], None]:
         recorder, position = Recorder(), channel.coordinates.position
         path = channel.table, channel.head, memory.stages
         state.open = Definition(kind, args, recorder, position, *path, channel.feed)
-        away = position.copy()
-        for column in channel.coordinates.geometry:
-            if column >= 0:
-                away[column] += AWAY_MM
         memory.recorder, memory.limits, memory.stages = recorder, (), None
         channel.table = channel.head = recorder
-        channel.coordinates.arrive(away)
+        channel.coordinates.arrive(sent_away(position, channel.coordinates.geometry))
         channel.feed = channel.feed if channel.feed > 0.0 else 1.0
 
     return run
@@ -244,7 +240,7 @@ def _outline(channel: Channel, moves: list[Move], axes: tuple[int, int, int]) ->
 def _point(position: list[float], geometry: tuple[int, ...], axes: tuple[int, int, int]) -> Point:
     """A position in the plane; an axis that the first block does not name stays where the tool stands."""
     u, v = (position[geometry[axis]] if geometry[axis] >= 0 else 0.0 for axis in axes[:2])
-    return u - AWAY_MM if u > AWAY_MM / 2.0 else u, v - AWAY_MM if v > AWAY_MM / 2.0 else v
+    return without_away(u), without_away(v)
 
 
 # ---- activation
@@ -289,11 +285,11 @@ def _guard(channel: Channel, wanted: bool) -> None:
     stages.relax(channel)
 
 
-class Guard:
+class Guard(PassingStage):
     """The last stage of the path while zones are active: refuses moves into them."""
 
     def __init__(self, channel: Channel, after: PathStage) -> None:
-        self.after = after
+        super().__init__(after)
         self._channel = channel
 
     def move(self, move: Move) -> None:
@@ -315,18 +311,6 @@ class Guard:
         if move.line == here:
             raise AlarmError(ALARMS[zone.kind], number=zone.number)
         raise AlarmError(ALARMS[zone.kind], line=move.line, program=move.program, number=zone.number)
-
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
-        """Pass an event on."""
-        self.after.event(event, program, line, context)
-
-    def block(self) -> None:
-        """Pass the end of a block on."""
-        self.after.block()
-
-    def flush(self) -> None:
-        """Nothing is held back here."""
-        self.after.flush()
 
 
 Placed = list[tuple[Zone, tuple[float, ...]]]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from math import isnan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import Move
+from polycnc.channel.path import Move, PassingStage
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from polycnc.channel.path import PathStage
     from polycnc.compensation.plane import Plane
     from polycnc.geometry.arcs import Point
-    from polycnc.toolpath import Event
 
 LINES, QUARTERS = ("G147", "G148"), ("G247", "G248")
 APPROACHES, RETRACTIONS = ("G147", "G247", "G347"), ("G148", "G248", "G348")
@@ -87,12 +86,12 @@ class Approach:
     infeed: float
 
 
-class SmoothApproach:
+class SmoothApproach(PassingStage):
     """The stage that holds an approach back; it stands before corners and compensation."""
 
     def __init__(self, plane: Plane, after: PathStage) -> None:
+        super().__init__(after)
         self.plane = plane
-        self.after = after
         self.waiting: Approach | None = None
 
     @property
@@ -113,14 +112,6 @@ class SmoothApproach:
             for part in self._parts(waiting, waiting.touch, edge.departing if edge else (0.0, 0.0)):
                 self.after.move(part)
             self.after.move(move)
-
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
-        """Pass an event on."""
-        self.after.event(event, program, line, context)
-
-    def block(self) -> None:
-        """Pass the end of a block on."""
-        self.after.block()
 
     def flush(self) -> None:
         """No contour follows: alarm 10740."""

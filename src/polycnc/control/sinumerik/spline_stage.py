@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from polycnc.channel.path import PassingStage
 from polycnc.geometry.nurbs import nurbs_chords
 from polycnc.toolpath import Kind
 
@@ -24,7 +25,7 @@ _LEAST_WEIGHT = 1e-6
 _SAME = 1e-9
 
 
-class SplineStage:
+class SplineStage(PassingStage):
     """Collects moves to control points: their parameters are weight, degree and knot distance.
 
     Attributes:
@@ -33,7 +34,7 @@ class SplineStage:
     """
 
     def __init__(self, after: PathStage) -> None:
-        self.after = after
+        super().__init__(after)
         self.columns: frozenset[int] | None = None
         self._held: list[Move] = []
         self._events: list[tuple[int, Event, int, int, int]] = []
@@ -57,10 +58,6 @@ class SplineStage:
             self._events.append((len(self._held), event, program, line, context))
         else:
             self.after.event(event, program, line, context)
-
-    def block(self) -> None:
-        """Pass the end of a block on."""
-        self.after.block()
 
     def flush(self) -> None:
         """The spline ends with the last control point that is known."""

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from math import pi
 from typing import TYPE_CHECKING
 
+from polycnc.channel.path import PassingStage
 from polycnc.control.word_address.path import PLANES
 
 if TYPE_CHECKING:
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from polycnc.channel.path import Move, PathStage
     from polycnc.control.word_address.plan import Builder
     from polycnc.control.word_address.words import Words
-    from polycnc.toolpath import Event
 
 #: Modal group that holds `G7.1` while a cylinder is unrolled.
 GROUP = "cylinder"
@@ -119,27 +119,17 @@ def end_cylinder(channel: Channel) -> None:
     c.arrive(c.from_machine(machine))
 
 
-class CylinderStage:
+class CylinderStage(PassingStage):
     """The last stage of the path on a cylinder: lengths on its surface become degrees."""
 
     def __init__(self, cylinder: Cylinder, after: PathStage) -> None:
-        self.after = after
+        super().__init__(after)
         self._cylinder = cylinder
 
     def move(self, move: Move) -> None:
         """Take the next move; see `PathStage`."""
         real = self._cylinder.real
         self.after.move(replace(move, start=real(move.start), end=real(move.end)))
-
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
-        """Take an event; it keeps its place between the moves."""
-        self.after.event(event, program, line, context)
-
-    def block(self) -> None:
-        """Nothing waits here."""
-
-    def flush(self) -> None:
-        """Nothing is held back here."""
 
 
 def check_block(builder: Builder, refused: frozenset[str]) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from polycnc.channel.path import PassingStage
 from polycnc.control.word_address.last_stage import put_last, remove_last
 from polycnc.geometry import arcs
 from polycnc.toolpath import Kind
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.path import Move, PathStage
     from polycnc.control.word_address.words import Words
-    from polycnc.toolpath import Event
 
 #: How far the chords of a sine curve may leave it, mm.
 CHORD_TOLERANCE_MM = 0.001
@@ -75,11 +75,11 @@ def end(channel: Channel) -> None:
     c.arrive(c.from_machine(machine))
 
 
-class StandingStage:
+class StandingStage(PassingStage):
     """The last stage of the path while axes are hypothetical."""
 
     def __init__(self, standing: Standing, after: PathStage) -> None:
-        self.after = after
+        super().__init__(after)
         self._standing = standing
 
     def move(self, move: Move) -> None:
@@ -121,13 +121,3 @@ class StandingStage:
             chord = replace(move, kind=Kind.SPLINE, center=None, turns=0.0)
             self._straight(chord, at, point)
             at = point
-
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
-        """Take an event; it keeps its place between the moves."""
-        self.after.event(event, program, line, context)
-
-    def block(self) -> None:
-        """Nothing waits here."""
-
-    def flush(self) -> None:
-        """Nothing is held back here."""
