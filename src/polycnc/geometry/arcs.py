@@ -19,6 +19,16 @@ TAU = 2.0 * pi
 SAME_POINT_MM = 1e-9
 
 
+def plus(a: Point, b: Point) -> Point:
+    """Sum of two points or vectors."""
+    return (a[0] + b[0], a[1] + b[1])
+
+
+def minus(a: Point, b: Point) -> Point:
+    """Difference of two points or vectors."""
+    return (a[0] - b[0], a[1] - b[1])
+
+
 def center_from_radius(start: Point, end: Point, radius: float, ccw: bool, tolerance: float = 1e-6) -> Point:
     """Centre of the arc of a given radius through two points.
 

@@ -1,0 +1,93 @@
+"""The rows that compensation passes on: moves with their vectors, and the ways round corners."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import hypot, inf
+from typing import TYPE_CHECKING
+
+from polycnc.compensation.step import NO_VECTOR
+from polycnc.geometry import arcs
+from polycnc.geometry.offset import Joint
+from polycnc.toolpath.kinds import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.path import Move, PathStage
+    from polycnc.compensation.plane import Plane
+    from polycnc.compensation.step import Step
+    from polycnc.geometry.arcs import Point
+    from polycnc.geometry.offset import Corner
+
+
+class RowWriter:
+    """Writes rows to the next stage, and knows where the tool stands beside the programmed point.
+
+    Args:
+        plane: The plane of compensation.
+        after: The next stage.
+
+    Attributes:
+        vector: The vector at the end of the last compensated move.
+    """
+
+    def __init__(self, plane: Plane, after: PathStage) -> None:
+        self.plane = plane
+        self.after = after
+        self.vector = NO_VECTOR
+        self._delta = NO_VECTOR
+
+    def drop_vector(self) -> None:
+        """From here on the tool is taken to stand on the programmed point."""
+        self.vector = self._delta = NO_VECTOR
+
+    def pass_on(self, move: Move) -> None:
+        """Pass on a move that is not compensated itself, from where the vector holds the tool."""
+        if self._delta == NO_VECTOR:
+            self.after.move(move)
+            return
+        plane = self.plane
+        start, end = (plane.at(p, arcs.plus(plane.point(p), self._delta)) for p in (move.start, move.end))
+        self.after.move(replace(move, start=start, end=end, center=plane.moved_center(move, self._delta)))
+
+    def emit(self, step: Step, corner: Corner) -> None:
+        """Pass on a compensated move and the rows that lead round the corner at its end."""
+        move, edge, plane = step.move, step.edge, self.plane
+        start = arcs.plus(plane.point(move.start), self._delta)
+        target = arcs.plus(edge.end, arcs.plus(corner.vectors[0], step.shift))
+        way = hypot(target[0] - start[0], target[1] - start[1])
+        if edge.is_full_circle and way <= 2.0 * step.policy.least_move_mm:
+            # Rounding must not shrink a full circle to nothing.
+            target, way = start, inf
+        row = replace(move, start=plane.at(move.start, start), end=plane.at(move.end, target))
+        if move.center is not None:
+            if edge.center is None or step.straight or way <= arcs.SAME_POINT_MM:
+                row = replace(row, kind=Kind.FEED, center=None, turns=0.0)
+            else:
+                row = replace(row, center=plane.moved_center(move, step.shift))
+        if row.center is not None or way > arcs.SAME_POINT_MM or plane.moves_elsewhere(move):
+            self.after.move(row)
+        template = replace(step.corner_arc[0] if step.corner_arc else move, start=row.end, end=row.end)
+        for vector in corner.vectors[1:]:
+            template = self._join(template, step, corner.joint, vector)
+        self.vector = corner.vectors[-1]
+        self._delta = arcs.plus(self.vector, step.shift)
+
+    def _join(self, template: Move, step: Step, joint: Joint, vector: Point) -> Move:
+        """One row from the place of the last one to the next vector."""
+        plane = self.plane
+        target = arcs.plus(step.edge.end, arcs.plus(vector, step.shift))
+        end = plane.at(template.end, target)
+        center, kind = None, Kind.RAPID if template.kind is Kind.RAPID else Kind.FEED
+        if joint is Joint.ARC:
+            kind = Kind.CCW if step.distance < 0.0 else Kind.CW
+            center = plane.lift(arcs.plus(step.edge.end, step.shift), end)
+        elif joint is Joint.SPLINE:
+            kind = Kind.SPLINE
+        row = replace(
+            template, kind=kind, start=template.end, end=end, center=center,
+            normal=plane.normal, turns=0.0, parameters=(),
+        )  # fmt: skip
+        u, v = plane.point(template.end)
+        if hypot(target[0] - u, target[1] - v) > arcs.SAME_POINT_MM:
+            self.after.move(row)
+        return replace(row, kind=template.kind)
