@@ -12,7 +12,7 @@ help:
 	@echo "make test      run all tests"
 	@echo "make check     lint, formatting, types, direction of imports"
 	@echo "make bench     run the benchmarks"
-	@echo "make features  renew the list of features that polycnc is shipped with"
+	@echo "make features  renew the list of functions that work, in polycnc and in docs/controls"
 	@echo "make clean     remove $(VENV) and what tools have left behind"
 
 # One stamp for each set of extras: installed again when pyproject.toml has changed.
@@ -46,6 +46,10 @@ bench: $(VENV)/.installed-bench
 
 features: $(VENV)/.installed-plain
 	$(BIN)/polycnc features --from tests/conformance --format json --output src/polycnc/data/features.json
+	for control in $(CONTROLS); do \
+	  $(BIN)/polycnc features --control $$control --format markdown --lang en \
+	    --output docs/controls/$$control-functions.md || exit $$?; \
+	done
 
 clean:
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis

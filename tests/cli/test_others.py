@@ -9,7 +9,6 @@ from xml.etree import ElementTree
 
 import pytest
 
-from polycnc.control.registry import ids
 from polycnc.machine import builtin_ids
 from tests.cli.console import BAD, GOOD
 
@@ -67,28 +66,6 @@ def test_a_file_with_an_alarm_tells_cause_and_remedy_in_json(console: Console) -
 def test_all_alarms_of_a_control_are_listed(console: Console) -> None:
     said = console("alarms", *FANUC)
     assert len(said.out.splitlines()) > 20
-
-
-def test_features_are_counted_for_every_control(console: Console) -> None:
-    said = console("features")
-    assert [line.split()[0] for line in said.out.splitlines()] == list(ids())
-
-
-def test_features_of_a_folder_are_those_whose_cases_all_pass(console: Console) -> None:
-    (console.folder / "cases").mkdir()
-    case = (
-        "- {{id: {id}, feature: {feature}, control: fanuc-m, program: 'G0 X1.',"
-        " expect: {{final: {{work: {{X: {x}}}}}}}}}\n"
-    )
-    console.file(
-        "cases/a.yaml",
-        case.format(id=1, feature="f.good", x=1)
-        + case.format(id=2, feature="f.half", x=1)
-        + case.format(id=3, feature="f.half", x=2),
-    )
-    said = console("features", "--from", "cases", "--format", "json")
-    assert json.loads(said.out) == {"fanuc-m": {"f.good": 1}}
-    assert "f.good" in console("features", "--from", "cases", *FANUC).out
 
 
 def test_a_drawing_is_svg(console: Console) -> None:

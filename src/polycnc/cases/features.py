@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
 from polycnc.cases.reading import read_cases
 from polycnc.cases.runner import run_cases
 from polycnc.cases.selection import Selection
+from polycnc.messages import Catalogue
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -25,6 +27,19 @@ def shipped() -> Features:
     source = resources.files("polycnc").joinpath("data", "features.json")
     features: Features = json.loads(source.read_text(encoding="utf-8"))
     return features
+
+
+@cache
+def functions() -> Catalogue:
+    """Names of all features in both languages, in the order of the manuals, with the `codes` that meet them."""
+    folder = resources.files("polycnc").joinpath("data", "functions")
+    return Catalogue(*sorted(folder.iterdir(), key=lambda source: source.name))
+
+
+def in_manual_order(counts: Mapping[str, int]) -> list[str]:
+    """The ids of features as their manuals have them; those without a name, of other people's cases, come last."""
+    place = {feature: number for number, feature in enumerate(functions())}
+    return sorted(counts, key=lambda feature: (place.get(feature, len(place)), feature))
 
 
 def case_files(folder: Path) -> list[Path]:

@@ -26,6 +26,7 @@ class Format(StrEnum):
 
     TEXT = "text"
     JSON = "json"
+    MARKDOWN = "markdown"
 
 
 @app.command(help=text("help.features"))
@@ -53,13 +54,24 @@ def features(
     if form is Format.JSON:
         content = json.dumps(found, indent=1) + "\n"
     else:
-        lines = _short(found) if control is None else _all(found[control])
-        content = "".join(f"{line}\n" for line in lines)
+        content = "".join(f"{line}\n" for line in _lines(found, control, form))
     if output is None:
         show(content)
     else:
         write_whole(output, content)
     return 0
+
+
+def _lines(found: Features, control: str | None, form: Format) -> Iterator[str]:
+    if form is Format.MARKDOWN:
+        for number, one in enumerate(found):
+            if number:
+                yield ""
+            yield from _table(one, found[one])
+    elif control is not None:
+        yield from _all(found[control])
+    else:
+        yield from _short(found)
 
 
 def _short(found: Features) -> Iterator[str]:
@@ -71,6 +83,29 @@ def _short(found: Features) -> Iterator[str]:
 
 
 def _all(counts: dict[str, int]) -> Iterator[str]:
+    from polycnc.cases.features import functions, in_manual_order
+
     width = max(map(len, counts), default=0)
-    for feature, cases in counts.items():
-        yield text("features.feature", feature=f"{feature:{width}}", cases=cases)
+    for feature in in_manual_order(counts):
+        name = functions().text(feature) if feature in functions() else ""
+        shown = text(
+            "features.feature", feature=f"{feature:{width}}", cases=f"{counts[feature]:3}", name=name
+        )
+        yield shown.rstrip()
+
+
+def _table(control: str, counts: dict[str, int]) -> Iterator[str]:
+    """One control as a page of Markdown."""
+    from polycnc.cases.features import functions, in_manual_order
+
+    yield text("features.title", control=control)
+    yield ""
+    yield text("features.proof")
+    yield ""
+    yield text("features.table")
+    yield "|---|---|---|--:|"
+    for feature in in_manual_order(counts):
+        entry = functions().entry(feature) if feature in functions() else {}
+        name = functions().text(feature) if entry else ""
+        codes = entry.get("codes", "").replace("|", "\\|")
+        yield f"| {name} | {codes} | `{feature}` | {counts[feature]} |"
