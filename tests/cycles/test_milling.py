@@ -196,7 +196,8 @@ def test_strips_in_one_direction_return_over_the_face() -> None:
 def test_a_spigot_is_never_cut_into(half_length: float, half_width: float, part: float, ccw: bool) -> None:
     corner = part * min(half_length, half_width)
     shape = spigots.Spigot(
-        Place(), half_length, half_width, corner, half_length + 3.0, 5.0, 1.0, ccw, 500.0, 100.0, 2.0, 10.0
+        Place(), spigots.Rectangle(half_length, half_width, corner),
+        half_length + 3.0, 5.0, 1.0, ccw, 500.0, 100.0, 2.0, 10.0,
     )  # fmt: skip
     strokes = list(spigots.mill(shape, [-3.0, -6.0]))
     assert is_true_arc(strokes)
@@ -208,10 +209,11 @@ def test_a_spigot_is_never_cut_into(half_length: float, half_width: float, part:
 
 @given(st.integers(3, 9), st.floats(5.0, 40.0), st.floats(0.0, 1.0), st.booleans())
 def test_a_polygon_is_never_cut_into(count: int, inner: float, part: float, ccw: bool) -> None:
-    shape = spigots.Polygon(
-        Place(), count, inner, part * inner, 2.0 * inner + 3.0, 5.0, 1.0, ccw, 500.0, 2.0, 10.0
+    shape = spigots.Spigot(
+        Place(), spigots.Polygon(count, inner, part * inner),
+        2.0 * inner + 3.0, 5.0, 1.0, ccw, 500.0, 500.0, 2.0, 10.0,
     )  # fmt: skip
-    strokes = list(spigots.mill_polygon(shape, [-3.0]))
+    strokes = list(spigots.mill(shape, [-3.0]))
     assert is_true_arc(strokes)
     sides = [2.0 * pi * k / count for k in range(count)]
     corner = part * inner

@@ -99,11 +99,16 @@ def leave(hole: Hole) -> Iterator[Stroke]:
     yield Stroke(Action.RAPID, hole.back)
 
 
-def drill(hole: Hole) -> Iterator[Stroke]:
-    """Feed in, dwell, rapid out (G81, G82)."""
+def feed_in(hole: Hole) -> Iterator[Stroke]:
+    """At feed to the bottom in one go, and the dwell there."""
     yield Stroke(Action.RAPID, hole.r)
     yield Stroke(Action.FEED, hole.bottom)
     yield Stroke(Action.DWELL, hole.dwell_s)
+
+
+def drill(hole: Hole) -> Iterator[Stroke]:
+    """Feed in, dwell, rapid out (G81, G82)."""
+    yield from feed_in(hole)
     yield from leave(hole)
 
 
@@ -149,18 +154,14 @@ def tap(hole: Hole) -> Iterator[Stroke]:
 
 def bore(hole: Hole, out: float = 1.0) -> Iterator[Stroke]:
     """Feed in, dwell, feed out to R at `out` times the feed (G85, G89)."""
-    yield Stroke(Action.RAPID, hole.r)
-    yield Stroke(Action.FEED, hole.bottom)
-    yield Stroke(Action.DWELL, hole.dwell_s)
+    yield from feed_in(hole)
     yield Stroke(Action.FEED, hole.r, out)
     yield Stroke(Action.RAPID, hole.back)
 
 
 def bore_and_stop(hole: Hole) -> Iterator[Stroke]:
     """Feed in, spindle stop, rapid out, spindle on (G86)."""
-    yield Stroke(Action.RAPID, hole.r)
-    yield Stroke(Action.FEED, hole.bottom)
-    yield Stroke(Action.DWELL, hole.dwell_s)
+    yield from feed_in(hole)
     yield Stroke(Action.SPINDLE, 0.0)
     yield from leave(hole)
     yield Stroke(Action.SPINDLE, 1.0)
@@ -168,9 +169,7 @@ def bore_and_stop(hole: Hole) -> Iterator[Stroke]:
 
 def bore_and_shift(hole: Hole) -> Iterator[Stroke]:
     """Fine boring: feed in, oriented stop, off the wall, rapid out, back over the hole (G76)."""
-    yield Stroke(Action.RAPID, hole.r)
-    yield Stroke(Action.FEED, hole.bottom)
-    yield Stroke(Action.DWELL, hole.dwell_s)
+    yield from feed_in(hole)
     yield Stroke(Action.SPINDLE, 0.0)
     yield Stroke(Action.SHIFT, 1.0)
     yield from leave(hole)
@@ -196,9 +195,7 @@ def bore_back(hole: Hole) -> Iterator[Stroke]:
 
 def bore_and_halt(hole: Hole, *, feeds_out: bool = False) -> Iterator[Stroke]:
     """Feed in, dwell, spindle stop, wait for the operator, out (G88); `feeds_out`: to R at feed."""
-    yield Stroke(Action.RAPID, hole.r)
-    yield Stroke(Action.FEED, hole.bottom)
-    yield Stroke(Action.DWELL, hole.dwell_s)
+    yield from feed_in(hole)
     yield Stroke(Action.SPINDLE, 0.0)
     yield Stroke(Action.HALT)
     if feeds_out:
@@ -209,9 +206,7 @@ def bore_and_halt(hole: Hole, *, feeds_out: bool = False) -> Iterator[Stroke]:
 
 def bore_and_lift(hole: Hole) -> Iterator[Stroke]:
     """Feed in, dwell, oriented stop, off the wall, rapid to R, then back over the hole on the way up (SINUMERIK)."""
-    yield Stroke(Action.RAPID, hole.r)
-    yield Stroke(Action.FEED, hole.bottom)
-    yield Stroke(Action.DWELL, hole.dwell_s)
+    yield from feed_in(hole)
     yield Stroke(Action.SPINDLE, 0.0)
     yield Stroke(Action.SHIFT, 1.0)
     yield Stroke(Action.RAPID, hole.r)
@@ -221,9 +216,7 @@ def bore_and_lift(hole: Hole) -> Iterator[Stroke]:
 
 def bore_and_leave_standing(hole: Hole) -> Iterator[Stroke]:
     """Feed in, dwell, spindle stop, wait for the operator, rapid out with the spindle at rest (SINUMERIK)."""
-    yield Stroke(Action.RAPID, hole.r)
-    yield Stroke(Action.FEED, hole.bottom)
-    yield Stroke(Action.DWELL, hole.dwell_s)
+    yield from feed_in(hole)
     yield Stroke(Action.SPINDLE, 0.0)
     yield Stroke(Action.HALT)
     yield Stroke(Action.RAPID, hole.back)

@@ -44,11 +44,7 @@ def tap_clearing_chips(hole: Hole) -> Iterator[Stroke]:
         if depth != hole.bottom:
             yield Stroke(Action.TAP, hole.r)
             yield Stroke(Action.TAP, above(hole, depth))
-    yield Stroke(Action.DWELL, hole.dwell_s)
-    yield Stroke(Action.SPINDLE, -1.0)
-    yield Stroke(Action.TAP, hole.r)
-    yield Stroke(Action.SPINDLE, 1.0)
-    yield Stroke(Action.RAPID, hole.back)
+    yield from _tap_out(hole)
 
 
 def tap(hole: Hole) -> Iterator[Stroke]:
@@ -58,6 +54,11 @@ def tap(hole: Hole) -> Iterator[Stroke]:
         yield Stroke(Action.TAP, depth)
         if depth != hole.bottom:
             yield Stroke(Action.TAP, above(hole, depth))
+    yield from _tap_out(hole)
+
+
+def _tap_out(hole: Hole) -> Iterator[Stroke]:
+    """The dwell at the bottom, and out with the spindle reversed."""
     yield Stroke(Action.DWELL, hole.dwell_s)
     yield Stroke(Action.SPINDLE, -1.0)
     yield Stroke(Action.TAP, hole.r)

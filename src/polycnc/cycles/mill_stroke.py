@@ -67,6 +67,23 @@ class Place:
         return self.origin[0] + x * c - y * s, self.origin[1] + x * s + y * c
 
 
+class Cavity:
+    """What is milled into a face: depths count from its reference level to that of the finished base."""
+
+    __slots__ = ()
+    reference: float
+    depth: float
+
+    def level(self, below: float) -> float:
+        """Level of a depth below the reference plane."""
+        return self.reference - below if self.depth < self.reference else self.reference + below
+
+    @property
+    def total(self) -> float:
+        """Depth of the finished base below the reference plane."""
+        return abs(self.reference - self.depth)
+
+
 def steps(total: float, most: float) -> list[float]:
     """A way in equal steps of at most `most`, as ends of the steps; one step for a `most` of 0."""
     count = max(1, ceil(total / most - _WHOLE)) if most > 0.0 else 1

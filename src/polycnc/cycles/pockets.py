@@ -11,7 +11,7 @@ from enum import Enum
 from math import ceil, radians, tan
 from typing import TYPE_CHECKING
 
-from polycnc.cycles.mill_stroke import SAME_MM, Place, arc, cut, rapid, ring, steps
+from polycnc.cycles.mill_stroke import SAME_MM, Cavity, Place, arc, cut, rapid, ring, steps
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -29,7 +29,7 @@ class Insertion(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Pocket:
+class Pocket(Cavity):
     """A pocket and how it is milled; mm, feeds in the unit of the strokes.
 
     Attributes:
@@ -77,15 +77,6 @@ class Pocket:
         """Half length, half width and corner radius of the tool's path along the edge."""
         off = self.radius + allowance
         return self.half_length - off, self.half_width - off, max(self.corner - off, 0.0)
-
-    def level(self, below: float) -> float:
-        """Level of a depth below the reference plane."""
-        return self.reference - below if self.depth < self.reference else self.reference + below
-
-    @property
-    def total(self) -> float:
-        """Depth of the finished base below the reference plane."""
-        return abs(self.reference - self.depth)
 
 
 def begin(pocket: Pocket) -> Iterator[MillStroke]:

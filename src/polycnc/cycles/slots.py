@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import asin, degrees, hypot, radians, tan
 from typing import TYPE_CHECKING, Protocol
 
-from polycnc.cycles.mill_stroke import SAME_MM, Place, arc, cut, rapid, slot_ring, steps
+from polycnc.cycles.mill_stroke import SAME_MM, Cavity, Place, arc, cut, rapid, slot_ring, steps
 from polycnc.cycles.pockets import Insertion
 from polycnc.geometry.frames import cos_sin_deg
 
@@ -110,7 +110,7 @@ def angle_of(chord: float, radius: float) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class Slotting:
+class Slotting(Cavity):
     """How slots are milled: half the width of the slot; levels, steps, allowances and feeds as in `pockets.Pocket`.
 
     `steepest_deg` is the greatest angle of an oscillating insertion, 0 for one way there and back.
@@ -134,18 +134,9 @@ class Slotting:
     steepest_deg: float = 0.0
 
     @property
-    def total(self) -> float:
-        """Depth of the base below the reference plane."""
-        return abs(self.reference - self.depth)
-
-    @property
     def leaves_allowance(self) -> bool:
         """Whether roughing leaves something for finishing."""
         return self.allowance > SAME_MM or self.base_allowance > SAME_MM
-
-    def level(self, below: float) -> float:
-        """Level of a depth below the reference plane."""
-        return self.reference - below if self.depth < self.reference else self.reference + below
 
 
 def rough(slotting: Slotting, shape: Shape) -> Iterator[MillStroke]:

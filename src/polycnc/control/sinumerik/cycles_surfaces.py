@@ -183,26 +183,8 @@ def spigot(channel: Channel, a: Arguments) -> Iterator[None]:
         raise AlarmError("61118")
     if 2.0 * corner > min(length, width) + SAME_MM:
         raise AlarmError("61113")
-    found = milling_levels(moves, a, abs(a["_FALD"]), "_MID")
-    if found is None:
-        return
-    rough = kind == ROUGHING
-    shape = spigots.Spigot(
-        Place(reference_point(moves, a), a["_STA"]),
-        length / 2.0,
-        width / 2.0,
-        corner,
-        abs(a["_AP1"]) / 2.0,
-        radius + (abs(a["_FAL"]) if rough else 0.0),
-        abs(a["SDIS"]),
-        is_ccw(moves, a.integer("_CDIR"), inside=False),
-        feed_of(a, "_FFP1"),
-        feed_of(a, "_FFD"),
-        found.safe,
-        found.retract,
-    )
-    total = abs(found.depth - found.reference) - (abs(a["_FALD"]) if rough else 0.0)
-    yield from perform(moves, spigots.mill(shape, levels_below(found, total, a["_MID"])))
+    outline = spigots.Rectangle(length / 2.0, width / 2.0, corner)
+    yield from _mill_spigot(moves, a, outline, kind, radius, "_FFD")
 
 
 def polygon(channel: Channel, a: Arguments) -> Iterator[None]:
@@ -213,29 +195,35 @@ def polygon(channel: Channel, a: Arguments) -> Iterator[None]:
     count, size = abs(a.integer("_NUM")), abs(a["_SWL"])
     if count < spigots.FEWEST_EDGES or not size:
         raise AlarmError("61118")
+    inner = size / 2.0 if count % 2 == 0 else spigots.inner_radius(count, size)
+    if abs(a["_RC"]) > inner:
+        raise AlarmError("61113")
+    outline = spigots.Polygon(count, inner, abs(a["_RC"]))
+    yield from _mill_spigot(moves, a, outline, kind, radius, "_FFP1")
+
+
+def _mill_spigot(
+    moves: Moves, a: Arguments, outline: spigots.Outline, kind: int, radius: float, depth_feed: str
+) -> Iterator[None]:
+    """Mill round an outline; `depth_feed` names the parameter of the feed in depth."""
     found = milling_levels(moves, a, abs(a["_FALD"]), "_MID")
     if found is None:
         return
-    rough = kind == ROUGHING
-    inner = size / 2.0 if count % 2 == 0 else spigots.inner_radius(count, size)
-    feed = feed_of(a, "_FFP1")
-    shape = spigots.Polygon(
+    left, left_below = (abs(a["_FAL"]), abs(a["_FALD"])) if kind == ROUGHING else (0.0, 0.0)
+    shape = spigots.Spigot(
         Place(reference_point(moves, a), a["_STA"]),
-        count,
-        inner,
-        abs(a["_RC"]),
+        outline,
         abs(a["_AP1"]) / 2.0,
-        radius + (abs(a["_FAL"]) if rough else 0.0),
+        radius + left,
         abs(a["SDIS"]),
         is_ccw(moves, a.integer("_CDIR"), inside=False),
-        feed,
+        feed_of(a, "_FFP1"),
+        feed_of(a, depth_feed),
         found.safe,
         found.retract,
     )
-    if shape.corner > inner:
-        raise AlarmError("61113")
-    total = abs(found.depth - found.reference) - (abs(a["_FALD"]) if rough else 0.0)
-    yield from perform(moves, spigots.mill_polygon(shape, levels_below(found, total, a["_MID"])))
+    total = abs(found.depth - found.reference) - left_below
+    yield from perform(moves, spigots.mill(shape, levels_below(found, total, a["_MID"])))
 
 
 # ---- threads
