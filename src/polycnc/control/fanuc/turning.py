@@ -31,7 +31,7 @@ from polycnc.control.word_address.codes import MCode
 from polycnc.control.word_address.custom_macro import CustomMacroControl
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Level
@@ -218,6 +218,12 @@ class FanucTurning(CustomMacroControl):
         if step is not None and motion in turning_single.CYCLES:
             step = turning_coordinates.without_rotation(step)
         return turning_threads.plan_way_off(builder, turning_comp.plan_travel(builder, plan, step))
+
+    def modal_changes(self, rows: list[GCode]) -> Iterator[tuple[str, str]]:
+        """A motion code in the block of a tap cancels the tap, wherever it stands (II.4.5.1, "cancel")."""
+        yield from super().modal_changes(rows)
+        if any(row.code in turning_tapping.TAPS for row in rows) and any(row.ends for row in rows):
+            yield "cycle", self.power_on["cycle"]
 
     def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
         """Modal macro calls; words of single cycles that a one-shot code clears."""

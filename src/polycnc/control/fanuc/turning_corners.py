@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.compensation import Plane
-from polycnc.compensation.corner import FANUC_CORNERS, CornerStage, CornerViolation, Shape
+from polycnc.compensation.corner import FANUC_CORNERS, CornerPolicy, CornerStage, CornerViolation, Shape
 from polycnc.control.word_address.path import PLANES
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -21,6 +21,12 @@ if TYPE_CHECKING:
 
 #: Words of the plane's first and second axis that give a chamfer towards that axis.
 _CENTERS = "IJK"
+#: Angle between lines, degrees, up to which drawing dimensions find no intersection and put in no corner.
+LEAST_ANGLE_DEG = 1.0
+#: Corners of drawing dimensions: one block without motion may stand between the two moves.
+_DRAWN = CornerPolicy(idle_blocks=1, least_turn_deg=LEAST_ANGLE_DEG)
+#: Moves that a figure of drawing dimensions is made of.
+_LINES = frozenset({Kind.RAPID, Kind.FEED, Kind.THREAD})
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,12 +46,20 @@ class TurningCorner(CornerStage):
         u, v, w = PLANES[channel.mode["plane"]]
         codes = {
             CornerViolation.NO_NEXT_MOVE: control.alarms["corner_no_move"],
+            CornerViolation.RAPID: control.alarms["corner_no_move"],
             CornerViolation.TOO_SHORT: control.alarms["corner_too_short"],
         }
         super().__init__(Plane(u, v, w, channel.coordinates.geometry), FANUC_CORNERS, codes, after)
         self._control: WordAddressControl = control
+        self._codes = codes
         self._expected: Expected | None = None
         self._first = False
+        self._is_drawn = False
+
+    def draw(self) -> None:
+        """The corner belongs to a figure of drawing dimensions, which only lines and one idle block continue."""
+        self.policy, self._is_drawn = _DRAWN, True
+        self._codes[CornerViolation.NO_NEXT_MOVE] = self._control.alarms["drawing_increment"]
 
     def expect(self, expected: Expected) -> None:
         """The move of this block gets a corner; then comes what is expected."""
@@ -54,6 +68,8 @@ class TurningCorner(CornerStage):
     def move(self, move: Move) -> None:
         """Take the next move; see `PathStage`."""
         expected = self._expected
+        if self._is_drawn and self._held is not None and move.kind not in _LINES and self.plane.moves(move):
+            raise AlarmError(self._control.alarms["drawing_increment"], line=move.line)
         if expected is not None and not self._first:
             self._expected = None
             self._check(move, expected)

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from math import nan, radians, sin, tan
 from typing import TYPE_CHECKING
 
-from polycnc.compensation.corner import CornerPolicy, Shape
+from polycnc.compensation.corner import Shape
 from polycnc.control.fanuc.turning_coordinates import plane_axes
-from polycnc.control.fanuc.turning_corners import corner_stage, corner_waits
+from polycnc.control.fanuc.turning_corners import LEAST_ANGLE_DEG, corner_stage, corner_waits
 from polycnc.control.word_address import path
 from polycnc.control.word_address.numbers import Convert, angle_converter
 from polycnc.geometry import offset
@@ -20,14 +20,15 @@ from polycnc.geometry.frames import cos_sin_deg
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import GCode, Step
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.geometry.arcs import Point
 
-#: A block with an angle only may stand between a corner and its second move.
-_LEAST_ANGLE_DEG = 1.0
-_CORNERS = CornerPolicy(idle_blocks=1, least_turn_deg=_LEAST_ANGLE_DEG)
+#: Sine of the angle between lines up to which they have no intersection; the limit itself counts.
+_LEAST_SINE = sin(radians(LEAST_ANGLE_DEG)) + 1e-12
 _MAX_IDLE_BLOCKS = 1
 #: One-shot codes and groups by what may stand between the blocks of a figure (II.4.9, note 2).
 _ALLOWED = frozenset({"G4"})
@@ -60,6 +61,14 @@ def is_on(builder: Builder) -> bool:
 def plan_line(builder: Builder, plan: Plan) -> Step | None:
     """G01, with the words of drawing dimensions where they are chosen."""
     return _plan(builder, plan) if is_on(builder) else path.plan_line(builder, plan)
+
+
+def plan_end(builder: Builder, plan: Plan) -> Callable[[Channel, list[float]], list[float]]:
+    """The end point of a thread block: ,A completes it where drawing dimensions are chosen (G33 of note 2)."""
+    if not (is_on(builder) and builder.has(",A")):
+        return lambda channel, values: path.target(channel, plan.axis_words, values)
+    words = _DrawingWords(builder, plan)
+    return lambda channel, values: words.completed(channel, words.angle(values) or 0.0, values)
 
 
 def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
@@ -153,7 +162,7 @@ class _DrawingWords:
         return end
 
     def _check_runs_along(self, angle_deg: float) -> None:
-        if abs(sin(radians(angle_deg))) < sin(radians(_LEAST_ANGLE_DEG)):
+        if abs(sin(radians(angle_deg))) < _LEAST_SINE:
             raise self.control.fail("drawing_end", address=self._angle or "")
 
 
@@ -178,7 +187,7 @@ def _close(
     start: Point = (c.programmed[axes[0]], c.programmed[axes[1]])
     last: Point = (end[axes[0]], end[axes[1]])
     between = radians(angle - line.angle_deg)
-    if abs(sin(between)) < sin(radians(_LEAST_ANGLE_DEG)):
+    if abs(sin(between)) < _LEAST_SINE:
         raise control.fail("drawing_parallel")
     meeting = offset.meet(
         offset.ray(start, cos_sin_deg(line.angle_deg)), offset.ray(last, cos_sin_deg(angle)), 0.0, 0.0
@@ -201,7 +210,7 @@ def _move(channel: Channel, programmed: list[float], corner: tuple[Shape, float]
         raise channel.control.fail("no_feed")
     if corner is not None:
         stage = corner_stage(channel)
-        stage.policy = _CORNERS
+        stage.draw()
         stage.insert(*corner)
     end = channel.coordinates.to_position(programmed)
     channel.straight(

@@ -55,7 +55,10 @@ def check_block(builder: Builder, axis_before: int, axis: int) -> None:
 
 def plan_waiting(builder: Builder, plan: Plan) -> None:
     """Between M29 and its tapping cycle neither S nor a move of axes is allowed."""
-    if builder.before[RIGID] != RIGID_ON or builder.before["cycle"] != "G80" or builder.mode["cycle"] in TAPS:
+    if builder.before[RIGID] != RIGID_ON or builder.before["cycle"] != "G80":
+        return
+    if any(row.code in TAPS for row in builder.codes):
+        # The cycle, even one that a motion code of its block cancels.
         return
     if builder.has("S") or plan.axis_words:
         raise builder.control.fail(

@@ -6,6 +6,7 @@ from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
+from polycnc.control.fanuc import turning_drawing
 from polycnc.control.fanuc.turning_coordinates import feed_number
 from polycnc.control.fanuc.turning_tools import THREADS
 from polycnc.control.word_address.path import CENTER_WORDS, PLANES, center_by_radius, target
@@ -48,18 +49,20 @@ def plan_growing_thread(builder: Builder, plan: Plan) -> Step | None:
 
 
 def _plan_straight(builder: Builder, plan: Plan, *, grows: bool) -> Step | None:
-    words = plan.axis_words
-    _refuse_corners(builder, plan, tuple(a for a in _CORNER_WORDS if not (grows and a == "K")))
+    words = (("K", grows), (",A", turning_drawing.is_on(builder)))
+    allowed = [address for address, has_meaning in words if has_meaning]
+    _refuse_corners(builder, plan, tuple(a for a in _CORNER_WORDS if a not in allowed))
     angle_of = plan_start_angle(builder)
     builder.take("K")
     growth_slot = builder.slot("K") if grows else None
     growth_of = builder.length("K") if growth_slot is not None else None
-    if not words:
+    if not plan.axis_words:
         return None
+    end_of = turning_drawing.plan_end(builder, plan)
 
     def cut(channel: Channel, values: list[float]) -> None:
         lead = lead_in_force(channel)
-        programmed = target(channel, words, values)
+        programmed = end_of(channel, values)
         if growth_slot is not None:
             growth = values[growth_slot]
             check_last_lead(channel, programmed, lead, growth_of(growth) if growth_of else growth)
