@@ -8,16 +8,16 @@ language compiled, and what differs between controls lies behind `Control`.
 from __future__ import annotations
 
 import re
-from contextlib import suppress
 from math import inf, nan
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.coordinates import Coordinates
+from polycnc.channel.failure import end_run, take_back
 from polycnc.channel.mode import Mode, ModeTable
-from polycnc.channel.path import Move, PathStage, points_of_arc
+from polycnc.channel.path import Move, PathStage, TableStage, points_of_arc
 from polycnc.channel.stack import Executable, Level
 from polycnc.channel.waits import BLOCK, CHUNK, PREPROCESSING, PreprocessingStop, Wait
-from polycnc.messages import Alarm, AlarmError
+from polycnc.messages import AlarmError
 from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
 from polycnc.toolpath.table import CHUNK_ROWS
 
@@ -26,11 +26,12 @@ if TYPE_CHECKING:
 
     from polycnc.channel.group import ChannelGroup
     from polycnc.channel.interface import Control, MainRun, Zone
+    from polycnc.channel.scanner import Bulk, Scanner
     from polycnc.channel.stack import Step
     from polycnc.geometry.frames import Vector
-    from polycnc.language.bulk.scanner import Bulk, Scanner
     from polycnc.machine.model import Axis, Machine
     from polycnc.machine.setup import Setup
+    from polycnc.messages import Alarm
     from polycnc.program import Program
     from polycnc.program.store import ProgramStore
 
@@ -48,6 +49,7 @@ class Channel:
         coordinates: Positions and frames.
         feed: Feed in force in internal units (mm/s, mm/rev, 1/s as the feed mode says), NaN when none was programmed.
         level: The running program level, `stack[-1]`.
+        start_position: Position at power-on, all axes.
         head: First stage of the path, or None while moves go straight to the table.
         mark: Rows of the chunk when the running block began.
         control: The control, for the handlers of its family, which know its class.
@@ -91,7 +93,7 @@ class Channel:
         geometry = (x, y, z)
         start = [setup.start.get(name, 0.0) for name in self.axes]
         self.coordinates = Coordinates(self.axes, geometry, start)
-        self._start = list(start)
+        self.start_position = tuple(start)
         self.toolpath = Toolpath(self.axes) if toolpath is None else toolpath
         self.modes = ModeTable()
         self.mode: Mode = self.modes.mode({})
@@ -260,7 +262,7 @@ class Channel:
             else:
                 self._control.begin(self)
         except AlarmError as error:
-            self._alarm(error)
+            self.fail(error)
         while not self._finished:
             yield from self._run_blocks()
         self.flush()
@@ -281,17 +283,17 @@ class Channel:
                     wait, self._wait = self._wait, None
                     yield wait
         except AlarmError as error:
-            self._take_back(found_ahead=bool(error.line))
-            self._alarm(error)
+            take_back(self, found_ahead=bool(error.line))
+            self.fail(error)
         except PreprocessingStop:
             self._level.index = self._level.current
             yield PREPROCESSING
         except ArithmeticError as error:
-            self._take_back()
-            self._alarm(self._control.arithmetic_alarm(error))
+            take_back(self)
+            self.fail(self._control.arithmetic_alarm(error))
         except RecursionError:
-            self._take_back()
-            self._alarm(AlarmError("PC0003"))
+            take_back(self)
+            self.fail(AlarmError("PC0003"))
 
     def _run_burst(self, level: Level) -> Step | None:
         """Run blocks of a level until something asks for attention; gives the last one.
@@ -353,39 +355,10 @@ class Channel:
         match = _SEQUENCE.match(program.lines[line - program.first_line])
         return match[1].upper() if match else str(line)
 
-    def _take_back(self, *, found_ahead: bool = False) -> None:
-        """The block that alarms does nothing: its rows vanish, the channel stands where it stood before.
-
-        Moves that a stage holds back belong to blocks in front and are still made, unless the stage itself has found
-        the mistake in one of them (`found_ahead`): then the motion ends in front of that one.
-        """
-        if self._head is not None:
-            head, self.head = self._head, None
-            if not found_ahead:
-                with suppress(AlarmError):
-                    head.flush()
-            self._stand_at_last_row()
-            return
-        chunk, mark = self.toolpath.chunk, self.mark
-        if len(chunk) > mark:
-            self.toolpath.truncate(mark)
-            self._stand_at_last_row()
-
     def keep_rows(self) -> None:
         """What the running block has written stays even if it alarms from here on."""
         self.flush()
         self.mark = self.toolpath.mark()
-
-    def _stand_at_last_row(self) -> None:
-        c, context = self.coordinates, self.toolpath.last_context()
-        end = self.toolpath.last_end() or list(self._start)
-        if context is not None and (context.frame != c.zero or context.offsets != tuple(c.offsets)):
-            # The block has changed offsets before it alarmed: the axes stand, what is displayed follows.
-            c.arrive_machine(self.toolpath.to_machine(end, context, c.geometry))
-            return
-        if self.table is not self.rows and c.transformation is not None:
-            end = c.transformation.display(end)
-        c.arrive(end)
 
     def flush(self) -> None:
         """Pass on every move that a stage still holds back."""
@@ -393,42 +366,11 @@ class Channel:
             try:
                 self._head.flush()
             except AlarmError as error:
-                self._alarm(error)
-
-    def _alarm(self, error: AlarmError) -> None:
-        level = self.stack[-1] if self.stack else None
-        line = error.line or (level.code.line(level.current) if level else 0)
-        program = level.code.program if level else None
-        name = program.name if program else ""
-        if error.program is not None:
-            name = self.toolpath.programs[error.program]
-        column = error.column
-        if level and error.address and not column and not error.line:
-            column = level.code.column(level.current, error.address)
-        alarm = Alarm(
-            control=self._control.id,
-            code=error.code,
-            program=name,
-            line=line,
-            column=column,
-            args=dict(error.args_by_name),
-            hint=error.hint,
-            detail=error.detail,
-            file=str(program.path or "") if program else "",
-            call_chain=tuple((lv.code.program.name, lv.code.line(lv.current)) for lv in self.stack[:-1]),
-        )
-        self.alarms.append(alarm)
-        data = {"code": alarm.code, "line": alarm.line, "column": alarm.column, "program": alarm.program}
-        number = level.program_number if level else self.toolpath.program_number("")
-        self.toolpath.append_event(
-            Event("alarm", data), number, line, self.context_number(), self.coordinates.position
-        )
-        self.head = None
-        self.finished = True
+                self.fail(error)
 
     def fail(self, error: AlarmError) -> None:
-        """End the run with an alarm that arose outside of a block."""
-        self._alarm(error)
+        """End the run with an alarm."""
+        end_run(self, error)
 
     # ---- writing -------------------------------------------------------------------------------------------------
 
@@ -566,29 +508,3 @@ class Channel:
                 raise self._control.over_travel(self.axes[i], 1)
         if self.stroke_zone is not None:
             self.stroke_zone.check(self, machine, straight=straight)
-
-
-class TableStage:
-    """The last stage of every path: writes rows."""
-
-    def __init__(self, channel: Channel) -> None:
-        self.after: PathStage = self
-        self._channel = channel
-        self.end: list[float] = []
-
-    def move(self, move: Move) -> None:
-        """Write a move; one without way and without parameters gives no row."""
-        self.end = move.end
-        if move.end != move.start or move.center is not None or move.parameters:
-            self._channel.write(move)
-
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
-        """Write an event at the place of the last move."""
-        end = self.end or self._channel.coordinates.position
-        self._channel.toolpath.append_event(event, program, line, context, end)
-
-    def block(self) -> None:
-        """Nothing waits here."""
-
-    def flush(self) -> None:
-        """Nothing is held back here."""

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.channel.scanner import Dialect
     from polycnc.channel.stack import Executable, Level, Step
-    from polycnc.language.bulk.scanner import Dialect
     from polycnc.messages import AlarmError
     from polycnc.program import Program
     from polycnc.toolpath import Context

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import nan
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from polycnc.geometry import arcs
 from polycnc.toolpath.kinds import ARC_KINDS, Kind
@@ -17,6 +17,7 @@ from polycnc.toolpath.kinds import ARC_KINDS, Kind
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from polycnc.channel.channel import Channel
     from polycnc.geometry.frames import Vector
     from polycnc.toolpath import Event
 
@@ -102,11 +103,24 @@ class PassingStage:
         self.after.flush()
 
 
-class Recorder:
+class LastStage:
+    """The last stage of a path: nothing waits here, nothing is held back."""
+
+    def __init__(self) -> None:
+        self.after: Any = self
+
+    def block(self) -> None:
+        """Nothing waits here."""
+
+    def flush(self) -> None:
+        """Nothing is held back here."""
+
+
+class Recorder(LastStage):
     """The only stage while the control reads a contour without moving: keeps the moves, drops the events."""
 
     def __init__(self) -> None:
-        self.after: PathStage = self
+        super().__init__()
         self.moves: list[Move] = []
 
     def move(self, move: Move) -> None:
@@ -116,11 +130,25 @@ class Recorder:
     def event(self, event: Event, program: int, line: int, context: int) -> None:
         """Auxiliary functions of a contour that is only read do nothing."""
 
-    def block(self) -> None:
-        """Nothing waits here."""
 
-    def flush(self) -> None:
-        """Nothing is held back here."""
+class TableStage(LastStage):
+    """Writes rows: the last stage wherever the control moves."""
+
+    def __init__(self, channel: Channel) -> None:
+        super().__init__()
+        self._channel = channel
+        self.end: list[float] = []
+
+    def move(self, move: Move) -> None:
+        """Write a move; one without way and without parameters gives no row."""
+        self.end = move.end
+        if move.end != move.start or move.center is not None or move.parameters:
+            self._channel.write(move)
+
+    def event(self, event: Event, program: int, line: int, context: int) -> None:
+        """Write an event at the place of the last move."""
+        end = self.end or self._channel.coordinates.position
+        self._channel.toolpath.append_event(event, program, line, context, end)
 
 
 #: Chords of an arc may be this far off it where it is looked at point by point, mm.

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.channel.channel import Channel
-    from polycnc.language.bulk.scanner import Scanner
+    from polycnc.channel.scanner import Scanner
     from polycnc.language.steps import FewSteps
     from polycnc.program import Program
 

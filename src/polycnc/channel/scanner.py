@@ -266,11 +266,11 @@ class Scanner:
             channel.toolpath.chunk.extend(rows, program, context, ints[layout.CURVES], self._columns)
         c.position = self._get(layout.POSITION)
         c.programmed = c.position if c.direct else self._get(layout.PROGRAMMED)
-        if channel.head is not None:
-            channel.rows.end = c.position  # the moves have gone past a stage that had nothing to do
         if ints[layout.OWES]:
             c.pending = self._get(layout.PENDING)
         if rows:
+            if channel.head is not None:
+                channel.rows.end = c.position  # the moves have gone past a stage that had nothing to do
             self._dialect.moved(channel, self._last_moves(rows, ints[layout.CURVES]))
 
     def _last_moves(self, rows: int, curves: int) -> LastMoves:

@@ -1,0 +1,78 @@
+"""What an alarm does to a channel: the block has done nothing, the alarm goes into the log and the table."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+from polycnc.messages import Alarm, AlarmError
+from polycnc.toolpath import Event
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+
+
+def take_back(channel: Channel, *, found_ahead: bool = False) -> None:
+    """The block that alarms does nothing: its rows vanish, the channel stands where it stood before.
+
+    Moves that a stage holds back belong to blocks in front and are still made, unless the stage itself has found
+    the mistake in one of them (`found_ahead`): then the motion ends in front of that one.
+    """
+    head = channel.head
+    if head is not None:
+        channel.head = None
+        if not found_ahead:
+            with suppress(AlarmError):
+                head.flush()
+        _stand_at_last_row(channel)
+    elif len(channel.toolpath.chunk) > channel.mark:
+        channel.toolpath.truncate(channel.mark)
+        _stand_at_last_row(channel)
+
+
+def _stand_at_last_row(channel: Channel) -> None:
+    c, toolpath = channel.coordinates, channel.toolpath
+    context, end = toolpath.last_context(), toolpath.last_end() or list(channel.start_position)
+    if context is not None and (context.frame != c.zero or context.offsets != tuple(c.offsets)):
+        # The block has changed offsets before it alarmed: the axes stand, what is displayed follows.
+        c.arrive_machine(toolpath.to_machine(end, context, c.geometry))
+        return
+    if channel.table is not channel.rows and c.transformation is not None:
+        end = c.transformation.display(end)
+    c.arrive(end)
+
+
+def end_run(channel: Channel, error: AlarmError) -> None:
+    """End a channel's run with an alarm, at the block that runs unless the error names another place."""
+    alarm = _alarm(channel, error)
+    channel.alarms.append(alarm)
+    data = {"code": alarm.code, "line": alarm.line, "column": alarm.column, "program": alarm.program}
+    toolpath = channel.toolpath
+    number = channel.level.program_number if channel.stack else toolpath.program_number("")
+    context = channel.context_number()
+    toolpath.append_event(Event("alarm", data), number, alarm.line, context, channel.coordinates.position)
+    channel.head = None
+    channel.finished = True
+
+
+def _alarm(channel: Channel, error: AlarmError) -> Alarm:
+    level = channel.stack[-1] if channel.stack else None
+    program = level.code.program if level else None
+    name = program.name if program else ""
+    if error.program is not None:
+        name = channel.toolpath.programs[error.program]
+    column = error.column
+    if level and error.address and not column and not error.line:
+        column = level.code.column(level.current, error.address)
+    return Alarm(
+        control=channel.control.id,
+        code=error.code,
+        program=name,
+        line=error.line or (level.code.line(level.current) if level else 0),
+        column=column,
+        args=dict(error.args_by_name),
+        hint=error.hint,
+        detail=error.detail,
+        file=str(program.path or "") if program else "",
+        call_chain=tuple((lv.code.program.name, lv.code.line(lv.current)) for lv in channel.stack[:-1]),
+    )
