@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from polycnc.geometry import arcs
+from polycnc.geometry import arcs, vectors
 
 if TYPE_CHECKING:
     from polycnc.geometry.arcs import Point
@@ -178,7 +178,7 @@ def test_the_centre_is_equally_far_from_all_three_points(
     a: tuple[float, float, float], b: tuple[float, float, float], c: tuple[float, float, float]
 ) -> None:
     sides = [sqrt(sum((p - q) ** 2 for p, q in zip(x, y, strict=True))) for x, y in ((a, b), (b, c), (a, c))]
-    area = arcs.cross((b[0] - a[0], b[1] - a[1], b[2] - a[2]), (c[0] - a[0], c[1] - a[1], c[2] - a[2]))
+    area = vectors.cross(vectors.minus(b, a), vectors.minus(c, a))
     assume(min(sides) > 1e-2 and sqrt(sum(x * x for x in area)) > 0.05 * max(sides) ** 2)
     center, normal = arcs.three_point_circle(a, b, c)
     distances = [sqrt(sum((p - q) ** 2 for p, q in zip(x, center, strict=True))) for x in (a, b, c)]

@@ -9,6 +9,7 @@ from dataclasses import replace
 from math import atan2, cos, hypot, pi, sin
 from typing import TYPE_CHECKING
 
+from polycnc.geometry.vectors import cross, dot
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
@@ -46,18 +47,18 @@ class Way:
         center = move.center or (0.0, 0.0, 0.0)
         a = [value - c for value, c in zip(self._geometric(move.start), center, strict=True)]
         b = [value - c for value, c in zip(self._geometric(move.end), center, strict=True)]
-        height, top = _dot(a, normal), _dot(b, normal)
+        height, top = dot(a, normal), dot(b, normal)
         a = [value - height * n for value, n in zip(a, normal, strict=True)]
         b = [value - top * n for value, n in zip(b, normal, strict=True)]
         sign = 1.0 if move.kind in _CCW else -1.0
-        angle = sign * atan2(_dot(_cross(a, b), normal), _dot(a, b))
+        angle = sign * atan2(dot(cross(a, b), normal), dot(a, b))
         if angle < 1e-12:
             angle += 2.0 * pi
         self._radius = hypot(*a)
         self._growth = hypot(*b) - self._radius
         self._sweep = sign * (angle + 2.0 * pi * move.turns)
         self._out = [value / self._radius for value in a] if self._radius else [0.0, 0.0, 0.0]
-        self._on = _cross(normal, self._out)
+        self._on = cross(normal, self._out)
         self._foot = [c + height * n for c, n in zip(center, normal, strict=True)]
         self._rise = top - height
 
@@ -175,14 +176,6 @@ class Way:
     def _piece(self, start: list[float], end: list[float], share: float) -> Move:
         turns = max(int(abs(self._sweep) * share / (2.0 * pi) - 1e-12), 0) if self.move.turns else 0
         return replace(self.move, start=start, end=end, turns=float(turns))
-
-
-def _dot(a: list[float], b: Vector | list[float]) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _cross(a: Vector | list[float], b: list[float]) -> list[float]:
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 def _unit(vector: list[float]) -> Vector:

@@ -10,6 +10,8 @@ from __future__ import annotations
 from math import acos, atan2, ceil, cos, hypot, pi, sin, sqrt
 from typing import TYPE_CHECKING
 
+from polycnc.geometry import vectors
+
 if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector
 
@@ -207,21 +209,13 @@ def three_point_circle(a: Vector, b: Vector, c: Vector) -> tuple[Vector, Vector]
     Raises:
         ValueError: The points lie on one straight line, or two of them coincide.
     """
-    p = (b[0] - a[0], b[1] - a[1], b[2] - a[2])
-    q = (c[0] - a[0], c[1] - a[1], c[2] - a[2])
-    n = cross(p, q)
-    nn = n[0] * n[0] + n[1] * n[1] + n[2] * n[2]
-    pp = p[0] * p[0] + p[1] * p[1] + p[2] * p[2]
-    qq = q[0] * q[0] + q[1] * q[1] + q[2] * q[2]
+    p, q = vectors.minus(b, a), vectors.minus(c, a)
+    n = vectors.cross(p, q)
+    nn, pp, qq = vectors.dot(n, n), vectors.dot(p, p), vectors.dot(q, q)
     # |n| = |p||q| sin: below a sine of 1e-9 the centre has no digit left.
     if nn <= 1e-18 * pp * qq or min(pp, qq) <= SAME_POINT_MM**2:
         raise ValueError("points on a line")
-    qn, np = cross(q, n), cross(n, p)
+    qn, np = vectors.cross(q, n), vectors.cross(n, p)
     center = tuple(a[i] + (pp * qn[i] + qq * np[i]) / (2.0 * nn) for i in range(3))
     length = sqrt(nn)
     return (center[0], center[1], center[2]), (n[0] / length, n[1] / length, n[2] / length)
-
-
-def cross(a: Vector, b: Vector) -> Vector:
-    """Vector product."""
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])

@@ -10,6 +10,7 @@ from math import hypot, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.geometry.frames import Frame, Vector
+from polycnc.geometry.vectors import minus
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,7 +22,7 @@ _SWEEPS = 60
 
 def is_collinear(a: Vector, b: Vector, c: Vector) -> bool:
     """Whether three points lie on one line, or two of them coincide."""
-    p, q = _minus(b, a), _minus(c, a)
+    p, q = minus(b, a), minus(c, a)
     n = (p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0])
     return hypot(*n) <= COLLINEAR_SINE * hypot(*p) * hypot(*q)
 
@@ -31,7 +32,7 @@ def rigid_fit(ideal: Sequence[Vector], measured: Sequence[Vector]) -> Frame:
     a, b = _mean(ideal), _mean(measured)
     s = [[0.0] * 3 for _ in range(3)]
     for p, q in zip(ideal, measured, strict=True):
-        u, v = _minus(p, a), _minus(q, b)
+        u, v = minus(p, a), minus(q, b)
         for i in range(3):
             for j in range(3):
                 s[i][j] += u[i] * v[j]
@@ -51,12 +52,12 @@ def rigid_fit(ideal: Sequence[Vector], measured: Sequence[Vector]) -> Frame:
             (2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z),
         )
     )
-    return Frame(turned.m, _minus(b, turned.apply(*a)))
+    return Frame(turned.m, minus(b, turned.apply(*a)))
 
 
 def distances(frame: Frame, ideal: Sequence[Vector], measured: Sequence[Vector]) -> list[float]:
     """How far each ideal point is from its measured one after the motion, mm."""
-    return [hypot(*_minus(frame.apply(*p), q)) for p, q in zip(ideal, measured, strict=True)]
+    return [hypot(*minus(frame.apply(*p), q)) for p, q in zip(ideal, measured, strict=True)]
 
 
 def _dominant_vector(matrix: list[list[float]]) -> list[float]:
@@ -87,7 +88,3 @@ def _dominant_vector(matrix: list[list[float]]) -> list[float]:
 def _mean(points: Sequence[Vector]) -> Vector:
     x, y, z = (sum(values) / len(points) for values in zip(*points, strict=True))
     return (x, y, z)
-
-
-def _minus(a: Vector, b: Vector) -> Vector:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])

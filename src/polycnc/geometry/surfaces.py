@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from math import hypot, sqrt
 from typing import TYPE_CHECKING
 
+from polycnc.geometry.vectors import dot, minus, times
+
 if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector
 
@@ -37,22 +39,22 @@ class Surface:
 
     def touched(self, start: Vector, end: Vector) -> float | None:
         """The share of a straight way at which the tip comes to the surface from outside; None if it never does."""
-        place = _difference(start, self.at)
-        way = _difference(end, start)
+        place = minus(start, self.at)
+        way = minus(end, start)
         length = hypot(*self.direction)
         if length > 0.0:
-            normal = _scaled(self.direction, 1.0 / length)
+            normal = times(self.direction, 1.0 / length)
             if self.radius == 0.0:
-                return _crossing(_dot(place, normal) - self.tip, _dot(way, normal))
-            place = _difference(place, _scaled(normal, _dot(place, normal)))
-            way = _difference(way, _scaled(normal, _dot(way, normal)))
+                return _crossing(dot(place, normal) - self.tip, dot(way, normal))
+            place = minus(place, times(normal, dot(place, normal)))
+            way = minus(way, times(normal, dot(way, normal)))
         return self._around(place, way)
 
     def _around(self, place: Vector, way: Vector) -> float | None:
         """The way relative to the centre: a quadratic equation for the distance from it."""
         reach = self.radius - self.tip if self.inside else self.radius + self.tip
-        square, along = _dot(way, way), _dot(place, way)
-        gap = _dot(place, place) - reach * reach
+        square, along = dot(way, way), dot(place, way)
+        gap = dot(place, place) - reach * reach
         sense = 1.0 if self.inside else -1.0
         if square <= NOTHING_MM * NOTHING_MM or reach < 0.0:
             return None
@@ -75,15 +77,3 @@ def _crossing(gap: float, change: float) -> float | None:
     if change >= 0.0 or gap < -NOTHING_MM or gap + change > NOTHING_MM:
         return None
     return min(max(-gap / change, 0.0), 1.0)
-
-
-def _difference(a: Vector, b: Vector) -> Vector:
-    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
-
-
-def _scaled(a: Vector, factor: float) -> Vector:
-    return a[0] * factor, a[1] * factor, a[2] * factor
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -13,6 +13,7 @@ from math import acos, atan2, degrees, hypot, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.geometry.frames import IDENTITY, Frame, cos_sin_deg, translation
+from polycnc.geometry.vectors import cross, dot
 
 if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector
@@ -122,10 +123,10 @@ def _chain(joints: Sequence[Joint], angles: Angles) -> Frame:
 
 def _inner_angles(k1: Vector, k2: Vector, wanted: Vector) -> tuple[float, ...]:
     """Angles about k2 for which the turned tool has the same component along k1 as the wanted direction."""
-    along = _dot(k2, _ALONG_Z)
+    along = dot(k2, _ALONG_Z)
     across = (-k2[0] * along, -k2[1] * along, 1.0 - k2[2] * along)
-    a, b = _dot(k1, across), _dot(k1, _cross(k2, _ALONG_Z))
-    size, rest = hypot(a, b), _dot(k1, wanted) - _dot(k1, k2) * along
+    a, b = dot(k1, across), dot(k1, cross(k2, _ALONG_Z))
+    size, rest = hypot(a, b), dot(k1, wanted) - dot(k1, k2) * along
     if size < _PARALLEL or abs(rest) > size * (1.0 + _PARALLEL):
         return ()
     middle, half = degrees(atan2(b, a)), degrees(acos(max(-1.0, min(1.0, rest / size))))
@@ -134,14 +135,14 @@ def _inner_angles(k1: Vector, k2: Vector, wanted: Vector) -> tuple[float, ...]:
 
 def _angle_about(axis: Vector, start: Vector, end: Vector) -> float | None:
     """Angle that turns one direction into another about an axis; None where both lie on the axis."""
-    along = _dot(axis, start)
+    along = dot(axis, start)
     a = tuple(s - k * along for s, k in zip(start, axis, strict=True))
-    along = _dot(axis, end)
+    along = dot(axis, end)
     b = tuple(e - k * along for e, k in zip(end, axis, strict=True))
     u, v = (a[0], a[1], a[2]), (b[0], b[1], b[2])
-    if min(_dot(u, u), _dot(v, v)) < _PARALLEL**2:
+    if min(dot(u, u), dot(v, v)) < _PARALLEL**2:
         return None
-    return degrees(atan2(_dot(axis, _cross(u, v)), _dot(u, v)))
+    return degrees(atan2(dot(axis, cross(u, v)), dot(u, v)))
 
 
 def _nearest(angle: float, near: float) -> float:
@@ -151,16 +152,8 @@ def _nearest(angle: float, near: float) -> float:
 
 
 def _unit(v: Vector) -> Vector:
-    size = sqrt(_dot(v, v))
+    size = sqrt(dot(v, v))
     return (v[0] / size, v[1] / size, v[2] / size)
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 def _same(a: Vector, b: Vector) -> bool:

@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 from math import atan2, cos, dist, sin, sqrt, tau
 from typing import TYPE_CHECKING
 
-from polycnc.geometry.arcs import SAME_POINT_MM, cross, parts_for_chord_error
+from polycnc.geometry.arcs import SAME_POINT_MM, parts_for_chord_error
+from polycnc.geometry.vectors import cross, dot, minus
 from polycnc.toolpath.kinds import ARC_KINDS, Kind
 
 if TYPE_CHECKING:
@@ -112,17 +113,17 @@ def arc_points(
     The arc turns counter-clockwise about `normal`; radius and height change evenly with the angle.
     """
     n: Vector = (normal[0], normal[1], normal[2])
-    a, b = _minus(start, center), _minus(end, center)
-    rise_a, rise_b = _dot(a, n), _dot(b, n)
-    u = _minus(a, [rise_a * c for c in n])
-    w = _minus(b, [rise_b * c for c in n])
-    radius_a, radius_b = sqrt(_dot(u, u)), sqrt(_dot(w, w))
+    a, b = minus(start, center), minus(end, center)
+    rise_a, rise_b = dot(a, n), dot(b, n)
+    u = minus(a, [rise_a * c for c in n])
+    w = minus(b, [rise_b * c for c in n])
+    radius_a, radius_b = sqrt(dot(u, u)), sqrt(dot(w, w))
     if radius_a == 0.0:
         return [end]
     is_full = dist(u, w) <= SAME_POINT_MM
     u = (u[0] / radius_a, u[1] / radius_a, u[2] / radius_a)
     v = cross(n, u)
-    sweep = (tau if is_full else atan2(_dot(w, v), _dot(w, u)) % tau) + tau * turns
+    sweep = (tau if is_full else atan2(dot(w, v), dot(w, u)) % tau) + tau * turns
     parts = parts_for_chord_error(max(radius_a, radius_b), sweep, error)
     points: list[Vector] = []
     for k in range(1, parts):
@@ -132,11 +133,3 @@ def arc_points(
         x, y, z = (center[i] + c * u[i] + s * v[i] + rise * n[i] for i in range(3))
         points.append((x, y, z))
     return [*points, end]
-
-
-def _minus(p: Vector, q: tuple[float, ...] | list[float]) -> Vector:
-    return (p[0] - q[0], p[1] - q[1], p[2] - q[2])
-
-
-def _dot(p: Vector, q: Vector) -> float:
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]

@@ -13,6 +13,7 @@ from polycnc.control.sinumerik import frames, limits
 from polycnc.control.sinumerik.positions import AxisTerm, length_factor, number
 from polycnc.control.sinumerik.tables import PLANES
 from polycnc.geometry.frames import Frame, Vector
+from polycnc.geometry.vectors import cross
 from polycnc.language.sinumerik.nc_frame import (
     GEOMETRY_AXES,
     NcFrame,
@@ -26,7 +27,7 @@ from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.block import Draft, Step, Values
@@ -137,13 +138,12 @@ def crots(angles: dict[str, float]) -> NcFrame:
     first = next(i for i in range(3) if {GEOMETRY_AXES[i], GEOMETRY_AXES[(i + 1) % 3]} == set(angles))
     i, j, k = first, (first + 1) % 3, (first + 2) % 3
     about_i, about_j = radians(angles[GEOMETRY_AXES[i]]), radians(angles[GEOMETRY_AXES[j]])
-    u, v = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
+    u, trace = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
     u[i], u[k] = cos(about_j), -sin(about_j)
-    v[j], v[k] = cos(about_i), sin(about_i)
-    w = _unit(_cross(u, v))
-    v = _cross(w, u)
-    columns: list[list[float]] = [[], [], []]
-    columns[i], columns[j], columns[k] = u, v, w
+    trace[j], trace[k] = cos(about_i), sin(about_i)
+    w = _unit(cross(u, trace))
+    columns: list[Sequence[float]] = [(), (), ()]
+    columns[i], columns[j], columns[k] = u, cross(w, u), w
     rows: list[Vector] = [(columns[0][r], columns[1][r], columns[2][r]) for r in range(3)]
     return NcFrame(matrix=Frame((rows[0], rows[1], rows[2])).m)
 
@@ -266,11 +266,7 @@ FRAME_CODES: dict[str, Callable[[Draft], Step]] = {
 }
 
 
-def _cross(a: list[float], b: list[float]) -> list[float]:
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def _unit(a: list[float]) -> list[float]:
+def _unit(a: Vector) -> list[float]:
     length = sum(value * value for value in a) ** 0.5
     if length < 1e-12:
         raise AlarmError("12160", text="ROTS")

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.control.sinumerik import arguments, tables
 from polycnc.control.sinumerik.positions import axis_term, number
 from polycnc.control.sinumerik.sections import axis_column
+from polycnc.geometry.vectors import axis_vector, cross
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -65,11 +66,11 @@ def _along(channel: Channel, tangent: Vector) -> list[float] | None:
     angle = radians((direction - 1) * STEP_DEG)
     first, second, third = tables.PLANES[channel.mode["plane"]]
     if channel.mode["retraction_plane"] == "LFWP":
-        along, across = _unit(first), _unit(second)
+        along, across = axis_vector(first), axis_vector(second)
     else:
         signs = [-1.0 if mirrored else 1.0 for mirrored in memory.frames.total().mirrored]
-        right = _cross(_signed(tangent, signs), _unit(third))
-        along, across = _signed(_unit(third), signs), _signed(right, signs)
+        right = cross(_signed(tangent, signs), axis_vector(third))
+        along, across = _signed(axis_vector(third), signs), _signed(right, signs)
         if signs[first] * signs[second] < 0.0 and memory.data.integer("$MC_LIFTFAST_WITH_MIRROR"):
             across = _signed(across, [-1.0, -1.0, -1.0])
     distance = memory.values.get(("DILF", ())) or memory.data.number("$MC_LIFTFAST_DIST")
@@ -80,16 +81,8 @@ def _along(channel: Channel, tangent: Vector) -> list[float] | None:
     return end
 
 
-def _unit(axis: int) -> Vector:
-    return (float(axis == 0), float(axis == 1), float(axis == 2))
-
-
 def _signed(vector: Vector, signs: list[float]) -> Vector:
     return (vector[0] * signs[0], vector[1] * signs[1], vector[2] * signs[2])
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 # ---- words and procedures

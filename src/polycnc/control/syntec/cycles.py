@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from functools import partial
-from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec import spatial
 from polycnc.control.syntec.parameters import decimals, parameter
 from polycnc.control.word_address import radius
-from polycnc.control.word_address.drilling import DrillCycle, Drilling, drill_here, is_active, lead_from_feed
-from polycnc.control.word_address.path import PLANES
-from polycnc.cycles import drilling
+from polycnc.control.word_address.drilling import DrillCycle, Drilling, is_active, lead_from_feed
+from polycnc.control.word_address.hole_patterns import drill_points, plane_point
+from polycnc.cycles import drilling, hole_patterns
 from polycnc.cycles.drilling import Action, Hole, Stroke
-from polycnc.geometry.frames import cos_sin_deg
 from polycnc.messages import AlarmError
-from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -26,6 +23,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.numbers import NumberRules
     from polycnc.control.word_address.plan import Builder
     from polycnc.control.word_address.words import Words
+    from polycnc.geometry.arcs import Point
 
 #: An incremental bottom counts from the initial level where the page of the cycle says so, else from R.
 CYCLES = {
@@ -165,18 +163,14 @@ def circle_of_holes(channel: Channel, words: Words) -> None:
     count = _count(words, "K", signed=True)
     radius = _length(words, "I", positive=True)
     start = words.angle("J") or 0.0
-    pitch = 360.0 / abs(count) * (1 if count > 0 else -1)
-    center = _base(channel, words)
-    _drill_points(channel, (_round(center, radius, start + k * pitch) for k in range(abs(count))))
+    _drill(channel, hole_patterns.circle(plane_point(channel, words), radius, start, count))
 
 
 def line_of_holes(channel: Channel, words: Words) -> None:
     """G135 X Y I J K: K holes with pitch I along angle J (2.69)."""
     count = _count(words, "K")
-    pitch = _length(words, "I")
-    start = _base(channel, words)
-    angle = words.angle("J") or 0.0
-    _drill_points(channel, (_round(start, k * pitch, angle) for k in range(count)))
+    pitch, angle = _length(words, "I"), words.angle("J") or 0.0
+    _drill(channel, hole_patterns.line(plane_point(channel, words), pitch, angle, count))
 
 
 def arc_of_holes(channel: Channel, words: Words) -> None:
@@ -184,21 +178,14 @@ def arc_of_holes(channel: Channel, words: Words) -> None:
     count = _count(words, "K")
     radius = _length(words, "I", positive=True)
     start, pitch = words.angle("J") or 0.0, words.angle("P") or 0.0
-    center = _base(channel, words)
-    _drill_points(channel, (_round(center, radius, start + k * pitch) for k in range(count)))
+    _drill(channel, hole_patterns.arc(plane_point(channel, words), radius, start, pitch, count))
 
 
 def grid_of_holes(channel: Channel, words: Words) -> None:
     """G137.1 X Y I P J K: P holes along X, pitch I, and K along Y, pitch J, row by row to and fro (2.71)."""
     columns, rows = _count(words, "P"), _count(words, "K")
-    across, along = _length(words, "I"), _length(words, "J")
-    x, y = _base(channel, words)
-    points = (
-        (x + (i if j % 2 == 0 else columns - 1 - i) * across, y + j * along)
-        for j in range(rows)
-        for i in range(columns)
-    )
-    _drill_points(channel, points)
+    pitches = _length(words, "I"), _length(words, "J")
+    _drill(channel, hole_patterns.grid(plane_point(channel, words), pitches, columns, rows))
 
 
 def _count(words: Words, address: str, *, signed: bool = False) -> int:
@@ -215,31 +202,8 @@ def _length(words: Words, address: str, *, positive: bool = False) -> float:
     return value
 
 
-def _base(channel: Channel, words: Words) -> tuple[float, float]:
-    """The point that the axis words name, in the active plane."""
-    c = channel.coordinates
-    u, v, _ = PLANES[channel.mode["plane"]]
-    point = [c.programmed[c.geometry[u]], c.programmed[c.geometry[v]]]
-    for axis, value, incremental in words.axes():
-        for i, place in enumerate((u, v)):
-            if c.geometry[place] == axis:
-                point[i] = point[i] + value if incremental else value
-    return (point[0], point[1])
-
-
-def _round(center: tuple[float, float], radius: float, angle: float) -> tuple[float, float]:
-    cosine, sine = cos_sin_deg(angle)
-    return (center[0] + radius * cosine, center[1] + radius * sine)
-
-
-def _drill_points(channel: Channel, points: Iterator[tuple[float, float]]) -> None:
-    """Position over each point and drill with the data of the active cycle."""
+def _drill(channel: Channel, points: Iterator[Point]) -> None:
+    """Position over each point and drill with the data of the active cycle; COR-023 where none is active."""
     if not is_active(channel) or channel.memory.cycle_data is None:
         raise AlarmError("COR-023", word="", hint="hint.syntec.pattern-without-cycle")
-    c = channel.coordinates
-    u, v, _ = PLANES[channel.mode["plane"]]
-    for x, y in points:
-        end = c.programmed[:]
-        end[c.geometry[u]], end[c.geometry[v]] = x, y
-        channel.straight(Kind.RAPID, c.to_position(end), nan, end)
-        drill_here(channel)
+    drill_points(channel, points)

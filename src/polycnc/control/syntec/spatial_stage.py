@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from math import acos, degrees, sqrt
 from typing import TYPE_CHECKING
 
-from polycnc.geometry.arcs import cross
+from polycnc.geometry.vectors import cross, dot, times
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import Kind
 
@@ -119,14 +119,14 @@ class SpatialStage:
         first, second = held.normal, self._normal(held.tool, tangent)
         if second is None:
             raise AlarmError("COR-607", line=held.move.line)
-        cosine = _dot(first, second)
+        cosine = dot(first, second)
         if cosine < -1.0 + PARALLEL:
             raise AlarmError("COR-607", line=held.move.line)
         radius = self._radius
-        outer = _dot(second, held.tangent) * radius > PARALLEL
+        outer = dot(second, held.tangent) * radius > PARALLEL
         if outer and self._corners.is_arc(180.0 - degrees(acos(min(1.0, cosine)))):
-            self._emit(held.move, _times(radius, first))
-            self._around(held, _times(radius, second))
+            self._emit(held.move, times(first, radius))
+            self._around(held, times(second, radius))
             self._run_queue()
             return
         factor = radius / (1.0 + cosine)
@@ -156,7 +156,7 @@ class SpatialStage:
 
     def _normal(self, tool: Vector, tangent: Vector) -> Vector | None:
         left = _unit(cross(tool, tangent))
-        return None if left is None else _times(float(self.side), left)
+        return None if left is None else times(left, float(self.side))
 
     def _point(self, position: list[float]) -> Vector:
         x, y, z = self._geometry
@@ -172,7 +172,7 @@ class SpatialStage:
         """End the block that waits square on itself."""
         held, self._held = self._held, None
         if held is not None:
-            self._emit(held.move, _times(self._radius, held.normal))
+            self._emit(held.move, times(held.normal, self._radius))
         self._run_queue()
 
     def change(self, side: int, radius: float) -> None:
@@ -198,13 +198,5 @@ class SpatialStage:
 
 
 def _unit(v: Vector) -> Vector | None:
-    size = sqrt(_dot(v, v))
+    size = sqrt(dot(v, v))
     return None if size < PARALLEL else (v[0] / size, v[1] / size, v[2] / size)
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _times(factor: float, v: Vector) -> Vector:
-    return (factor * v[0], factor * v[1], factor * v[2])

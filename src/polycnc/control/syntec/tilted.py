@@ -13,8 +13,8 @@ from polycnc.control.syntec.parameters import has_option
 from polycnc.control.word_address import frames as base_frames
 from polycnc.control.word_address import length
 from polycnc.control.word_address.coordinates import refresh_zero
-from polycnc.geometry.arcs import cross
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
+from polycnc.geometry.vectors import cross
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

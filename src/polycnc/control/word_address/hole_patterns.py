@@ -27,14 +27,18 @@ def circle_of_holes(channel: Channel, words: Words) -> None:
     """X Y centre, I radius, J angle of the first hole, K count (negative: clockwise)."""
     count = _count(words, "K", signed=True)
     radius = abs(_length(words, "I"))
-    _drill(channel, hole_patterns.circle(_point(channel, words), radius, words.angle("J") or 0.0, count))
+    drill_points(
+        channel, hole_patterns.circle(plane_point(channel, words), radius, words.angle("J") or 0.0, count)
+    )
 
 
 def line_of_holes(channel: Channel, words: Words) -> None:
     """X Y first hole, I pitch, J angle of the line, K count."""
     count = _count(words, "K")
     pitch = _length(words, "I")
-    _drill(channel, hole_patterns.line(_point(channel, words), pitch, words.angle("J") or 0.0, count))
+    drill_points(
+        channel, hole_patterns.line(plane_point(channel, words), pitch, words.angle("J") or 0.0, count)
+    )
 
 
 def arc_of_holes(channel: Channel, words: Words) -> None:
@@ -44,14 +48,14 @@ def arc_of_holes(channel: Channel, words: Words) -> None:
     start, pitch = words.angle("J") or 0.0, words.angle("P") or 0.0
     if not pitch:
         raise words.fail("pattern_angle", "P")
-    _drill(channel, hole_patterns.arc(_point(channel, words), radius, start, pitch, count))
+    drill_points(channel, hole_patterns.arc(plane_point(channel, words), radius, start, pitch, count))
 
 
 def grid_of_holes(channel: Channel, words: Words) -> None:
     """X Y first hole, I pitch and P count along the first axis, J pitch and K count along the second."""
     columns, rows = _count(words, "P"), _count(words, "K")
     pitches = (_length(words, "I"), _length(words, "J"))
-    _drill(channel, hole_patterns.grid(_point(channel, words), pitches, columns, rows))
+    drill_points(channel, hole_patterns.grid(plane_point(channel, words), pitches, columns, rows))
 
 
 def _count(words: Words, address: str, *, signed: bool = False) -> int:
@@ -70,7 +74,7 @@ def _length(words: Words, address: str) -> float:
     return value
 
 
-def _point(channel: Channel, words: Words) -> Point:
+def plane_point(channel: Channel, words: Words) -> Point:
     """The point in the active plane that the axis words name."""
     c = channel.coordinates
     point = c.programmed[:]
@@ -80,8 +84,8 @@ def _point(channel: Channel, words: Words) -> Point:
     return point[c.geometry[u]], point[c.geometry[v]]
 
 
-def _drill(channel: Channel, points: Iterable[Point]) -> None:
-    """Rapid over each point, and the active cycle there."""
+def drill_points(channel: Channel, points: Iterable[Point]) -> None:
+    """Rapid over each point, and the active cycle there if one is active."""
     c = channel.coordinates
     u, v, _ = PLANES[channel.mode["plane"]]
     drills = is_active(channel) and channel.memory.cycle_data is not None

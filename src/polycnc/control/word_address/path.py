@@ -14,6 +14,7 @@ from polycnc.control.word_address.plain import targets as targets_as_data
 from polycnc.control.word_address.plain import word as word_as_data
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
+from polycnc.geometry.vectors import axis_vector
 from polycnc.language.bulk import Arc, Straight, declare
 from polycnc.toolpath import Kind
 
@@ -235,7 +236,7 @@ def emit_arc(
     for i, axis in enumerate(c.geometry):
         point[i] = c.programmed[axis] if axis >= 0 else 0.0
     point[u], point[v] = center
-    normal: Vector = (float(w == 0), float(w == 1), float(w == 2))
+    normal = axis_vector(w)
     third = c.geometry[w]
     helix = third >= 0 and programmed[third] != c.programmed[third]
     position = c.to_position(programmed)

@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address import path
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
+from polycnc.geometry.vectors import axis_vector
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.geometry.arcs import Point
-    from polycnc.geometry.frames import Frame, Vector
+    from polycnc.geometry.frames import Frame
 
 #: Scales that differ by less than this are equal.
 SAME_SCALE = 1e-9
@@ -97,6 +98,6 @@ def write_with_rest(
     third = c.geometry[w]
     helix = third >= 0 and on_circle[third] != c.position[third]
     kind = (Kind.HELIX_CCW if ccw else Kind.HELIX_CW) if helix else (Kind.CCW if ccw else Kind.CW)
-    normal: Vector = (float(w == 0), float(w == 1), float(w == 2))
+    normal = axis_vector(w)
     channel.curve(kind, on_circle, feed, center=(middle[0], middle[1], middle[2]), normal=normal)
     channel.straight(Kind.FEED, position, feed, programmed)

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address import frames, length
 from polycnc.control.word_address.coordinates import refresh_zero
-from polycnc.geometry.arcs import cross
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
+from polycnc.geometry.vectors import cross, minus
 from polycnc.machine.kinematics import Kinematics
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -62,8 +62,8 @@ def _tell(channel: Channel, words: Words, way: int) -> None:
     memory.told_plane = []
     if way == POINTS:
         (second, _), (third, _) = others
-        along = _unit(words, _minus(second, origin))
-        upright = _unit(words, cross(along, _minus(third, origin)))
+        along = _unit(words, minus(second, origin))
+        upright = _unit(words, cross(along, minus(third, origin)))
     else:
         along, wanted = _unit(words, first), others[0][1]
         upright = _unit(words, cross(along, cross(wanted, along)))
@@ -71,10 +71,6 @@ def _tell(channel: Channel, words: Words, way: int) -> None:
     rows = tuple(zip(along, across, upright, strict=True))
     memory.tilted_plane = translation(*origin) @ Frame((rows[0], rows[1], rows[2]))
     _renew(channel, memory.tilted_plane, None)
-
-
-def _minus(a: Vector, b: Vector) -> Vector:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def _unit(words: Words, vector: Vector) -> Vector:
