@@ -6,6 +6,8 @@ import pytest
 
 import polycnc
 from polycnc.machine import FileError
+from polycnc.mainrun import VirtualControl
+from polycnc.mainrun.errors import CommandRefused
 from polycnc.program import ProgramFileError
 from polycnc.session import SessionError, block_number, open_session
 
@@ -121,3 +123,44 @@ def test_the_package_hands_out_what_it_names() -> None:
         assert getattr(polycnc, name) is not None
     with pytest.raises(AttributeError):
         polycnc.nothing  # noqa: B018
+
+
+@pytest.mark.parametrize("control", ["fanuc-m", "meldas-m", "syntec-mill", "sinumerik-840d"])
+def test_the_tool_in_the_spindle_at_the_start_counts_for_what_comes_before_the_first_change(
+    control: str,
+) -> None:
+    tools = {1: {"length": 10}, 2: {"length": 10}}
+    text = "G90 G94 G1 X50. F600.\nT2 M6\nX40.\nT1 M6\nX0.\nM30\n"
+    result = polycnc.run(text, control=control, setup={"tools": tools, "spindle_tool": 2})
+    assert not result.alarms
+    change = result.machine.magazine.change_time_s
+    assert [(tool.tool, tool.times.tool_change_s) for tool in result.tools] == [(2, 0.0), (1, change)]
+
+
+def test_a_lathe_knows_the_turret_position_of_the_start() -> None:
+    text = "G99 G0 X100. Z100.\nT0303\nG0 X50.\nT0101\nG0 X40.\nM30\n"
+    result = polycnc.run(text, control="fanuc-0i-tf", setup={"spindle_tool": 3})
+    change = result.machine.magazine.change_time_s
+    assert [(tool.tool, tool.times.tool_change_s) for tool in result.tools] == [(3, 0.0), (1, change)]
+
+
+def test_sinumerik_calls_the_tool_of_the_start_by_its_name_and_gives_it_no_offsets() -> None:
+    setup = {"tools": {"FACE": {"z": 10, "length": 10}}, "spindle_tool": "face", "machine": "mill3"}
+    text = 'R1=$P_TOOLNO R2=$P_TOOL\nG1 Z5 F600\nT="FACE" M6\nG1 Z0\nM30\n'
+    result = polycnc.run(text, control="sinumerik-840d", setup=setup)
+    assert not result.alarms
+    assert (result.variables["R1"], result.variables["R2"]) == (1, 0)
+    assert [(tool.name, tool.times.tool_change_s) for tool in result.tools] == [("FACE", 0.0)]
+
+
+def test_a_tool_of_the_start_that_is_not_there_is_the_controls_alarm() -> None:
+    result = polycnc.run("M30\n", control="sinumerik-840d", setup={"spindle_tool": 9})
+    assert [alarm.code for alarm in result.alarms] == ["17190"]
+
+
+@pytest.mark.parametrize("setup", [{"spindle_tool": "FACE"}, {"tools": {"FACE": {"length": 10}}}])
+def test_a_control_that_counts_its_tools_takes_no_name(setup: dict[str, object]) -> None:
+    with pytest.raises(SessionError, match="FACE"):
+        polycnc.run("M30\n", control="fanuc-m", setup=setup)
+    with pytest.raises(CommandRefused, match="FACE"):
+        VirtualControl("fanuc-m", setup=setup)

@@ -247,6 +247,7 @@ class Session:
         display = Display(toolpath, axis_layout(machine, 1), self._event_text)
         lead: dict[str, Any] = {
             "start": self.channel.coordinates.machine,
+            "tool": setup.spindle_tool,
             "settings": control.motion_settings(self.channel),
         }
         self.result = Result(program, control, machine, self.channel, display, lead)
@@ -378,6 +379,8 @@ def open_session(
     for key, text_of_file in (files or {}).items():
         store.add_text(key, text_of_file)
     built, start = _machine_and_setup(machine, setup, folder, chosen.default_machine)
+    if start.tool_name and not chosen.tools_have_names:
+        raise SessionError("session.tool-name", tool=start.tool_name, control=chosen.id)
     return Session(
         chosen, built, start, store, program, block_limit=block_limit, keep=keep, timed=timed, bulk=bulk
     )

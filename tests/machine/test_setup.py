@@ -295,3 +295,12 @@ def test_surfaces_of_the_skip_input() -> None:
 def test_a_surface_that_makes_no_sense_is_a_mistake(switches: dict[str, object]) -> None:
     with pytest.raises(SetupError):
         parse_setup({"switches": switches})
+
+
+@pytest.mark.parametrize("value", [-1, 1.5, True, [1]])
+def test_the_tool_in_the_spindle_is_a_number_or_a_name(value: object) -> None:
+    assert parse_setup({"spindle_tool": 3}).spindle_tool == 3
+    assert parse_setup({"spindle_tool": "3"}).spindle_tool == 3
+    assert parse_setup({"spindle_tool": "FACE"}).tool_name == "FACE"
+    with pytest.raises(SetupError):
+        parse_setup({"spindle_tool": value})

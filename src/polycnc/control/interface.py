@@ -20,10 +20,12 @@ class Control(ChannelControl, Protocol):
     Attributes:
         form: How program files are marked off.
         default_machine: Built-in machine of a run that names none.
+        tools_have_names: Programs may call a tool by its name; else by number alone.
     """
 
     form: Form
     default_machine: str
+    tools_have_names: bool
 
     @property
     def plc(self) -> Plc:

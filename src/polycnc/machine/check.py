@@ -43,11 +43,22 @@ def gaps(data: Mapping[str, Any]) -> Iterator[Mistake]:
 
 def contradictions(machine: Machine) -> Iterator[Mistake]:
     """Everything in a machine that contradicts itself: key path, message id and arguments."""
+    yield from _windows(machine)
     yield from _channels(machine)
     yield from _axes(machine)
     yield from _references(machine)
     yield from _spindles(machine)
     yield from _rules(machine)
+
+
+def _windows(machine: Machine) -> Iterator[Mistake]:
+    """Axes that settle come through the coarse window before they are within the fine one."""
+    if machine.settle_coarse_s > machine.settle_fine_s:
+        yield (
+            ("settle_coarse_s",),
+            "windows-crossed",
+            {"coarse": machine.settle_coarse_s, "fine": machine.settle_fine_s},
+        )
 
 
 def _channels(machine: Machine) -> Iterator[Mistake]:

@@ -259,6 +259,7 @@ class Setup:
         start: Machine position of axes at the start; the others stand at machine zero.
         work_offsets: Offsets by name in capitals (`G54`, `EXT`, `G54.1 P1`, `G505`), each by axis.
         tools: Tools by tool or offset number, or by name.
+        spindle_tool: Number or name of the tool in the spindle at the start; 0 for none.
         variables: Start values by the name that the control's programs use.
         parameters: Machine parameters and machine data.
         channels: Axes of each channel; empty for those of the machine.
@@ -269,7 +270,14 @@ class Setup:
     start: Mapping[str, float] = field(default_factory=dict)
     work_offsets: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     tools: Mapping[int | str, Tool] = field(default_factory=dict)
+    spindle_tool: int | str = 0
     variables: Mapping[str, Value] = field(default_factory=dict)
     parameters: Parameters = field(default_factory=Parameters)
     channels: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
     switches: Switches = field(default_factory=Switches)
+
+    @property
+    def tool_name(self) -> str:
+        """A tool that is called by a name, empty where all are numbers."""
+        called = (tool for tool in (*self.tools, self.spindle_tool) if isinstance(tool, str))
+        return next(called, "")

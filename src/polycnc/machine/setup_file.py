@@ -233,6 +233,16 @@ _OFFSETS: dict[str, Reader] = {
 }
 
 
+def _tool_called(where: Where, value: object) -> int | str:
+    """A tool's number, or its name."""
+    if isinstance(value, str):
+        return _tool_key((value.strip(),))
+    number = _whole(where, value)
+    if number < 0:
+        _bad(where, "out-of-range", value, detail="0 …")
+    return number
+
+
 def _offset_set(where: Where, value: object) -> Offsets:
     return Offsets(**_record(_OFFSETS, where, value))
 
@@ -376,6 +386,7 @@ _SETUP: dict[str, Reader] = {
     "start": _position,
     "work_offsets": _offsets,
     "tools": partial(_map_of, _tool_key, _tool),
+    "spindle_tool": _tool_called,
     "variables": _values,
     "parameters": _parameters,
     "channels": partial(_map_of, _number_key, partial(_list_of, _axis_name)),

@@ -141,6 +141,7 @@ class Ahead:
         """Say whose channel it is, and how the control leads the axes."""
         self.channel, self._settings = channel, settings
         self._waits.rapid_stops = settings.rapid_stops
+        self._waits.stand_in(channel.setup.spindle_tool if channel.number == 1 else 0)
         channel.main_run = self
         self.limits = axis_limits(self._machine, self._number, self.toolpath.axes, settings)
 

@@ -24,7 +24,7 @@ def equipment(
     """Find control, machine and setup.
 
     Raises:
-        CommandRefused: There is no such control.
+        CommandRefused: There is no such control, or it does not know tools by their names.
         FileError: The machine or the setup is wrong.
     """
     chosen = _control(control) if isinstance(control, str) else control
@@ -34,6 +34,8 @@ def equipment(
         start = parse_setup(setup)
     else:
         start = load_setup(setup)
+    if start.tool_name and not chosen.tools_have_names:
+        raise CommandRefused("session.tool-name", tool=start.tool_name, control=chosen.id)
     if isinstance(machine, Machine):
         return chosen, machine, start
     named = start.machine

@@ -103,7 +103,7 @@ def context_fields(
         station,
         not context.frame.is_identity,
         -1.0 if context.frame.mirrors else 1.0,
-        (settings.rapid_by_axis or context.rapid_by_axis) and not context.rapid_speed,
+        settings.rapid_by_axis or context.rapid_by_axis,
         *averages,
         settings.drive_speed if context.acceleration == DRIVE else 1.0,
         settings.drive_reduction,

@@ -90,7 +90,7 @@ def plan(
     *,
     channel: int = 1,
     start: Sequence[float] = (),
-    tool: int = 0,
+    tool: int | str = 0,
     settings: Settings = DEFAULT,
 ) -> Plan:
     """Plan the speeds of a whole toolpath and say how long it takes.
@@ -100,7 +100,7 @@ def plan(
         machine: Limits of axes and spindles, times of tool changes and auxiliary functions.
         channel: Number of the channel that made the toolpath.
         start: Machine position of every column before the first row; all zero where it is left out.
-        tool: Tool in the spindle before the first row.
+        tool: Number or name of the tool in the spindle before the first row; 0 for none.
         settings: How the control leads the axes.
     """
     from polycnc.motion.planner import Planner

@@ -68,7 +68,7 @@ class Planner:
         machine: Limits of axes and spindles, times of tool changes and auxiliary functions.
         channel: Number of the channel that makes the toolpath.
         start: Machine position of every column before the first row; all zero where it is left out.
-        tool: Tool in the spindle before the first row.
+        tool: Number or name of the tool in the spindle before the first row; 0 for none.
         settings: How the control leads the axes.
         keep_rows: Keep the seconds of every row (8 bytes each).
         on_pieces: Called with the buffer and the number of its pieces that have become final, before they are
@@ -90,7 +90,7 @@ class Planner:
         *,
         channel: int = 1,
         start: Sequence[float] = (),
-        tool: int = 0,
+        tool: int | str = 0,
         settings: Settings = DEFAULT,
         keep_rows: bool = True,
         on_pieces: Callable[[array[float], int], None] | None = None,
@@ -140,13 +140,14 @@ class Planner:
         """Spindle speed of a context at a turning radius."""
         return self._waits.rpm(context, radius_mm)
 
-    def rapids(self, ramp: float) -> list[tuple[float, float]]:
-        """Velocity and acceleration of each axis that runs a rapid by itself."""
+    def rapids(self, ramp: float, speed: float) -> list[tuple[float, float]]:
+        """Velocity and acceleration of each axis that runs a rapid by itself; `speed` is that of the context, or 0."""
         n, limits = self._axes, self._limits
         pulls = [limits[ACCELERATION * n + i] for i in range(n)]
         if ramp > 0.0:
             pulls = [min(pull, 0.5 * limits[JERK * n + i] * ramp) for i, pull in enumerate(pulls)]
-        return list(zip(limits[TOP_RAPID * n : TOP_RAPID * n + n], pulls, strict=True))
+        tops = [min(top, speed or inf) for top in limits[TOP_RAPID * n : TOP_RAPID * n + n]]
+        return list(zip(tops, pulls, strict=True))
 
     def take(self, chunk: Chunk) -> bool:
         """Plan a chunk; true, for it is no longer needed."""

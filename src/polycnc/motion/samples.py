@@ -149,7 +149,10 @@ class Sampler:
         pieces = np.concatenate(self._open)
         self._open = []
         first = int(pieces[0, ROW])
-        limits = self._planner.rapids(float(pieces[0, RAMP])) if pieces[0, FORM] == TIMED else ()
+        limits: list[tuple[float, float]] = []
+        if pieces[0, FORM] == TIMED:
+            own = self._facts[first].context.rapid_speed
+            limits = self._planner.rapids(float(pieces[0, RAMP]), own)
         run = Run(pieces, self._n, limits)
         self._stand(first, run)
         self._move(run)

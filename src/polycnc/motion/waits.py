@@ -39,7 +39,7 @@ class Waits:
     Args:
         machine: Spindle ramps, change time and auxiliary functions come from here.
         contexts: The toolpath's contexts.
-        tool: Tool in the spindle at the start.
+        tool: Number or name of the tool in the spindle at the start; 0 for none.
         wait: Called with row number, share (a field of `Times`), context number and seconds.
 
     Attributes:
@@ -50,14 +50,14 @@ class Waits:
         self,
         machine: Machine,
         contexts: list[Context],
-        tool: int,
+        tool: int | str,
         wait: Callable[[int, str, int, float], None],
     ) -> None:
         self.machine = machine
         self.contexts = contexts
         self.wait = wait
         self.parallel: list[Parallel] = []
-        self._tool = (tool, "")
+        self.stand_in(tool)
         self._rpm: dict[int, float] = {}
         self._context = -1
         self._last_kind: int = Kind.EVENT
@@ -65,6 +65,11 @@ class Waits:
         self._windows = {"fine": machine.settle_fine_s, "coarse": machine.settle_coarse_s}
         self._settling: tuple[str, int, float] | None = None
         self._place: tuple[int, list[float]] = (-1, [])
+
+    def stand_in(self, tool: int | str) -> None:
+        """Say which tool is in the spindle, by its number or name; 0 for none."""
+        self._tool = (tool, "") if isinstance(tool, int) else (0, tool)
+        self._at_start = tool if isinstance(tool, int) else tool.upper()
 
     def spindle(self, context: Context) -> Spindle | None:
         """The spindle that a context speaks of."""
@@ -108,6 +113,9 @@ class Waits:
     def _new_context(self, row: int, number: int, radius_mm: float) -> None:
         context = self.contexts[number]
         tool = (context.tool, context.tool_name)
+        if self._at_start and self._at_start in (tool[0], tool[1].upper()):
+            self._tool = tool  # contexts know number and name, the start knows one of them
+        self._at_start = 0
         if tool != self._tool and (any(tool) or any(self._tool)):
             self.wait(row, "tool_change_s", number, self.machine.magazine.change_time_s)
         self._tool = tool

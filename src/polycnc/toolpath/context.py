@@ -38,7 +38,8 @@ class Context:
         tolerance_mm: Contour tolerance for the planner where a code names one, else 0.
         acceleration: `BRISK`, `SOFT` or `DRIVE`; empty for the control's own.
         rapid_by_axis: On a rapid every axis runs alone, whatever the control's parameters say.
-        rapid_speed: Speed of rapids along the path, mm/s, where they have one of their own (FANUC 1466), else 0.
+        rapid_speed: Speed of rapids along the path, or of each axis that runs alone, mm/s, where they have one of their
+            own (FANUC 1466, SYNTEC G00 P1 F1=), else 0.
         diameter_axes: Bit mask of channel axes that show diameters.
         wcs: Name of the active work coordinate system.
         part: From the display to the system of the work offset, where programmed frames lie behind the display: in

@@ -72,6 +72,7 @@ class Sinumerik:
 
     id: ClassVar[str] = "sinumerik-840d"
     default_machine: ClassVar[str] = "mill3"
+    tools_have_names: ClassVar[bool] = True
     form: ClassVar[Form] = Form.SINUMERIK
     plc: ClassVar[Plc] = Plc()
 
@@ -102,6 +103,8 @@ class Sinumerik:
         channel.mode = channel.modes.mode(_start_codes(channel, memory.data))
         memory.feed_mode = tables.FEED_TYPES[channel.mode["feed"]].mode
         memory.frames.select(gcodes.number_of(channel.mode["zero_offset"]) - 1)
+        if channel.number == 1:
+            memory.tools.stand_in(channel.setup.spindle_tool)
         frames.apply(channel)
         limits.refresh(channel)
         memory.language.macros.update(coordination.names(channel))

@@ -146,6 +146,14 @@ class Tools:
             return self.tools[int(wanted)]
         raise AlarmError("17190", tool=wanted if isinstance(wanted, str) else f"{wanted:g}")
 
+    def stand_in(self, wanted: int | str) -> None:
+        """The tool that is in the spindle at power-on, without offsets; 0 for none.
+
+        Raises:
+            AlarmError: 17190 if there is no such tool.
+        """
+        self.active = self.selected = self.find(wanted).number if wanted else 0
+
     def load(self, number: int, data: MachineData) -> None:
         """Put a tool into the spindle; MD20270 says which edge then holds."""
         default = data.integer("$MC_CUTTING_EDGE_DEFAULT")

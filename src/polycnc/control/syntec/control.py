@@ -357,7 +357,8 @@ class SyntecMill(WordAddressControl):
     def context(self, channel: Channel) -> Context:
         """The context that holds now; under G93 feeds are recorded per minute."""
         context = super().context(channel)
-        return replace(context, feed_mode="G94") if context.feed_mode == "G93" else context
+        mode = "G94" if context.feed_mode == "G93" else context.feed_mode
+        return replace(context, feed_mode=mode, rapid_speed=channel.memory.rapid_speed)
 
     def variable_names(self, channel: Channel) -> list[str]:
         """Names of all variables that hold something."""

@@ -45,6 +45,7 @@ class SyntecMemory(Memory):
         mid_point: Mid point of a G02.4 whose end point is still to come; `curve` a G06.2 with knots to come.
         scale_factors: Factors of the active G51.
         lead: F of G33, mm; `retract_feed` F2 of G81, in the unit of the feed, 0 for a rapid.
+        rapid_speed: F1 of the running G00 P1, mm/s; 0 for none.
         feeds: The last feed of each feed mode that was left.
         surface_axis: Reference axis of G96.
         speeds: Own S of each spindle; `reported` the speed last recorded.
@@ -88,6 +89,7 @@ class SyntecMemory(Memory):
         self.scale_factors = (1.0, 1.0, 1.0)
         self.lead = 0.0
         self.retract_feed = 0.0
+        self.rapid_speed = 0.0
         self.feeds: dict[str, float] = {}
         self.feed_mode = "G94"
         self.surface_axis = 0

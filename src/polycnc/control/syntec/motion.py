@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from functools import partial
 from math import copysign, hypot, nan, sqrt
 from typing import TYPE_CHECKING
@@ -14,6 +15,8 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import Handler, Step
     from polycnc.control.word_address.plan import Builder, Plan
@@ -46,7 +49,8 @@ def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
             programmed = channel.control.polar_target(channel, plan, values)
         else:
             programmed = path.target(channel, plan.axis_words, values)
-        channel.straight(Kind.RAPID, c.to_position(programmed), values[speed] * unit, programmed)
+        with _rapid_at(channel, values[speed] * unit) as feed:
+            channel.straight(Kind.RAPID, c.to_position(programmed), feed, programmed)
 
     return move
 
@@ -58,11 +62,24 @@ def move_in_machine_system(channel: Channel, words: Words) -> None:
     for axis, value, _ in words.axes():
         machine[axis] = machine[axis] + value if channel.mode["distance"] == "G91" else value
     speed = words.typed("F1")
-    feed = nan
-    if speed is not None and words.typed("P") == 1:
-        feed = speed * (INCH_MM if words.plan.inch else 1.0) / 60.0
-    with radius.suspended(channel):
+    if speed is None or words.typed("P") != 1:
+        speed = nan
+    unit = (INCH_MM if words.plan.inch else 1.0) / 60.0
+    with radius.suspended(channel), _rapid_at(channel, speed * unit) as feed:
         channel.straight(Kind.RAPID, c.from_machine(machine), feed)
+
+
+@contextmanager
+def _rapid_at(channel: Channel, speed: float) -> Iterator[float]:
+    """A rapid with a speed of its own, mm/s; NaN for rapid traverse."""
+    memory = channel.memory
+    memory.rapid_speed = max(0.0, speed)
+    channel.context_changed()
+    try:
+        yield speed
+    finally:
+        memory.rapid_speed = 0.0
+        channel.context_changed()
 
 
 # ---- feed ------------------------------------------------------------------------------------------------

@@ -46,6 +46,7 @@ class WordAddressControl:
         plc_files: The machine's own controller: its rules and its alarms, as `folder/file`.
         form: How program files are marked off.
         default_machine: Built-in machine of a run that names none.
+        tools_have_names: Programs may call a tool by its name.
         g_codes: The G table.
         m_codes: The M table; a number that is not in it passes as an event.
         addresses: What words beside axis words and code arguments do (F, S, T, H, D …).
@@ -78,6 +79,7 @@ class WordAddressControl:
     POINT_IN_WHOLE_NUMBERS: ClassVar[bool] = True
     form: ClassVar[Form] = Form.WORD_ADDRESS
     default_machine: ClassVar[str] = "mill3"
+    tools_have_names: ClassVar[bool] = False
 
     # ---- texts and alarms ---------------------------------------------------------------------------------------
 
@@ -155,6 +157,8 @@ class WordAddressControl:
         channel.memory = self.make_memory(channel)
         skip = channel.setup.switches.block_skip
         channel.skip_levels = sum(1 << level for level in ((1,) if skip is True else skip or ()))
+        if channel.number == 1:
+            channel.memory.tool = channel.memory.next_tool = int(channel.setup.spindle_tool)
         if self.FEED_AT_START is not None:
             channel.feed = self.FEED_AT_START
         coordinates.refresh_zero(channel)

@@ -54,6 +54,7 @@ from polycnc.motion.kernels.columns import (
     RAMP,
     RAMP_S,
     RAPID_BY_AXIS,
+    RAPID_SPEED,
     RAPID_STOPS,
     REST,
     ROTARY_WEIGHT,
@@ -206,14 +207,15 @@ def lay_rapid_by_axis(
         return False
     settle_alone(pieces, n, limits, state)
     state[ALONE] = 0.0
-    seconds, ramp = 0.0, 0.0
+    seconds, ramp, own = 0.0, 0.0, contexts[record + RAPID_SPEED]
+    own = own if own > 0.0 else inf
     for i in range(n):
         way = abs(state[delta + i])
         if way > 0.0 and contexts[record + RAMP_S] > 0.0:
-            top, jerk = limits[TOP_RAPID * n + i], limits[JERK * n + i]
+            top, jerk = min(limits[TOP_RAPID * n + i], own), limits[JERK * n + i]
             ramp = max(ramp, best_ramp(way, top, limits[ACCELERATION * n + i], jerk))
     for i in range(n):
-        way, top = abs(state[delta + i]), limits[TOP_RAPID * n + i]
+        way, top = abs(state[delta + i]), min(limits[TOP_RAPID * n + i], own)
         if way > 0.0:
             pull = axis_pull(ramp, n, limits, i)
             seconds = max(seconds, straight_time(0.0, 0.0, top * top, pull, way))
