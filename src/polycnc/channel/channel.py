@@ -239,6 +239,11 @@ class Channel:
         """Put a stage in front of the path; its `after` must be what was in front before, or the table."""
         self.head = stage
 
+    def take_stage(self, stage: PathStage) -> None:
+        """Take a stage that holds nothing back out of the front of the path; where it is not there, nothing happens."""
+        if self.head is stage:
+            self.head = None if stage.after is self.table else stage.after
+
     def end(self) -> None:
         """The program is over (M02, M30): everything held back is written, nothing more runs."""
         self.flush()

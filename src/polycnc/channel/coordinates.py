@@ -113,6 +113,20 @@ class Coordinates:
         """The channel has moved to a machine position."""
         self.arrive(self.from_machine(machine))
 
+    def transform(
+        self, transformation: Following | None, geometry: tuple[int, int, int] | None = None
+    ) -> None:
+        """Let axes stand for others, or (None) for themselves again. The machine stays, the display follows.
+
+        Args:
+            transformation: How the real axes follow the displayed position.
+            geometry: New columns of X, Y and Z in displayed positions; None keeps them.
+        """
+        machine = self.machine
+        self.transformation = transformation
+        self.geometry = geometry or self.geometry
+        self.arrive_machine(machine)
+
     def set_programming(self, frame: Frame, shift: list[float] | None = None, *, stays: bool = True) -> None:
         """Choose the frame before the display.
 

@@ -136,8 +136,7 @@ def end(channel: Channel) -> None:
         return
     channel.flush()
     channel.memory.normal = None
-    if channel.head is stage:
-        channel.head = None if stage.after is channel.table else stage.after
+    channel.take_stage(stage)
     channel.coordinates.arrive(channel.coordinates.position[:])
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address import coordinates
-from polycnc.control.word_address.polar_interpolation import GROUP, PolarPlane
+from polycnc.control.word_address.polar_interpolation import GROUP, PolarPlane, enter_polar, leave_polar
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -37,18 +37,12 @@ def start_polar(channel: Channel, words: Words) -> None:
     if memory.polar is not None:
         return
     channel.flush()
-    machine, here = c.machine, c.position
+    here = c.position
     eccentricity = (words.length("X") or 0.0, words.length("C") or 0.0)
     side = -1.0 if here[linear] < 0.0 else 1.0
-    memory.polar = PolarPlane(
-        linear, rotary, (linear, rotary, c.geometry[2]), here[rotary], eccentricity, side
-    )
-    memory.plane_before, memory.geometry_before = channel.mode["plane"], c.geometry
     memory.diameters[linear] = False
-    channel.mode = channel.mode.with_code("plane", "G17")
-    c.geometry, c.transformation = memory.polar.geometry, memory.polar
-    c.arrive(c.from_machine(machine))
-    channel.context_changed()
+    geometry = (linear, rotary, c.geometry[2])
+    enter_polar(channel, PolarPlane(linear, rotary, geometry, here[rotary], eccentricity, side), "G17")
 
 
 def end_polar(channel: Channel, words: Words) -> None:
@@ -59,22 +53,15 @@ def end_polar(channel: Channel, words: Words) -> None:
     if memory.side:
         raise words.fail("polar_mode", "G13.1")
     channel.flush()
-    channel.mode = channel.mode.with_code("plane", memory.plane_before)
     leave_plane(channel)
 
 
 def leave_plane(channel: Channel) -> None:
     """The axes are named themselves again; nothing moves."""
-    memory, c = channel.memory, channel.coordinates
-    if memory.polar is None:
-        return
-    machine = c.machine
-    memory.diameters.pop(memory.polar.linear, None)
-    memory.polar = None
-    c.transformation = None
-    c.geometry = memory.geometry_before
-    c.arrive(c.from_machine(machine))
-    channel.context_changed()
+    memory = channel.memory
+    if memory.polar is not None:
+        memory.diameters.pop(memory.polar.linear, None)
+        leave_polar(channel)
 
 
 def select_plane(channel: Channel, words: Words) -> None:

@@ -40,5 +40,4 @@ def switch_quiet(channel: Channel, *, on: bool) -> None:
         channel.put_stage(memory.quiet)
     elif stage is not None and not on:
         memory.quiet = None
-        if channel.head is stage:
-            channel.head = None if stage.after is channel.table else stage.after
+        channel.take_stage(stage)

@@ -105,8 +105,7 @@ def end(channel: Channel) -> None:
         return
     channel.flush()
     channel.memory.spatial = None
-    if channel.head is stage:
-        channel.head = None if stage.after is channel.table else stage.after
+    channel.take_stage(stage)
 
 
 def check_block(builder: Builder) -> None:

@@ -13,6 +13,7 @@ from polycnc.control.syntec.parameters import has_option
 from polycnc.control.word_address import frames as base_frames
 from polycnc.control.word_address import length
 from polycnc.control.word_address.coordinates import refresh_zero
+from polycnc.control.word_address.tilted_plane import named_point
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.geometry.vectors import cross
 
@@ -28,7 +29,7 @@ PARALLEL = 1e-9
 
 def tilt_by_angles(channel: Channel, words: Words) -> None:
     """G68.2 X Y Z I J K: origin from the work zero, turned by I about Z, J about X', K about Z''."""
-    origin = _origin(channel, words)
+    origin = named_point(channel, words, "argument")
     i, j, k = (words.angle(letter) or 0.0 for letter in "IJK")
     set_tilt(channel, translation(*origin) @ rotation(2, i) @ rotation(0, j) @ rotation(2, k))
 
@@ -52,7 +53,7 @@ def tilt_by_tool(channel: Channel, words: Words) -> None:
     turn = tool_turn(channel)
     if words.typed("P") != 1:
         turn = _square_on(turn.direct(0.0, 0.0, 1.0)) @ rotation(2, words.angle("R") or 0.0)
-    origin = _origin(channel, words) if given else _position_in_work_system(channel)
+    origin = named_point(channel, words, "argument") if given else _position_in_work_system(channel)
     set_tilt(channel, translation(*origin) @ turn)
 
 
@@ -71,17 +72,6 @@ def switch_work_rotation(channel: Channel, words: Words) -> None:
     if switch not in (0, 1):
         raise words.fail("number", "P")
     channel.memory.rotates_work = switch == 1
-
-
-def _origin(channel: Channel, words: Words) -> Vector:
-    """The origin in the coordinates of the work system, absolute; words that are missing count as zero."""
-    geometry = channel.coordinates.geometry
-    point = [0.0, 0.0, 0.0]
-    for axis, value, _ in words.axes():
-        if axis not in geometry:
-            raise words.fail("argument", channel.axes[axis])
-        point[geometry.index(axis)] = value
-    return (point[0], point[1], point[2])
 
 
 def _position_in_work_system(channel: Channel) -> Vector:

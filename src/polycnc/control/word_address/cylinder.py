@@ -68,31 +68,26 @@ def cylinder(channel: Channel, words: Words) -> None:
         raise words.fail("cylinder_code", "G7.1")
     axis, c = named[0].axis, channel.coordinates
     channel.flush()
-    machine = c.machine
-    memory.cylinder = c.transformation = Cylinder(axis, radius * pi / 180.0, c.geometry)
+    memory.cylinder = Cylinder(axis, radius * pi / 180.0, c.geometry)
     memory.geometry_before = c.geometry
-    lay_axis_into_plane(channel)
+    c.transform(memory.cylinder, unrolled_geometry(channel, memory.cylinder))
     channel.mode = channel.mode.with_code(GROUP, "G7.1")
     channel.table = CylinderStage(memory.cylinder, channel.rows)
     channel.head = channel.table
     memory.compensation = None
-    c.arrive(c.from_machine(machine))
 
 
-def lay_axis_into_plane(channel: Channel) -> None:
+def unrolled_geometry(channel: Channel, unrolled: Cylinder) -> tuple[int, int, int]:
     """The unrolled axis takes the place of a plane axis: by 1022, else of the one that the cylinder's own is not."""
-    memory, c = channel.memory, channel.coordinates
-    if memory.cylinder is None:
-        return
-    axis, plane = memory.cylinder.axis, channel.mode["plane"]
+    axis, plane = unrolled.axis, channel.mode["plane"]
     u, v, _ = PLANES[plane]
     role = channel.control.axis_role(channel, axis)
     own = _turns_about(channel, axis)
     # Where neither plane axis is the cylinder's own (a plane across it), 1022 should have said which one gives way.
     slot = role - 5 if role in (5, 6, 7) else u if v == own or (own < 0 and plane == "G19") else v
-    geometry = list(memory.geometry_before)
+    geometry = list(channel.memory.geometry_before)
     geometry[slot] = axis
-    c.geometry = (geometry[0], geometry[1], geometry[2])
+    return (geometry[0], geometry[1], geometry[2])
 
 
 def _turns_about(channel: Channel, axis: int) -> int:
@@ -106,17 +101,15 @@ def _turns_about(channel: Channel, axis: int) -> int:
 
 def end_cylinder(channel: Channel) -> None:
     """The axis turns by degrees again (also at reset); nothing moves."""
-    memory, c = channel.memory, channel.coordinates
+    memory = channel.memory
     if memory.cylinder is None:
         return
     channel.flush()
-    machine = c.machine
     channel.table = channel.rows
     channel.head = None
-    memory.compensation = memory.cylinder = c.transformation = None
-    c.geometry = memory.geometry_before
+    memory.compensation = memory.cylinder = None
     channel.mode = channel.mode.with_code(GROUP, "")
-    c.arrive(c.from_machine(machine))
+    channel.coordinates.transform(None, memory.geometry_before)
 
 
 class CylinderStage(PassingStage):

@@ -53,8 +53,7 @@ def switch(channel: Channel, words: Words) -> None:
     foreign = c.transformation is not None and c.transformation is not before
     if foreign or memory.side:
         raise words.fail("hypothetical_mode", "G7")
-    machine = c.machine
-    position = c.from_machine(machine)
+    position = c.from_machine(c.machine)
     kept = {} if before is None else before.axes
     standing = {axis: kept.get(axis, position[axis]) for axis, value in named.items() if value == 0.0}
     standing = {**{axis: value for axis, value in kept.items() if axis not in named}, **standing}
@@ -66,13 +65,11 @@ def switch(channel: Channel, words: Words) -> None:
 
 def end(channel: Channel) -> None:
     """Every axis moves again (also at reset)."""
-    memory, c = channel.memory, channel.coordinates
-    if memory.hypothetical is None:
+    if channel.memory.hypothetical is None:
         return
-    machine = c.machine
     remove_last(channel)
-    memory.hypothetical = c.transformation = None
-    c.arrive(c.from_machine(machine))
+    channel.memory.hypothetical = None
+    channel.coordinates.transform(None)
 
 
 class StandingStage(PassingStage):

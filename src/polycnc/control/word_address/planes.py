@@ -31,7 +31,6 @@ def lay_axes(channel: Channel, words: Words) -> None:
     geometry = (basic[0], basic[1], basic[2])
     if memory.cylinder is not None:
         memory.geometry_before = geometry
-        cylinder.lay_axis_into_plane(channel)
-    else:
-        c.geometry = geometry
+        geometry = cylinder.unrolled_geometry(channel, memory.cylinder)
+    c.geometry = geometry
     channel.context_changed()

@@ -83,19 +83,23 @@ def start_polar(channel: Channel, words: Words) -> None:
     if memory.polar is not None:
         return
     channel.flush()
-    machine, here = c.machine, c.position
+    here = c.position
     first = c.geometry.index(linear)
     plane = PLANE_OF_LINEAR[first]
     geometry = list(c.geometry)
     geometry[PLANES[plane][1]] = rotary
     side = -1.0 if here[linear] < 0.0 else 1.0
-    memory.polar = PolarPlane(
-        linear, rotary, (geometry[0], geometry[1], geometry[2]), here[rotary], side=side
-    )
-    memory.plane_before, memory.geometry_before = channel.mode["plane"], c.geometry
+    polar = PolarPlane(linear, rotary, (geometry[0], geometry[1], geometry[2]), here[rotary], side=side)
+    enter_polar(channel, polar, plane)
+
+
+def enter_polar(channel: Channel, polar: PolarPlane, plane: str) -> None:
+    """From here on the words name points of the plane, which is `plane` (G17 to G19); nothing moves."""
+    memory = channel.memory
+    memory.plane_before, memory.geometry_before = channel.mode["plane"], channel.coordinates.geometry
+    memory.polar = polar
     channel.mode = channel.mode.with_code("plane", plane)
-    c.geometry, c.transformation = memory.polar.geometry, memory.polar
-    c.arrive(c.from_machine(machine))
+    channel.coordinates.transform(polar, polar.geometry)
     channel.context_changed()
 
 
@@ -111,15 +115,12 @@ def end_polar(channel: Channel, words: Words) -> None:
 
 def leave_polar(channel: Channel) -> None:
     """The axes are named themselves again (also at reset); nothing moves."""
-    memory, c = channel.memory, channel.coordinates
+    memory = channel.memory
     if memory.polar is None:
         return
-    machine = c.machine
     memory.polar = None
-    c.transformation = None
-    c.geometry = memory.geometry_before
     channel.mode = channel.mode.with_code("plane", memory.plane_before)
-    c.arrive(c.from_machine(machine))
+    channel.coordinates.transform(None, memory.geometry_before)
     channel.context_changed()
 
 

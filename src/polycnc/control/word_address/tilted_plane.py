@@ -43,7 +43,7 @@ def tilt_plane(channel: Channel, words: Words) -> None:
         raise words.fail("tilt_format", "P")
     i, j, k = (words.angle(letter) or 0.0 for letter in "IJK")
     turn = _euler(i, j, k) if way == EULER else _roll_pitch_yaw(words, (i, j, k))
-    channel.memory.tilted_plane = translation(*_origin(channel, words)) @ turn
+    channel.memory.tilted_plane = translation(*named_point(channel, words, "tilt_format")) @ turn
     _renew(channel, channel.memory.tilted_plane, None)
 
 
@@ -55,7 +55,7 @@ def _tell(channel: Channel, words: Words, way: int) -> None:
     if number != len(told) + 1 or number > BLOCKS[way]:
         raise words.fail("tilt_format", "Q")
     i, j, k = (words.length(letter) or 0.0 for letter in "IJK")
-    memory.told_plane = [*told, (_origin(channel, words), (i, j, k))]
+    memory.told_plane = [*told, (named_point(channel, words, "tilt_format"), (i, j, k))]
     if number < BLOCKS[way]:
         return
     (origin, first), *others = memory.told_plane
@@ -97,13 +97,13 @@ def _roll_pitch_yaw(words: Words, angles: Vector) -> Frame:
     return turn
 
 
-def _origin(channel: Channel, words: Words) -> Vector:
-    """X Y Z in the work system, absolute whatever the mode; missing ones are zero."""
+def named_point(channel: Channel, words: Words, mistake: str) -> Vector:
+    """X Y Z in the work system, absolute whatever the mode; missing ones are zero, other axes are a `mistake`."""
     geometry = channel.coordinates.geometry
     point = [0.0, 0.0, 0.0]
     for axis, value, _ in words.axes():
         if axis not in geometry:
-            raise words.fail("tilt_format", channel.axes[axis])
+            raise words.fail(mistake, channel.axes[axis])
         point[geometry.index(axis)] = value
     return (point[0], point[1], point[2])
 

@@ -86,12 +86,10 @@ def start_following(channel: Channel, words: Words) -> None:
     number = words.integer("H") if "H" in words else None
     memory.h = memory.h if number is None else number
     value = channel.control.length_value(channel, memory.h) if memory.h else 0.0
-    machine = c.machine
-    c.transformation = None
+    c.transform(None)
     memory.length_offset = [0.0] * len(channel.axes)
     refresh_zero(channel)
-    c.transformation = TipFollowing(kinematics, channel.axes, c.geometry, tuple(c.offsets), value)
-    c.arrive(c.from_machine(machine))
+    c.transform(TipFollowing(kinematics, channel.axes, c.geometry, tuple(c.offsets), value))
     channel.context_changed()
 
 
@@ -129,7 +127,5 @@ def end_following(channel: Channel) -> None:
     c = channel.coordinates
     if not isinstance(c.transformation, TipFollowing):
         return
-    machine = c.machine
-    c.transformation = None
-    c.arrive(c.from_machine(machine))
+    c.transform(None)
     channel.context_changed()
