@@ -11,7 +11,7 @@ from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.fanuc.code_calls import registered_codes
 from polycnc.control.fanuc.milling_codes import ADDRESSES, G_CODES, POWER_ON
 from polycnc.control.fanuc.milling_cycles import MILLING_DRILLING
-from polycnc.control.fanuc.system_variables import MILLING_VARIABLES
+from polycnc.control.fanuc.milling_variables import MILLING_VARIABLES
 from polycnc.control.word_address.interruption import interruptible
 from polycnc.control.word_address.milling import MillingControl
 from polycnc.control.word_address.variables import MacroMemory

@@ -1,19 +1,19 @@
-"""System variables of FANUC controls with custom macro B (FANUC macro B reference §2).
+"""System variables that all FANUC controls with custom macro B have (FANUC macro B reference §2).
 
 A row names a range of variables and what reads and writes it; the functions get the offset within the range.
+`milling_variables` and `turning_variables` add what belongs to their machines.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.coordinates import refresh_zero
-from polycnc.control.word_address.length import renew_length
-from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.subprograms import sequences_of
-from polycnc.control.word_address.variables import Read, Registry, SystemRange, Write
+from polycnc.control.word_address.variables import Read, SystemRange, Write
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from polycnc.control.word_address.variables import MacroMemory
 
 # ---- interface signals ------------------------------------------------------------
@@ -79,55 +79,19 @@ def _clock(name: str, unit: float) -> tuple[Read, Write]:
     return read, write
 
 
-# ---- tool offsets ------------------------------------------------------------
+# ---- modal information and positions ------------------------------------------------------------
 
 
-def _tool_field(field: str) -> tuple[Read, Write]:
-    def read(m: MacroMemory, i: int) -> float:
-        return m.to_program_unit(getattr(m.offset_number(i + 1), field))
-
-    def write(m: MacroMemory, i: int, value: float | None, _text: str) -> None:
-        setattr(m.offset_number(i + 1), field, m.from_program_unit(value))
-        renew_length(m.channel)
-
-    return read, write
-
-
-# ---- work offsets ------------------------------------------------------------
-
-
-def _work_offset(name: str) -> tuple[Read, Write]:
-    def read(m: MacroMemory, i: int) -> float:
-        return m.to_program_unit(m.work_offset(name)[_axis(m, i)])
-
-    def write(m: MacroMemory, i: int, value: float | None, _text: str) -> None:
-        m.work_offset(name)[_axis(m, i)] = m.from_program_unit(value)
-        refresh_zero(m.channel)
-
-    return read, write
-
-
-def _axis(m: MacroMemory, i: int) -> int:
+def axis_at(m: MacroMemory, i: int) -> int:
+    """The axis of a variable that stands for one; an alarm where the channel has no such axis."""
     if i >= len(m.channel.axes):
         raise m.fail("variable_number")
     return i
 
 
-# ---- modal information and positions ------------------------------------------------------------
-
-
-def _modal(group: str) -> Read:
-    return lambda m, _i: float(m.channel.mode[group][1:])
-
-
-def _interrupted(group: str) -> Read:
-    """A modal code of the block that an interruption macro has cut."""
-
-    def read(m: MacroMemory, _i: int) -> float | None:
-        running = m.interruptions.running if m.interruptions is not None else []
-        return float(running[-1].mode[group][1:]) if running else None
-
-    return read
+def nothing(_m: MacroMemory, _i: int) -> float:
+    """What is always zero here."""
+    return 0.0
 
 
 def _feed(m: MacroMemory, _i: int) -> float:
@@ -136,41 +100,6 @@ def _feed(m: MacroMemory, _i: int) -> float:
         return 0.0
     scale = 1.0 if m.channel.mode["feed"] in ("G95", "G99") else 60.0
     return round(m.to_program_unit(feed * scale), 6)
-
-
-def _end_point(m: MacroMemory, i: int) -> float:
-    """Work coordinates of the block end, as programmed."""
-    return m.to_program_unit(m.channel.coordinates.position[_axis(m, i)])
-
-
-def _machine(m: MacroMemory, i: int) -> float:
-    """Machine position now."""
-    return m.to_program_unit(m.channel.coordinates.machine[_axis(m, i)])
-
-
-def _work_with_length(m: MacroMemory, i: int) -> float:
-    """Work position now: machine position less work zero, the tool length not taken off."""
-    axis = _axis(m, i)
-    return m.to_program_unit(m.channel.coordinates.position[axis] + m.length_offset[axis])
-
-
-def _skip(m: MacroMemory, i: int) -> float:
-    """Where the last G31 ended; as the work position, with the tool length in it."""
-    axis = _axis(m, i)
-    position = m.skip_position or m.channel.coordinates.position
-    return m.to_program_unit(position[axis] + m.length_offset[axis])
-
-
-def _length(m: MacroMemory, i: int) -> float:
-    return m.to_program_unit(m.length_offset[_axis(m, i)])
-
-
-def _nothing(_m: MacroMemory, _i: int) -> float:
-    return 0.0
-
-
-def _extended(m: MacroMemory, _i: int) -> float:
-    return float(m.wcs[7:]) if m.wcs.startswith("G54.1 P") else 0.0
 
 
 def _sequence(m: MacroMemory, _i: int) -> float:
@@ -185,95 +114,41 @@ def _main_program(m: MacroMemory, _i: int) -> float:
     return float(m.channel.stack[0].code.program.number or 0)
 
 
-#: Modal groups in the order of #4001 to #4030 (machining centres).
-MILLING_GROUPS = {1: "motion", 2: "plane", 3: "distance", 4: "stroke", 5: "feed", 6: "unit", 7: "compensation",
-                  8: "length", 9: "cycle", 10: "return", 11: "scaling", 12: "macro", 13: "surface_speed", 14: "wcs",
-                  15: "path", 16: "rotation", 17: "polar", 22: "mirror"}  # fmt: skip
-
-
-def _rows_modal(first: int, groups: dict[int, str]) -> list[SystemRange]:
-    rows = [SystemRange(first + n, first + n, _modal(group)) for n, group in groups.items()]
-    words: dict[int, Read] = {
-        102: _nothing,
-        108: _nothing,
-        107: lambda m, _i: float(m.d),
+def modal_rows(first: int, codes: Mapping[int, Read], words: Mapping[int, Read]) -> list[SystemRange]:
+    """Modal codes by group and modal words, of the blocks before (4000) or the running one (4200)."""
+    common: dict[int, Read] = {
         109: _feed,
-        111: lambda m, _i: float(m.h),
         113: lambda m, _i: float(m.last_m),
         114: _sequence,
         115: _program,
         119: lambda m, _i: float(m.spindle_speed),
-        120: lambda m, _i: float(m.next_tool),
-        130: _extended,
     }
-    return rows + [SystemRange(first + n, first + n, read) for n, read in words.items()]
+    return [SystemRange(first + n, first + n, read) for n, read in ({**codes, **common, **words}).items()]
 
 
-def _rows_positions() -> list[SystemRange]:
+#: Positions by axis: 20 axes, and 50 further on.
+_POSITIONS = (
+    (5001, 100001, "_ABSIO"),
+    (5021, 100051, "_ABSMT"),
+    (5041, 100101, "_ABSOT"),
+    (5061, 100151, "_ABSKP"),
+    (5081, 100201, "_TOFS"),
+    (5101, 100251, "_SVERR"),
+    (5181, 100801, "_DIST"),
+)
+
+
+def position_rows(*reads: Read) -> list[SystemRange]:
+    """Positions by axis.
+
+    Args:
+        reads: The block's end, the machine, the work system, the last skip, the offset in force; then, where the
+            control has them, servo deviation and distance to go.
+    """
     rows: list[SystemRange] = []
-    for first, further, name, read in (
-        (5001, 100001, "_ABSIO", _end_point),
-        (5021, 100051, "_ABSMT", _machine),
-        (5041, 100101, "_ABSOT", _work_with_length),
-        (5061, 100151, "_ABSKP", _skip),
-        (5081, 100201, "_TOFS", _length),
-        (5101, 100251, "_SVERR", _nothing),
-        (5181, 100801, "_DIST", _nothing),
-    ):
+    for (first, further, name), read in zip(_POSITIONS, reads, strict=False):
         rows += [SystemRange(first, first + 19, read, name=name), SystemRange(further, further + 49, read)]
     return rows
-
-
-def _rows_work_offsets() -> list[SystemRange]:
-    rows: list[SystemRange] = []
-    names = [EXTERNAL, "G54", "G55", "G56", "G57", "G58", "G59"]
-    for i, name in enumerate(names):
-        rows.append(
-            SystemRange(
-                5201 + 20 * i, 5220 + 20 * i, *_work_offset(name), name="_WZCMN" if not i else f"_WZ{name}"
-            )
-        )
-    for axis in range(4):
-        for i, name in enumerate(names):
-            read, write = _work_offset(name)
-            number = 2500 + 100 * axis + i
-            rows.append(SystemRange(number, number, _shifted(read, axis), _shifted_write(write, axis)))
-    for p in range(1, 301):
-        pair = _work_offset(f"G54.1 P{p}")
-        if p <= 48:
-            rows.append(SystemRange(7001 + 20 * (p - 1), 7020 + 20 * (p - 1), *pair))
-        rows.append(SystemRange(14001 + 20 * (p - 1), 14020 + 20 * (p - 1), *pair, name=f"_WZP{p}"))
-    return rows
-
-
-def _shifted(read: Read, axis: int) -> Read:
-    return lambda m, _i: read(m, axis)
-
-
-def _shifted_write(write: Write, axis: int) -> Write:
-    return lambda m, _i, value, text: write(m, axis, value, text)
-
-
-def _rows_tools() -> list[SystemRange]:
-    return [
-        SystemRange(2001, 2200, *_tool_field("length_wear")),
-        SystemRange(2201, 2400, *_tool_field("length")),
-        SystemRange(10001, 10999, *_tool_field("length_wear"), name="_OFSHW"),
-        SystemRange(11001, 11999, *_tool_field("length"), name="_OFSHG"),
-        SystemRange(12001, 12999, *_tool_field("radius_wear"), name="_OFSDW"),
-        SystemRange(13001, 13999, *_tool_field("radius"), name="_OFSDG"),
-    ]
-
-
-def modal_names() -> dict[str, tuple[int, int]]:
-    """Names of modal information: `_BUFG[g]` of the blocks before, `_ACTG` of the running one, `_INTG` interrupted."""
-    words = {"B": 102, "D": 107, "E": 108, "F": 109, "H": 111, "M": 113, "N": 114, "O": 115, "S": 119, "T": 120,
-             "WZP": 130}  # fmt: skip
-    names: dict[str, tuple[int, int]] = {}
-    for prefix, first in (("_BUF", 4000), ("_ACT", 4200), ("_INT", 4400)):
-        names[prefix + "G"] = (first + 1, first + 30)
-        names |= {prefix + word: (first + number, first + number) for word, number in words.items()}
-    return names
 
 
 #: What every FANUC control has.
@@ -289,8 +164,8 @@ COMMON_VARIABLES = [
     SystemRange(3004, 3004, *_switch("cntl2"), name="_CNTL2"),
     SystemRange(3005, 3005, *_switch("settings"), name="_SETDT"),
     SystemRange(3006, 3006, None, _show_and_stop, name="_MSGSTP"),
-    SystemRange(3007, 3007, _nothing, name="_MRIMG"),
-    SystemRange(3008, 3008, _nothing, name="_PRSTR"),
+    SystemRange(3007, 3007, nothing, name="_MRIMG"),
+    SystemRange(3008, 3008, nothing, name="_PRSTR"),
     SystemRange(3011, 3011, lambda m, _i: float(m.date), name="_DATE"),
     SystemRange(3012, 3012, lambda m, _i: float(m.time), name="_TIME"),
     SystemRange(3100, 3100, lambda _m, _i: None, name="_EMPTY"),
@@ -300,14 +175,3 @@ COMMON_VARIABLES = [
     SystemRange(3902, 3902, *_switch("parts_required"), name="_PRTSN"),
     SystemRange(4000, 4000, _main_program, name="_MAINO"),
 ]
-
-MILLING_VARIABLES = Registry(
-    COMMON_VARIABLES
-    + _rows_modal(4000, MILLING_GROUPS)
-    + _rows_modal(4200, MILLING_GROUPS)
-    + [SystemRange(4400 + n, 4400 + n, _interrupted(group)) for n, group in MILLING_GROUPS.items()]
-    + _rows_positions()
-    + _rows_work_offsets()
-    + _rows_tools(),
-    modal_names(),
-)

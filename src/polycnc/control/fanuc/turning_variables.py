@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, cast
 
-from polycnc.control.fanuc.system_variables import COMMON_VARIABLES
+from polycnc.control.fanuc.system_variables import (
+    COMMON_VARIABLES,
+    axis_at,
+    modal_rows,
+    nothing,
+    position_rows,
+)
 from polycnc.control.fanuc.turning_tools import offset_changed, refresh
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.variables import Read, Registry, SystemRange, Write
@@ -33,12 +39,6 @@ def _taken(m: MacroMemory, axis: int, value: float | None) -> float:
     if m.channel.axis_data[axis].rotary:
         return value or 0.0
     return cast("TurningMemory", m).radius_of(axis, m.from_program_unit(value))
-
-
-def _axis(m: MacroMemory, i: int) -> int:
-    if i >= len(m.channel.axes):
-        raise m.fail("variable_number")
-    return i
 
 
 # ---- tool offsets ------------------------------------------------------------------------------------------------
@@ -130,10 +130,10 @@ def _work_shift(name: str) -> tuple[Read, Write]:
 
 def _work_offset(name: str) -> tuple[Read, Write]:
     def read(m: MacroMemory, i: int) -> float:
-        return _shown(m, _axis(m, i), m.work_offset(name)[i])
+        return _shown(m, axis_at(m, i), m.work_offset(name)[i])
 
     def write(m: MacroMemory, i: int, value: float | None, _text: str) -> None:
-        m.work_offset(name)[_axis(m, i)] = _taken(m, i, value)
+        m.work_offset(name)[axis_at(m, i)] = _taken(m, i, value)
         refresh(m.channel)
 
     return read, write
@@ -152,43 +152,25 @@ def _rows_work_offsets() -> list[SystemRange]:
 
 def _end_point(m: MacroMemory, i: int) -> float:
     """Work coordinates of the block end, before the offset that moves the point."""
-    return _shown(m, _axis(m, i), m.channel.coordinates.programmed[i])
+    return _shown(m, axis_at(m, i), m.channel.coordinates.programmed[i])
 
 
 def _machine(m: MacroMemory, i: int) -> float:
-    return _shown(m, _axis(m, i), m.channel.coordinates.machine[i])
+    return _shown(m, axis_at(m, i), m.channel.coordinates.machine[i])
 
 
 def _work(m: MacroMemory, i: int) -> float:
-    return _shown(m, _axis(m, i), m.channel.coordinates.position[i])
+    return _shown(m, axis_at(m, i), m.channel.coordinates.position[i])
 
 
 def _skip(m: MacroMemory, i: int) -> float:
     position = m.skip_position or m.channel.coordinates.position
-    return _shown(m, _axis(m, i), position[i])
+    return _shown(m, axis_at(m, i), position[i])
 
 
 def _offset_in_force(m: MacroMemory, i: int) -> float:
     memory = cast("TurningMemory", m)
-    return _shown(m, _axis(m, i), memory.tool_shift[i] + memory.frames.offset[i])
-
-
-def _zero(_m: MacroMemory, _i: int) -> float:
-    return 0.0
-
-
-def _rows_positions() -> list[SystemRange]:
-    rows: list[SystemRange] = []
-    for first, further, name, read in (
-        (5001, 100001, "_ABSIO", _end_point),
-        (5021, 100051, "_ABSMT", _machine),
-        (5041, 100101, "_ABSOT", _work),
-        (5061, 100151, "_ABSKP", _skip),
-        (5081, 100201, "_TOFS", _offset_in_force),
-        (5101, 100251, "_SVERR", _zero),
-    ):
-        rows += [SystemRange(first, first + 19, read, name=name), SystemRange(further, further + 49, read)]
-    return rows
+    return _shown(m, axis_at(m, i), memory.tool_shift[i] + memory.frames.offset[i])
 
 
 # ---- modal information -------------------------------------------------------------------------------------------
@@ -202,36 +184,16 @@ def _modal(group: str) -> Read:
     return read
 
 
-def _feed(m: MacroMemory, _i: int) -> float:
-    feed = m.channel.feed
-    if feed != feed:
-        return 0.0
-    return round(m.to_program_unit(feed * (60.0 if m.channel.mode["feed"] == "G98" else 1.0)), 6)
-
-
-def _sequence(m: MacroMemory, _i: int) -> float:
-    level: Any = m.channel.level
-    return float(level.code.sequence(level.current))
-
-
 def _rows_modal(first: int) -> list[SystemRange]:
-    rows = [SystemRange(first + n, first + n, _modal(group)) for n, group in GROUPS.items()]
-    words: dict[int, Read] = {
-        109: _feed,
-        113: lambda m, _i: float(m.last_m),
-        114: _sequence,
-        115: lambda m, _i: float(m.channel.level.code.program.number or 0),
-        119: lambda m, _i: float(m.spindle_speed),
-        120: lambda m, _i: float(cast("TurningMemory", m).tool_word),
-    }
-    return rows + [SystemRange(first + n, first + n, read) for n, read in words.items()]
+    words: dict[int, Read] = {120: lambda m, _i: float(cast("TurningMemory", m).tool_word)}
+    return modal_rows(first, {n: _modal(group) for n, group in GROUPS.items()}, words)
 
 
 TURNING_VARIABLES = Registry(
     COMMON_VARIABLES
     + _rows_modal(4000)
     + _rows_modal(4200)
-    + _rows_positions()
+    + position_rows(_end_point, _machine, _work, _skip, _offset_in_force, nothing)
     + _rows_work_offsets()
     + _rows_tools()
 )

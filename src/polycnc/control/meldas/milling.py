@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.fanuc.milling_codes import ADDRESSES, POWER_ON
-from polycnc.control.fanuc.system_variables import MILLING_VARIABLES
+from polycnc.control.fanuc.milling_variables import MILLING_VARIABLES
 from polycnc.control.meldas.alarm_codes import ALARMS
 from polycnc.control.meldas.code_calls import registered_codes
 from polycnc.control.meldas.cycles import DRILLING
