@@ -64,11 +64,19 @@ class Action(Enum):
 
 
 class Stroke(NamedTuple):
-    """One step of a cycle. `factor` multiplies the feed."""
+    """One step of a cycle.
+
+    Attributes:
+        action: What it is.
+        value: A level, seconds, or as the action states.
+        factor: Multiplies the feed.
+        overlaps: The next stroke may begin before the axes rest at its end; None in a cycle without overlap.
+    """
 
     action: Action
     value: float = 0.0
     factor: float = 1.0
+    overlaps: bool | None = None
 
 
 Cycle = Callable[[Hole], Iterator[Stroke]]

@@ -21,6 +21,7 @@ from polycnc.motion.kernels.arcs import facing_radius
 from polycnc.motion.kernels.columns import (
     BLOCKS,
     CAP2,
+    EARLY,
     ENTRY2,
     FACING,
     FORM,
@@ -501,6 +502,13 @@ class Ahead:
         self._state[PIECES] = count - 1
         del self._planned[:width]
         return record
+
+    @property
+    def early(self) -> float:
+        """Seconds by which the next piece may begin before the axes rest: strokes of drilling cycles overlap."""
+        if not self._held:
+            return 0.0
+        return min(self._pieces[EARLY], self._pieces[PAUSE])
 
     @property
     def is_last_piece(self) -> bool:

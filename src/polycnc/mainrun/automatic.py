@@ -205,9 +205,9 @@ class Automatic:
                 self._settle()
 
     def _settle(self) -> None:
-        """The interpolator rests; nothing follows before the axes do."""
+        """The interpolator rests; nothing follows before the axes do, but for a stroke that overlaps."""
         self._settles = self.time + self._follower.window
-        self._until = max(self._until, self._settles)
+        self._until = max(self._until, self._settles - self.ahead.early)
 
     def _lead(self) -> None:
         """The axes follow what has just been decided."""
@@ -342,6 +342,8 @@ class Automatic:
             self._enter(Block(piece.program, piece.line, self.modal))
         if piece.kind == Kind.SKIP and piece.first == 0.0 and self._skip_after_s is not None:
             self._skips_at = self.time + self._skip_after_s
+        if self._x2 == 0.0 and self.time < self._settles:
+            self._follower = Follower(self._follower, self._settles, self.position)
         follower = self._follower
         if self._x2 == 0.0:
             follower.begin(self.time, record[RAMP], record[BLEND])

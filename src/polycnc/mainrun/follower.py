@@ -89,11 +89,18 @@ class Law:
 class Follower:
     """The axes behind the interpolator, from one standstill to the next.
 
+    Args:
+        before: What leads the axes to rest while the run already begins, where two strokes overlap.
+        rest: When it has led them there, and `place`: where.
+
     Attributes:
         window: Seconds by which the axes rest later than the interpolator; 0 without limited jerk.
     """
 
-    def __init__(self) -> None:
+    def __init__(
+        self, before: Follower | None = None, rest: float = 0.0, place: Sequence[float] = ()
+    ) -> None:
+        self._before, self._rest, self._rest_place = before, rest, tuple(place)
         self.window = 0.0
         self._ramp = self._blend = 0.0
         self._law = Law(0.0, 0.0)
@@ -105,6 +112,13 @@ class Follower:
         """The axes stand, and a run begins whose averages are over these times."""
         self._ramp, self._blend, self.window = ramp, blend, ramp + 2.0 * blend
         self._law, self._alone, self._ways, self._pieces = Law(time, 0.0), [], [], []
+        if self._before is not None:
+            self._before.let_rest(time)
+
+    def let_rest(self, time: float) -> None:
+        """Forget the run before, if it has come to rest."""
+        if time >= self._rest:
+            self._before = None
 
     def enter(self, piece: Piece, length: float, behind: float) -> None:
         """The interpolator comes to a piece of a length; `behind` is how much of the one before it has run."""
@@ -129,6 +143,13 @@ class Follower:
 
     def machine(self, time: float) -> list[float]:
         """Machine position of the axes."""
+        own = self._machine(time)
+        if self._before is None or time >= self._rest:
+            return own
+        last = self._before.machine(time)
+        return [a + b - c for a, b, c in zip(own, last, self._rest_place, strict=True)]
+
+    def _machine(self, time: float) -> list[float]:
         if self._alone:
             return [law.mean(time, self._ramp) for law in self._alone]
         if self._blend == 0.0:

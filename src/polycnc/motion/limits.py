@@ -108,6 +108,7 @@ def context_fields(
         settings.drive_speed if context.acceleration == DRIVE else 1.0,
         settings.drive_reduction,
         context.rapid_speed,
+        context.overlap,
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),

@@ -9,7 +9,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from polycnc.motion.kernels.columns import FORM, RAMP, ROW, SPEED2, TIMED, piece_width
+from polycnc.motion.kernels.columns import EARLY, FORM, PAUSE, RAMP, ROW, SPEED2, TIMED, piece_width
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.table import CURVE_WIDTH
 
@@ -93,6 +93,7 @@ class Sampler:
         self._open: list[Any] = []
         self._time, self._count, self._angle, self._rpm = 0.0, 0, 0.0, 0.0
         self._tap_way: Any = None
+        self._tails: list[tuple[Run, float]] = []
         self._row = RowFacts(Kind.EVENT, 0, 0, Context(), 0.0, 0.0, 0.0)
         self._forgotten = 0
         self._position = planner.position
@@ -127,7 +128,7 @@ class Sampler:
         edges = [0, *starts.tolist(), count]
         for first, last in pairwise(edges):
             if first in starts:
-                self._close_run()
+                self._close_run(float(min(pieces[first, EARLY], pieces[first, PAUSE])))
             if last > first:
                 self._open.append(pieces[first:last])
 
@@ -138,8 +139,11 @@ class Sampler:
 
     # ---- time ----------------------------------------------------------------------------------------------
 
-    def _close_run(self) -> None:
-        """The axes have come to rest: give the samples of the run."""
+    def _close_run(self, early: float = 0.0) -> None:
+        """The axes come to rest: give the samples of the run, up to where the next one begins.
+
+        That is `early` seconds before its end where two strokes overlap.
+        """
         import numpy as np
 
         if not self._open:
@@ -155,7 +159,11 @@ class Sampler:
             limits = self._planner.rapids(float(pieces[0, RAMP]), own)
         run = Run(pieces, self._n, limits)
         self._stand(first, run)
-        self._move(run)
+        seconds = run.seconds - early
+        self._move(run, seconds)
+        self._tails = [(tail, at + seconds) for tail, at in self._tails if at + seconds < tail.seconds]
+        if early:
+            self._tails.append((run, seconds))
         self._position = run.end
         for row in range(self._forgotten, int(pieces[-1, ROW])):
             self._facts.pop(row, None)
@@ -209,8 +217,8 @@ class Sampler:
         self._rpm = rpm
         self._time += seconds
 
-    def _move(self, run: Run) -> None:
-        """Follow a run; the spindle of a tap follows the axes, else it turns as the rows ask."""
+    def _move(self, run: Run, seconds: float) -> None:
+        """Follow a run for a time; the spindle of a tap follows the axes, else it turns as the rows ask."""
         import numpy as np
 
         rows = np.unique(run.rows)
@@ -218,11 +226,11 @@ class Sampler:
         tap = facts[int(rows[0])]
         sense = self._tap_sense(run, tap)
         rpm = np.array([facts[int(row)].rpm for row in rows])
-        start = np.array([run.enters(row) for row in rows] + [run.seconds])
+        start = np.array([run.enters(row) for row in rows] + [seconds])
         start[0] = 0.0
         turned = np.concatenate([[0.0], np.cumsum(6.0 * rpm * np.diff(start))])
-        for times in _batches(self._times(run.seconds)):
-            moved = run.at(times)
+        for times in _batches(self._times(seconds)):
+            moved = self._with_tails(times, run.at(times))
             k = np.clip(np.searchsorted(start, times, "right") - 1, 0, len(rpm) - 1)
             if sense != 0.0:
                 axis = run.main_axis
@@ -239,7 +247,16 @@ class Sampler:
         else:
             self._angle += float(turned[-1])
             self._rpm = float(rpm[-1])
-        self._time += run.seconds
+        self._time += seconds
+
+    def _with_tails(self, times: Any, moved: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
+        """What the axes do while runs before this one still come to rest."""
+        position, velocity, acceleration = moved
+        for tail, at in self._tails:
+            left, slowing, braking = tail.at(times + at)
+            position, velocity = position + left - tail.end, velocity + slowing
+            acceleration = acceleration + braking
+        return position, velocity, acceleration
 
     def _tap_sense(self, run: Run, facts: RowFacts) -> float:
         """How a tap turns the spindle: as programmed on the way in, back on the way out; 0 for no tap."""

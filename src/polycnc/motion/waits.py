@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.settings import EXACT_STOP_MODES
 from polycnc.toolpath import Kind
+from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS
 from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
@@ -178,6 +179,8 @@ class Waits:
     def _exact_stops(self, chunk: Chunk, kinds: bytes) -> None:
         """The row behind an exact stop waits until the axes are within the window."""
         for row, (kind, number) in enumerate(zip(kinds, chunk.context, strict=True)):
+            if self._overlaps(kind, number):
+                self._settling = None
             self.settle(chunk.first + row)
             rapid = kind in (Kind.RAPID, Kind.REF)
             place = (number, list(chunk.end[row * chunk.axes : (row + 1) * chunk.axes]))
@@ -187,6 +190,13 @@ class Waits:
             seconds = self._windows.get(self.contexts[number].stop_window, 0.0)
             if seconds > 0.0:
                 self._settling = ("rapid_s" if rapid else "cutting_s", number, seconds)
+
+    def _overlaps(self, kind: int, number: int) -> bool:
+        """Whether a row begins before the axes rest behind the last one: two strokes of a drilling cycle."""
+        if self._settling is None or kind >= Kind.DWELL:
+            return False
+        before = self.contexts[self._settling[1]]
+        return before.overlap == OVERLAPS and self.contexts[number].overlap != NO_OVERLAP
 
     def _exact(self, number: int) -> bool:
         return self.contexts[number].path_mode in EXACT_STOP_MODES

@@ -19,6 +19,12 @@ class Transformation(Protocol):
         """Positions of the real axes (work coordinates) at a position of the toolpath."""
 
 
+#: How a stroke of a drilling cycle meets the next one: it is none, or waits for the axes to rest; it is one whose
+#: start may overlap; it is one whose end may too: the next stroke of the cycle begins while the axes come to rest.
+Overlap = int
+NO_OVERLAP, STROKE, OVERLAPS = 0, 1, 2
+
+
 @dataclass(frozen=True, slots=True)
 class Context:
     """The state under which a run of moves was made. Immutable; equal contexts share one number.
@@ -47,6 +53,7 @@ class Context:
         feed_override: The operator's feed override acts; else it counts 100 %. `spindle_override` and `rapid_override`
             the same.
         feed_hold: The operator's feed hold acts.
+        overlap: Whether strokes of a drilling cycle overlap (FANUC 1681): `Overlap`.
         transformation: From the positions of the toolpath to those of the real axes, where they differ.
     """
 
@@ -77,4 +84,5 @@ class Context:
     spindle_override: bool = True
     rapid_override: bool = True
     feed_hold: bool = True
+    overlap: Overlap = 0
     transformation: Transformation | None = None

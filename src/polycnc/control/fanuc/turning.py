@@ -195,7 +195,12 @@ class FanucTurning(CustomMacroControl):
     def context(self, channel: Channel) -> Context:
         """The context that holds now, with what threads and taps keep from the operator."""
         context = turning_threads.locked(channel, super().context(channel))
-        return replace(context, feed_hold=False) if channel.memory.tapping else context
+        memory = channel.memory
+        if memory.tapping or memory.overlap != context.overlap:
+            return replace(
+                context, feed_hold=context.feed_hold and not memory.tapping, overlap=memory.overlap
+            )
+        return context
 
     # ---- motion ----------------------------------------------------------------------------------------------
 

@@ -11,6 +11,7 @@ from polycnc.control.word_address import drilling as base
 from polycnc.control.word_address.drilling import DrillCycle, Drilling, Halts
 from polycnc.control.word_address.path import PLANES
 from polycnc.cycles import drilling, drilling_lathe
+from polycnc.cycles.drilling_lathe import Joint
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -92,6 +93,7 @@ def _rules(choice: _Choice) -> Drilling:
         turn=_turn,
         dress=_dress,
         halts=_halts,
+        overlaps=_overlaps_hole,
     )
     peck: Cycle = drilling.peck_clearing_chips if choice.clears_chips else drilling.peck_breaking_chips
     tap: Cycle = drilling_lathe.tap_clearing_chips if choice.taps_clear else drilling_lathe.tap
@@ -240,11 +242,24 @@ def _dress(channel: Channel, code: str, hole: Hole, strokes: Iterator[Stroke]) -
     if code in turning_tapping.TAPS:
         turning_tapping.check(channel, channel.memory.cycle_data)
         strokes = drilling_lathe.with_extraction(strokes, hole, turning_tapping.extraction(channel))
+    else:
+        strokes = drilling_lathe.overlapping(strokes, hole, _apart(channel))
     clamp = channel.memory.clamp
     if clamp:
         seconds = channel.memory.parameters.number(5111) / 1000.0
         strokes = drilling_lathe.clamped(strokes, clamp, _unclamp(channel, clamp), seconds)
     return strokes
+
+
+def _apart(channel: Channel) -> frozenset[Joint]:
+    """Joints of strokes at which the axes come to rest (1681#0 to #5; II.4.4, 6.6)."""
+    bit = channel.memory.parameters.bit
+    return frozenset(joint for joint in Joint if bit(1681, joint))
+
+
+def _overlaps_hole(channel: Channel, code: str) -> bool | None:
+    """Whether the way over a hole and the one to R overlap; taps know no overlap."""
+    return None if code in turning_tapping.TAPS else Joint.HOLE not in _apart(channel)
 
 
 def _halts(channel: Channel, code: str) -> Halts:

@@ -20,6 +20,7 @@ from polycnc.control.word_address.radius import suspended
 from polycnc.cycles import drilling_lathe
 from polycnc.cycles.drilling import Action, Cycle, Hole, Stroke, tap
 from polycnc.toolpath import Kind
+from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS, STROKE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -114,6 +115,10 @@ class Halts(Enum):
     ALL = "behind every stroke"
 
 
+def no_overlap(_channel: Channel, _code: str) -> None:
+    """Every stroke begins when the axes rest."""
+
+
 def halts_nowhere(_channel: Channel, _code: str) -> Halts:
     """A block that drills is one block."""
     return Halts.NONE
@@ -143,6 +148,8 @@ class Drilling:
         least_increments: Words that count least increments even under calculator input.
         dress: What the machine adds to the strokes of a hole (clamping an axis), by cycle code.
         halts: Where single block halts in a hole, by cycle code.
+        overlaps: Whether the first stroke of a hole begins before the axes rest over it, by cycle code; None where no
+            strokes overlap.
     """
 
     cycles: Mapping[str, DrillCycle]
@@ -164,6 +171,7 @@ class Drilling:
     least_increments: Sequence[str] = ""
     dress: Callable[[Channel, str, Hole, Iterator[Stroke]], Iterator[Stroke]] = as_it_is
     halts: Callable[[Channel, str], Halts] = halts_nowhere
+    overlaps: Callable[[Channel, str], bool | None] = no_overlap
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -239,6 +247,7 @@ def plan_drilling(builder: Builder, plan: Plan) -> Step:
             for number in range(count):
                 if number and halts is not Halts.NONE:
                     channel.halt_inside()
+                _meet(channel, rules.overlaps(channel, code))
                 words.position(channel, values)
                 if halts is not Halts.NONE:
                     channel.halt_inside()
@@ -364,14 +373,24 @@ def _with_halts(channel: Channel, strokes: Iterator[Stroke], halts: Halts) -> It
 def _perform(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> None:
     """Let the tool make the strokes of one hole."""
     rules: Drilling = channel.control.drilling_rules(channel)
-    if rules.cycles[channel.mode["cycle"]].strokes not in TAPS:
+    if rules.cycles[channel.mode["cycle"]].strokes in TAPS:
+        channel.memory.tapping = True
+        channel.context_changed()
+    try:
         _work(channel, strokes, data)
-        return
-    channel.memory.tapping = True
-    channel.context_changed()
-    _work(channel, strokes, data)
-    channel.memory.tapping = False
-    channel.context_changed()
+    finally:
+        if channel.memory.tapping:
+            channel.memory.tapping = False
+            channel.context_changed()
+        _meet(channel, None)
+
+
+def _meet(channel: Channel, overlaps: bool | None) -> None:
+    """Say how the next stroke ends: whether the one behind it may begin before the axes rest."""
+    kind = NO_OVERLAP if overlaps is None else OVERLAPS if overlaps else STROKE
+    if channel.memory.overlap != kind:
+        channel.memory.overlap = kind
+        channel.context_changed()
 
 
 def _work(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> None:
@@ -392,6 +411,7 @@ def _work(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> None:
         elif stroke.action is Action.HALT:
             channel.stop("M00")
         else:
+            _meet(channel, stroke.overlaps)
             _stroke(channel, data.axis, stroke)
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.geometry.frames import IDENTITY, Frame
+from polycnc.toolpath.context import NO_OVERLAP
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -102,6 +103,7 @@ class Memory:
         basic_geometry: Axes X, Y, Z, whatever parallel ones a plane has chosen.
         polar: Plane of polar coordinate interpolation while it is on; `cylinder` the same for cylindrical.
         cancelled_overrides: Overrides that the program has switched off; `tapping` while a tapping cycle works.
+        overlap: How the stroke of a drilling cycle meets the next one (`toolpath.context`).
         hypothetical: Axes that stand while the path moves them (G07).
         normal_line: The stage that keeps a rotary axis square to the path.
         plane_before: Plane code that the end of one of them brings back; `geometry_before` its axes.
@@ -163,6 +165,7 @@ class Memory:
         self.cylinder: Cylinder | None = None
         self.cancelled_overrides: frozenset[str] = frozenset()
         self.tapping = False
+        self.overlap = NO_OVERLAP
         self.hypothetical: Standing | None = None
         self.normal_line: NormalStage | None = None
         self.plane_before = "G17"

@@ -54,7 +54,9 @@ GEOMETRY, RAPID_STOPS, PATH_FEED, LIMIT_TAIL = 0, 3, 4, 5
 PER_REVOLUTION, INVERSE_TIME, RPM, SURFACE_MM_S, RPM_LIMIT, SPINDLE_REV_S2 = 0, 1, 2, 3, 4, 5
 EXACT_STOP, TOLERANCE, ROTARY_WEIGHT, STATION, HAS_FRAME, MIRROR = 6, 7, 8, 9, 10, 11
 RAPID_BY_AXIS, RAMP_S, BLEND_S, DRIVE_SPEED, DRIVE_REDUCTION, RAPID_SPEED = 12, 13, 14, 15, 16, 17
-FRAME, OFFSETS = 18, 30
+#: How a stroke of a drilling cycle meets the next one (`toolpath.context`).
+OVERLAP, OVERLAPS = 18, 2
+FRAME, OFFSETS = 19, 31
 
 # `pieces`: one record a piece. CAP2 bounds x inside the piece, ENTRY2 at its start; REACH2 is what `backward`
 # finds there, SPEED2 what `forward` chooses, END2 the x that it leaves the piece with, TIME the seconds. PULL
@@ -62,12 +64,13 @@ FRAME, OFFSETS = 18, 30
 # down again at RATE. PAUSE are the seconds that the axes rest before the piece so that the averages come to
 # rest. HOLD2 and HOLD_PULL bound speed and acceleration along the path on HOLD_WAY before and behind its start
 # (`hold.py`). RAMP and BLEND are the averages of the run that begins with the piece, seconds. MARGIN is the factor
-# by which q' and q'' are stored larger than they are. Behind VECTORS stand q' at start and end, q''
-# at start and end, and the axes' positions at start and end: 6·n numbers.
+# by which q' and q'' are stored larger than they are. EARLY are the seconds by which the run that begins with the piece
+# may begin before the averages of the one before have come to rest; PAUSE bounds them. Behind VECTORS stand q' at
+# start and end, q'' at start and end, and the axes' positions at start and end: 6·n numbers.
 (
     LENGTH, CAP2, PULL, ENTRY2, REACH2, SPEED2, END2, TIME, FORM, ROW, SLOT,
-    PEAK2, RATE, PAUSE, HOLD2, HOLD_PULL, HOLD_WAY, RAMP, BLEND, MARGIN, VECTORS,
-) = range(21)  # fmt: skip
+    PEAK2, RATE, PAUSE, HOLD2, HOLD_PULL, HOLD_WAY, RAMP, BLEND, MARGIN, EARLY, VECTORS,
+) = range(22)  # fmt: skip
 PLACES, PIECE_BLOCKS = 4, 6
 #: A line; a part of a curve under the limits of a line (with limited jerk); a part of a curve under limits that
 #: change along it; a rapid of every axis by itself.
@@ -79,13 +82,13 @@ STOP, EXIT2, ROW_LENGTH, METRIC, AT_STATION, SMOOTH, PIECES, WITHOUT_FEED = rang
 # holds within reach, way for which holds reach ahead; seconds that a change of speed is spread over; the last row
 # is a line (1), and one from rest (2); speed that it asks for; whether overrides will act on feeds (not the planner's),
 EXIT_PULL, TOP2, TOP_PULL, LOW2, LOW_PULL, AHEAD, WINDOW, ALONE, WANTED, FREE = range(8, 18)
-# the joint at hand: pull around it, seconds of rest, averages of a run that begins there,
-JOINT_PULL, REST, RUN_RAMP, RUN_BLEND = range(18, 22)
+# the joint at hand: pull around it, seconds of rest, averages of a run that begins there, OVERLAP of the row before,
+JOINT_PULL, REST, RUN_RAMP, RUN_BLEND, OVERLAP_BEFORE = range(18, 23)
 # the row at hand (CURVE: where its record in `curves` begins, or -1; FACING: its end in X, work coordinates),
-KIND, NUMBER, ROW_SLOT, FEED, CURVE, FACING = range(22, 28)
+KIND, NUMBER, ROW_SLOT, FEED, CURVE, FACING = range(23, 29)
 # its arc (unit vectors to the start, along the way there, and of the axis; angle, radius, growth of the
 # radius, rise),
-BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 28, 37, 38, 39, 40, 41
+BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 29, 38, 39, 40, 41, 42
 # and blocks of n numbers: machine position before the row, q' at the end of the last piece; end of the row,
 # way there, and room for one q' and q''; q'' at the end of the last piece.
 POSITION, TANGENT, TARGET, DELTA, UNIT, BEND, BENT_BEFORE, BLOCKS = range(8)

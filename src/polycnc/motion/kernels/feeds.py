@@ -10,6 +10,7 @@ from polycnc.motion.kernels.columns import (
     CURVE,
     CUTS_PER_PIECE,
     DELTA,
+    EARLY,
     EXIT2,
     FEED,
     FORM,
@@ -153,7 +154,7 @@ def next_piece(pieces: Floats, state: Floats, form: int, cap2: float, n: int) ->
     state[EXIT2] = cap2
     pieces[at + FORM], pieces[at + ROW], pieces[at + SLOT] = form, state[NUMBER], state[ROW_SLOT]
     pieces[at + HOLD2], pieces[at + HOLD_PULL], pieces[at + PAUSE], pieces[at + MARGIN] = inf, inf, 0.0, 1.0
-    pieces[at + RAMP], pieces[at + BLEND] = state[RUN_RAMP], state[RUN_BLEND]
+    pieces[at + RAMP], pieces[at + BLEND], pieces[at + EARLY] = state[RUN_RAMP], state[RUN_BLEND], 0.0
     return at
 
 

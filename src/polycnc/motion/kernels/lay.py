@@ -23,6 +23,7 @@ from polycnc.motion.kernels.columns import (
     DRIVE_REDUCTION,
     DRIVE_SPEED,
     DWELL,
+    EARLY,
     ENTRY2,
     EVENT,
     EXACT_STOP,
@@ -45,6 +46,9 @@ from polycnc.motion.kernels.columns import (
     METRIC,
     NUMBER,
     OFFSETS,
+    OVERLAP,
+    OVERLAP_BEFORE,
+    OVERLAPS,
     PATH_FEED,
     PAUSE,
     PER_REVOLUTION,
@@ -132,9 +136,9 @@ def lay(
         kind = rows.kind[row]
         if kind == EVENT:
             if rows.stops[rows.curve[row]] != 0:
-                state[STOP] = 1.0
+                state[STOP], state[OVERLAP_BEFORE] = 1.0, 0.0
         elif kind == DWELL:
-            state[STOP] = 1.0
+            state[STOP], state[OVERLAP_BEFORE] = 1.0, 0.0
         else:
             record = rows.context[row] * (OFFSETS + n)
             if kind == THREAD and state[KIND] != THREAD:
@@ -188,6 +192,8 @@ def lay_move(
         done = lay_straight(curves, contexts, record, n, limits, pieces, state)
     if not done:
         return False
+    if int(state[PIECES]) > first:
+        overlap(contexts, record, pieces, first, n, state)
     if contexts[record + RAMP_S] > 0.0:
         hold(pieces, first, n, state)
     for i in range(n):
@@ -196,6 +202,20 @@ def lay_move(
     if stands or contexts[record + EXACT_STOP] != 0.0:
         state[STOP] = 1.0
     return True
+
+
+def overlap(contexts: Floats, record: int, pieces: Floats, first: int, n: int, state: Floats) -> None:
+    """A stroke of a drilling cycle may begin while the averages of the one before come to rest (FANUC 1681).
+
+    The axes' accelerations add up to no more than either stroke's: the sum is the average of what both ask for. The
+    row's pieces begin at `first`.
+    """
+    width = piece_width(n)
+    meets = state[OVERLAP_BEFORE] == OVERLAPS and contexts[record + OVERLAP] != 0.0
+    if meets and first > 0 and contexts[record + STATION] == state[AT_STATION]:
+        before = (first - 1) * width
+        pieces[first * width + EARLY] = pieces[before + RAMP] + 2.0 * pieces[before + BLEND]
+    state[OVERLAP_BEFORE] = contexts[record + OVERLAP]
 
 
 def lay_rapid_by_axis(

@@ -15,6 +15,7 @@ from polycnc.motion.kernels.columns import (
     BENT,
     CAP2,
     CURVED,
+    EARLY,
     END2,
     ENTRY2,
     FORM,
@@ -99,7 +100,7 @@ def forward(
             next2, seconds = 0.0, rate
         pieces[at + SPEED2], pieces[at + END2], pieces[at + TIME] = x2, next2, seconds
         pieces[at + PEAK2], pieces[at + RATE] = peak2, rate
-        seconds += pieces[at + PAUSE]
+        seconds += pieces[at + PAUSE] - min(pieces[at + EARLY], pieces[at + PAUSE])
         x2 = next2
         slot = 2 * int(pieces[at + SLOT])
         slots[slot] += seconds

@@ -1,0 +1,64 @@
+"""Strokes of a drilling cycle that overlap: less time, no more than the axes stand, a peck that falls short."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from polycnc.motion.samples import Samples
+from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS, STROKE
+from tests.motion.paths import LATHE, Build
+from tests.motion.test_samples import SOFT, sampled
+
+
+def pecks(kind: int, last: int = STROKE) -> Build:
+    """Over a hole, in by 6 mm, out by 1, in by 3, out."""
+    rows = Build(("X", "Z")).set(overlap=kind)
+    rows.rapid(10.0, 0.0).feed(10.0, -6.0, feed=20.0).rapid(10.0, -5.0).feed(10.0, -8.0, feed=20.0)
+    return rows.set(overlap=last).rapid(10.0, 5.0)
+
+
+def motion(rows: Build) -> tuple[float, Samples]:
+    return sampled(rows, LATHE, lead=SOFT)
+
+
+def test_strokes_that_overlap_take_less_time() -> None:
+    assert motion(pecks(OVERLAPS))[0] < motion(pecks(STROKE))[0] - 0.05
+    assert motion(pecks(STROKE))[0] == pytest.approx(motion(pecks(NO_OVERLAP, NO_OVERLAP))[0])
+
+
+def test_the_samples_of_overlapping_strokes_last_as_long_as_the_plan() -> None:
+    total, samples = motion(pecks(OVERLAPS))
+    assert samples.time[-1] == pytest.approx(total, abs=0.0011)
+    assert np.allclose(samples.position[-1], (10.0, 5.0), atol=1e-3)
+
+
+def test_overlapping_strokes_keep_the_limits_of_the_axes() -> None:
+    _, samples = motion(pecks(OVERLAPS))
+    axis = LATHE.axes[0]
+    assert np.abs(samples.acceleration).max() <= axis.acceleration * (1.0 + 1e-6)
+    jerk = np.diff(samples.acceleration, axis=0) / 0.001
+    assert np.abs(jerk).max() <= axis.jerk * (1.0 + 1e-6)
+
+
+def test_a_peck_that_overlaps_its_retract_falls_short_of_its_depth() -> None:
+    def first_peck(kind: int) -> float:
+        z = motion(pecks(kind))[1].position[:, 1]
+        return float(
+            next(here for before, here, after in zip(z, z[1:], z[2:], strict=False) if before > here < after)
+        )
+
+    assert -6.0 + 1e-3 < first_peck(OVERLAPS) < -5.9
+    assert first_peck(STROKE) == pytest.approx(-6.0, abs=1e-6)
+
+
+def test_a_stroke_waits_where_the_next_move_is_none_of_the_cycle() -> None:
+    assert motion(pecks(OVERLAPS, NO_OVERLAP))[0] > motion(pecks(OVERLAPS, STROKE))[0] + 0.02
+
+
+def test_a_dwell_between_two_strokes_keeps_them_apart() -> None:
+    def cut(kind: int) -> float:
+        rows = Build(("X", "Z")).set(overlap=kind).feed(0.0, -6.0).dwell(1.0)
+        return motion(rows.rapid(0.0, 0.0))[0]
+
+    assert cut(OVERLAPS) == pytest.approx(cut(STROKE))
