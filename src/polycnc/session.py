@@ -265,9 +265,8 @@ class Session:
         """
         for wait in self.group.run(self.result.program):
             if wait.reason == SINGLE_BLOCK:
-                halts = self.channel.inner_halts + 1
-                self.channel.inner_halts = 0
-                self.result.stops.extend([self._halt(wait)] * halts)
+                self.result.stops.extend([*self.channel.inner_halts, self._halt(wait)])
+                self.channel.inner_halts.clear()
             elif progress is not None:
                 progress(self.channel)
         for consume in self.consumers:

@@ -54,7 +54,7 @@ class Channel:
         mark: Rows of the chunk when the running block began.
         control: The control, for the handlers of its family, which know its class.
         single_block: Hand over behind every block at which single block operation halts.
-        inner_halts: How often single block halts inside the block that runs, before its end.
+        inner_halts: Blocks at which single block halts inside the block that runs, before its end.
         block_by_block: With it, behind every other block too.
         main_run: What executes the rows while the channel runs; None where nobody waits for that.
         share_after: The share of a skip move to an end, at a feed, that is done after some seconds (None: all of it);
@@ -115,7 +115,7 @@ class Channel:
         self.skip_levels = 0
         self.stroke_zone: Zone | None = None
         self.single_block = bool(setup.switches.single_block)
-        self.inner_halts = 0
+        self.inner_halts: list[str] = []
         self.block_by_block = False
         self.main_run: MainRun | None = None
         self.share_after: Callable[[Channel, list[float], float, float], float | None] | None = None
@@ -348,14 +348,14 @@ class Channel:
         burst = BURST if level.scanner is None else level.scanner.lead(self)
         return burst[: self.block_limit - self.blocks]
 
-    def halt_inside(self) -> None:
-        """Single block halts here, inside the block."""
+    def halt_inside(self, line: int = 0) -> None:
+        """Single block halts here, inside the block; `line` is that of another block that it executes."""
         if self.single_block:
-            self.inner_halts += 1
+            self.inner_halts.append(self.sequence_of(self.level, line))
 
-    def sequence_of(self, level: Level) -> str:
-        """The block that a level runs, as its sequence number or else its line."""
-        line = level.line_of(level.current)
+    def sequence_of(self, level: Level, line: int = 0) -> str:
+        """The block that a level runs, or that at a line of its program, as its sequence number or else its line."""
+        line = line or level.line_of(level.current)
         program = level.code.program
         match = _SEQUENCE.match(program.lines[line - program.first_line])
         return match[1].upper() if match else str(line)

@@ -232,6 +232,7 @@ class FanucTurning(CustomMacroControl):
 
     def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
         """Modal macro calls; words of single cycles that a one-shot code clears."""
+        turning_repetitive.refuse_calls(builder)
         further = (
             turning_shape.plan_note(builder, plan),
             turning_single.plan_clearing(builder),

@@ -6,8 +6,10 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.word_address.memory import ProgrammingFrames
+from polycnc.control.word_address.parameter_input import set_parameter
 from polycnc.control.word_address.variables import MacroMemory
 from polycnc.geometry.frames import IDENTITY, Frame, scaling, translation
+from polycnc.machine.setup import ParameterKey
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -84,7 +86,7 @@ class TurningMemory(MacroMemory):
         feed_code: G98 or G99 under which F was given.
         single_cycle: Modal words of G90, G92, G94.
         grinding: Modal words of grinding cycles.
-        cycle_values: Parameters of turning cycles that a program has overwritten.
+        thread_depths: P and Q of the last thread of G76, mm.
         clamp: M code that clamps the C axis in drilling cycles, 0 for none.
         thread_step: Step of the last block that cut a thread.
         thread_lock: What a thread, or the way off it, keeps from the operator.
@@ -119,7 +121,7 @@ class TurningMemory(MacroMemory):
         self.feed_code = ""
         self.grinding: dict[str, float] = {}
         self.single_cycle: dict[str, Any] = {}
-        self.cycle_values: dict[int, float] = {}
+        self.thread_depths: dict[str, float] = {}
         self.clamp = 0
         self.rotation_angle = 0.0
         self.open_line: OpenLine | None = None
@@ -168,8 +170,12 @@ class TurningMemory(MacroMemory):
         )
 
     def cycle_parameter(self, number: int) -> float:
-        """A parameter of the turning cycles: what the program gave last, else the machine's."""
-        return self.cycle_values.get(number, self.parameters.number(number))
+        """A parameter of the turning cycles. Programs overwrite it by the first block of a cycle."""
+        return self.parameters.number(number)
+
+    def set_cycle_parameter(self, number: int, value: float) -> None:
+        """What the first block of a turning cycle says, a parameter from then on (II.4.2.1 to 4.2.7)."""
+        set_parameter(self.channel, ParameterKey(number), value, keeps_plans=True)
 
     def turning_offset(self, number: int) -> TurningOffset:
         """An offset number; zero until it is set."""

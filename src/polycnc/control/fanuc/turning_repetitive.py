@@ -6,6 +6,7 @@ Normal format: two blocks; the first, without shape or end point, stores amounts
 
 from __future__ import annotations
 
+from itertools import groupby
 from math import copysign, nan
 from typing import TYPE_CHECKING, Any
 
@@ -24,11 +25,12 @@ from polycnc.control.fanuc.turning_strokes import (
 )
 from polycnc.control.fanuc.turning_threads import lead_in_force, start_angle
 from polycnc.control.word_address.numbers import INCH_MM
-from polycnc.cycles.contour import reversal, swapped, swapped_stroke
+from polycnc.cycles.contour import points, reversal, swapped, swapped_stroke
 from polycnc.cycles.threading import ThreadCuts, thread_passes
 from polycnc.cycles.turning_pattern import repeat_pattern as pattern_strokes
 from polycnc.cycles.turning_peck import Pecks, peck_columns
 from polycnc.cycles.turning_rough import Roughing, rough
+from polycnc.language.word_address.functions import round_half_away
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -36,9 +38,11 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.fanuc.turning_shape import Shape
+    from polycnc.control.word_address.plan import Builder
     from polycnc.control.word_address.words import Words
     from polycnc.cycles.contour import Contour
     from polycnc.cycles.plane_stroke import PlaneStroke
+    from polycnc.geometry.arcs import Point
 
 #: All words that a cycle block may hold beside axis words.
 WORDS = "P Q U V W R D I J K A E"
@@ -55,14 +59,24 @@ MAX_TIP_ANGLE = 120.0
 #: A thread with more passes is taken for one that does not end.
 MAX_PASSES = 10_000
 TIP_ANGLES = (80, 60, 55, 30, 29, 0)
+#: Cycles with a shape, and what calls a program.
+SHAPE_CYCLES = frozenset({"G70", "G71", "G72", "G73"})
+CALL_CODES, CALL_M_CODES = frozenset({"G65", "G66", "G66.1"}), frozenset({98, 198})
 
 
 # ---- shape cycles ----------------------------------------------------------------------------------------------
 
 
+def refuse_calls(builder: Builder) -> None:
+    """G70 to G73 share their block with no call of a program (II.4.2.8)."""
+    codes = {row.code for row in builder.codes}
+    if codes & SHAPE_CYCLES and (codes & CALL_CODES or CALL_M_CODES.intersection(builder.m_codes)):
+        raise builder.control.fail("cycle_block", address=builder.order[0])
+
+
 def finish(channel: Channel, words: Words) -> None:
     """G70 P Q: run the shape once as it is written, then back to where the cycle began."""
-    first, last = _shape_numbers(words)
+    first, last = _shape_numbers(channel, words)
     code: Any = channel.level.code
     code = code.code if isinstance(code, Section) else code
     begin, end = section_steps(channel, code, first, last)
@@ -113,14 +127,15 @@ def _rough(channel: Channel, words: Words, *, along: int) -> None:
         return
     depth = _series_15_depth(words) if series_15 and "D" in words else memory.cycle_parameter(DEPTH)
     if not depth > 0.0:
-        raise words.fail("cycle_depth", "D" if series_15 else "U")
+        raise words.fail("cycle_depth", "D" if series_15 else depth_word)
     shape, contour = _read(channel, words)
     axes = plane_axes(channel)
     _check_first_block(channel, shape, axes[1 - along])
+    allowance, extra = _allowance(channel, words), _extra(channel, words, contour)
+    _check_start(channel, shape, 1 - along, allowance[1 - along])
     pockets = axes[along] in (shape.first_axes or ())
     _check_monotone(channel, contour, along, pockets=pockets)
     bit = memory.parameters.bit
-    allowance, extra = _allowance(channel, words), _extra(channel, words, contour)
     cuts = Roughing(
         depth,
         memory.cycle_parameter(ESCAPE),
@@ -166,7 +181,7 @@ def repeat_pattern(channel: Channel, words: Words) -> None:
     if "P" not in words and "Q" not in words:
         _store(channel, words, {first_word: PATTERN_FIRST, second_word: PATTERN_SECOND})
         if "R" in words:
-            memory.cycle_values[PATTERN_PASSES] = round(words.typed("R") or 0.0)
+            memory.set_cycle_parameter(PATTERN_PASSES, round_half_away(words.typed("R") or 0.0))
         return
     if is_series_15(channel) and "D" in words:
         first_center, second_center = CENTERS[plane]
@@ -176,22 +191,29 @@ def repeat_pattern(channel: Channel, words: Words) -> None:
         escape = (memory.cycle_parameter(PATTERN_FIRST), memory.cycle_parameter(PATTERN_SECOND))
         passes = int(memory.cycle_parameter(PATTERN_PASSES))
     if passes < 1:
-        raise words.fail("cycle_depth", "D" if "D" in words else "R")
+        raise words.fail("pattern_passes", "D" if "D" in words else "R")
     shape, contour = _read(channel, words)
     if not shape.first_code:
         raise channel.control.fail("shape_first_block", address="P")
-    # Single block halts behind every block of every pass; by 5125#2 PRS behind the way off the start and every pass.
-    merged = memory.parameters.bit(5125, 2)
-    for _ in range(passes + 1 if merged else passes * len(contour)):
-        channel.halt_inside()
+    _halt_in_passes(channel, shape, passes)
     _cut(channel, pattern_strokes(contour, escape, passes, _allowance(channel, words)))
     _go_on_behind(channel, shape)
+
+
+def _halt_in_passes(channel: Channel, shape: Shape, passes: int) -> None:
+    """Single block halts behind every block of every pass; by 5125#2 PRS behind the way off A and every pass."""
+    if channel.memory.parameters.bit(5125, 2):
+        lines = [0] * (passes + 1)
+    else:
+        lines = [line for line, _ in groupby(move.line for move in shape.moves)] * passes
+    for line in lines:
+        channel.halt_inside(line)
 
 
 def _read(channel: Channel, words: Words) -> tuple[Shape, Contour]:
     if "S" in words and channel.memory.parameters.bit(3703, 3):
         raise words.fail("spindle_choice", "S")
-    first, last = _shape_numbers(words)
+    first, last = _shape_numbers(channel, words)
     shape = read_shape(channel, first, last)
     contour = contour_of(channel, shape)
     if not contour:
@@ -199,10 +221,13 @@ def _read(channel: Channel, words: Words) -> tuple[Shape, Contour]:
     return shape, contour
 
 
-def _shape_numbers(words: Words) -> tuple[int, int]:
+def _shape_numbers(channel: Channel, words: Words) -> tuple[int, int]:
+    """P and Q. The program that holds the cycle must be stored: MDI may only call one that has it (II.4.2.8)."""
     first, last = words.integer("P"), words.integer("Q")
     if first is None or last is None:
-        raise words.fail("no_shape_start", "P" if first is None else "Q")
+        raise words.fail("no_shape_numbers", "P" if first is None else "Q")
+    if channel.setup.switches.mode == "mdi" and channel.level.kind == "main":
+        raise words.fail("cycle_in_mdi", "P")
     return first, last
 
 
@@ -212,6 +237,15 @@ def _check_first_block(channel: Channel, shape: Shape, infeed: int) -> None:
         raise channel.control.fail("shape_first_block", address="P")
     if infeed not in shape.first_ways:
         raise channel.control.fail("shape_command", address="P")
+
+
+def _check_start(channel: Channel, shape: Shape, infeed: int, allowance: float) -> None:
+    """With a positive allowance no point of the shape lies higher than the start, with a negative one none lower."""
+    contour = contour_of(channel, shape, as_written=True)
+    outwards = copysign(1.0, allowance)
+    highest = max(outwards * point[infeed] for piece in contour for point in points(piece.edge))
+    if allowance and highest > outwards * contour[0].edge.start[infeed] + 1e-6:
+        raise channel.control.fail("shape_beyond_start", address="P")
 
 
 def _check_monotone(channel: Channel, contour: Contour, along: int, *, pockets: bool) -> None:
@@ -279,7 +313,7 @@ def groove(channel: Channel, words: Words) -> None:
 def _peck(channel: Channel, words: Words, *, along: int) -> None:
     memory, plane = channel.memory, channel.mode["plane"]
     forms = ("D", *CENTERS[plane]) if is_series_15(channel) else ("P", "Q", "R")
-    _check_words(words, ("R", *INCREMENTS[plane]), forms)
+    _check_words(words, ("R",), forms)
     if not words.axes():
         _store(channel, words, {"R": RETURN})
         return
@@ -291,10 +325,23 @@ def _peck(channel: Channel, words: Words, *, along: int) -> None:
     else:
         # P is the amount along the second axis, Q along the first, in G74 and G75 alike.
         amounts = [_increments(words, "Q"), _increments(words, "P")]
+        if min(amounts) < 0.0:
+            raise words.fail("peck_amount", "Q" if amounts[0] < 0.0 else "P")
         relief = words.length("R") or 0.0
     pecks = Pecks(amounts[along], memory.cycle_parameter(RETURN), amounts[1 - along], relief)
-    strokes = peck_columns(_turned(start, along), _turned(end, along), pecks)
+    start, end = _turned(start, along), _turned(end, along)
+    _check_pecks(words, start, end, pecks)
+    strokes = peck_columns(start, end, pecks)
     uncompensated_cycle(channel, (swapped_stroke(stroke) for stroke in strokes) if along else strokes)
+
+
+def _check_pecks(words: Words, start: Point, end: Point, pecks: Pecks) -> None:
+    """A way needs its amount; the relief has a sign only where the way across is missing (II.4.2.5)."""
+    for way, amount in ((end[0] - start[0], pecks.peck), (end[1] - start[1], pecks.step)):
+        if way and not amount:
+            raise words.fail("peck_end", words.plan.axis_words[0].address)
+    if pecks.relief < 0.0 and pecks.step:
+        raise words.fail("peck_relief", "R" if "R" in words else "D")
 
 
 def _corner(
@@ -324,26 +371,28 @@ def thread(channel: Channel, words: Words) -> None:
     start, end = _corner(channel, words, axes)
     series_15 = is_series_15(channel)
     forms = ("A", "D", "E", *CENTERS[channel.mode["plane"]]) if series_15 else ("R",)
-    _check_words(words, ("P", "Q", *INCREMENTS[channel.mode["plane"]]), forms)
+    _check_words(words, ("P", "Q"), forms)
     if series_15:
         taper = words.length(CENTERS[channel.mode["plane"]][1]) or 0.0
         height = abs(words.length(CENTERS[channel.mode["plane"]][0]) or 0.0)
         first, angle = _series_15_depth(words), words.typed("A") or 0.0
         method = words.integer("P") or 0 if "P" in words else 0
-        if not 0.0 <= angle <= MAX_TIP_ANGLE or method not in range(5):
-            raise words.fail("thread_words", "P" if method not in range(5) else "A")
+        if method not in range(5):
+            raise words.fail("thread_words", "P")
+        if not 0.0 <= angle <= MAX_TIP_ANGLE:
+            raise words.fail("thread_angle", "A")
         if "Q" in words and words.form("Q") not in ("", "#"):
             raise words.fail("point", "Q")
         turn = start_angle(words.typed("Q") or 0.0)
         finishing = max(int(memory.cycle_parameter(THREAD_FINISHING)), 1)
     else:
         taper = words.length("R") or 0.0
-        height, first = _increments(words, "P"), _increments(words, "Q")
+        height, first = _modal_depth(channel, words, "P"), _modal_depth(channel, words, "Q")
         angle, method, turn = memory.cycle_parameter(THREAD_ANGLE), 1, 0.0
         finishing = max(int(memory.cycle_parameter(THREAD_FINISHING)), 1)
     lead = INCH_MM / _threads_per_inch(words) if "E" in words else lead_in_force(channel)
     if not height > 0.0 or not first > 0.0:
-        raise words.fail("cycle_depth", "P" if not height > 0.0 else "Q")
+        raise words.fail("thread_words", "P" if not height > 0.0 else "Q")
     cuts = ThreadCuts(
         height,
         min(first, height),
@@ -353,7 +402,9 @@ def thread(channel: Channel, words: Words) -> None:
         constant_depth=method in (3, 4),
     )
     if cuts.allowance >= height:
-        raise words.fail("cycle_depth", "R")
+        raise words.fail("thread_words", "R")
+    if cuts.least > height:
+        raise words.fail("thread_least", "Q")
     out = runout(channel, lead)
     passes = thread_passes(start, end, taper, cuts, half_angle_deg=angle / 2.0, zigzag=method in (2, 4))
     for number, (begin, last) in enumerate(passes):
@@ -364,27 +415,28 @@ def thread(channel: Channel, words: Words) -> None:
 
 def _store_thread(channel: Channel, words: Words) -> None:
     """The first block of G76: P packs finishing passes, chamfer in 0.1 leads and tip angle; Q and R are depths."""
-    values = channel.memory.cycle_values
+    store = channel.memory.set_cycle_parameter
     packed = words.integer("P") if "P" in words else None
     if packed is not None:
         passes, rest = divmod(abs(packed), 10_000)
         chamfer, angle = divmod(rest, 100)
         if angle not in TIP_ANGLES or passes > 99:
-            raise words.fail("thread_words", "P")
-        values[CHAMFER], values[THREAD_ANGLE] = float(chamfer), float(angle)
+            raise words.fail("thread_angle" if passes <= 99 else "thread_words", "P")
+        store(CHAMFER, chamfer)
+        store(THREAD_ANGLE, angle)
         if passes:
-            values[THREAD_FINISHING] = float(passes)
+            store(THREAD_FINISHING, passes)
     if "Q" in words:
-        values[THREAD_LEAST] = _increments(words, "Q")
+        store(THREAD_LEAST, abs(_increments(words, "Q")))
     if "R" in words:
-        values[THREAD_ALLOWANCE] = abs(words.length("R") or 0.0)
+        store(THREAD_ALLOWANCE, abs(words.length("R") or 0.0))
 
 
 def _threads_per_inch(words: Words) -> float:
     """E of an inch thread in the Series 15 format."""
     count = words.typed("E") or 0.0
     if not count > 0.0:
-        raise words.fail("thread_words", "E")
+        raise words.fail("thread_lead", "E")
     return count
 
 
@@ -409,8 +461,8 @@ def _store(channel: Channel, words: Words, parameters: dict[str, int]) -> None:
     for address, number in parameters.items():
         value = words.length(address)
         if value is not None:
-            signed = number in (PATTERN_FIRST, PATTERN_SECOND)
-            channel.memory.cycle_values[number] = value if signed else abs(value)
+            signed = number in (DEPTH, PATTERN_FIRST, PATTERN_SECOND)
+            channel.memory.set_cycle_parameter(number, value if signed else abs(value))
 
 
 def _increments(words: Words, address: str) -> float:
@@ -419,7 +471,15 @@ def _increments(words: Words, address: str) -> float:
         return 0.0
     if words.form(address) not in ("", "#"):
         raise words.fail("point", address)
-    return abs(_least_increments(words, address))
+    return _least_increments(words, address)
+
+
+def _modal_depth(channel: Channel, words: Words, address: str) -> float:
+    """P or Q of G76; without the word that of the thread before (II.4.2.7 note 3)."""
+    kept: dict[str, float] = channel.memory.thread_depths
+    if address in words:
+        kept[address] = _increments(words, address)
+    return kept.get(address, 0.0)
 
 
 def _least_increments(words: Words, address: str) -> float:

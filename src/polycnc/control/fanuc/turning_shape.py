@@ -176,8 +176,8 @@ _MEMORY_FIELDS = (
 )
 
 
-def contour_of(channel: Channel, shape: Shape) -> Contour:
-    """The shape as edges of the plane, after nose radius compensation where that is active."""
+def contour_of(channel: Channel, shape: Shape, *, as_written: bool = False) -> Contour:
+    """The shape as edges of the plane, after nose radius compensation where that is active, or `as_written`."""
     first, second = plane_axes(channel)
     u, v, w = PLANES[channel.mode["plane"]]
     plane = Plane(u, v, w, channel.coordinates.geometry)
@@ -188,7 +188,8 @@ def contour_of(channel: Channel, shape: Shape) -> Contour:
             if i not in (first, second)
         ):
             raise channel.control.fail("shape_command", address="P")
-    moves = _compensated(channel, shape.moves, plane) if channel.memory.side else shape.moves
+    is_compensated = channel.memory.side and not as_written
+    moves = _compensated(channel, shape.moves, plane) if is_compensated else shape.moves
     contour: Contour = []
     for move in moves:
         edge = plane.edge(move)

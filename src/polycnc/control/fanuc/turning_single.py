@@ -8,7 +8,12 @@ from polycnc.control.fanuc import turning_grinding
 from polycnc.control.fanuc.turning_coordinates import feed_number, plane_axes
 from polycnc.control.fanuc.turning_drilling import is_series_15
 from polycnc.control.fanuc.turning_strokes import compensated_cycle, uncompensated_cycle
-from polycnc.control.fanuc.turning_threads import lead_in_force, plan_start_angle
+from polycnc.control.fanuc.turning_threads import (
+    CORNER_WORDS,
+    lead_in_force,
+    plan_start_angle,
+    refuse_corners,
+)
 from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.control.word_address.path import PLANES
 from polycnc.control.word_address.skip import signal_position
@@ -37,6 +42,8 @@ def plan_single_cycle(builder: Builder, plan: Plan) -> Step | None:
     taper = next((letter for letter in taper_letters if builder.has(letter)), None)
     if taper is not None:
         builder.take(taper)
+    if code == "G92":
+        refuse_corners(builder, plan, tuple(a for a in CORNER_WORDS if a not in taper_letters))
     angle_of = plan_start_angle(builder) if code == "G92" else None
     inch_thread = _plan_inch_thread(builder) if code == "G92" else None
     names_corner = bool(plan.axis_words) or taper is not None
@@ -137,7 +144,7 @@ def _plan_inch_thread(builder: Builder) -> Step | None:
                 data.pop("lead", None)
             return
         if not values[slot] > 0.0:
-            raise channel.control.fail("thread_words", address="E")
+            raise channel.control.fail("thread_lead", address="E")
         data["lead"] = INCH_MM / values[slot]
 
     return choose

@@ -32,7 +32,8 @@ MM_PER_INCH = 25.4
 #: Least and largest lead (II.3.1, table 3.1(a)).
 LEADS_MM, LEADS_INCH = (0.0001, 500.0), (0.000001, 9.999999)
 _CHAMFERS = (",C", ",R", ",A")
-_CORNER_WORDS = (*_CHAMFERS, "R", "C", "I", "J", "K")
+#: What makes a chamfer or a corner R, or a line of drawing dimensions.
+CORNER_WORDS = (*_CHAMFERS, "R", "C", "I", "J", "K")
 
 
 # ---- straight ----------------------------------------------------------------------------------------------------
@@ -51,7 +52,7 @@ def plan_growing_thread(builder: Builder, plan: Plan) -> Step | None:
 def _plan_straight(builder: Builder, plan: Plan, *, grows: bool) -> Step | None:
     words = (("K", grows), (",A", turning_drawing.is_on(builder)))
     allowed = [address for address, has_meaning in words if has_meaning]
-    _refuse_corners(builder, plan, tuple(a for a in _CORNER_WORDS if a not in allowed))
+    refuse_corners(builder, plan, tuple(a for a in CORNER_WORDS if a not in allowed))
     angle_of = plan_start_angle(builder)
     builder.take("K")
     growth_slot = builder.slot("K") if grows else None
@@ -89,7 +90,7 @@ def plan_circular_thread_ccw(builder: Builder, plan: Plan) -> Step | None:
 
 def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
     control, words = builder.control, plan.axis_words
-    _refuse_corners(builder, plan, _CHAMFERS)
+    refuse_corners(builder, plan, _CHAMFERS)
     angle_of = plan_start_angle(builder)
     u, v, w = PLANES[builder.mode["plane"]]
     letters = (CENTER_WORDS[u], CENTER_WORDS[v])
@@ -153,7 +154,7 @@ def _keeps_long_axis(begin: Point, end: Point, center: Point, ccw: bool) -> bool
 # ---- what all threads share ----------------------------------------------------------------------------------------
 
 
-def _refuse_corners(builder: Builder, plan: Plan, addresses: tuple[str, ...]) -> None:
+def refuse_corners(builder: Builder, plan: Plan, addresses: tuple[str, ...]) -> None:
     """Neither a thread nor the block in front of it may have a chamfer or a corner R (PS0050)."""
     for address in addresses:
         if builder.has(address) and not any(word.address == address for word in plan.axis_words):

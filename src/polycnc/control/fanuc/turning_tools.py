@@ -47,7 +47,6 @@ def plan_tool(builder: Builder) -> Step:
         raise control.fail("tool_with_one_shot", address="T")
     one_shot = any(row.axis_words for row in builder.codes)
     moves = bool(builder.axis_words()) and not one_shot
-    thread = mode["motion"] in THREADS
     starts_or_ends = mode["motion"] in _ARCS and moves and mode["compensation"] != "G40"
 
     def select(channel: Channel, values: list[float]) -> None:
@@ -61,8 +60,6 @@ def plan_tool(builder: Builder) -> Step:
         channel.event("t", tool=tool)
         if number is None:
             return
-        if thread:
-            raise control.fail("offset_in_thread", address="T")
         if starts_or_ends and (number == 0) != (memory.offset_active == 0):
             raise control.fail("comp_arc_start", address="T")
         select_offset(channel, number, tool)
@@ -98,7 +95,9 @@ def offset_digits(channel: Channel) -> int:
 
 
 def select_offset(channel: Channel, number: int, tool: int) -> None:
-    """Make an offset number the active one; number 0 cancels."""
+    """Make an offset number the active one; number 0 cancels. Not in a thread (II.3.1)."""
+    if channel.mode["motion"] in THREADS:
+        raise channel.control.fail("offset_in_thread", address="T")
     if not 0 <= number <= (int(channel.memory.parameters.number(5024)) or MAX_OFFSETS):
         raise channel.control.fail("offset_number", address="T")
     _refuse_rotation(channel)

@@ -59,11 +59,19 @@ def plan_parameter_block(builder: Builder, plan: Plan) -> Step | None:
     return act
 
 
-def set_parameter(channel: Channel, key: ParameterKey, value: float) -> None:
-    """Give a parameter another value; whatever rests on the old one is worked out anew."""
+def set_parameter(channel: Channel, key: ParameterKey, value: float, *, keeps_plans: bool = False) -> None:
+    """Give a parameter another value; whatever rests on the old one is worked out anew.
+
+    Args:
+        channel: The channel.
+        key: The parameter.
+        value: Its new value.
+        keeps_plans: No plan of a block rests on the parameter.
+    """
     setup = channel.setup
     whole = int(value) if value == int(value) else value
     parameters = Parameters({**dict(setup.parameters.items()), key: whole})
     channel.setup = replace(setup, parameters=parameters)
     channel.memory.parameters = parameters
-    channel.modes.forget_plans()
+    if not keeps_plans:
+        channel.modes.forget_plans()
