@@ -55,6 +55,8 @@ class Context:
         feed_hold: The operator's feed hold acts.
         overlap: Whether strokes of a drilling cycle overlap (FANUC 1681): `Overlap`.
         transformation: From the positions of the toolpath to those of the real axes, where they differ.
+        geometry: Columns of X, Y and Z, where the program has named other axes for the plane than the machine file
+            (parallel axes: FANUC 1022, SYNTEC 2.17); else None.
     """
 
     plane: str = "G17"
@@ -86,3 +88,4 @@ class Context:
     feed_hold: bool = True
     overlap: Overlap = 0
     transformation: Transformation | None = None
+    geometry: tuple[int, int, int] | None = None

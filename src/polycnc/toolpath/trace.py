@@ -206,7 +206,7 @@ class Display:
     def _geometry(self, context: Context) -> tuple[int, int, int]:
         """Columns of X, Y, Z of what is shown."""
         made = context.transformation
-        return self.layout.geometry if made is None else made.geometry
+        return context.geometry or self.layout.geometry if made is None else made.geometry
 
     def _modulo(self, context: Context) -> frozenset[int]:
         """Axes whose display stays within one turn; not one that a transformation makes a length."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address import coordinates
 from polycnc.control.word_address.polar_interpolation import GROUP, PolarPlane, enter_polar, leave_polar
 
 if TYPE_CHECKING:
@@ -62,13 +61,6 @@ def leave_plane(channel: Channel) -> None:
     if memory.polar is not None:
         memory.diameters.pop(memory.polar.linear, None)
         leave_polar(channel)
-
-
-def select_plane(channel: Channel, words: Words) -> None:
-    """G17, G18, G19; within polar interpolation its plane stays (2.15.2, note 4)."""
-    if channel.memory.polar is not None:
-        channel.mode = channel.mode.with_code("plane", "G17")
-    coordinates.note_context(channel, words)
 
 
 def check_block(builder: Builder) -> None:

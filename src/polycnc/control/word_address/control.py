@@ -334,6 +334,7 @@ class WordAddressControl:
             wcs=memory.wcs,
             # A last stage that turns positions into those of the axes leaves nothing to transform.
             transformation=c.transformation if channel.table is channel.rows else None,
+            geometry=None if c.transformation or c.geometry == memory.basic_geometry else c.geometry,
         )
 
     def motion_settings(self, _channel: Channel) -> MotionSettings:
