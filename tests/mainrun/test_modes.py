@@ -299,7 +299,7 @@ def test_an_unknown_axis_is_refused() -> None:
 
 
 def test_axes_moved_in_between_go_back_before_the_program_goes_on() -> None:
-    virtual = power_on("O1\nG1 X100. F6000\nM30\n")
+    virtual = power_on("G1 X100. F6000\nM30\n", "sinumerik-840d")
     records = recorded(virtual)
     virtual.cycle_start()
     virtual.step(0.5)

@@ -392,11 +392,16 @@ def test_the_soft_key_holds_the_feed_at_100_percent() -> None:
 
 def test_soft_keys_have_their_lamps() -> None:
     panel = panel_of()
-    for key, lamp in (("Z_LOCK", "ZNG"), ("MST_LOCK", "AFL"), ("ABSOLUTE", "ABS")):
+    for key, lamp, at_first in (
+        ("Z_LOCK", "ZNG", False),
+        ("MST_LOCK", "AFL", False),
+        ("ABSOLUTE", "ABS", True),
+    ):
+        assert (lamp in lit(panel)) == at_first
         panel.press(key)
-        assert lamp in lit(panel)
+        assert (lamp in lit(panel)) != at_first
         panel.press(key)
-        assert lamp not in lit(panel)
+        assert (lamp in lit(panel)) == at_first
 
 
 def test_the_emergency_stop_begins_the_program_anew() -> None:

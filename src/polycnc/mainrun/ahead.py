@@ -12,13 +12,16 @@ from dataclasses import replace
 from math import inf, sqrt
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.intervention import NOTHING_BACK
 from polycnc.channel.waits import PREPROCESSING, Wait
+from polycnc.mainrun.anew import line_anew
 from polycnc.mainrun.geometry import Arc, arc_laid, line_laid, way_along
 from polycnc.mainrun.items import Block, BlockEnd, Happening, Item, Piece, Rates, Standing
 from polycnc.motion.frames import carried, real_of
 from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.arcs import facing_radius
 from polycnc.motion.kernels.columns import (
+    BLEND,
     BLOCKS,
     CAP2,
     EARLY,
@@ -37,6 +40,7 @@ from polycnc.motion.kernels.columns import (
     PER_REVOLUTION,
     PIECES,
     POSITION,
+    RAMP,
     REACH2,
     ROW,
     ROW_LENGTH,
@@ -61,9 +65,10 @@ from polycnc.toolpath.kinds import ARC_KINDS
 from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from polycnc.channel.channel import Channel
+    from polycnc.channel.intervention import TakesBack
     from polycnc.machine.model import Machine
     from polycnc.machine.motion_settings import MotionSettings
     from polycnc.mainrun.geometry import Way
@@ -128,7 +133,7 @@ class Ahead:
         self._laid_contexts = 0
         self._delays: dict[int, list[tuple[str, float]]] = {}
         self._waits = Waits(machine, self.toolpath.contexts, 0, self._delay)
-        self._blocks: deque[tuple[tuple[int, int], str, Mapping[str, str]]] = deque()
+        self._blocks: deque[tuple[tuple[int, int], str, Mapping[str, str], TakesBack]] = deque()
         self._open: tuple[tuple[int, int], str] | None = None
         self._stopped = self._skips = False
         self._geometry = machine.geometry_indices(number)
@@ -200,6 +205,11 @@ class Ahead:
         self._state[STOP] = 1.0
         settle_alone(self._pieces, self._axes, self.limits, self._state)
 
+    def refuse(self, error: AlarmError) -> None:
+        """What is prepared cannot be executed: an alarm is in its place."""
+        self.clear(self.position)
+        self.fail(error)
+
     def fail(self, error: AlarmError) -> None:
         """The run of the channel ends with an alarm that did not arise in a block."""
         self.channel.fail(error)
@@ -209,6 +219,11 @@ class Ahead:
     def proceed(self) -> None:
         """What the channel waited for has happened, and everything before it is executed."""
         self.waiting, self.has_caught_up = None, True
+
+    @property
+    def returns_to_path(self) -> bool:
+        """Whether cycle start leads axes back that were moved by hand."""
+        return self._settings.returns_to_path
 
     @property
     def position(self) -> list[float]:
@@ -255,7 +270,9 @@ class Ahead:
     def _note_block(self, program: int, line: int, halt: Wait | None) -> None:
         """The channel has run a block; its rows may come later, if a stage of the path holds them back."""
         code = "" if halt is None else halt.code or str(line)
-        self._blocks.append(((program, line), code, self.channel.mode.codes))
+        channel = self.channel
+        self._blocks.append(((program, line), code, channel.mode.codes, channel.takes_back))
+        channel.takes_back = NOTHING_BACK
 
     def _enter_block(self, key: tuple[int, int]) -> None:
         """A row of a block comes: every block run before that one is over."""
@@ -265,8 +282,8 @@ class Ahead:
             return  # a row that a stage has added counts for the block before it
         self._end_block()
         while self._blocks:
-            found, code, modal = self._blocks.popleft()
-            self.items.append(Block(self.toolpath.programs[found[0]], found[1], modal))
+            found, code, modal, back = self._blocks.popleft()
+            self.items.append(Block(self.toolpath.programs[found[0]], found[1], modal, back))
             self._open = (found, code)
             if found == key:
                 return
@@ -460,7 +477,15 @@ class Ahead:
 
     # ---- speeds --------------------------------------------------------------------------------------------
 
-    def revise(self, rates: Rates, cap2: float, *, gated: bool, single_block: bool) -> None:
+    def revise(
+        self,
+        rates: Rates,
+        cap2: float,
+        *,
+        gated: bool,
+        single_block: bool,
+        stops: Callable[[Item], bool] | None,
+    ) -> None:
         """Work out how fast each piece may be entered, so that all that follow can be run.
 
         Args:
@@ -468,12 +493,14 @@ class Ahead:
             cap2: Largest squared speed on the piece that runs now.
             gated: An auxiliary function is running: the next block must wait.
             single_block: Every block ends in a halt.
+            stops: Says in front of which items the axes stand for another reason.
         """
         at, width = 0, self._width
         # A copy: what the axes allow must be known again when the overrides change.
         pieces = self._planned = self._pieces[: int(self._state[PIECES]) * width]
         closed = False
         for item in self.items:
+            closed = closed or (stops is not None and stops(item))
             if isinstance(item, Piece):
                 own = rates.cap2(item)
                 pieces[at + ENTRY2] = 0.0 if closed else min(item.entry2, cap2, own)
@@ -502,6 +529,28 @@ class Ahead:
         self._state[PIECES] = count - 1
         del self._planned[:width]
         return record
+
+    def begin_elsewhere(self, piece: Piece, start: Sequence[float]) -> None:
+        """The rest of the row of a piece goes to its end from another start; the axes rest at both."""
+        while self._held and self._held[0].row == piece.row:
+            self.pop_piece()
+        number, width = self.toolpath.context_number(piece.context), self._width
+        size, count = OFFSETS + self._axes, int(self._state[PIECES])
+        fields = self._contexts[number * size : (number + 1) * size]
+        records, pieces = line_anew(piece, start, fields, self.limits)
+        if count == 0:
+            self._state[STOP] = 1.0
+        else:
+            self._rests_ahead += self._pieces[PAUSE] == 0.0
+            self._pieces[ENTRY2] = self._held[0].entry2 = 0.0
+            self._pieces[PAUSE] = max(self._pieces[PAUSE], self._pieces[RAMP] + 2.0 * self._pieces[BLEND])
+        self._pieces[0:0] = records
+        self._state[PIECES] = count + len(pieces)
+        for record, each in zip(range(0, len(records), width), pieces, strict=True):
+            self._rests_ahead += records[record + PAUSE] > 0.0
+            self._way_ahead += each.length
+        self.items.extendleft(reversed(pieces))
+        self._held.extendleft(reversed(pieces))
 
     @property
     def early(self) -> float:

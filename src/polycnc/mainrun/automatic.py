@@ -9,16 +9,22 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING, Protocol
 
+from polycnc.channel.intervention import NOTHING_BACK
+from polycnc.mainrun.anew import can_begin_elsewhere
 from polycnc.mainrun.follower import Follower
 from polycnc.mainrun.items import Block, BlockEnd, Happening, Piece, Rates, Standing
 from polycnc.mainrun.motion import AxesMotion, Motion, PathMotion
+from polycnc.mainrun.stray import NO_WAY, Stray
+from polycnc.motion.frames import real_of
 from polycnc.motion.kernels.columns import BLEND, LENGTH, RAMP
 from polycnc.toolpath import Context, Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from polycnc.mainrun.ahead import Ahead
+    from polycnc.mainrun.items import Item
+    from polycnc.messages import AlarmError
 
 #: Squared speed below which the axes stand, (mm/s)².
 REST2 = 1e-9
@@ -72,6 +78,7 @@ class Automatic:
         single_block: Halt behind every block.
         block: The block in execution.
         context: What holds in it.
+        stray: How far the axes are beside the path, because they were moved by hand.
         position: Where on the path the axes last were at a joint, and `place` what held there.
     """
 
@@ -96,6 +103,7 @@ class Automatic:
         self.motion: Motion | None = None
         self.position = list(position)
         self.place = Context()
+        self.stray = Stray(len(position))
         self._machinery = machinery
         self._x2 = 0.0
         self._cap2 = inf
@@ -234,7 +242,7 @@ class Automatic:
         motion = self.motion
         if not isinstance(motion, PathMotion) or motion.piece.kind != Kind.SKIP or motion.piece.is_coasting:
             return None
-        here = self.machine
+        here = self.stray.counted(self.machine)
         self.position = motion.machine(self.time)
         self._coast(motion, 0.0)
         if self.motion is None:
@@ -270,6 +278,7 @@ class Automatic:
             self._until = self.time + self._cycle_s  # the program computes
             return True
         waiting = self.ahead.waiting
+        self._count_stray()
         if self.ahead.finished or waiting is None:
             self._waiting = self._machinery.busy
             if not self._waiting:
@@ -329,6 +338,13 @@ class Automatic:
 
     def _begin(self, piece: Piece) -> bool:
         """Start along a piece."""
+        if self.stray and self._x2 == 0.0:
+            if (error := self._beyond(piece)) is not None:
+                self.ahead.refuse(error)
+                return True
+            if self._take_back(piece, self.position):
+                self._look_ahead()
+                return True
         if self.ahead.is_last_piece:
             self.ahead.end_in_rest()
         cap2 = self.rates.cap2(piece)
@@ -361,8 +377,13 @@ class Automatic:
 
     def _look_ahead(self) -> None:
         """Work out the speeds of what is prepared anew."""
-        busy = self._machinery.busy
-        self.ahead.revise(self.rates, self._cap2, gated=busy, single_block=self.single_block)
+        self.ahead.revise(
+            self.rates,
+            self._cap2,
+            gated=self._machinery.busy,
+            single_block=self.single_block,
+            stops=self._stops_beside() if self.stray else None,
+        )
 
     def revise(self) -> None:
         """Something that bounds the speed has changed: the motion goes on accordingly from where it is."""
@@ -377,6 +398,62 @@ class Automatic:
         rapid = 0.0 if held else self.rates.rapid_on(motion.piece)
         motion.revise(self.time, self.ahead.reach2(), self._cap2, rapid)
         self._lead()
+
+    # ---- beside the path -----------------------------------------------------------------------------------
+
+    def intervene(self, way: Sequence[float], *, absolute: bool) -> None:
+        """The axes, which stand, have been moved by hand; manual absolute is on or off."""
+        self.stray.moved(way, absolute=absolute)
+        motion = self.motion
+        if motion is not None and self._take_back(motion.piece, motion.machine(self.time)):
+            self.motion, self._x2, self._skips_at = None, 0.0, inf
+
+    def _take_back(self, piece: Piece, here: Sequence[float]) -> bool:
+        """Let the row of a piece go to its end from where the axes are; false where it does not do that."""
+        if self.block is None or not can_begin_elsewhere(piece):
+            return False
+        back = self.block.takes_back
+        moved = sum(1 << i for i, (a, b) in enumerate(zip(here, piece.way.end, strict=True)) if a != b)
+        axes = back.at_once | (back.by_move & moved)
+        if not self.stray.owes(axes):
+            return False
+        taken = self.stray.take_back(axes)
+        self.position = [a + b for a, b in zip(here, taken, strict=True)]
+        self.ahead.begin_elsewhere(piece, self.position)
+        return True
+
+    def _stops_beside(self) -> Callable[[Item], bool]:
+        """Says of one item after the other whether the axes stand in front of it: it leads them back, or too far."""
+        back = self.block.takes_back if self.block is not None else NOTHING_BACK
+
+        def stops(item: Item) -> bool:
+            nonlocal back
+            if isinstance(item, Block):
+                back = item.takes_back
+                return self.stray.owes(back.at_once | back.by_move)
+            if not isinstance(item, Piece):
+                return False
+            return (item.first == 0.0 and self.stray.owes(back.by_move)) or self._beyond(item) is not None
+
+        return stops
+
+    def _beyond(self, piece: Piece) -> AlarmError | None:
+        """The alarm of a piece that would lead the axes, which are beside the path, out of their limits."""
+        channel = self.ahead.channel
+        end = self.stray.beside(real_of(piece.at(1.0), piece.context, channel.coordinates.geometry))
+        for axis, (value, (low, high)) in enumerate(zip(end, channel.limits, strict=False)):
+            if not low - NO_WAY <= value <= high + NO_WAY:
+                error: AlarmError = channel.control.over_travel(channel.axes[axis], 1 if value > high else -1)
+                error.line = piece.line
+                return error
+        return None
+
+    def _count_stray(self) -> None:
+        """Nothing is prepared: what the axes were moved by hand is where the program goes on from."""
+        if any(self.stray.owed):
+            self.position = self.stray.counted(self.position)
+            self.stray.take_back(-1)
+            self._moved_on = True
 
     def start(self) -> None:
         """Go on, or begin."""
@@ -394,7 +471,8 @@ class Automatic:
 
     def abandon(self) -> None:
         """Give up what is left: reset. The axes stand where they are, or have been braked before."""
-        self.position = self.machine
+        self.position = self.stray.counted(self.machine)
+        self.stray.take_back(-1)
         self.motion = None
         self.running, self.halt = False, ""
         self._x2, self._until, self._skips_at = 0.0, self.time, inf

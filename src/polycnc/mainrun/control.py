@@ -17,10 +17,10 @@ from dataclasses import replace
 from math import ceil, inf
 from typing import TYPE_CHECKING, Any
 
-from polycnc.mainrun.core import JOG_RATE, LOCKED_STATES, SINGLE_BLOCK_KINDS
+from polycnc.mainrun.byhand import ByHand
+from polycnc.mainrun.core import LOCKED_STATES, MANUAL_ABSOLUTE, SINGLE_BLOCK_KINDS
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.programs import forget_skipped
-from polycnc.mainrun.readings import Readings
 from polycnc.mainrun.search import search
 from polycnc.mainrun.states import Command, Mode, State, is_allowed
 
@@ -36,7 +36,7 @@ LOCKS = ("machine_lock", "z_lock")
 LONGEST_RUN_S = 86400.0
 
 
-class VirtualControl(Readings):
+class VirtualControl(ByHand):
     """One control with its machine, from power-on.
 
     Args:
@@ -106,7 +106,7 @@ class VirtualControl(Readings):
             CommandRefused: The program ends before it.
         """
         self._ask(Command.BLOCK_SEARCH)
-        if self._manual.moving:
+        if self._by_hand:
             raise CommandRefused("mainrun.moving")
         program = self._programs.main
         line = self._programs.line_of(target)
@@ -121,10 +121,11 @@ class VirtualControl(Readings):
         if found is None:
             self._give_up()
             raise CommandRefused("mainrun.search", target=target)
-        self._hand, self._automatic.position = here, found.position
+        self._lane.manual.begin(here)
+        self._automatic.position = found.position
         self._automatic.context = self._automatic.place = found.context
         self._automatic.modal = found.modal
-        self._collected = found.functions
+        self._collected, self._searched = found.functions, True
         self._set_state(State.STOPPED, halt="search")
 
     # ---- running -------------------------------------------------------------------------------------------
@@ -132,10 +133,11 @@ class VirtualControl(Readings):
     def cycle_start(self) -> None:
         """Start the program, or go on with it after a hold, a stop or a single block.
 
-        Axes that were moved by hand meanwhile go back to where the program stands first.
+        Axes that were moved by hand meanwhile go back to where the program stands first, or the program goes on from
+        where they are: as the control has it, and the signal `MANUAL_ABSOLUTE` says (`mainrun/stray.py`).
         """
         self._ask(Command.CYCLE_START)
-        if self._manual.moving:
+        if self._by_hand:
             raise CommandRefused("mainrun.moving")
         if self.state is State.READY:
             sources = {Mode.MDI: self._typed, Mode.TAPE: self._tape}
@@ -152,19 +154,27 @@ class VirtualControl(Readings):
             self._resume()
         elif self.mode is not self._program_mode:
             raise CommandRefused("mainrun.other-mode", mode=self._program_mode)
-        elif self._hand is not None:
-            self._ask_machine("CYCLE_START")
-            self._set_state(State.RUNNING)
-            for happening in self._collected:
-                self._machinery.perform(happening)
-            self._collected = []
-            self._returning = True
-            waiting = self._lane.real
-            for axis, target in enumerate(waiting):
-                self._manual.towards(axis, self._hand[axis], target, self._jog_speed(axis), self.time)
         else:
             self._ask_machine("CYCLE_START")
+            if self._left_path and (self._searched or self._ahead.returns_to_path):
+                self._lead_back()
+                return
+            absolute = bool(self._signals[MANUAL_ABSOLUTE])
+            for lane in self._lanes.values():
+                lane.intervene(absolute=absolute)
             self._resume()
+
+    def _lead_back(self) -> None:
+        """Axes that were moved by hand go to where the program waits, which then goes on."""
+        self._set_state(State.RUNNING)
+        for happening in self._collected:
+            self._machinery.perform(happening)
+        self._collected = []
+        self._returning = True
+        for lane in self._lanes.values():
+            if lane.manual.place is not None:
+                for axis, target in enumerate(lane.real):
+                    lane.manual.towards(axis, target, self._jog_speed(lane, axis), self.time)
 
     def feed_hold(self) -> None:
         """Bring the axes to rest on the path; a thread is finished first."""
@@ -172,7 +182,7 @@ class VirtualControl(Readings):
         if self.state is State.RUNNING:
             self._rates.hold = True
             self._revise()
-            self._manual.brake_all(self.time)
+            self._brake_hands()
             self._returning = False
             self._set_state(State.HOLD)
 
@@ -240,76 +250,11 @@ class VirtualControl(Readings):
             self._ask_machine(f"MODE_{wanted.upper()}")
             if self.state is State.RUNNING:
                 self.feed_hold()
-            self._manual.brake_all(self.time)
+            self._brake_hands()
             self._signals[self.mode.upper()] = 0.0
             self.mode = wanted
             self._signals[wanted.upper()] = 1.0
             self._report("mode", mode=wanted)
-
-    def jog(self, axis: str, direction: int, *, rapid: bool = False) -> None:
-        """Press a jog key: the axis moves until `stop_jog`, or to its limit."""
-        self._ask(Command.JOG)
-        i = self._axis(axis)
-        self._ask_machine(*self._move_words(i))
-        base = self._by_hand()
-        speed = self._rapid_speed(i) if rapid else self._jog_speed(i)
-        self._manual.towards(i, base[i], self._manual.along(i, direction, base[i]), speed, self.time)
-
-    def stop_jog(self, axis: str | None = None) -> None:
-        """Let a jog key go; all of them where no axis is named."""
-        for i in range(len(self.channel.axes)) if axis is None else (self._axis(axis),):
-            self._manual.brake(i, self.time)
-
-    def increment(self, axis: str, steps: int, size: float = 0.001) -> None:
-        """Move by steps of a size, as the machine display counts (mm or degrees; diameters where it shows them)."""
-        self._ask(Command.INCREMENT)
-        i = self._axis(axis)
-        self._shift(i, steps * size, self._jog_speed(i))
-
-    def handle(self, axis: str, pulses: int, size: float = 0.001) -> None:
-        """Turn the handwheel: the axis follows its pulses as fast as it can."""
-        self._ask(Command.HANDLE)
-        i = self._axis(axis)
-        self._shift(i, pulses * size, self._rapid_speed(i))
-
-    def home(self, axis: str | None = None) -> None:
-        """Approach the first reference point; with all axes where none is named."""
-        self._ask(Command.HOME)
-        named = range(len(self.channel.axes)) if axis is None else (self._axis(axis),)
-        self._ask_machine(*(f"HOME_{self.channel.axes[i]}" for i in named))
-        base = self._by_hand()
-        for i in named:
-            target = self.channel.axis_data[i].reference_points[0]
-            self._manual.towards(i, base[i], target, self._rapid_speed(i), self.time)
-
-    def _move_words(self, axis: int) -> list[str]:
-        """What an axis that is to move asks the machine for."""
-        rotary = [i for i, data in enumerate(self.channel.axis_data) if data.rotary]
-        words = [f"MOVE_{self.channel.axes[axis]}"]
-        words += ["MOVE_FIFTH_AXIS"] if axis in rotary[1:2] else []
-        return words + (["MOVE_SECOND_AXIS"] if self._manual.moving - {axis} else [])
-
-    def _shift(self, axis: int, shown: float, speed: float) -> None:
-        self._ask_machine(*self._move_words(axis))
-        base = self._by_hand()
-        factor = self._display.machine_factor(axis, self._automatic.context)
-        target = self._manual.goal(axis, base[axis]) + shown / factor
-        self._manual.towards(axis, base[axis], target, speed, self.time)
-
-    def _by_hand(self) -> list[float]:
-        """Machine position from which axes are moved by hand."""
-        if self._axes_move:
-            raise CommandRefused("mainrun.moving")
-        if self._hand is None:
-            self._hand = self.machine_position
-        return self._manual.positions(self._hand, self.time)
-
-    def _jog_speed(self, axis: int) -> float:
-        top = self.channel.axis_data[axis].max_feed or inf
-        return min(JOG_RATE / 60.0 * self._dials.feed, top)
-
-    def _rapid_speed(self, axis: int) -> float:
-        return (self.channel.axis_data[axis].rapid or 1e9) * self._rates.rapid
 
     # ---- switches ------------------------------------------------------------------------------------------
 
@@ -325,11 +270,8 @@ class VirtualControl(Readings):
             if value is not None:
                 setattr(self._dials, name, float(value))
                 self._report("override", name=name, value=float(value))
-        base = self.machine_position
-        for axis in self._manual.goals:
-            speed = self._rapid_speed(axis) if self.mode is Mode.REFERENCE else self._jog_speed(axis)
-            self._manual.change_speed(axis, base[axis], speed, self.time)
         self._set_rates()
+        self._set_hand_speeds()
 
     def set_switches(self, **changes: Any) -> None:
         """Turn panel switches, by the names of `PanelSwitches`.
@@ -364,16 +306,17 @@ class VirtualControl(Readings):
 
     def _lock(self, locks: Mapping[str, bool]) -> None:
         """Locked axes stand while the display runs on; when a lock ends, the display shows the axes again."""
-        if self._manual.moving:
+        if self._by_hand:
             raise CommandRefused("mainrun.moving")
         position = self.machine_position
         z = self.machine.geometry_indices(self.channel.number)[2]
         wanted = set(range(len(position))) if locks["machine_lock"] else {z} if locks["z_lock"] else set()
         released = self._locked_at.keys() - wanted
         if released:
-            self._stand_at(
+            self._lane.stand_at(
                 [self._locked_at[i] if i in released else value for i, value in enumerate(position)]
             )
+            self._prepare(self._lane)
         self._locked_at = {i: self._locked_at.get(i, position[i]) for i in wanted}
 
     # ---- time ----------------------------------------------------------------------------------------------
@@ -420,26 +363,9 @@ class VirtualControl(Readings):
             sleep(max(self.time - at - (monotonic() - began), 0.0))
         return self.state
 
-    def _ask(self, command: Command) -> None:
-        if not is_allowed(command, self.mode, self.state):
-            raise CommandRefused("mainrun.refused", command=command, mode=self.mode, state=self.state)
-
-    def _ask_machine(self, *words: str) -> None:
-        """Ask the machine's controller for something; it answers with an alarm or a message where it refuses."""
-        for word in words:
-            if code := self._guard.refuses(word):
-                told = self.control.catalogue.text(code)
-                raise CommandRefused("mainrun.machine", code=code, text=told)
-
     def allows(self, command: Command | str) -> bool:
         """Whether a command may be given in this mode and state."""
         return is_allowed(_one_of(Command, "command", command), self.mode, self.state)
-
-    def _axis(self, name: str) -> int:
-        index = self.channel.axis_index.get(name.upper())
-        if index is None:
-            raise CommandRefused("mainrun.axis", axis=name, known=", ".join(self.channel.axes))
-        return index
 
 
 def _one_of(kind: Any, name: str, value: object) -> Any:

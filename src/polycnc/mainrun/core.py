@@ -26,7 +26,6 @@ from polycnc.mainrun.signals import SignalImage
 from polycnc.mainrun.snapshot import PanelSwitches, Record
 from polycnc.mainrun.states import Mode, State
 from polycnc.messages import Alarm, AlarmError
-from polycnc.toolpath import Context
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -48,6 +47,8 @@ LOCKED_STATES = frozenset((State.EMERGENCY, State.OFF))
 JOG_RATE = 1000.0
 #: Programmed stops that the machine's rules know of.
 HALT_SIGNALS = {"M00": "HALT_M00", "M0": "HALT_M00", "M01": "HALT_M01", "M1": "HALT_M01"}
+#: Manual absolute: coordinates count what is moved by hand while a program waits (FANUC *ABSM, which means on by 0).
+MANUAL_ABSOLUTE = "MANUAL_ABSOLUTE"
 #: The soft key that holds the feed at 100 %.
 FEED_IS_100 = "F_100"
 HALTS = {"end": State.READY, "alarm": State.ALARM}
@@ -91,8 +92,7 @@ class Core(ABC):
         self._program_mode = Mode.AUTO
         self._typed: Program | None = None
         self._giving_up = False
-        self._returning = False
-        self._hand: list[float] | None = None
+        self._returning = self._searched = False
         self._tape: Program | None = None
         self._locked_at: dict[int, float] = {}
         self._collected: list[Happening] = []
@@ -103,6 +103,7 @@ class Core(ABC):
         """Power-on."""
         given = setup.switches.signals.items()
         signals = {name: float(value) for name, value in given if isinstance(value, int | float)}
+        signals.setdefault(MANUAL_ABSOLUTE, 1.0)
         cycle = self.machine.interpolation_cycle_s
         self._setup = setup
         rules = (*self.control.plc.rules, *self.machine.rules)
@@ -116,7 +117,6 @@ class Core(ABC):
         self._machinery, self._display = lane.machinery, lane.display
         self._group = ChannelGroup(self.channel, self._further_channel, self._on_start)
         self._power_on(lane)
-        self._manual = ManualAxes(self.channel.axis_data)
         self._signals[self.mode.upper()] = self._signals[self.state.upper()] = 1.0
         self._signals.scan()
         self._guard.look()
@@ -144,7 +144,10 @@ class Core(ABC):
             setup.switches.skip_signal_after,
         )  # fmt: skip
         display = MainRunDisplay(ahead.toolpath, self.machine, number)
-        lane = Lane(channel, ahead, automatic, machinery, display, self._rates, self._lanes, self._shared)
+        manual = ManualAxes(channel.axis_data, self.control.motion_settings(channel))
+        lane = Lane(
+            channel, ahead, automatic, machinery, display, manual, self._rates, self._lanes, self._shared
+        )
         self._lanes[number], self._shared.paths[number] = lane, ahead
         return lane
 
@@ -187,10 +190,8 @@ class Core(ABC):
 
     @property
     def machine_position(self) -> list[float]:
-        """Commanded position of the real axes, mm (radius) and degrees."""
-        if self._hand is not None:
-            return self._manual.positions(self._hand, self.time)
-        return self._lane.real
+        """Commanded position of the real axes of the first channel, mm (radius) and degrees."""
+        return self._lane.machine_position
 
     @property
     def halt(self) -> str:
@@ -206,7 +207,7 @@ class Core(ABC):
         return any(lane.automatic.moving for lane in self._lanes.values())
 
     def _due(self) -> float:
-        return min(self._manual.due, *(lane.automatic.next_event for lane in self._lanes.values()))
+        return min(min(lane.manual.due, lane.automatic.next_event) for lane in self._lanes.values())
 
     def _advance(self, until: float) -> None:
         """Go from event to event."""
@@ -221,24 +222,35 @@ class Core(ABC):
             for lane in list(self._lanes.values()):
                 lane.automatic.advance(time)
         self._look_for_deadlock()
-        if self._hand is not None:
-            self._hand = self._manual.settle(self._hand, self.time)
+        for lane in self._lanes.values():
+            lane.manual.settle(time)
         self._settle()
 
     def _settle(self) -> None:
         """What follows when keys were pressed by signals, or axes have come to rest."""
         while self._pressed:
             self._press(self._pressed.pop(0))
-        if self._manual.moving:
+        if self._by_hand:
             return
+        goals = any(lane.manual.goals for lane in self._lanes.values())
         if self._giving_up and not self._axes_move:
             self._give_up()
-        elif self._returning and not self._manual.goals:
+        elif self._returning and not goals:
             self._resume()
-        elif self._hand is not None and self.state is State.READY and not self._manual.goals:
-            self._stand_at(self._hand)
-        if self.mode is Mode.REFERENCE and not self._manual.goals:
+        elif self.state is State.READY and not goals:
+            self._stand()
+        if self.mode is Mode.REFERENCE and not goals:
             self._note_references()
+
+    @property
+    def _by_hand(self) -> bool:
+        """Whether an axis moves because of an operator."""
+        return any(lane.manual.moving for lane in self._lanes.values())
+
+    @property
+    def _left_path(self) -> bool:
+        """Whether an axis has been moved by hand since a program led it."""
+        return any(lane.manual.place is not None for lane in self._lanes.values())
 
     def _note_references(self) -> None:
         """Axes that have come to their reference points know their position."""
@@ -247,8 +259,9 @@ class Core(ABC):
                 self._signals[f"NOT_REFERENCED_{name}"] = 0.0
 
     def _resume(self) -> None:
-        self._returning, self._hand = False, None
-        self._rates.hold = False
+        self._returning = self._searched = self._rates.hold = False
+        for lane in self._lanes.values():
+            lane.manual.leave()
         self._end_halt()
         self._set_state(State.RUNNING)
         for lane in list(self._lanes.values()):
@@ -280,26 +293,25 @@ class Core(ABC):
 
     def _give_up(self) -> None:
         """The axes stand: the program is given up, the control is as after reset."""
-        self._giving_up = self._rates.hold = False
+        self._giving_up = self._searched = self._rates.hold = False
         self._end_halt()
         self._pulse("ENDED")
-        here = self.machine_position
-        for lane in self._lanes.values():
+        here = {number: lane.machine_position for number, lane in self._lanes.items()}
+        for number, lane in self._lanes.items():
             lane.give_up()
-            lane.show_own_state()
-        self._stand_at(here)
+            lane.stand_at(here[number])
+            self._prepare(lane)
         if self.state not in LOCKED_STATES:
             self.alarms = ()
             self._set_state(State.READY)
             self._guard.look()
 
-    def _stand_at(self, position: Sequence[float]) -> None:
-        """The axes stand here and no program runs."""
-        self._hand = None
-        self._automatic.position, self._automatic.place = list(position), Context()
-        self._prepare(self._lane)
-        self._ahead.clear(position)
-        self._lane.show_own_state()
+    def _stand(self) -> None:
+        """No program runs: axes that were moved by hand are where one would begin."""
+        for lane in self._lanes.values():
+            if lane.manual.place is not None:
+                lane.stand_at(lane.manual.place)
+                self._prepare(lane)
 
     def _prepare(self, lane: Lane) -> None:
         """Before a program of a channel begins: it is where its axes are."""
@@ -311,10 +323,15 @@ class Core(ABC):
         for lane in self._lanes.values():
             lane.automatic.revise()
 
+    def _brake_hands(self) -> None:
+        """Axes that are moved by hand come to rest."""
+        for lane in self._lanes.values():
+            lane.manual.brake_all(self.time)
+
     def _brake(self, state: State) -> None:
         self._rates.hold = self._giving_up = True
         self._revise()
-        self._manual.brake_all(self.time)
+        self._brake_hands()
         self._returning = False
         self._set_state(state)
         self._settle()
@@ -415,7 +432,7 @@ class Core(ABC):
             self._rates.hold = True
             self._returning = False
             self._revise()
-            self._manual.brake_all(self.time)
+            self._brake_hands()
             self._set_state(State.ALARM, halt="alarm")
 
     @property

@@ -5,9 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.channel.intervention import NOTHING_BACK
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from polycnc.channel.intervention import TakesBack
     from polycnc.mainrun.geometry import Way
     from polycnc.toolpath import Context, Event
 
@@ -20,11 +23,13 @@ class Block:
         program: Name of its program.
         line: Its line in that program's file.
         modal: Active code of every modal group behind it.
+        takes_back: What it takes back of a manual intervention.
     """
 
     program: str
     line: int
     modal: Mapping[str, str]
+    takes_back: TakesBack = NOTHING_BACK
 
 
 @dataclass(frozen=True, slots=True)

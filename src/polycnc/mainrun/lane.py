@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun.programs import text_of
 from polycnc.mainrun.snapshot import ActiveBlock, ChannelSnapshot, Positions, SpindleState, ToolState
-from polycnc.motion.frames import carried
+from polycnc.motion.frames import carried, without_transformation
+from polycnc.toolpath import Context
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from polycnc.channel.channel import Channel
     from polycnc.mainrun.ahead import Ahead
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from polycnc.mainrun.display import MainRunDisplay
     from polycnc.mainrun.items import Rates
     from polycnc.mainrun.machinery import Machinery
+    from polycnc.mainrun.manual import ManualAxes
     from polycnc.mainrun.shared_axes import SharedAxes
 
 
@@ -32,6 +34,7 @@ class Lane:
         automatic: Executes that.
         machinery: Carries out its events.
         display: Shows its axes.
+        manual: Its axes while an operator moves them.
         rates: What the operator has set.
         lanes: Every channel of the control by number, this one too.
         shared: The axes that channels share.
@@ -42,6 +45,7 @@ class Lane:
     automatic: Automatic
     machinery: Machinery
     display: MainRunDisplay
+    manual: ManualAxes
     rates: Rates
     lanes: Mapping[int, Lane]
     shared: SharedAxes
@@ -59,24 +63,59 @@ class Lane:
 
     @property
     def real(self) -> list[float]:
-        """Commanded position of the real axes, mm (radius) and degrees."""
-        position = self.display.real(self.automatic.machine, self.automatic.place)
+        """Commanded position of the real axes, mm (radius) and degrees, as their programs have led them."""
+        position = self.led
         for column, mover, there in self.shared.elsewhere(self.number, self.channel.group):
-            other = self.lanes[mover]
-            position[column] = other.display.real(other.automatic.machine, other.automatic.place)[there]
+            position[column] = self.lanes[mover].led[there]
         return position
 
-    def positions(self, real: list[float] | None = None) -> Positions:
-        """Positions as the displays show them; `real` is where the axes are, if they do not follow the display."""
-        automatic, context = self.automatic, self.automatic.context
-        axes = self.real
-        here, end = (
-            carried(place, automatic.place, context, self.display.geometry)
-            for place in (automatic.machine, automatic.row_end)
+    @property
+    def led(self) -> list[float]:
+        """Where its own program has led the real axes, those too that another channel has moved since."""
+        automatic = self.automatic
+        return automatic.stray.beside(self.display.real(automatic.machine, automatic.place))
+
+    @property
+    def machine_position(self) -> list[float]:
+        """Commanded position of the real axes, mm (radius) and degrees, by hand or by program."""
+        return self.real if self.manual.place is None else self.manual.positions(self.automatic.time)
+
+    def positions(self, locked: Mapping[int, float] | None = None) -> Positions:
+        """Positions as the displays show them; `locked` axes stand there, and the displays run on."""
+        automatic, context, display = self.automatic, self.automatic.context, self.display
+        axes = self.machine_position
+        real = [(locked or {}).get(i, value) for i, value in enumerate(axes)]
+        kept = automatic.stray.kept
+        if self.manual.place is not None:
+            here = [a - b for a, b in zip(axes, kept, strict=True)]
+            shown = display.positions(here, here, real, without_transformation(context))
+        else:
+            here, end = (
+                automatic.stray.counted(carried(place, automatic.place, context, display.geometry))
+                for place in (automatic.machine, automatic.row_end)
+            )
+            for column, _, _ in self.shared.elsewhere(self.number, self.channel.group):
+                here[column] = end[column] = axes[column] - kept[column]
+            shown = display.positions(here, end, real, context)
+        if not any(kept):
+            return shown
+        return replace(
+            shown, machine=display.positions(axes, axes, real, without_transformation(context)).machine
         )
-        for column, _, _ in self.shared.elsewhere(self.number, self.channel.group):
-            here[column] = end[column] = axes[column]
-        return self.display.positions(here, end, axes if real is None else real, context)
+
+    def intervene(self, *, absolute: bool) -> None:
+        """The program goes on from where an operator has left the axes; manual absolute is on or off."""
+        if self.manual.place is not None:
+            way = [a - b for a, b in zip(self.manual.place, self.real, strict=True)]
+            self.manual.leave()
+            self.automatic.intervene(way, absolute=absolute)
+
+    def stand_at(self, position: Sequence[float]) -> None:
+        """The real axes stand here and no program runs."""
+        self.manual.leave()
+        self.automatic.position, self.automatic.place = self.automatic.stray.path(position), Context()
+        self.ahead.clear(self.automatic.position)
+        self.show_own_state()
 
     @property
     def modal(self) -> Mapping[str, str]:

@@ -33,17 +33,13 @@ class Readings(Core):
     @property
     def is_busy(self) -> bool:
         """Whether something runs or moves."""
-        moving = self._axes_move or bool(self._manual.moving)
+        moving = self._axes_move or self._by_hand
         return moving or self.state in (State.RUNNING, State.BRAKING)
 
     @property
     def positions(self) -> Positions:
         """Positions as the displays show them."""
-        axes, context = self.machine_position, self._automatic.context
-        real = [self._locked_at.get(i, value) for i, value in enumerate(axes)]
-        if self._hand is not None:
-            return self._display.positions(axes, axes, real, without_transformation(context))
-        return self._lane.positions(real)
+        return self._lane.positions(self._locked_at)
 
     @property
     def channels(self) -> Mapping[int, ChannelSnapshot]:
@@ -96,13 +92,15 @@ class Readings(Core):
 
         Empty where no program waits for axes that were moved by hand, or that a block search has left behind.
         """
-        if self._hand is None or self.state not in (State.HOLD, State.STOPPED):
+        if self._lane.manual.place is None or self.state not in (State.HOLD, State.STOPPED):
             return {}
-        target = self._lane.positions().work
-        context = without_transformation(self._automatic.context)
-        left = self._display.positions(
-            self.machine_position, self._lane.real, self.machine_position, context
-        ).to_go
+        context, here, waits = (
+            without_transformation(self._automatic.context),
+            self.machine_position,
+            self._lane.real,
+        )
+        target = self._display.positions(waits, waits, waits, context).work
+        left = self._display.positions(here, waits, here, context).to_go
         return {axis: (target[axis], left[axis]) for axis in target}
 
     @property
@@ -126,7 +124,7 @@ class Readings(Core):
     @property
     def feed(self) -> float:
         """Path speed now, mm/min; of the fastest axis where axes are moved by hand."""
-        return 60.0 * max(self._automatic.speed, self._manual.speed(self.time))
+        return 60.0 * max(self._automatic.speed, self._lane.manual.speed(self.time))
 
     @property
     def snapshot(self) -> Snapshot:

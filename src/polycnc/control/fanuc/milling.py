@@ -78,9 +78,13 @@ class FanucMilling(MillingControl):
         )
 
     def motion_settings(self, channel: Channel) -> MotionSettings:
-        """1401#1 LRP: rapids run on a line; else every axis by itself."""
-        by_axis = not channel.setup.parameters.bit(1401, 1)
-        return replace(super().motion_settings(channel), rapid_by_axis=by_axis)
+        """1401#1 LRP: rapids run on a line; else every axis by itself. 7001#0 MIT: manual intervention and return."""
+        bit = channel.setup.parameters.bit
+        return replace(
+            super().motion_settings(channel),
+            rapid_by_axis=not bit(1401, 1),
+            returns_to_path=bool(bit(7001, 0)),
+        )
 
     def make_memory(self, channel: Channel) -> MacroMemory:
         """Offsets, tools and variables."""

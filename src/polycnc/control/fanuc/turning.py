@@ -104,13 +104,17 @@ class FanucTurning(CustomMacroControl):
         return written_codes(self.system(channel)).get((group, code), code)
 
     def motion_settings(self, channel: Channel) -> MotionSettings:
-        """1401#1 LRP: rapids run on a line, else every axis by itself; what acts on a rigid tap (5203#4, 5200#6)."""
+        """1401#1 LRP: rapids run on a line, else every axis by itself; what acts on a rigid tap (5203#4, 5200#6).
+
+        7001#0 MIT: manual intervention and return.
+        """
         bit = channel.setup.parameters.bit
         return replace(
             super().motion_settings(channel),
             rapid_by_axis=not bit(1401, 1),
             taps_overridden=bool(bit(5203, 4)),
             taps_held=bool(bit(5200, 6)),
+            returns_to_path=bool(bit(7001, 0)),
         )
 
     def make_memory(self, channel: Channel) -> TurningMemory:

@@ -58,7 +58,7 @@ class MeldasMilling(MillingControl):
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """#1086 G0Intp = 0: rapids run on a line; delivered, every axis by itself."""
         by_axis = channel.setup.parameters.number(1086, default=1) != 0
-        return replace(super().motion_settings(channel), rapid_by_axis=by_axis)
+        return replace(super().motion_settings(channel), rapid_by_axis=by_axis, returns_to_path=False)
 
     def code_calls(self, channel: Channel) -> CodeCalls:
         """Codes registered by #7001 to #7303."""

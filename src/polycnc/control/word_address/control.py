@@ -6,6 +6,7 @@ from functools import cached_property
 from importlib import resources
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from polycnc.channel.intervention import TakesBack
 from polycnc.control.word_address import coordinates, frames, path
 from polycnc.control.word_address.codes import GCode, MCode
 from polycnc.control.word_address.drilling import Drilling, give_way, plan_drilling
@@ -213,6 +214,12 @@ class WordAddressControl:
         give_way(builder)
         planner = self.g_codes[builder.mode["motion"]].planner
         return planner(builder, plan) if planner is not None else None
+
+    def takes_back(self, builder: Builder, plan: Plan) -> TakesBack:
+        """What a block takes back of a manual intervention: axes named absolutely; in a cycle each as it moves."""
+        if builder.mode.codes.get("cycle", "") in self.drilling_rules(builder.channel).cycles:
+            return TakesBack(by_move=(1 << len(builder.channel.axes)) - 1)
+        return TakesBack(sum(1 << axis for axis in {w.axis for w in plan.axis_words if not w.incremental}))
 
     def modal_changes(self, rows: list[GCode]) -> Iterator[tuple[str, str]]:
         """The modal groups that the G codes of a block change, in the order typed."""

@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.channel.intervention import NOTHING_BACK
 from polycnc.control.word_address.codes import GCode, MCode, Order, Step
 from polycnc.control.word_address.extended import end_of_exact_stop, exact_stop_block
 from polycnc.control.word_address.numbers import Convert, NumberRules, length_converter
@@ -44,7 +45,7 @@ class Plan:
 
     __slots__ = (
         "axis_words", "control", "inch", "m_codes", "mode", "order", "program_name", "rules", "slots", "steps",
-        "typed",
+        "takes_back", "typed",
     )  # fmt: skip
 
     def __init__(self, builder: Builder) -> None:
@@ -59,10 +60,12 @@ class Plan:
         self.inch = builder.inch
         self.axis_words: tuple[AxisWord, ...] = ()
         self.steps: tuple[Step, ...] = ()
+        self.takes_back = NOTHING_BACK
 
     def run(self, channel: Channel, values: list[float]) -> None:
         """Run one block."""
         channel.mode = self.mode
+        channel.takes_back = self.takes_back
         for step in self.steps:
             step(channel, values)
 
@@ -194,6 +197,7 @@ class Builder:
         for row in rows:
             self.take(*row.addresses)
         plan.axis_words = self.axis_words()
+        plan.takes_back = self.control.takes_back(self, plan)
         before, after = self._auxiliary_steps(plan)
         steps = [
             *before,

@@ -67,6 +67,7 @@ class WordBlock:
         if plan is None:
             plan = channel.control.plan(channel, self.signature)
         channel.mode = plan.mode
+        channel.takes_back = plan.takes_back
         values = self.values
         for step in plan.steps:
             step(channel, values)
@@ -104,6 +105,7 @@ class ExpressionBlock:
         if plan is None:
             plan = channel.control.plan(channel, keys)
         channel.mode = plan.mode
+        channel.takes_back = plan.takes_back
         for step in plan.steps:
             step(channel, values)
 

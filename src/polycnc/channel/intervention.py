@@ -1,0 +1,22 @@
+"""What a block does with what an operator has moved by hand while its program waited."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class TakesBack(NamedTuple):
+    """The axes of which a block takes a manual intervention back, as bit masks of channel axes.
+
+    It is taken back in a straight line to the end of a move, where manual absolute was on (`mainrun/stray.py`).
+
+    Attributes:
+        at_once: In the first line of the block, whether that moves the axis or not: axes named absolutely.
+        by_move: In the first line that moves the axis: axes of a cycle.
+    """
+
+    at_once: int = 0
+    by_move: int = 0
+
+
+NOTHING_BACK = TakesBack()
