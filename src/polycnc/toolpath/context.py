@@ -53,6 +53,8 @@ class Context:
         feed_override: The operator's feed override acts; else it counts 100 %. `spindle_override` and `rapid_override`
             the same.
         feed_hold: The operator's feed hold acts.
+        lag_s: Acceleration after interpolation of thread cycles: seconds by which the axes are behind at speed (FANUC
+            1626), 0 for what the axes can do. `lag_from` is the speed, mm/s, from which on it acts (1627).
         overlap: Whether strokes of a drilling cycle overlap (FANUC 1681): `Overlap`.
         transformation: From the positions of the toolpath to those of the real axes, where they differ.
         geometry: Columns of X, Y and Z, where the program has named other axes for the plane than the machine file
@@ -86,6 +88,8 @@ class Context:
     spindle_override: bool = True
     rapid_override: bool = True
     feed_hold: bool = True
+    lag_s: float = 0.0
+    lag_from: float = 0.0
     overlap: Overlap = 0
     transformation: Transformation | None = None
     geometry: tuple[int, int, int] | None = None

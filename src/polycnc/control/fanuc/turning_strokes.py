@@ -6,7 +6,14 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.turning_coordinates import drop_vector, plane_axes
-from polycnc.control.fanuc.turning_threads import OFF_THREAD, RETRACT, lock, retract_speed, thread_move
+from polycnc.control.fanuc.turning_threads import (
+    OFF_THREAD,
+    ON_CYCLE_THREAD,
+    RETRACT,
+    lock,
+    retract_speed,
+    thread_move,
+)
 from polycnc.control.fanuc.turning_tools import nose_radius, nose_tip
 from polycnc.control.word_address.path import PLANES
 from polycnc.control.word_address.radius import suspended
@@ -42,7 +49,7 @@ def emit(channel: Channel, strokes: Iterable[PlaneStroke], *, lead: float = 0.0)
             channel.straight(Kind.RAPID, end, speed or nan)
             continue
         if stroke.kind is Kind.THREAD:
-            thread_move(channel, end, lead, stroke.start_angle_deg)
+            thread_move(channel, end, lead, stroke.start_angle_deg, kind=ON_CYCLE_THREAD)
             way_off = WAYS_OFF
             continue
         feed = channel.feed

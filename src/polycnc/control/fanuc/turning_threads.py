@@ -7,7 +7,7 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc import turning_drawing
-from polycnc.control.fanuc.turning_coordinates import feed_number
+from polycnc.control.fanuc.turning_coordinates import feed_number, plane_axes
 from polycnc.control.fanuc.turning_tools import THREADS
 from polycnc.control.word_address.path import CENTER_WORDS, PLANES, center_by_radius, target
 from polycnc.geometry import arcs
@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 MAX_START_ANGLE = 360_000
 #: What a thread takes out of the operator's hands: on a thread overrides and feed hold, on the way off it feed hold.
 #: The first move off the thread of a cycle, its retract, has a speed of its own besides.
-ON_THREAD, OFF_THREAD, RETRACT = "thread", "off", "retract"
+#: In the cycles G92 and G76 thread and retract have an acceleration of their own.
+ON_THREAD, ON_CYCLE_THREAD, OFF_THREAD, RETRACT = "thread", "cycle", "off", "retract"
 MM_PER_INCH = 25.4
 #: Least and largest lead (II.3.1, table 3.1(a)).
 LEADS_MM, LEADS_INCH = (0.0001, 500.0), (0.000001, 9.999999)
@@ -202,13 +203,19 @@ def lead_in_force(channel: Channel) -> float:
 
 
 def thread_move(
-    channel: Channel, end: list[float], lead: float, degrees: float, programmed: list[float] | None = None
+    channel: Channel,
+    end: list[float],
+    lead: float,
+    degrees: float,
+    programmed: list[float] | None = None,
+    *,
+    kind: str = ON_THREAD,
 ) -> None:
-    """One thread stroke; without way it is nothing."""
+    """One thread stroke; without way it is nothing. `kind` says whether it is one of a cycle."""
     if end == channel.coordinates.position:
         channel.coordinates.arrive(end, programmed)
         return
-    lock(channel, ON_THREAD)
+    lock(channel, kind)
     channel.curve(Kind.THREAD, end, lead, parameters=(lead, degrees), programmed=programmed)
 
 
@@ -224,9 +231,11 @@ def locked(channel: Channel, context: Context) -> Context:
     kind = channel.memory.thread_lock
     if not kind:
         return context
+    if kind in (ON_CYCLE_THREAD, RETRACT):
+        context = _accelerated(channel, context)
     if kind == RETRACT:
         context = _retract(channel, context)
-    free = kind != ON_THREAD
+    free = kind not in (ON_THREAD, ON_CYCLE_THREAD)
     return replace(
         context,
         feed_hold=False,
@@ -235,12 +244,32 @@ def locked(channel: Channel, context: Context) -> Context:
     )
 
 
+def _accelerated(channel: Channel, context: Context) -> Context:
+    """Acceleration after interpolation of thread cycles: exponential, or as for cuts by 1610#5 THL (II.4.1.2).
+
+    1626 is the time constant in milliseconds, and how far an exponential acceleration is behind at speed; a linear or a
+    bell-shaped one is half of it behind. 1627 is the FL speed, which an exponential one alone has.
+    """
+    lags, speeds = [], []
+    for axis in plane_axes(channel):
+        name, parameters = channel.axes[axis], channel.memory.parameters
+        as_cuts = parameters.bit(1610, 5, name)
+        straight = as_cuts and (parameters.bit(1610, 0, name) or parameters.bit(1610, 1, name))
+        lags.append(parameters.number(1626, name) / (2000.0 if straight else 1000.0))
+        speeds.append(0.0 if straight else parameters.number(1627, name) / 60.0)
+    return replace(context, lag_s=max(lags), lag_from=min(speeds)) if any(lags) else context
+
+
 def _retract(channel: Channel, context: Context) -> Context:
     """The retract of G92 and G76 runs at 1466, or at rapid traverse; 1403#4 ROC keeps its override off (II.4.1.2)."""
     parameters = channel.memory.parameters
     speed = retract_speed(channel)
     if speed > 0.0:
         context = replace(context, feed_mode="G94", rapid_speed=speed)
+    elif parameters.bit(1611, 0):
+        context = replace(context, lag_s=0.0)
+    elif context.lag_s:
+        context = replace(context, rapid_speed=channel.axis_data[plane_axes(channel)[1]].rapid)
     return replace(context, rapid_override=not parameters.bit(1403, 4))
 
 

@@ -56,7 +56,9 @@ EXACT_STOP, TOLERANCE, ROTARY_WEIGHT, STATION, HAS_FRAME, MIRROR = 6, 7, 8, 9, 1
 RAPID_BY_AXIS, RAMP_S, BLEND_S, DRIVE_SPEED, DRIVE_REDUCTION, RAPID_SPEED = 12, 13, 14, 15, 16, 17
 #: How a stroke of a drilling cycle meets the next one (`toolpath.context`).
 OVERLAP, OVERLAPS = 18, 2
-FRAME, OFFSETS = 19, 31
+#: Acceleration after interpolation: seconds by which the axes are behind at speed, and the speed from which on it acts.
+LAG_S, LAG_FROM = 19, 20
+FRAME, OFFSETS = 21, 33
 
 # `pieces`: one record a piece. CAP2 bounds x inside the piece, ENTRY2 at its start; REACH2 is what `backward`
 # finds there, SPEED2 what `forward` chooses, END2 the x that it leaves the piece with, TIME the seconds. PULL

@@ -20,6 +20,8 @@ from polycnc.motion.kernels.columns import (
     INVERSE_TIME,
     JOINT_PULL,
     KIND,
+    LAG_FROM,
+    LAG_S,
     MARGIN,
     NUMBER,
     PAUSE,
@@ -117,6 +119,18 @@ def asked_speed(
     if speed > 0.0:
         return speed
     return 0.0  # none, zero, or NaN
+
+
+def lagging_pull(contexts: Floats, record: int, speed: float) -> float:
+    """Acceleration from rest that is as far behind at a speed as acceleration after interpolation (FANUC 1626, 1627).
+
+    An acceleration u is behind by `v²/2u`; one over a time constant by `v·LAG_S`, of which an exponential one that
+    begins at LAG_FROM has the part above it.
+    """
+    above = speed - contexts[record + LAG_FROM]
+    if contexts[record + LAG_S] == 0.0 or not above > 0.0 or speed == inf:
+        return inf
+    return speed * speed / (2.0 * contexts[record + LAG_S] * above)
 
 
 def bounded(asked: float, state: Floats) -> float:

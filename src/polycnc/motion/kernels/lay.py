@@ -41,6 +41,7 @@ from polycnc.motion.kernels.columns import (
     JERK,
     JOINT_PULL,
     KIND,
+    LAG_S,
     LENGTH,
     LIMIT_BLOCKS,
     METRIC,
@@ -95,6 +96,7 @@ from polycnc.motion.kernels.feeds import (
     follows_radius,
     has_room,
     is_rapid,
+    lagging_pull,
     lead_of,
     next_piece,
     norm,
@@ -275,6 +277,10 @@ def lay_straight(
     lead = lead_of(curves, state)
     if state[KIND] == TAP and lead > 0.0:
         pull = min(pull, lead * contexts[record + SPINDLE_REV_S2])
+    lags = contexts[record + LAG_S] > 0.0
+    if lags:
+        asked = asked_speed(curves, contexts, record, state, length, end_x)
+        pull = min(pull, lagging_pull(contexts, record, min(top, asked)))
     entry2 = 0.0
     for part in range(parts):
         radius = start_x + (end_x - start_x) * (part + 0.5) / parts
@@ -282,7 +288,7 @@ def lay_straight(
         if part == 0:
             speed = min(top, bounded(asked, state))
             wanted = min(top, asked) if asked > 0.0 else top
-            is_line = parts == 1 and state[KIND] not in (SPLINE, THREAD, TAP)
+            is_line = parts == 1 and not lags and state[KIND] not in (SPLINE, THREAD, TAP)
             wanted = wanted if is_line else 0.0
             entry2 = join(contexts, record, n, limits, state, length, weight, speed * speed, wanted)
             state[JOINT_PULL] = min(state[JOINT_PULL], pull)

@@ -1,4 +1,4 @@
-"""Strokes of a drilling cycle that overlap: less time, no more than the axes stand, a peck that falls short."""
+"""What controls add to the acceleration: strokes of a drilling cycle that overlap, time constants of threads."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from polycnc.motion.samples import Samples
+from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS, STROKE
 from tests.motion.paths import LATHE, Build
 from tests.motion.test_samples import SOFT, sampled
@@ -62,3 +63,15 @@ def test_a_dwell_between_two_strokes_keeps_them_apart() -> None:
         return motion(rows.rapid(0.0, 0.0))[0]
 
     assert cut(OVERLAPS) == pytest.approx(cut(STROKE))
+
+
+def test_a_thread_has_its_lead_behind_the_way_in_which_its_time_constant_lets_it_get_up_to_speed() -> None:
+    turning = Context(spindle_rpm=600.0, spindle_direction=1, lag_s=0.1)
+    rows = Build(("X", "Z"), context=turning)
+    rows.row(Kind.THREAD, 0.0, -40.0, feed=2.0, curve=(2.0, 0.0))
+    _, samples = motion(rows)
+    z = -samples.position[:, 1]
+    away = np.abs(np.gradient(z, samples.time) - 20.0)
+    # 20 mm/s are reached over 0.2 s, on 2 mm; averages over 0.08 s add to that.
+    assert away[(z > 0.1) & (z < 0.5)].min() > 5.0
+    assert away[(z > 4.5) & (z < 36.0)].max() < 1e-3
