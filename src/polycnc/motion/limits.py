@@ -6,6 +6,7 @@ from array import array
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.geometry.units import INCH_MM
 from polycnc.motion.kernels.jerk import JERK_CORNER, STRAY_CORNER
 from polycnc.motion.settings import DRIVE, EXACT_STOP_MODES, SOFT, Settings
 
@@ -13,7 +14,6 @@ if TYPE_CHECKING:
     from polycnc.machine import Axis, Machine, Spindle
     from polycnc.toolpath import Context
 
-MM_PER_INCH = 25.4
 #: Deviation that counts as none: what a control resolves.
 EXACT_MM = 0.001
 #: RAMP_S in terms of the time in which an axis builds up its acceleration.
@@ -138,7 +138,7 @@ def rotary_weight(context: Context, settings: Settings) -> float:
     """Millimetres that a degree counts in the length that the feed refers to."""
     if not settings.rotary_in_feed:
         return 0.0
-    return MM_PER_INCH if context.inch else 1.0
+    return INCH_MM if context.inch else 1.0
 
 
 def _kept_tolerance(context: Context, settings: Settings) -> float:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
+from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
 
 if TYPE_CHECKING:
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from polycnc.toolpath.events import Event
     from polycnc.toolpath.table import Chunk, Row, Toolpath
 
-MM_PER_INCH = 25.4
 #: Steps of a unit that the displays resolve: finer than any control, far above rounding noise.
 _STEPS = 1e7
 #: From so many rows on, whole columns (and the start of NumPy) are faster than row by row.
@@ -194,7 +194,7 @@ class Display:
         """The factors that hold under a context."""
         scale = self._scales.get(id(context))
         if scale is None:
-            length = 1.0 / MM_PER_INCH if context.inch else 1.0
+            length = 1.0 / INCH_MM if context.inch else 1.0
             diameter = [2.0 if context.diameter_axes >> i & 1 else 1.0 for i in range(len(self.axes))]
             angles = self.layout.rotary.difference(self._geometry(context))
             work = tuple(d if i in angles else d * length for i, d in enumerate(diameter))

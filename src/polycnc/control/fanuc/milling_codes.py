@@ -30,7 +30,7 @@ from polycnc.control.word_address import (
     tool_center_point,
     tool_measuring,
 )
-from polycnc.control.word_address.codes import GCode, Order, not_yet, table, with_aliases
+from polycnc.control.word_address.codes import MILLING_POWER_ON, GCode, Order, not_yet, table, with_aliases
 from polycnc.control.word_address.drilling import is_active
 from polycnc.control.word_address.interlocks import guarded_speed, guarded_step, nothing
 
@@ -194,29 +194,11 @@ ADDRESSES = {
     "D": radius.plan_radius_number,
 }
 
-POWER_ON = {
-    "motion": "G0",
-    "plane": "G17",
-    "distance": "G90",
-    "stroke": "G23",
+POWER_ON = MILLING_POWER_ON | {
     "fluctuation": "G25",
-    "feed": "G94",
-    "unit": "G21",
-    "compensation": "G40",
-    "length": "G49",
-    "cycle": "G80",
-    "return": "G98",
-    "scaling": "G50",
-    "macro": "G67",
-    "surface_speed": "G97",
-    "wcs": "G54",
-    "path": "G64",
-    "rotation": "G69",
-    "polar": "G15",
     polar_interpolation.GROUP: "G13.1",
     cylinder.GROUP: "",
     normal_line.GROUP: normal_line.OFF,
-    "mirror": "G50.1",
     "calls": macro_calls.ALL_CALLS,
     "interruption": "M97",
     "data_input": "G11",

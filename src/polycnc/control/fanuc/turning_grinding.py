@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.turning_coordinates import plane_axes
-from polycnc.control.word_address.numbers import INCH_MM, length_converter
+from polycnc.control.word_address.numbers import length_converter
 from polycnc.control.word_address.skip import signal_position
 from polycnc.cycles.grinding import Grinding, GrindStroke, oscillate, traverse
+from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -24,12 +24,12 @@ from polycnc.control.fanuc.turning_strokes import (
     uncompensated_cycle,
 )
 from polycnc.control.fanuc.turning_threads import lead_in_force, start_angle
-from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.cycles.contour import points, reversal, swapped, swapped_stroke
 from polycnc.cycles.threading import ThreadCuts, thread_passes
 from polycnc.cycles.turning_pattern import repeat_pattern as pattern_strokes
 from polycnc.cycles.turning_peck import Pecks, peck_columns
 from polycnc.cycles.turning_rough import Roughing, rough
+from polycnc.geometry.units import INCH_MM
 from polycnc.language.word_address.functions import round_half_away
 from polycnc.toolpath import Kind
 
@@ -486,7 +486,7 @@ def _least_increments(words: Words, address: str) -> float:
     value = words.integer(address) or 0
     rules = words.plan.rules
     if words.plan.inch:
-        return value * 25.4 / 10.0**rules.decimals_inch
+        return value * INCH_MM / 10.0**rules.decimals_inch
     return float(value / 10.0**rules.decimals)
 
 

@@ -14,11 +14,11 @@ from polycnc.control.fanuc.turning_threads import (
     plan_start_angle,
     refuse_corners,
 )
-from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.control.word_address.path import PLANES
 from polycnc.control.word_address.skip import signal_position
 from polycnc.cycles import turning_single
 from polycnc.cycles.threading import Runout, thread_pass
+from polycnc.geometry.units import INCH_MM
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

@@ -11,6 +11,7 @@ from polycnc.control.fanuc.turning_coordinates import feed_number, plane_axes
 from polycnc.control.fanuc.turning_tools import THREADS
 from polycnc.control.word_address.path import CENTER_WORDS, PLANES, center_by_radius, target
 from polycnc.geometry import arcs
+from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -29,7 +30,6 @@ MAX_START_ANGLE = 360_000
 #: The first move off the thread of a cycle, its retract, has a speed of its own besides.
 #: In the cycles G92 and G76 thread and retract have an acceleration of their own.
 ON_THREAD, ON_CYCLE_THREAD, OFF_THREAD, RETRACT = "thread", "cycle", "off", "retract"
-MM_PER_INCH = 25.4
 #: Least and largest lead (II.3.1, table 3.1(a)).
 LEADS_MM, LEADS_INCH = (0.0001, 500.0), (0.000001, 9.999999)
 _CHAMFERS = (",C", ",R", ",A")
@@ -196,7 +196,7 @@ def lead_in_force(channel: Channel) -> float:
         raise channel.control.fail("no_feed", address="F")
     inch = channel.mode["unit"] == "G20"
     least, largest = LEADS_INCH if inch else LEADS_MM
-    shown = lead / MM_PER_INCH if inch else lead
+    shown = lead / INCH_MM if inch else lead
     if not least * (1.0 - 1e-9) <= shown <= largest * (1.0 + 1e-9):
         raise channel.control.fail("thread_lead", address="F")
     return lead
@@ -313,6 +313,6 @@ def check_last_lead(channel: Channel, end: list[float], lead: float, growth: flo
     """The lead must be possible at the end too: with s the way, `lead² + 2·growth·s` is its square there."""
     way = max(abs(e - p) for e, p in zip(end, channel.coordinates.programmed, strict=True))
     last2 = lead * lead + 2.0 * growth * way
-    largest = LEADS_MM[1] if channel.mode["unit"] == "G21" else LEADS_INCH[1] * MM_PER_INCH
+    largest = LEADS_MM[1] if channel.mode["unit"] == "G21" else LEADS_INCH[1] * INCH_MM
     if not 0.0 < last2 <= largest * largest:
         raise channel.control.fail("thread_lead", address="K")

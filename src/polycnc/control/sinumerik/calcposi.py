@@ -6,6 +6,7 @@ from math import hypot
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.control.sinumerik import limits, protection, tables
+from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.variables import Array
 from polycnc.messages import AlarmError
 
@@ -49,7 +50,7 @@ def calculate(channel: Channel, args: tuple[Any, ...]) -> int:
     if any(value < 0.0 for value in clearances[:5]):
         return NEGATIVE_CLEARANCE
     inches = channel.mode["units"] in ("G70", "G700") and not in_basic_system
-    factor = tables.MM_PER_INCH if inches else 1.0
+    factor = INCH_MM if inches else 1.0
     first, last = _machine_ways(channel, [v * factor for v in start[:3]], [v * factor for v in way[:3]])
     margins = [value * factor for value in clearances[:5]]
     found = [

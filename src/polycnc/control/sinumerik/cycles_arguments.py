@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.positions import length_factor
+from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ class Arguments:
         self._length = length_factor(channel.mode)
         self._feed = tables.FEED_TYPES[channel.mode["feed"]].factor
         if channel.mode["units"] == "G700":
-            self._feed *= tables.MM_PER_INCH
+            self._feed *= INCH_MM
         self._values: dict[str, Any] = {
             name: value for name, value in zip(signature, values, strict=False) if value is not None
         }

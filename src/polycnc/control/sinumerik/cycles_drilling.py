@@ -12,6 +12,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles import deep_hole as deep
 from polycnc.cycles import drilling
 from polycnc.cycles.drilling import Action, Hole, Stroke
+from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -144,7 +145,7 @@ class Acts(NamedTuple):
 def perform(moves: Moves, strokes: Iterator[Stroke], acts: Acts) -> Iterator[None]:
     """Make the strokes of a hole; every stroke is a block."""
     center = moves.point
-    for action, value, factor in strokes:
+    for action, value, factor, _ in strokes:
         match action:
             case Action.RAPID:
                 moves.rapid(w=value)
@@ -343,9 +344,9 @@ def _written_pitch(a: Arguments, name: str) -> float:
         case 1:
             return value
         case 2:
-            return tables.MM_PER_INCH / value if value else 0.0
+            return INCH_MM / value if value else 0.0
         case 3:
-            return value * tables.MM_PER_INCH
+            return value * INCH_MM
         case _:
             return a[name]
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import limits, plain, tables
 from polycnc.control.sinumerik.positions import AxisTerm, Way, axis_term, length_factor, number, target
+from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import declare
 from polycnc.language.sinumerik.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
@@ -118,7 +119,7 @@ def _incremental_linear(terms: list[AxisTerm]) -> Step:
 
 def feed_factor(draft: Draft) -> float:
     """From a programmed feed to internal units, for the feed type and units of the block."""
-    inch = tables.MM_PER_INCH if draft.mode["units"] == "G700" else 1.0
+    inch = INCH_MM if draft.mode["units"] == "G700" else 1.0
     return tables.FEED_TYPES[draft.mode["feed"]].factor * inch
 
 

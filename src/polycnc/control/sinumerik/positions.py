@@ -9,6 +9,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.control.sinumerik import indexing
+from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
 
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.control.sinumerik.memory import Memory
 
-MM_PER_INCH = 25.4
 TURN = 360.0
 
 
@@ -71,7 +71,7 @@ _ROTARY_ONLY = {"DC": "16800", "ACP": "16810", "ACN": "16820"}
 
 def length_factor(mode: Mode) -> float:
     """From a programmed length to mm."""
-    return MM_PER_INCH if mode["units"] in ("G70", "G700") else 1.0
+    return INCH_MM if mode["units"] in ("G70", "G700") else 1.0
 
 
 SHOWS_DIAMETERS = ("DIAMON", "DIAM90")
@@ -183,4 +183,4 @@ def shown(channel: Channel, column: int, value: float, *, work: bool = True) -> 
         return value % 360.0 if axis.modulo else value
     if work and is_diameter(channel.mode, Way.ABSOLUTE, column, channel.memory.transverse):
         value *= 2.0
-    return value / MM_PER_INCH if channel.mode["units"] == "G700" else value
+    return value / INCH_MM if channel.mode["units"] == "G700" else value

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-MM_PER_INCH = 25.4
 TURN = 360.0
 MINUTE = 60.0
 MM_PER_M = 1000.0

@@ -13,6 +13,7 @@ from polycnc.compensation.corner import Shape
 from polycnc.control.sinumerik import auxiliary, motion, plain, retraction, sections, stages, tables
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.positions import length_factor, number
+from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import declare
 from polycnc.language.sinumerik.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
@@ -62,7 +63,7 @@ def _travel_time(position: int) -> Step:
 def axis_feed(draft: Draft, position: int, shape: WordShape) -> Step:
     """FA[axis]: feed of a positioning axis, modal; alarm 10861 for zero, 14810 below."""
     column = sections.axis_column(draft, position, shape)
-    factor = (tables.MM_PER_INCH if draft.mode["units"] == "G700" else 1.0) / tables.MINUTE
+    factor = (INCH_MM if draft.mode["units"] == "G700" else 1.0) / tables.MINUTE
 
     def run(channel: Channel, values: Values) -> None:
         value = number(values, position) * factor

@@ -29,7 +29,7 @@ from polycnc.control.word_address import auxiliary, coordinates, nurbs, path, ra
 from polycnc.control.word_address import extended as base_extended
 from polycnc.control.word_address import frames as base_frames
 from polycnc.control.word_address import length as base_length
-from polycnc.control.word_address.codes import GCode, MCode, Order, m_table, not_yet, table
+from polycnc.control.word_address.codes import MILLING_POWER_ON, GCode, MCode, Order, m_table, not_yet, table
 
 MOTION = Order.MOTION
 
@@ -172,26 +172,9 @@ ADDRESSES = {
     "D": radius.plan_radius_number,
 }
 
-POWER_ON = {
-    "motion": "G0",
-    "plane": "G17",
-    "distance": "G90",
-    "stroke": "G23",
-    "feed": "G94",
+POWER_ON = MILLING_POWER_ON | {
     "unit": "G71",
-    "compensation": "G40",
-    "length": "G49",
-    "cycle": "G80",
-    "return": "G98",
-    "scaling": "G50",
-    "macro": "G67",
-    "surface_speed": "G97",
-    "wcs": "G54",
-    "path": "G64",
-    "rotation": "G69",
-    "polar": "G15",
     polar.POLAR: "G13.1",
     normal_direction.NORMAL: normal_direction.OFF,
     oscillation.OSCILLATION: oscillation.OFF,
-    "mirror": "G50.1",
 }

@@ -12,6 +12,7 @@ from polycnc.control.word_address.drilling import DrillCycle, Drilling, is_activ
 from polycnc.control.word_address.hole_patterns import drill_points, plane_point
 from polycnc.cycles import drilling, hole_patterns
 from polycnc.cycles.drilling import Action, Hole, Stroke
+from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -41,7 +42,6 @@ CYCLES = {
     "G89": DrillCycle(drilling.bore, dwells=True, bottom_from_initial=True),
 }
 TAPPING = ("G74", "G84")
-INCH_MM = 25.4
 #: Pr4020: direction off the wall after the oriented stop, as geometry axis and sense.
 SHIFT_DIRECTIONS = {0: (0, 1.0), 1: (0, -1.0), 2: (1, 1.0), 3: (1, -1.0), 4: (2, 1.0), 5: (2, -1.0)}
 MAX_HOLES = 9999

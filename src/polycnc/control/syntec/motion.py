@@ -8,9 +8,9 @@ from math import copysign, hypot, nan, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address import auxiliary, path, radius, skip
-from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.control.word_address.path import CENTER_WORDS, PLANES
 from polycnc.geometry import arcs
+from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.parameters import has_option
 from polycnc.control.word_address.normal_stage import Direction, NormalStage
-from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.control.word_address.path import PLANES
+from polycnc.geometry.units import INCH_MM
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.numbers import INCH_MM
+from polycnc.geometry.units import INCH_MM
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.motion import skip_source
 from polycnc.control.word_address import path, skip
-from polycnc.control.word_address.numbers import INCH_MM
+from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from polycnc.control.syntec.quiet import switch_quiet
 from polycnc.control.syntec.variables import Read, Registry, Space, Write, stored
 from polycnc.control.word_address.coordinates import refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL
-from polycnc.control.word_address.numbers import INCH_MM
+from polycnc.geometry.units import INCH_MM
 from polycnc.language.syntec.values import VACANT, Value, number, to_long, whole
 from polycnc.messages import AlarmError
 

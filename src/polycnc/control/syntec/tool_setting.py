@@ -9,7 +9,7 @@ from polycnc.control.syntec.parameters import WORK_SYSTEMS, decimals
 from polycnc.control.word_address import auxiliary, length, skip
 from polycnc.control.word_address.coordinates import refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL
-from polycnc.control.word_address.numbers import INCH_MM
+from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.memory import RigidTapping
-from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.control.word_address.path import FEED_MODES
+from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Conversion, SetFeed, Way, Word, declare
 
 if TYPE_CHECKING:

@@ -91,6 +91,29 @@ class MCode:
     silent: bool = False
 
 
+#: What machining centres of every family choose at power-on, by modal group; each family adds and replaces.
+MILLING_POWER_ON = {
+    "motion": "G0",
+    "plane": "G17",
+    "distance": "G90",
+    "stroke": "G23",
+    "feed": "G94",
+    "unit": "G21",
+    "compensation": "G40",
+    "length": "G49",
+    "cycle": "G80",
+    "return": "G98",
+    "scaling": "G50",
+    "macro": "G67",
+    "surface_speed": "G97",
+    "wcs": "G54",
+    "path": "G64",
+    "rotation": "G69",
+    "polar": "G15",
+    "mirror": "G50.1",
+}
+
+
 def not_yet(*codes: str) -> tuple[GCode, ...]:
     """Rows of codes that the control knows and polycnc does not execute yet."""
     return tuple(GCode(code, not_yet=True) for code in codes)

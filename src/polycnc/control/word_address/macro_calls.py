@@ -9,6 +9,7 @@ from polycnc.control.word_address import subprograms
 from polycnc.control.word_address.numbers import length_converter
 from polycnc.control.word_address.variables import LOCALS
 from polycnc.control.word_address.words import Words
+from polycnc.geometry.units import INCH_MM
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -66,7 +67,7 @@ def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) 
         if address in _LENGTHS:
             convert = length_converter(form, words.plan.rules, inch=words.plan.inch)
             if form == "" and convert is not None:
-                value = convert(value) / (25.4 if words.plan.inch else 1.0)
+                value = convert(value) / (INCH_MM if words.plan.inch else 1.0)
         local[variable] = value
     for code in words.plan.m_codes:
         if code != without_m:

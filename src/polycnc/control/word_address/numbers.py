@@ -11,12 +11,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import copysign, floor
 
+from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Conversion, Way, declare, declared
 
 #: Half an increment and a guard: halves go away from zero as they do in the control's decimal arithmetic.
 ROUNDING = 0.5 + 1e-7
 Convert = Callable[[float], float]
-INCH_MM = 25.4
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.numbers import INCH_MM
 from polycnc.control.word_address.path import FEED_MODES, target
+from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.memory import Memory
-from polycnc.control.word_address.numbers import INCH_MM
+from polycnc.geometry.units import INCH_MM
 from polycnc.language.word_address.functions import round_half_away
 
 if TYPE_CHECKING:

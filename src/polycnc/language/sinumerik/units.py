@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.emitter import provide
 
 if TYPE_CHECKING:
@@ -14,10 +15,10 @@ if TYPE_CHECKING:
 
 #: Numbers of all units.
 KNOWN = frozenset({*range(17), *range(18, 38), 42, 43, 46, 48, 49, *range(65, 70), 155, 156})
-_MM_PER_INCH, _M_PER_INCH, _M_PER_FOOT = 25.4, 0.0254, 0.3048
+_M_PER_INCH, _M_PER_FOOT = 0.0254, 0.3048
 #: How much of a metric unit one of the unit in inches is; the others are never converted.
 FACTORS: dict[int, float] = {
-    **dict.fromkeys((1, 2, 4, 5, 15, 16), _MM_PER_INCH),  # position, velocity, feed per revolution
+    **dict.fromkeys((1, 2, 4, 5, 15, 16), INCH_MM),  # position, velocity, feed per revolution
     **dict.fromkeys((7, 8, 10, 11), _M_PER_INCH),  # acceleration, jerk
     **dict.fromkeys((29, 30), _M_PER_FOOT),  # cutting speed, peripheral speed
 }
