@@ -439,3 +439,12 @@ def test_g40_with_a_wall_and_a_nose_tip_gives_the_positions_of_the_manual_s_lath
         (pytest.approx(-150.858, abs=1e-3), pytest.approx(59.8115, abs=1e-3)),
         (0, 150),
     ]
+
+
+def test_what_comes_after_a_move_that_was_left_out_happens_where_the_tool_stands() -> None:
+    far = replace(policies.FANUC_A, avoids=True, looks_far=True, read_blocks=8)
+    recorder = run(far, "G1 G41 X0 Y0\nX20\nX40\nX41 Y1\nZ-3\nY60\nX0\nG40 Y-20")
+    plunge = next(move for move in recorder.moves if move.end[2] != move.start[2])
+    assert plunge.start[:2] == plunge.end[:2] == pytest.approx([36, 5])
+    for one, two in zip(recorder.moves, recorder.moves[1:], strict=False):
+        assert one.end == pytest.approx(two.start)

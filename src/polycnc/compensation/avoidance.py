@@ -1,88 +1,213 @@
-"""The way round an interference (FANUC 0i-TF Plus 5.4.6): which vectors have changed places, and what replaces them."""
+"""Detours round an interference (FANUC 0i-TF Plus 5.4.6.3): what they are, and whether they keep off the work.
+
+A detour replaces the vectors between the first step of the window and a later one, and often the steps between. Its
+candidates are: vectors that have changed places are left out; one path meets an arc about a corner that leads to the
+other; the path by the *gap vector*, or, where that crosses itself, the intersection of the two paths. Which of them is
+taken is decided by what they would do: the tool must keep its radius from every block that is known, and the step
+behind must not run backwards.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import hypot
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from polycnc.geometry import offset
+from polycnc.compensation.ends import blind_end
+from polycnc.compensation.policies import Violation
+from polycnc.compensation.step import Role
+from polycnc.geometry import arcs, distance, offset
+from polycnc.geometry.offset import Corner, Joint
+from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
+    from polycnc.compensation.step import Step
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.offset import Edge
 
+#: What a detour may do, the best first. One that interferes again may be mended by a detour from the next step.
+_HARMS = (None, Violation.AVOIDANCE_INTERFERES, Violation.AVOIDANCE_DANGEROUS)
+#: What may end or begin a detour by intersection.
+PATHS = (Role.CONTOUR, Role.GAP)
+#: The tool counts as cutting the work only beyond this (mm): far below any control's increment.
+_SPARE_MM = 1e-5
 
-@dataclass(frozen=True, slots=True)
-class WayRound:
-    """Vectors that lead past the blocks of an interference.
+
+@dataclass(slots=True)
+class Detour:
+    """Another way from a step to a later one; its steps are changed copies.
 
     Attributes:
-        leaving: At the end of the block in front.
-        arriving: At the end of the gap, straight from `leaving`; None where the block in front runs on to the one
-            behind.
-        is_dangerous: The way runs against what was commanded, or cuts the work.
+        first: The step in front.
+        between: What stands for the last of the steps between: none or one step.
+        following: The step behind.
+        replaced: The steps between as they were.
+        is_outer: The step in front and the one behind make an outer corner: the bottom is wider than the mouth.
     """
 
-    leaving: Point
-    arriving: Point | None
-    is_dangerous: bool
+    first: Step
+    between: list[Step]
+    following: Step
+    replaced: Sequence[Step]
+    is_outer: bool = False
+
+    @property
+    def left_out(self) -> Sequence[Step]:
+        """The steps that go without anything in their place."""
+        return self.replaced[: len(self.replaced) - len(self.between)]
+
+    def harm(self, known: Sequence[Step]) -> Violation | None:
+        """What the detour would do.
+
+        Args:
+            known: The steps read, and those passed on last.
+        """
+        if self.is_outer or self.first.runs_back:
+            return Violation.AVOIDANCE_DANGEROUS
+        if cuts([row for step in (self.first, *self.between) for row in step.way()], known):
+            return Violation.AVOIDANCE_DANGEROUS
+        following = self.following
+        if following.corner is None:
+            following = replace(following, corner=blind_end(following))
+        if following.role is Role.CONTOUR and (following.runs_back or cuts(following.way()[:1], known)):
+            return Violation.AVOIDANCE_INTERFERES
+        return None
+
+
+def least_harmful(detours: Iterable[Detour], known: Sequence[Step]) -> tuple[Detour, Violation | None] | None:
+    """The first detour that does no harm, else the first of those that do the least; None without any."""
+    judged: list[tuple[Detour, Violation | None]] = []
+    for detour in detours:
+        judged.append((detour, detour.harm(known)))
+        if judged[-1][1] is None:
+            break
+    return min(judged, key=lambda pair: _HARMS.index(pair[1]), default=None)
+
+
+def cuts(way: Iterable[Edge], steps: Iterable[Step]) -> bool:
+    """Whether the tool on its way comes nearer to a contour than its radius."""
+    rows = list(way)
+    return any(
+        distance.between(row, step.edge) < abs(step.distance) - max(_SPARE_MM, step.policy.least_move_mm)
+        for step in steps
+        if step.role is Role.CONTOUR
+        for row in rows
+    )
+
+
+def leave_out_crossing_vectors(previous: Step, step: Step) -> bool:
+    """Of several vectors leave out those that cross, in pairs, the inmost first (5.4.6.2).
+
+    False where the last pair crosses as well.
+    """
+    if previous.corner is None or step.corner is None:
+        return True
+    starts, ends = previous.corner.vectors, step.corner.vectors
+    while step.runs_back:
+        if len(starts) == len(ends) == 1:
+            return False
+        if len(starts) > 1:
+            starts.pop()
+        if len(ends) > 1:
+            ends.pop(0)
+        previous.lead_to(step)
+        step.straight = True
+    return True
+
+
+def meets_arc_behind(previous: Step, step: Step) -> bool:
+    """Let the move in front run on to the arc about the corner behind a step too short for the tool."""
+    joint = step.joint_arc
+    if joint is None or step.corner is None:
+        return False
+    point = _on(joint, offset.meet(previous.edge, joint, step.distance, 0.0))
+    if point is None:
+        return False
+    previous.corner = Corner([arcs.minus(point, previous.edge.end)])
+    previous.lead_to(step)
+    step.corner.vectors[0] = arcs.minus(point, step.edge.end)
+    return True
+
+
+def detours(window: Sequence[Step], number: int) -> Iterator[Detour]:
+    """The detours from the first step of a window past the step `number`."""
+    first, last, following = window[0], window[number], window[number + 1]
+    between = window[1 : number + 1]
+    if number == 1:
+        before, after = _altered(first), _altered(last)
+        if leave_out_crossing_vectors(before, after):
+            yield Detour(before, [after], replace(following), between)
+    before, after = _altered(first), _altered(last)
+    if meets_arc_behind(before, after):
+        yield Detour(before, [after], replace(following), between)
+    if first.distance * following.distance <= 0.0:
+        return
+    yield from _by_arc_in_front(first, following, between)
+    if first.role in PATHS and following.role in PATHS:
+        yield from _by_gap_vector(first, following, between)
+        yield from _by_intersection(first, following, between)
+
+
+def _by_arc_in_front(first: Step, following: Step, between: Sequence[Step]) -> Iterator[Detour]:
+    """The arc about the corner behind the first step ends where it meets the path of the step behind."""
+    joint = first.joint_arc
+    if joint is None or first.corner is None:
+        return
+    point = _on(joint, offset.meet(joint, following.edge, 0.0, following.distance))
+    if point is not None:
+        before, after = _altered(first), _altered(following)
+        vectors = [first.corner.vectors[0], arcs.minus(point, first.edge.end)]
+        before.corner = Corner(vectors, Joint.ARC)
+        before.lead_to(after)
+        yield Detour(before, [], after, between)
+
+
+def _by_gap_vector(first: Step, following: Step, between: Sequence[Step]) -> Iterator[Detour]:
+    """The straight gap stands for the blocks between, unless its own vectors have changed places too."""
+    last, side = between[-1], between[-1].distance
+    gap = offset.line(first.edge.end, last.edge.end)
+    one = offset.meet(first.edge, gap, side, side) if gap.length else None
+    two = offset.meet(gap, following.edge, side, side) if gap.length else None
+    if one is None or two is None:
+        return
+    before, after = _altered(first), _altered(following)
+    before.corner = Corner([arcs.minus(one, gap.start)])
+    move = replace(last.move, kind=Kind.FEED, center=None, turns=0.0, parameters=())
+    straight = replace(_altered(last), move=move, edge=gap, role=Role.GAP)
+    straight.corner = Corner([arcs.minus(two, gap.end)])
+    before.lead_to(straight)
+    straight.lead_to(after)
+    if not straight.runs_back:
+        yield Detour(before, [straight], after, between)
+
+
+def _by_intersection(first: Step, following: Step, between: Sequence[Step]) -> Iterator[Detour]:
+    """The two paths meet each other."""
+    side = between[-1].distance
+    point = offset.meet(first.edge, following.edge, side, side)
+    if point is not None:
+        before, after = _altered(first), _altered(following)
+        before.corner = Corner([arcs.minus(point, first.edge.end)])
+        before.lead_to(after)
+        yield Detour(before, [], after, between, offset.is_outer(first.edge, following.edge, side))
+
+
+def _altered(step: Step) -> Step:
+    """A copy of a step for a detour, with vectors of its own."""
+    corner = step.corner and Corner(list(step.corner.vectors), step.corner.joint)
+    return replace(step, corner=corner, altered=True)
+
+
+def _on(arc: Edge, point: Point | None) -> Point | None:
+    """A point of a circle, where it lies on the arc."""
+    if point is None or arc.center is None:
+        return None
+    inside = arcs.contains_direction(arc.start, arc.end, arc.center, arc.ccw, point)
+    return point if inside else None
 
 
 def crosses(one: Edge, vector: Point, two: Edge, other: Point) -> bool:
     """Whether the tool goes from the end of one block to that of another against the programmed direction."""
-    (u0, v0), (u1, v1) = one.end, two.end
-    du, dv = u1 - u0, v1 - v0
+    du, dv = arcs.minus(two.end, one.end)
     return du * (du + other[0] - vector[0]) + dv * (dv + other[1] - vector[1]) < -offset.BACKWARDS_MM
-
-
-def way_round(
-    before: Edge, first: Point, between: Sequence[Edge], beyond: Edge, distance: float
-) -> WayRound | None:
-    """The way from one block to another past those between; None where there is none.
-
-    The straight gap between the ends stands for the blocks between. Where its two intersections have changed places as
-    well, the two blocks meet each other.
-
-    Args:
-        before: The block in front.
-        first: Vector at its start.
-        between: The blocks between.
-        beyond: The block behind.
-        distance: Signed offset.
-    """
-    gap_end = between[-1].end
-    gap = offset.line(before.end, gap_end)
-    one = offset.meet(before, gap, distance, distance) if gap.length else None
-    two = offset.meet(gap, beyond, distance, distance) if gap.length else None
-    if one is not None and two is not None:
-        along = (two[0] - one[0]) * gap.departing[0] + (two[1] - one[1]) * gap.departing[1]
-        if along > offset.BACKWARDS_MM:
-            leaving = _vector(before.end, one)
-            cuts = _cuts([one, two], between, distance)
-            return WayRound(leaving, _vector(gap_end, two), cuts or offset.reverses(before, first, leaving))
-    point = offset.meet(before, beyond, distance, distance)
-    if point is None:
-        return None
-    leaving = _vector(before.end, point)
-    outer = offset.is_outer(before, beyond, distance)
-    cuts = _cuts([point, point], between, distance)
-    return WayRound(leaving, None, outer or cuts or offset.reverses(before, first, leaving))
-
-
-def _cuts(way: Sequence[Point], between: Sequence[Edge], distance: float) -> bool:
-    """Whether the tool on a straight way comes too near to a corner of the blocks that it leaves out."""
-    (u0, v0), (u1, v1) = way
-    du, dv = u1 - u0, v1 - v0
-    square = du * du + dv * dv
-    for u, v in (between[0].start, *(edge.end for edge in between)):
-        part = min(max(((u - u0) * du + (v - v0) * dv) / square, 0.0), 1.0) if square else 0.0
-        if hypot(u - u0 - part * du, v - v0 - part * dv) < abs(distance) - offset.BACKWARDS_MM:
-            return True
-    return False
-
-
-def _vector(start: Point, end: Point) -> Point:
-    return (end[0] - start[0], end[1] - start[1])

@@ -69,7 +69,7 @@ class CutterCompensation:
         self._radius = 0.0
         self._tip = NO_VECTOR
         self._window: list[Step] = []
-        self._interference = InterferenceCheck(self._window, self._violations)
+        self._interference = InterferenceCheck(self._window, self._rows, self._violations)
         self._read = 0
         self._wall: Point | None = None
         self._place: Move | None = None
@@ -276,6 +276,7 @@ class CutterCompensation:
         step = self._window.pop(0)
         if step.corner is None:
             step.corner = self._blind_end(step)
+        self._interference.admit(step)
         self._rows.emit(step, step.corner)
         for deed in step.after:
             deed()
@@ -295,5 +296,6 @@ class CutterCompensation:
     def _forget(self) -> None:
         self._role = Role.PLAIN
         self._rows.drop_vector()
+        self._interference.forget()
         self._wall = self._place = None
         self._forced, self._holds, self._starts_square = None, False, False

@@ -2,22 +2,36 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections import deque
+from functools import partial
 from typing import TYPE_CHECKING
 
-from polycnc.compensation.avoidance import crosses, way_round
+from polycnc.compensation.avoidance import (
+    PATHS,
+    crosses,
+    cuts,
+    detours,
+    least_harmful,
+    leave_out_crossing_vectors,
+    meets_arc_behind,
+)
 from polycnc.compensation.policies import Violation
 from polycnc.compensation.step import Role
 from polycnc.geometry import arcs, offset
-from polycnc.geometry.offset import Corner, Joint
+from polycnc.geometry.offset import Corner
 from polycnc.messages import AlarmError
-from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from polycnc.channel.path import Move
+    from polycnc.compensation.avoidance import Detour
+    from polycnc.compensation.rows import RowWriter
     from polycnc.compensation.step import Step
+    from polycnc.geometry.arcs import Point
+
+#: Steps passed on that a detour must still keep off.
+_REMEMBERED = 16
 
 
 class Objections:
@@ -41,123 +55,57 @@ class InterferenceCheck:
 
     Args:
         window: The steps that are not passed on yet, in order; avoidance leaves steps out of it.
+        rows: Where the steps go.
         violations: What the control objects to.
     """
 
-    def __init__(self, window: list[Step], violations: Objections) -> None:
+    def __init__(self, window: list[Step], rows: RowWriter, violations: Objections) -> None:
         self._window = window
+        self._rows = rows
+        self._passed: deque[Step] = deque(maxlen=_REMEMBERED)
         self.violations = violations
+
+    def forget(self) -> None:
+        """Compensation is over: what was passed on does not matter any more."""
+        self._passed.clear()
+
+    # ---- when a corner has been closed ---------------------------------------------------------------------
 
     def check(self, step: Step, following: Step) -> None:
         """Look for vectors that have changed places with those just found (FANUC 0i-TF Plus 5.4.6)."""
-        policy, is_line = step.policy, step.edge.center is None
-        if step.corner is None:
+        policy = step.policy
+        if step.corner is None or policy.looks_far:
+            # What looks far decides when the block in front is passed on.
             return
-        self._check_behind_avoidance(step)
-        if len(self._window) < 2:
+        self._check_far_pairs(step, step.corner.vectors[0])
+        previous = self._window[-2] if len(self._window) > 1 else None
+        if (
+            previous is None
+            or previous.corner is None
+            or previous.forced is not None
+            or not _is_checked(step)
+        ):
             return
-        ends = step.corner.vectors
-        for earlier in self._window[:-2] if policy.checks_direction and not policy.looks_far else ():
+        if policy.avoids:
+            if step.runs_back:
+                self._avoid(previous, step, following)
+        elif not leave_out_crossing_vectors(previous, step):
+            self.violations.object(Violation.INTERFERENCE, step.move)
+
+    def _check_far_pairs(self, step: Step, vector: Point) -> None:
+        if not step.policy.checks_direction:
+            return
+        for earlier in self._window[:-2]:
             if earlier.corner is None or earlier.forced is not None:
                 continue
-            if crosses(earlier.edge, earlier.corner.vectors[-1], step.edge, ends[0]):
+            if crosses(earlier.edge, earlier.corner.vectors[-1], step.edge, vector):
                 self.violations.object(Violation.INTERFERENCE, step.move)
-        previous = self._window[-2]
-        if previous.corner is None or previous.forced is not None:
-            return
-        if not (policy.checks_direction if is_line else policy.checks_arcs):
-            return
-        starts = previous.corner.vectors
-        # Of several vectors those that cross are left out in pairs, the inmost first; the last must not cross.
-        while offset.reverses(step.edge, starts[-1], ends[0]):
-            is_last = len(starts) == 1 and len(ends) == 1
-            if policy.looks_far and is_last:
-                # Decided when the block in front is passed on.
-                return
-            if is_last or (policy.avoids and not policy.looks_far):
-                self._avoid(previous, step, following)
-                return
-            if len(starts) > 1:
-                starts.pop()
-            if len(ends) > 1:
-                ends.pop(0)
-            step.first, step.straight = starts[-1], True
-
-    def keep_clear(self) -> None:
-        """Before a block is passed on: compare its end with those of the blocks read, the farthest first (5.4.6)."""
-        first = self._window[0]
-        if not first.policy.looks_far or first.corner is None or first.forced is not None:
-            return
-        numbers: list[int] = []
-        for number in range(len(self._window) - 2, 0, -1):
-            step = self._window[number]
-            if step.corner is None or step.forced is not None or step.role is not Role.CONTOUR:
-                continue
-            vector, other = first.corner.vectors[-1], step.corner.vectors[0]
-            if number > 1:
-                found = step.policy.checks_direction and crosses(first.edge, vector, step.edge, other)
-            else:
-                is_line = step.edge.center is None
-                checked = step.policy.checks_direction if is_line else step.policy.checks_arcs
-                found = checked and offset.reverses(step.edge, vector, other)
-            if found:
-                numbers.append(number)
-        # A way round that would cut gives way to one past fewer blocks.
-        if numbers and not any(self._lead_round(number) for number in numbers):
-            self._lead_round(numbers[0], dares=True)
-
-    def _lead_round(self, number: int, *, dares: bool = False) -> bool:
-        """Replace the blocks between the first one of the window and the one behind `number` (5.4.6.3).
-
-        False where there is no way, or a dangerous one; with `dares` these are alarms, as far as the control has them.
-        """
-        first, last, following = self._window[0], self._window[number], self._window[number + 1]
-        if number == 1 and _meets_joint(first, last):
-            return True
-        way, between = None, self._window[1 : number + 1]
-        if first.role is following.role is Role.CONTOUR:
-            edges = [step.edge for step in between]
-            way = way_round(first.edge, first.first, edges, following.edge, last.distance)
-        if not dares and (way is None or way.is_dangerous):
-            return False
-        if way is None:
-            self.violations.object(Violation.NO_AVOIDANCE, last.move)
-            return True
-        if way.is_dangerous and not first.policy.dares:
-            self.violations.object(Violation.AVOIDANCE_DANGEROUS, last.move)
-        first.corner = Corner([way.leaving])
-        del self._window[1 : number + 1]
-        for step in between[:-1] if way.arriving is not None else between:
-            first.after.extend(step.after)
-        behind = first
-        if way.arriving is not None:
-            move = replace(
-                last.move, kind=Kind.FEED, start=first.move.end, center=None, turns=0.0, parameters=()
-            )
-            edge = offset.line(first.edge.end, last.edge.end)
-            behind = replace(last, move=move, edge=edge, first=way.leaving, corner=Corner([way.arriving]))
-            self._window.insert(1, behind)
-        behind.lead_to(following)
-        following.behind_avoidance = True
-        self._check_behind_avoidance(following)
-        return True
-
-    def _check_behind_avoidance(self, step: Step) -> None:
-        """The block behind an avoidance must not run backwards itself."""
-        if not step.behind_avoidance or step.corner is None or step.policy.dares:
-            return
-        if offset.reverses(step.edge, step.first, step.corner.vectors[0]):
-            self.violations.object(Violation.AVOIDANCE_INTERFERES, step.move)
 
     def _avoid(self, previous: Step, step: Step, following: Step) -> None:
-        """Leave a move out: the one in front runs on to the one that follows (FANUC 0i-TF Plus 5.4.6.3)."""
-        if not step.policy.avoids:
-            self.violations.object(Violation.INTERFERENCE, step.move)
-            return
-        dares = step.policy.dares
-        if previous.avoided and not dares:
+        """Leave a move out: the one in front runs on to the one that follows."""
+        if previous.avoided and not step.policy.dares:
             self.violations.object(Violation.AVOIDANCE_INTERFERES, step.move)
-        if _meets_joint(previous, step):
+        if meets_arc_behind(previous, step):
             return
         before, beyond = previous.edge, following.edge
         point = None
@@ -166,26 +114,91 @@ class InterferenceCheck:
         if point is None:
             self.violations.object(Violation.NO_AVOIDANCE, step.move)
             return
-        vector = (point[0] - before.end[0], point[1] - before.end[1])
+        vector = arcs.minus(point, before.end)
         leads_back = offset.reverses(before, previous.first, vector)
-        if not dares and (leads_back or offset.is_outer(before, beyond, step.distance)):
+        if not step.policy.dares and (leads_back or offset.is_outer(before, beyond, step.distance)):
             self.violations.object(Violation.AVOIDANCE_DANGEROUS, step.move)
         previous.corner, previous.avoided = Corner([vector]), True
-        previous.after.extend(step.after)
+        self._pass_over(previous, [step])
         self._window.remove(step)
 
+    # ---- before a block is passed on -----------------------------------------------------------------------
 
-def _meets_joint(previous: Step, step: Step) -> bool:
-    """Let the move in front run on to the arc about the corner behind a step too short for the tool."""
-    if step.corner is None or step.corner.joint is not Joint.ARC:
-        return False
-    about, distance = step.edge.end, step.distance
-    first, last = (arcs.plus(about, vector) for vector in (step.corner.vectors[0], step.corner.vectors[-1]))
-    joint = offset.arc(first, last, about, distance < 0.0)
-    point = offset.meet(previous.edge, joint, distance, 0.0)
-    if point is None or not arcs.contains_direction(first, last, about, joint.ccw, point):
-        return False
-    previous.corner = Corner([arcs.minus(point, previous.edge.end)])
-    step.first = arcs.minus(point, step.edge.start)
-    step.corner.vectors[0] = arcs.minus(point, about)
-    return True
+    def keep_clear(self) -> None:
+        """Compare the end of the first block with those of the blocks read, the farthest first (5.4.6)."""
+        first = self._window[0]
+        if not first.policy.looks_far or first.corner is None or first.is_commanded:
+            return
+        numbers = [
+            n
+            for n in range(len(self._window) - 2, 0, -1)
+            if self._interferes(n) or self._cut_each_other(n + 1)
+        ]
+        if not numbers:
+            return
+        last = self._window[numbers[0]]
+        # A way round that would do harm gives way to one past fewer blocks.
+        every = (detour for number in numbers for detour in detours(self._window, number))
+        found = least_harmful(every, self._known(first))
+        if found is None:
+            self.violations.object(Violation.NO_AVOIDANCE, last.move)
+            return
+        detour, harm = found
+        if harm is Violation.AVOIDANCE_DANGEROUS and not first.policy.dares:
+            self.violations.object(harm, last.move)
+        self._take(detour)
+
+    def _take(self, detour: Detour) -> None:
+        self._pass_over(detour.first, detour.left_out)
+        self._passed.extend(detour.replaced)
+        self._window[: len(detour.replaced) + 2] = [detour.first, *detour.between, detour.following]
+
+    def _pass_over(self, step: Step, left_out: Sequence[Step]) -> None:
+        """What came after the steps left out comes after the one in front of them."""
+        for other in left_out:
+            step.after.append(partial(self._rows.pass_over, other.edge))
+            step.after.extend(other.after)
+
+    def admit(self, step: Step) -> None:
+        """A step is about to be passed on: one that a detour has changed, or one behind it, must do no harm."""
+        changed = step.altered or any(other.altered for other in self._passed)
+        if changed and not (step.policy.dares or step.is_commanded):
+            if step.role is Role.CONTOUR and not step.straight and step.runs_back:
+                self.violations.object(Violation.AVOIDANCE_INTERFERES, step.move)
+            if step.role in PATHS and cuts(step.way(), self._known(step)):
+                self.violations.object(Violation.AVOIDANCE_DANGEROUS, step.move)
+        self._passed.append(step)
+
+    def _known(self, step: Step) -> list[Step]:
+        """The steps passed on last and those read, as far as the tool is on their side."""
+        return [other for other in (*self._passed, *self._window) if other.distance * step.distance > 0.0]
+
+    # ---- what interferes with the first block of the window ------------------------------------------------
+
+    def _cut_each_other(self, number: int) -> bool:
+        """Whether the tool cuts one of two blocks on the way along the other, though no vectors cross."""
+        first, step = self._window[0], self._window[number]
+        one_side = first.distance * step.distance > 0.0
+        if first.role not in PATHS or not (one_side and step.policy.checks_direction):
+            return False
+        if cuts(first.way(), [step]):
+            return True
+        # A way that is to be changed itself, when its turn comes, says nothing.
+        between = self._window[1 : number + 2]
+        if step.corner is None or any(other.is_commanded or other.runs_back for other in between):
+            return False
+        return cuts(step.way(), [first])
+
+    def _interferes(self, number: int) -> bool:
+        first, step = self._window[0], self._window[number]
+        if step.corner is None or step.is_commanded or step.role is not Role.CONTOUR:
+            return False
+        if number == 1:
+            return _is_checked(step) and step.runs_back
+        vector = first.corner.vectors[-1] if first.corner else step.first
+        return step.policy.checks_direction and crosses(first.edge, vector, step.edge, step.corner.vectors[0])
+
+
+def _is_checked(step: Step) -> bool:
+    """Whether the control looks at the direction of a step between two others."""
+    return step.policy.checks_direction if step.edge.center is None else step.policy.checks_arcs

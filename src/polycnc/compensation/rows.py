@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from polycnc.compensation.plane import Plane
     from polycnc.compensation.step import Step
     from polycnc.geometry.arcs import Point
-    from polycnc.geometry.offset import Corner
+    from polycnc.geometry.offset import Corner, Edge
 
 
 class RowWriter:
@@ -39,6 +39,10 @@ class RowWriter:
     def drop_vector(self) -> None:
         """From here on the tool is taken to stand on the programmed point."""
         self.vector = self._delta = NO_VECTOR
+
+    def pass_over(self, edge: Edge) -> None:
+        """An edge is left out: the tool stays, and stands beside the end of this edge from now on."""
+        self._delta = arcs.plus(self._delta, arcs.minus(edge.start, edge.end))
 
     def pass_on(self, move: Move) -> None:
         """Pass on a move that is not compensated itself, from where the vector holds the tool."""

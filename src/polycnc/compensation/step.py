@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import Enum
+from itertools import pairwise
 from typing import TYPE_CHECKING
+
+from polycnc.geometry import arcs, offset
+from polycnc.geometry.offset import Joint
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -18,12 +22,13 @@ NO_VECTOR: Point = (0.0, 0.0)
 
 
 class Role(Enum):
-    """What the next plane move is."""
+    """What a plane move is."""
 
     PLAIN = "not compensated"
     START = "start-up"
     CONTOUR = "contour"
     CANCEL = "cancel"
+    GAP = "straight way past blocks that were left out"
 
 
 @dataclass(slots=True)
@@ -45,7 +50,7 @@ class Step:
         starts_square: The block in front ends square on itself.
         straight: Its vectors were left out, so it is a straight move.
         avoided: Its end was moved to avoid an interference.
-        behind_avoidance: Its start was.
+        altered: A detour round an interference changed it.
         corner_arc: The block of G39 after it, and the direction on which the arc ends square.
         after: What came after it, in order.
     """
@@ -64,7 +69,7 @@ class Step:
     starts_square: bool = False
     straight: bool = False
     avoided: bool = False
-    behind_avoidance: bool = False
+    altered: bool = False
     corner_arc: tuple[Move, Point | None] | None = None
     after: list[Callable[[], None]] = field(default_factory=list)
 
@@ -72,4 +77,41 @@ class Step:
         """Let the following step start where this one ends."""
         u, v = self.corner.vectors[-1] if self.corner else NO_VECTOR
         end, start = self.edge.end, following.edge.start
-        following.first = (u + end[0] - start[0], v + end[1] - start[1])
+        following.first = (u + (end[0] - start[0]), v + (end[1] - start[1]))
+
+    @property
+    def is_commanded(self) -> bool:
+        """Whether the program itself says which vector stands at its end; then it is not checked."""
+        return self.forced is not None or self.holds or self.corner_arc is not None
+
+    @property
+    def runs_back(self) -> bool:
+        """Whether its vectors have changed places, so that it would run against the programmed direction."""
+        return self.corner is not None and offset.reverses(self.edge, self.first, self.corner.vectors[0])
+
+    @property
+    def joint_arc(self) -> Edge | None:
+        """The arc about the corner at its end; None where the corner has none."""
+        if self.corner is None or self.corner.joint is not Joint.ARC:
+            return None
+        one, two = (arcs.plus(self.edge.end, self.corner.vectors[k]) for k in (0, -1))
+        return offset.arc(one, two, self.edge.end, self.distance < 0.0)
+
+    def way(self) -> list[Edge]:
+        """The lines and arcs of the tool from the start of the step to the last of its vectors."""
+        if self.corner is None:
+            raise ValueError("the end of the step is not known yet")
+        edge, vectors = self.edge, self.corner.vectors
+        points = [arcs.plus(edge.end, vector) for vector in vectors]
+        start = arcs.plus(edge.start, self.first)
+        along = offset.line(start, points[0])
+        if edge.center is not None and not self.straight and along.length > arcs.SAME_POINT_MM:
+            along = offset.arc(start, points[0], edge.center, edge.ccw)
+        around = self.corner.joint is Joint.ARC
+        return [
+            along,
+            *(
+                offset.arc(one, two, edge.end, self.distance < 0.0) if around else offset.line(one, two)
+                for one, two in pairwise(points)
+            ),
+        ]

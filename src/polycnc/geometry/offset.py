@@ -116,15 +116,20 @@ def meet(a: Edge, b: Edge, offset_a: float, offset_b: float) -> Point | None:
     centre's foot on the line).
     """
     near = (0.5 * (a.end[0] + b.start[0]), 0.5 * (a.end[1] + b.start[1]))
-    if a.center is None and b.center is None:
-        return _line_line(a, b, offset_a, offset_b)
-    if a.center is None:
-        found = _line_circle(a, a.end, offset_a, b, b.start, offset_b)
-    elif b.center is None:
-        found = _line_circle(b, b.start, offset_b, a, a.end, offset_a)
-    else:
-        found = _circle_circle(a, b, offset_a, offset_b)
+    found = crossings(a, b, offset_a, offset_b)
     return min(found, key=lambda p: hypot(p[0] - near[0], p[1] - near[1]), default=None)
+
+
+def crossings(a: Edge, b: Edge, offset_a: float, offset_b: float) -> list[Point]:
+    """All points where the curve parallel to `a` meets the curve parallel to `b`, both without ends."""
+    if a.center is None and b.center is None:
+        point = _line_line(a, b, offset_a, offset_b)
+        return [] if point is None else [point]
+    if a.center is None:
+        return _line_circle(a, a.end, offset_a, b, b.start, offset_b)
+    if b.center is None:
+        return _line_circle(b, b.start, offset_b, a, a.end, offset_a)
+    return _circle_circle(a, b, offset_a, offset_b)
 
 
 def _line_line(a: Edge, b: Edge, offset_a: float, offset_b: float) -> Point | None:
