@@ -123,7 +123,6 @@ class Channel:
         self.main_run: MainRun | None = None
         self.share_after: Callable[[Channel, list[float], float, float], float | None] | None = None
         self.optional_stop = setup.switches.optional_stop
-        self.variables_at_end: dict[str, Any] | None = None
         self._context = 0
         self._context_changed = True
         limits = tuple((axis.limit_minus, axis.limit_plus) for axis in self.axis_data)

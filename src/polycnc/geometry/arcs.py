@@ -167,23 +167,6 @@ def contains_direction(
     return part <= total + slack or part >= TAU - slack
 
 
-def bounding_box(
-    start: Point, end: Point, center: Point, ccw: bool, turns: float = 0.0
-) -> tuple[float, float, float, float]:
-    """Smallest `(u min, v min, u max, v max)` around an arc, mm.
-
-    The extremes are the ends and those of the circle's four axis points that the arc passes. Where the end
-    radius differs, the larger one is used at the axis points, so the box is never too small.
-    """
-    radius = max(radius_of(center, start), radius_of(center, end))
-    us, vs = [start[0], end[0]], [start[1], end[1]]
-    for du, dv in ((radius, 0.0), (0.0, radius), (-radius, 0.0), (0.0, -radius)):
-        if turns > 0.0 or contains_direction(start, end, center, ccw, (center[0] + du, center[1] + dv)):
-            us.append(center[0] + du)
-            vs.append(center[1] + dv)
-    return min(us), min(vs), max(us), max(vs)
-
-
 def split(start: Point, end: Point, center: Point, ccw: bool, parts: int) -> list[Point]:
     """End points of `parts` pieces of equal angle; the last one is `end` itself."""
     points = [point_on_arc(start, end, center, ccw, k / parts) for k in range(1, parts)]

@@ -27,11 +27,6 @@ class Frame:
         return self.t == (0.0, 0.0, 0.0) and self.m == _UNIT
 
     @property
-    def is_translation(self) -> bool:
-        """Whether the frame only shifts."""
-        return self.m == _UNIT
-
-    @property
     def mirrors(self) -> bool:
         """Whether left and right change places (negative determinant)."""
         (a, b, c), (d, e, f), (g, h, i) = self.m

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 Carries = Literal["tool", "work"]
 Timing = Literal["before", "with", "after"]
 #: The modulus of rotary axes whose position repeats after a turn.
-TURN_DEG = 360.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -233,11 +232,6 @@ class Machine:
     def work_chain(self) -> tuple[Joint, ...]:
         """The joints that carry the work, from the base outwards."""
         return tuple(joint for joint in self.joints if joint.carries == "work")
-
-    @cached_property
-    def orientation_joints(self) -> tuple[Joint, ...]:
-        """The rotary joints, head before table, each chain from the base outwards."""
-        return tuple(joint for joint in self.tool_chain + self.work_chain if joint.rotary)
 
     def channel(self, number: int) -> Channel:
         """A channel by its number; raises `KeyError` where there is none."""

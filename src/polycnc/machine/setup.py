@@ -238,11 +238,6 @@ class Switches:
         """When the skip input comes."""
         return SkipInput(self.skip_signal_at, self.skip_signal_after, self.skip_surfaces)
 
-    @property
-    def block_skip_levels(self) -> int:
-        """The levels as a bit mask for controls on which plain `/` is level 1: bit n is level n."""
-        return self.block_skip_mask(plain=1)
-
     def block_skip_mask(self, plain: int) -> int:
         """The levels as a bit mask: bit n is level n as the control writes it, plain `/` is level `plain`."""
         if isinstance(self.block_skip, bool):

@@ -15,7 +15,7 @@ from enum import StrEnum
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from polycnc.mainrun import CommandRefused, Mode, State
+from polycnc.mainrun import CommandRefused, State
 from polycnc.messages import AlarmError
 from polycnc.panel.description import Key, Lamp, describe
 
@@ -303,8 +303,3 @@ class Panel:
         """The restart page: axis, position where the program goes on, `RP` once the axis is there, way that is left."""
         rows = self.control.restart.items()
         return [(axis, at, "RP" if abs(left) <= 1e-3 else "", left) for axis, (at, left) in rows]
-
-    @property
-    def is_automatic(self) -> bool:
-        """Whether the mode switch stands at a mode in which programs run."""
-        return self.control.mode in (Mode.AUTO, Mode.MDI, Mode.TAPE)

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from polycnc.language.sinumerik.words import NcWord, WordAlarm, WordShape, block_of
+from polycnc.language.sinumerik.words import WordAlarm, WordShape, block_of
 from tests.language.sinumerik.running import alarm, run, targets
 
 
@@ -12,10 +12,8 @@ def test_blocks_with_equal_functions_and_addresses_are_one_object() -> None:
     assert block_of(("G1",), words) is not block_of(("G0",), words)
 
 
-def test_a_block_gives_its_words_with_their_values() -> None:
-    block = block_of(("G1",), (WordShape("X"), WordShape("M", 2)))
-    assert block.with_values((5.0, 3)) == (NcWord("X", None, 5.0, "", 0), NcWord("M", 2, 3, "", 1))
-    assert block.positions == {"X": 0}
+def test_a_block_knows_where_words_without_an_index_have_their_values() -> None:
+    assert block_of(("G1",), (WordShape("M", 2), WordShape("X"))).positions == {"X": 1}
 
 
 def test_five_m_functions_are_allowed_and_no_sixth() -> None:

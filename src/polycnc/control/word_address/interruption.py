@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 #: Kind of an interruption program's level.
 LEVEL = "interrupt"
 #: 6003: types of the interruption.
-OWN_LOCALS_BIT, BLOCK_FIRST_BIT, ENABLED_BIT = 5, 2, 7
+OWN_LOCALS_BIT, BLOCK_FIRST_BIT = 5, 2
 
 
 @dataclass(frozen=True, slots=True)

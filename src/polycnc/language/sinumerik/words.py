@@ -29,17 +29,6 @@ class WordShape:
     modifier: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class NcWord:
-    """A word of a block with its value; `position` counts the words of the block from 0."""
-
-    address: str
-    index: object
-    value: object
-    modifier: str
-    position: int
-
-
 class Block:
     """G functions and words of a block without the values. Interned by `block_of`; compare with `is`.
 
@@ -58,13 +47,6 @@ class Block:
         for i, word in enumerate(words):
             if word.index is None:
                 self.positions.setdefault(word.address, i)
-
-    def with_values(self, values: tuple[object, ...]) -> tuple[NcWord, ...]:
-        """The words with their values."""
-        return tuple(
-            NcWord(word.address, word.index, value, word.modifier, i)
-            for i, (word, value) in enumerate(zip(self.words, values, strict=True))
-        )
 
     def __repr__(self) -> str:
         return f"Block({' '.join((*self.codes, *(w.address for w in self.words)))})"
