@@ -5,12 +5,17 @@ from __future__ import annotations
 import ast
 import re
 import tomllib
+from itertools import chain
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 import polycnc
 from polycnc.messages.catalogue import Catalogue, fill, set_language
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 SOURCE = Path(polycnc.__file__).parent
 CATALOGUES = sorted(
@@ -56,6 +61,21 @@ def test_every_text_that_a_folder_asks_for_exists(folder: str) -> None:
     named = set().union(*map(named_in, paths))
     assert named
     assert named - set(OWN) == set()
+
+
+def asked_for(path: Path) -> Iterator[str]:
+    """Patterns of all strings of a module: what stands in an f-string's braces may be anything."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.JoinedStr) and isinstance(node.values[0], ast.Constant):
+            parts = (str(v.value) if isinstance(v, ast.Constant) else None for v in node.values)
+            yield "".join(".+" if part is None else re.escape(part) for part in parts)
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and len(node.value) < 80:
+            yield re.escape(node.value)
+
+
+def test_every_own_text_is_asked_for() -> None:
+    asked = re.compile("|".join(sorted(set(chain.from_iterable(map(asked_for, SOURCE.rglob("*.py")))))))
+    assert [key for key in OWN if not asked.fullmatch(key)] == []
 
 
 def test_a_placeholder_without_a_value_is_shown_as_it_stands() -> None:
