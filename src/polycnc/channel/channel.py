@@ -415,7 +415,7 @@ class Channel:
         """Move to `end` (absolute display, all axes) in a straight line. No way, no row."""
         coordinates = self.coordinates
         start = coordinates.position
-        if end != start:
+        if end != start and is_way(start, end):
             level = self._level
             context = self._context if not self._context_changed else self.context_number()
             if self._limits or self.stroke_zone is not None:

@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     from polycnc.toolpath import Event
 
 
+#: A way shorter than this on every axis (mm, degrees) is the rounding of a changed offset: no way.
+NO_WAY = 1e-9
+
+
 @dataclass(slots=True)
 class Move:
     """One motion on its way to the toolpath. Positions are work coordinates of all channel axes (mm, radius, degrees).
@@ -56,6 +60,14 @@ class Move:
     def is_arc(self) -> bool:
         """Whether the move is an arc, a helix or a spiral."""
         return self.center is not None
+
+
+def is_way(start: list[float], end: list[float]) -> bool:
+    """Whether two positions differ by more than rounding."""
+    for a, b in zip(start, end, strict=True):  # noqa: SIM110 - a generator costs more than the comparison
+        if abs(a - b) > NO_WAY:
+            return True
+    return False
 
 
 class PathStage(Protocol):

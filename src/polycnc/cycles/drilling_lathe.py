@@ -74,15 +74,15 @@ def clamped(strokes: Iterator[Stroke], clamp: int, unclamp: int, dwell_s: float)
 
 
 def with_extraction(strokes: Iterator[Stroke], hole: Hole, factor: float) -> Iterator[Stroke]:
-    """Taps away from the bottom run `factor` times as fast."""
-    level = hole.r
+    """Taps that cut nothing, out of the hole and back to the depth reached, run `factor` times as fast."""
+    deepest = 0.0
     for stroke in strokes:
-        if stroke.action is Action.TAP:
-            outwards = abs(stroke.value - hole.bottom) > abs(level - hole.bottom)
-            level = stroke.value
-            yield stroke._replace(factor=stroke.factor * factor) if outwards else stroke
-        else:
+        if stroke.action is not Action.TAP:
             yield stroke
+            continue
+        depth = abs(stroke.value - hole.r)
+        yield stroke if depth > deepest else stroke._replace(factor=stroke.factor * factor)
+        deepest = max(deepest, depth)
 
 
 def tap_clearing_chips(hole: Hole) -> Iterator[Stroke]:

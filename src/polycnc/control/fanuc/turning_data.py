@@ -15,8 +15,9 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
 
-#: Geometry offsets are numbered from here in G10 and in offset files.
-GEOMETRY = 10_000
+#: Geometry offsets are numbered from here in G10 and in offset files (III.8.2); G10 of the axes 4 and 5 is printed
+#: with another base (II.5.1.8), which no other number uses.
+GEOMETRY, PRINTED_GEOMETRY = 10_000, 1000
 #: Largest offset of the delivered offset range (5042).
 MAX_OFFSET_MM = 9999.999
 #: Axes whose offsets have words of their own names.
@@ -76,8 +77,8 @@ def _set_work_offset(channel: Channel, words: Words, offset: list[float]) -> Non
 
 def _set_tool_offset(channel: Channel, words: Words, number: int) -> None:
     memory = channel.memory
-    is_geometry = number > GEOMETRY
-    number = number - GEOMETRY if is_geometry else number
+    base = next((base for base in (GEOMETRY, PRINTED_GEOMETRY) if number > base), 0)
+    is_geometry, number = base > 0, number - base
     if not 1 <= number <= MAX_OFFSETS or (is_geometry and memory.common_offsets):
         raise words.fail("g10_number", "P")
     offset = memory.turning_offset(number)

@@ -125,11 +125,11 @@ def _rules(choice: _Choice) -> Drilling:
 
 def _axis(builder: Builder) -> int:
     """The axis of the block's cycle where its row names none."""
-    return _free_axis(builder.channel, builder.mode)
+    return _free_axis(builder.channel, builder.mode, is_rigid=turning_tapping.taps_rigidly(builder))
 
 
-def _free_axis(channel: Channel, mode: Mode) -> int:
-    """Taps: the plane's first (G84) or second (G88) axis, by 5209#0 RTX always Z or X (II.4.5.1).
+def _free_axis(channel: Channel, mode: Mode, *, is_rigid: bool) -> int:
+    """Taps: Z (G84) or X (G88); rigid ones by 5209#0 RTX the plane's first or second axis (II.4.3, 4.5.1).
 
     Series 15: Z, or the axis on the plane by 5101#0 FXY.
     """
@@ -137,7 +137,7 @@ def _free_axis(channel: Channel, mode: Mode) -> int:
     if drills_in_series_15(channel):
         return geometry[plane[2] if channel.setup.parameters.bit(5101, 0) else 2]
     is_face = mode["cycle"] == "G84"
-    if channel.setup.parameters.bit(5209, 0):
+    if channel.setup.parameters.bit(5209, 0) or not is_rigid:
         return geometry[2 if is_face else 0]
     return geometry[plane[0 if is_face else 1]]
 
@@ -147,7 +147,9 @@ def _drilling_axis(builder: Builder, mode: Mode) -> int:
     cycle = rules(builder.channel).cycles.get(mode["cycle"])
     if cycle is None:
         return -1
-    return builder.channel.axis_index[cycle.axis] if cycle.axis else _free_axis(builder.channel, mode)
+    if cycle.axis:
+        return builder.channel.axis_index[cycle.axis]
+    return _free_axis(builder.channel, mode, is_rigid=turning_tapping.taps_rigidly(builder))
 
 
 def _relief(channel: Channel, code: str) -> float:

@@ -34,6 +34,11 @@ def was_rigid(builder: Builder) -> bool:
     return builder.before["cycle"] in TAPS and _is_rigid(builder.before, builder.channel.setup.parameters)
 
 
+def taps_rigidly(builder: Builder) -> bool:
+    """Whether a tap in a block is rigid: by the state before it, or by an M29 of its own."""
+    return _is_rigid(builder.mode, builder.channel.setup.parameters) or 29 in builder.m_codes
+
+
 def _is_rigid(mode: Mode, parameters: Parameters) -> bool:
     return mode[RIGID] == RIGID_ON or bool(parameters.bit(5200, 0)) or mode["cycle"] == "G84.2"
 

@@ -45,8 +45,9 @@ def plan_tool(builder: Builder) -> Step:
         raise control.fail("measure_h", address="T")
     if any(row.group == "" and row.code not in _BESIDE_T for row in builder.codes):
         raise control.fail("tool_with_one_shot", address="T")
-    one_shot = any(row.axis_words for row in builder.codes)
-    moves = bool(builder.axis_words()) and not one_shot
+    named = bool(builder.axis_words())
+    one_shot = named and any(row.axis_words for row in builder.codes)
+    moves = named and not one_shot
     starts_or_ends = mode["motion"] in _ARCS and moves and mode["compensation"] != "G40"
 
     def select(channel: Channel, values: list[float]) -> None:

@@ -74,7 +74,7 @@ from polycnc.toolpath.table import CURVE_WIDTH, NO_CURVE
 RAPID, STRAIGHT = int(Kind.RAPID), int(Kind.FEED)
 CIRCLE_CW, CIRCLE_CCW = int(Kind.CW), int(Kind.CCW)
 SCREW_CW, SCREW_CCW = int(Kind.HELIX_CW), int(Kind.HELIX_CCW)
-#: Ways shorter than this (mm, degrees) count as none where a control says so; ways about as long are in doubt.
+#: Ways shorter than this (mm, degrees) count as none; ways about as long are in doubt.
 TINY, TINY_LOW, TINY_HIGH = 1e-9, 0.9e-9, 1.1e-9
 #: Chords and radii below this (mm) are for the interpreter.
 SHORTEST_CHORD = 1e-8
@@ -226,18 +226,15 @@ def put_row(ints: Any, floats: Any, kind: int, feed: float, curve: int, columns:
 
 
 def straight(ints: Any, floats: Any, kind: int, feed: float, skips_tiny: bool, columns: Columns) -> bool:
-    """A straight move to the target; no way, no row."""
+    """A straight move to the target; no way, no row, and the position stays where `skips_tiny` says so."""
     axes = ints[AXES]
     moves = False
     for i in range(axes):
         new = floats[VECTORS + NEW_POSITION * axes + i]
         old = floats[VECTORS + POSITION * axes + i]
-        if skips_tiny:
-            if TINY_LOW < abs(new - old) < TINY_HIGH:
-                return False
-            moves = moves or abs(new - old) > TINY
-        else:
-            moves = moves or new != old
+        if TINY_LOW < abs(new - old) < TINY_HIGH:
+            return False
+        moves = moves or abs(new - old) > TINY
     if moves:
         if not within_limits(ints, floats):
             return False
