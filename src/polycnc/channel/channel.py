@@ -15,7 +15,7 @@ from polycnc.channel.coordinates import Coordinates
 from polycnc.channel.failure import end_run, take_back
 from polycnc.channel.intervention import NOTHING_BACK
 from polycnc.channel.mode import Mode, ModeTable
-from polycnc.channel.path import Move, PathStage, TableStage, points_of_arc
+from polycnc.channel.path import Move, PathStage, TableStage, is_way, points_of_arc
 from polycnc.channel.stack import Executable, Level
 from polycnc.channel.waits import BLOCK, CHUNK, PREPROCESSING, PreprocessingStop, Wait
 from polycnc.messages import AlarmError
