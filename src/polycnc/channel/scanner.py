@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 #: A run of so many blocks is worth its beginning.
 WORTHWHILE = 16
+#: Notes that one call of the kernel may give.
+MOST_NOTES = 4096
 #: Programs shorter than this are left to the interpreter: with the kernel ready, and when it must be compiled.
 READY_LINES, COMPILE_LINES = 5_000, 200_000
 
@@ -153,6 +155,8 @@ class Scanner:
             array("d", bytes(8 * rooms * axes)), array("i", bytes(4 * rooms)),
             array("d", bytes(8 * rooms * CURVE_WIDTH)),
         )  # fmt: skip
+        self._notes = array("q", bytes(8 * layout.NOTE_WIDTH * MOST_NOTES))
+        self._said = array("d", bytes(8 * (axes + 1) * MOST_NOTES))
 
     def lead(self, channel: Channel) -> range:
         """Work off plain blocks; gives as many numbers as blocks are the interpreter's before the next try.
@@ -180,14 +184,15 @@ class Scanner:
         self._put_state(channel)
         outcome = self._scan(
             window.text, ints, self._floats, self._shapes.nexts, self._shapes.leaves, self._shapes.rules,
-            self._shapes.factors, *self._columns,
+            self._shapes.factors, *self._columns, self._notes, self._said,
         )  # fmt: skip
         taken = ints[layout.LINE] - code.program.first_line - window.line
         if taken:
             window.place, window.line = ints[layout.PLACE], window.line + taken
+            self._take_rows(channel)
+            self._take_state(channel)
             level.index = code.step_of_line(window.line)
             level.current = level.index - 1
-            self._take_state(channel)
         if outcome == layout.UNKNOWN:
             return self._learn(channel, lines[window.line])
         room = len(channel.toolpath.chunk) < CHUNK_ROWS and channel.blocks < channel.block_limit
@@ -217,6 +222,7 @@ class Scanner:
         ints[layout.LINE] = channel.level.code.program.first_line + window.line
         ints[layout.BLOCKS], ints[layout.MOST_BLOCKS] = 0, channel.block_limit - channel.blocks
         ints[layout.ROWS], ints[layout.MOST_ROWS] = 0, rows
+        ints[layout.NOTES], ints[layout.MOST_NOTES] = 0, MOST_NOTES
         ints[layout.CURVES], ints[layout.FIRST_CURVE] = 0, len(chunk.curves) // CURVE_WIDTH
         ints[layout.STATE] = self._shapes.root(dialect.state(channel))
         ints[layout.AXES] = self._axes
@@ -254,24 +260,45 @@ class Scanner:
         start = layout.VECTORS + which * self._axes
         return list(self._floats[start : start + self._axes])
 
+    def _take_rows(self, channel: Channel) -> None:
+        """Rows into the chunk; where a block has left a note, its steps act between them, as they would have there."""
+        ints, axes = self._ints, self._axes
+        channel.toolpath.chunk.add_curves(ints[layout.CURVES], self._columns[-1])
+        code: Any = channel.level.code
+        taken = 0
+        for i in range(ints[layout.NOTES]):
+            rows, line, rule = self._notes[layout.NOTE_WIDTH * i : layout.NOTE_WIDTH * (i + 1)]
+            value, *position = self._said[(axes + 1) * i : (axes + 1) * (i + 1)]
+            self._add_rows(channel, taken, rows, position)
+            taken = rows
+            channel.level.current = code.step_of_line(line - code.program.first_line)
+            channel.coordinates.position = position
+            self._dialect.enter(channel, self._shapes.state_behind(rule))
+            for step, note in self._shapes.notes[rule]:
+                step(channel, {note.slot: value})
+        self._add_rows(channel, taken, ints[layout.ROWS], self._get(layout.POSITION))
+
+    def _add_rows(self, channel: Channel, first: int, end: int, position: list[float]) -> None:
+        """Rows of the kernel's columns into the chunk; behind them the channel stands at a position."""
+        if first == end:
+            return
+        program, context = channel.level.program_number, channel.context_number()
+        channel.toolpath.chunk.extend(range(first, end), program, context, self._columns)
+        if channel.head is not None:
+            channel.rows.end = position  # the moves have gone past a stage that had nothing to do
+
     def _take_state(self, channel: Channel) -> None:
-        """Rows into the chunk, and where the blocks have left the channel."""
+        """Where the blocks have left the channel."""
         ints, floats, c = self._ints, self._floats, channel.coordinates
         channel.blocks += ints[layout.BLOCKS]
         self._dialect.enter(channel, self._shapes.states[ints[layout.STATE]])
         channel.feed = floats[layout.FEED]
-        rows = ints[layout.ROWS]
-        if rows:
-            program, context = channel.level.program_number, channel.context_number()
-            channel.toolpath.chunk.extend(rows, program, context, ints[layout.CURVES], self._columns)
         c.position = self._get(layout.POSITION)
         c.programmed = c.position if c.direct else self._get(layout.PROGRAMMED)
         if ints[layout.OWES]:
             c.pending = self._get(layout.PENDING)
-        if rows:
-            if channel.head is not None:
-                channel.rows.end = c.position  # the moves have gone past a stage that had nothing to do
-            self._dialect.moved(channel, self._last_moves(rows, ints[layout.CURVES]))
+        if ints[layout.ROWS]:
+            self._dialect.moved(channel, self._last_moves(ints[layout.ROWS], ints[layout.CURVES]))
 
     def _last_moves(self, rows: int, curves: int) -> LastMoves:
         kinds, *_, parameters = self._columns

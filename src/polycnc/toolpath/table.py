@@ -96,24 +96,25 @@ class Chunk:
     def __len__(self) -> int:
         return len(self.kind)
 
-    def extend(
-        self, rows: int, program: int, context: int, curves: int, columns: Sequence[array[Any]]
-    ) -> None:
+    def extend(self, rows: range, program: int, context: int, columns: Sequence[array[Any]]) -> None:
         """Add rows of one program under one context.
 
         Args:
-            rows: How many.
+            rows: Which rows of the columns.
             program: Number of their program.
             context: Number of their context.
-            curves: How many curve rows belong to them.
-            columns: `kind`, `line`, `feed`, `end`, `curve`, `curves`; each may be longer than it is used.
+            columns: `kind`, `line`, `feed`, `end`, `curve`.
         """
-        used = (rows, rows, rows, rows * self.axes, rows, curves * CURVE_WIDTH)
-        own: tuple[array[Any], ...] = (self.kind, self.line, self.feed, self.end, self.curve, self.curves)
-        for target, column, count in zip(own, columns, used, strict=True):
-            target.frombytes(memoryview(column).cast("B")[: count * column.itemsize])
-        self.program.extend(array("H", [program]) * rows)
-        self.context.extend(array("I", [context]) * rows)
+        own: tuple[array[Any], ...] = (self.kind, self.line, self.feed, self.end, self.curve)
+        for target, column in zip(own, columns, strict=False):
+            width = column.itemsize * (self.axes if target is self.end else 1)
+            target.frombytes(memoryview(column).cast("B")[rows.start * width : rows.stop * width])
+        self.program.extend(array("H", [program]) * len(rows))
+        self.context.extend(array("I", [context]) * len(rows))
+
+    def add_curves(self, count: int, curves: array[float]) -> None:
+        """Add the first rows of a column of curve parameters."""
+        self.curves.extend(curves[: count * CURVE_WIDTH])
 
     def numpy(self) -> dict[str, Any]:
         """The columns as NumPy views: `end` is (n, axes), `curves` (m, CURVE_WIDTH), the others (n,)."""

@@ -11,6 +11,7 @@ from typing import Any
 from polycnc.channel.channel import Channel
 from polycnc.channel.scanner import Bulk
 from polycnc.control.registry import control
+from polycnc.language.bulk import layout
 from polycnc.language.bulk.compiled import plain_scan
 from polycnc.machine import load_machine
 from polycnc.machine.setup_file import parse_setup
@@ -47,6 +48,20 @@ def run(
     return channel
 
 
+def scanned(text: str, control_id: str, setup: Mapping[str, Any] | None = None, **limits: Any) -> int:
+    """How many blocks of a program the scanner takes."""
+    taken = 0
+
+    def scan(*arrays: Any) -> int:
+        nonlocal taken
+        outcome = plain_scan(*arrays)
+        taken += arrays[1][layout.BLOCKS]
+        return outcome
+
+    run(text, control_id, setup, replace(PLAIN, scan=scan), **limits)
+    return taken
+
+
 def bits(numbers: Any) -> list[str]:
     """Numbers so that equal ones are equal bit for bit."""
     return [float(number).hex() for number in numbers]
@@ -59,7 +74,7 @@ def outcome(channel: Channel) -> dict[str, Any]:
         name: b"".join(getattr(chunk, name).tobytes() for chunk in toolpath.chunks) for name in COLUMNS
     }
     told |= {
-        "events": [event for chunk in toolpath.chunks for event in chunk.events],
+        "events": [repr(event) for chunk in toolpath.chunks for event in chunk.events],
         "contexts": toolpath.contexts,
         "programs": toolpath.programs,
         "alarms": channel.alarms,

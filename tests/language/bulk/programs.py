@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from hypothesis import strategies as st
 
+#: Spindle speeds, right ones and some that a control may refuse.
+SPEEDS = (" S1200", "S800", " S1200", " S0", " S1500.", " S99.5", "S-5")
 CODES = ("G1 ", "G1", "G01 ", "G0 ", "G00", "G90 ", "G91 ", "G90G1 ", "G0 G91 ")
 _decimals = st.integers(0, 6)
 
@@ -49,9 +51,10 @@ def plain(
     head = draw(st.sampled_from(("", "", "", "N10 ", "N0020", " ")))
     code = draw(st.sampled_from((*[""] * len(codes), *codes)))
     feed = draw(st.sampled_from((*[""] * 12, " F500", " F1200.", "F33.5", *[" F700.5"] * 4)))
-    return (
-        head + code + draw(words(axes, equals=equals)) + feed + draw(st.sampled_from(("", "", "", *comments)))
-    )
+    speed = draw(st.sampled_from((*[""] * 30, *SPEEDS[:3] * 3, *SPEEDS)))
+    behind = draw(st.sampled_from(("", "", "", *comments)))
+    before, after = (speed, "") if draw(st.booleans()) else ("", speed)
+    return head + code + before + draw(words(axes, equals=equals)) + feed + after + behind
 
 
 @st.composite

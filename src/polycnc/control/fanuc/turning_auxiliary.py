@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.fanuc import turning_grinding
 from polycnc.control.word_address import auxiliary
 from polycnc.control.word_address.plan import NOT_YET
+from polycnc.language.bulk import Note, declare, declared
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -55,7 +56,7 @@ def plan_spindle_speed(builder: Builder) -> Step:
             raise channel.control.fail("minus", address="S")
         set_speed(channel, values)
 
-    return checked
+    return checked if declared(set_speed) is None else declare(checked, Note(slot, lowest=0.0))
 
 
 def plan_second_auxiliary(builder: Builder) -> Step | None:

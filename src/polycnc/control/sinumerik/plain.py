@@ -7,10 +7,11 @@ does (`language.bulk.declare`): the motion functions and dimensions of its head,
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any, NamedTuple
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.positions import AxisTerm, Way
-from polycnc.language.bulk import Arc, Conversion, Recipe, SetFeed, Spelling, Straight, Target, Word, declared
+from polycnc.language.bulk import Conditions, Conversion, Recipe, SetFeed, Spelling, Straight, Target, Word
 from polycnc.language.bulk import Way as Reading
 from polycnc.language.bulk.layout import CR_FORM, FIRST_CODE, FORMS
 from polycnc.language.sinumerik.words import Block
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.channel.scanner import LastMoves
     from polycnc.control.sinumerik.memory import Memory
-    from polycnc.control.sinumerik.plan import Plan
     from polycnc.language.sinumerik.executable import SinumerikProgram
 
 SPELLING = Spelling(
@@ -38,12 +38,6 @@ _NUMBER = re.compile(r"n(\d+)")
 
 
 # ---- what steps say of themselves
-
-
-class EnterMode(NamedTuple):
-    """A step that changes nothing but the modal state."""
-
-    mode: Mode
 
 
 def targets(terms: Sequence[AxisTerm]) -> tuple[Target, ...] | None:
@@ -91,6 +85,9 @@ class SinumerikPlainBlocks:
 
     spelling = SPELLING
 
+    def __init__(self) -> None:
+        self._conditions = Conditions()
+
     def ready(self, channel: Channel) -> bool:
         """Nothing watches single blocks, holds moves back or follows a block, and the program has been opened."""
         c, code = channel.coordinates, channel.level.code
@@ -105,11 +102,12 @@ class SinumerikPlainBlocks:
         )
 
     def generation(self, channel: Channel) -> Hashable:
-        """Changes when plans are forgotten, and with the names that a program can give a meaning."""
+        """Changes when plans are forgotten, with names that a program gives a meaning, and with conditions."""
         code: Any = channel.level.code
         language, scope = channel.memory.language, code.scope_of(channel)
         macros = len(language.macros), len(scope.macros)
-        return channel.modes.generation, macros, len(scope.variables), len(language.global_variables)
+        names = macros, len(scope.variables), len(language.global_variables)
+        return channel.modes.generation, names, self._conditions.hold(channel)
 
     def state(self, channel: Channel) -> tuple[Mode, object]:
         """The modal state in the running program."""
@@ -160,7 +158,10 @@ class SinumerikPlainBlocks:
             plan = channel.mode.plans.get(block) or channel.control.plan(channel, block)
         except AlarmError:
             return None  # the interpreter comes to the same block and raises it
-        return _recipe(plan, channel.mode, code)
+        if plan.shared or plan.ends:
+            return None
+        recipe = self._conditions.recipe(channel, plan.steps, channel.mode)
+        return None if recipe is None else replace(recipe, next_state=(recipe.next_state, code))
 
 
 def _block(code: SinumerikProgram, channel: Channel, keys: Sequence[int]) -> Block | None:
@@ -187,25 +188,3 @@ _EMPTY = Block((), ())
 def _address(key: int) -> str:
     letter, form = divmod(key, FORMS)
     return "CR" if form == CR_FORM else chr(ord("A") + letter)
-
-
-def _recipe(plan: Plan, mode: Mode, code: object) -> Recipe | None:
-    """A plan as data: modal state, feed, then a move; None where it does anything else."""
-    if plan.shared or plan.ends:
-        return None
-    set_feed: SetFeed | None = None
-    motion: Straight | Arc | None = None
-    for step in plan.steps:
-        told = declared(step)
-        for part in told if type(told) is tuple else (told,):
-            if motion is not None:
-                return None
-            if isinstance(part, EnterMode):
-                mode = part.mode
-            elif isinstance(part, SetFeed):
-                set_feed = part
-            elif isinstance(part, (Straight, Arc)):
-                motion = part
-            else:
-                return None
-    return Recipe((mode, code), set_feed, motion)

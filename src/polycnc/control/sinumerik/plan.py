@@ -28,9 +28,8 @@ from polycnc.control.sinumerik import (
 )
 from polycnc.control.sinumerik.block import Draft, Step
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.plain import EnterMode
 from polycnc.control.sinumerik.positions import axis_diameters
-from polycnc.language.bulk import declare
+from polycnc.language.bulk import Enter, declare
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -203,7 +202,7 @@ def _enter(mode: Mode, modal: list[tuple[str, str]]) -> Step:
         if matters:
             channel.context_changed()
 
-    return run if matters else declare(run, EnterMode(mode))
+    return run if matters else declare(run, Enter(mode))
 
 
 def _own_function(draft: Draft) -> Step | None:

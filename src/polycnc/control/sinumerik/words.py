@@ -14,7 +14,7 @@ from polycnc.control.sinumerik import auxiliary, motion, plain, retraction, sect
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.positions import length_factor, number
 from polycnc.geometry.units import INCH_MM
-from polycnc.language.bulk import declare
+from polycnc.language.bulk import Note, declare
 from polycnc.language.sinumerik.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
@@ -104,7 +104,11 @@ def speed(draft: Draft, position: int, shape: WordShape) -> Step:
         channel.context_changed()
         channel.event("s", speed=value, spindle=spindle.number)
 
-    return run
+    return declare(run, Note(position, lowest=0.0, condition=_has_master)) if wanted is None else run
+
+
+def _has_master(channel: Channel) -> bool:
+    return channel.memory.spindles.master in channel.memory.spindles.all
 
 
 def speed_limit(_draft: Draft, position: int, shape: WordShape) -> Step:

@@ -9,6 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.language.bulk import Note, declare
+
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.syntec.memory import SyntecMemory
@@ -38,7 +40,7 @@ def plan_speed(builder: Builder) -> Step:
         active = channel.memory.globals.registers.get(ACTIVE_SPINDLE, 0) or 1
         command_speed(channel, active, values[slot], active=True)
 
-    return set_speed
+    return declare(set_speed, Note(slot))
 
 
 def plan_named_speed(spindle: int) -> Planner:

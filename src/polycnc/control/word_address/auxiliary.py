@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.memory import RigidTapping
 from polycnc.control.word_address.path import FEED_MODES
 from polycnc.geometry.units import INCH_MM
-from polycnc.language.bulk import Conversion, SetFeed, Way, Word, declare
+from polycnc.language.bulk import Conversion, Note, SetFeed, Way, Word, declare
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -46,7 +46,7 @@ def plan_spindle_speed(builder: Builder) -> Step:
         spindle = 1 if chosen is None else int(values[chosen])
         channel.event("s", speed=_number(values[slot]), spindle=spindle)
 
-    return set_speed
+    return set_speed if chosen is not None else declare(set_speed, Note(slot))
 
 
 def plan_tool(builder: Builder) -> Step:

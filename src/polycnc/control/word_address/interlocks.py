@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from polycnc.language.bulk import declare, declared
+from polycnc.language.bulk import Note, declare, declared
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.codes import MCode, Step
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
-    from polycnc.machine.plc import Plc
+    from polycnc.machine.plc import Plc, PlcAlarm
 
 #: How close to its change point an axis must stand, mm.
 WINDOW_MM = 0.01
@@ -63,15 +63,22 @@ def refuse(channel: Channel, word: str, address: str = "") -> None:
             channel.event("ask", word=word)  # asked when the axes are there
         return
 
-    def value(name: str) -> float:
-        state = STATES.get(name)
-        return float(state(channel)) if state is not None else signals.get(name, 0.0)
-
-    row = plc.refusal(word, value)
+    row = _refusal(channel, word, signals)
     if row is not None and row.stops:
         channel.mark = channel.toolpath.mark()  # what the block has done before stays: the machine stops here
         raise AlarmError(row.code, address=address or word.removesuffix("_CODE"))
     plc.latch(word, signals)
+
+
+def _refusal(channel: Channel, word: str, signals: dict[str, float]) -> PlcAlarm | None:
+    """The row that refuses a word in the state of the program and of the machine."""
+
+    def value(name: str) -> float:
+        state = STATES.get(name)
+        return float(state(channel)) if state is not None else signals.get(name, 0.0)
+
+    plc: Plc = channel.control.plc
+    return plc.refusal(word, value)
 
 
 def guarded(row: MCode, plc: Plc) -> MCode:
@@ -119,8 +126,19 @@ def guarded_step(step: Step, words: Iterable[str], plc: Plc) -> Step:
 def guarded_speed(step: Step, builder: Builder) -> Step:
     """S behind its interlock; where the block starts the spindle too, the start is what is refused."""
     control: Any = builder.control
+    plc: Plc = control.plc
     starts = [f"M{number}" for number in builder.m_codes if number in (3, 4)]
-    return guarded_step(step, (*starts[-1:], "S_CODE"), control.plc)
+    act = guarded_step(step, (*starts[-1:], "S_CODE"), plc)
+    told = declared(step)
+    if not isinstance(told, Note) or starts or act is step:
+        return act
+    return declare(act, replace(told, condition=_lets_speeds_pass))
+
+
+def _lets_speeds_pass(channel: Channel) -> bool:
+    """Whether the machine refuses no S now: its tool is clamped. Neither moves nor S itself change that."""
+    signals: dict[str, float] | None = channel.memory.machine_signals
+    return signals is None or _refusal(channel, "S_CODE", signals) is None
 
 
 def guarded_motion(step: Step, builder: Builder, plan: Plan) -> Step:

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.interlocks import holds_an_axis
 from polycnc.control.word_address.numbers import conversion
-from polycnc.language.bulk import Arc, Recipe, SetFeed, Spelling, Straight, Target, Word, declared
+from polycnc.language.bulk import Arc, Conditions, Recipe, Spelling, Target, Word
 from polycnc.language.bulk.layout import FIRST_CODE, FORMS
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Hashable, Sequence
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
@@ -53,6 +53,7 @@ class PlainBlocks:
 
     def __init__(self, spelling: Spelling) -> None:
         self.spelling = spelling
+        self._conditions = Conditions()
 
     def ready(self, channel: Channel) -> bool:
         """Single blocks are watched; forbidden zones, unrolled surfaces and held moves are the interpreter's."""
@@ -69,9 +70,9 @@ class PlainBlocks:
             stage = stage.after
         return True
 
-    def generation(self, channel: Channel) -> int:
-        """Changes when plans are forgotten."""
-        return channel.modes.generation
+    def generation(self, channel: Channel) -> Hashable:
+        """Changes when plans are forgotten, and with the conditions on which recipes rest."""
+        return channel.modes.generation, self._conditions.hold(channel)
 
     def state(self, channel: Channel) -> Mode:
         """The modal state."""
@@ -105,7 +106,11 @@ class PlainBlocks:
             plan = plan or channel.control.plan(channel, signature)
         except AlarmError:
             return None  # the interpreter comes to the same block and raises it
-        return recipe_of(channel, plan)
+        recipe = self._conditions.recipe(channel, plan.steps, plan.mode)
+        if recipe is None or not isinstance(recipe.motion, Arc):
+            return recipe
+        geometry = channel.coordinates.geometry
+        return None if any(geometry[axis] < 0 for axis in recipe.motion.plane[:2]) else recipe
 
 
 def _keeps_circles(channel: Channel) -> bool:
@@ -116,24 +121,6 @@ def _keeps_circles(channel: Channel) -> bool:
     frame, plane = channel.coordinates.programming, path.PLANES[channel.mode["plane"]]
     mirrored = path.mirrors_plane(frame, plane) == frame.mirrors
     return mirrored and not stretched_arcs.is_stretched(frame, plane)
-
-
-def recipe_of(channel: Channel, plan: Plan) -> Recipe | None:
-    """A plan as data: a feed, then a move; None where it does anything else."""
-    feed: SetFeed | None = None
-    motion: Straight | Arc | None = None
-    for step in plan.steps:
-        told = declared(step)
-        if motion is None and isinstance(told, SetFeed):
-            feed = told
-        elif motion is None and isinstance(told, (Straight, Arc)):
-            motion = told
-        else:
-            return None
-    geometry = channel.coordinates.geometry
-    if isinstance(motion, Arc) and any(geometry[axis] < 0 for axis in motion.plane[:2]):
-        return None
-    return Recipe(plan.mode, feed, motion)
 
 
 def _key(key: int) -> str:

@@ -8,10 +8,16 @@ to the interpreter, block by block. Both ways give the same table, bit for bit.
 
 from polycnc.language.bulk.recipe import (
     Arc,
+    Condition,
+    Conditions,
     Conversion,
+    Enter,
+    Idle,
+    Note,
     Recipe,
     SetFeed,
     Spelling,
+    Step,
     Straight,
     Target,
     Way,
@@ -22,10 +28,16 @@ from polycnc.language.bulk.recipe import (
 
 __all__ = [
     "Arc",
+    "Condition",
+    "Conditions",
     "Conversion",
+    "Enter",
+    "Idle",
+    "Note",
     "Recipe",
     "SetFeed",
     "Spelling",
+    "Step",
     "Straight",
     "Target",
     "Way",

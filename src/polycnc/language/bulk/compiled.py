@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 #: Types of the items of `Tables` and `Columns`, in their order.
-TYPECODES = "BqdiiidBIddid"
+TYPECODES = "BqdiiidBIddidqd"
 TABLES = 7
 
 
@@ -36,7 +36,7 @@ def _entry(functions: dict[str, Any]) -> Callable[..., int]:
 
     def entry(
         text: Any, ints: Any, floats: Any, nexts: Any, leaves: Any, rules: Any, factors: Any,
-        kind: Any, line: Any, feed: Any, end: Any, curve: Any, curves: Any,
+        kind: Any, line: Any, feed: Any, end: Any, curve: Any, curves: Any, notes: Any, said: Any,
     ) -> int:  # fmt: skip
         given = tables(
             carray(text, far), carray(ints, far), carray(floats, far), carray(nexts, far), carray(leaves, far),
@@ -44,7 +44,7 @@ def _entry(functions: dict[str, Any]) -> Callable[..., int]:
         )  # fmt: skip
         written = columns(
             carray(kind, far), carray(line, far), carray(feed, far), carray(end, far), carray(curve, far),
-            carray(curves, far),
+            carray(curves, far), carray(notes, far), carray(said, far),
         )  # fmt: skip
         outcome: int = scan(given, written)
         return outcome

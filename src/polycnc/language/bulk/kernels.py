@@ -35,13 +35,16 @@ from polycnc.language.bulk.layout import (
     KEYS,
     LAST_CODE,
     LEAF_NOT_PLAIN,
+    LEAVES_NOTE,
     LINE,
     MOST_BLOCKS,
     MOST_DIGITS,
     MOST_KEYS,
+    MOST_NOTES,
     MOST_ROWS,
     NEXT_STATE,
     NOT_PLAIN,
+    NOTES,
     OPEN_COMMENTS,
     PLACE,
     ROUND_COMMENTS,
@@ -53,7 +56,7 @@ from polycnc.language.bulk.layout import (
     UNKNOWN,
     VALUES,
 )
-from polycnc.language.bulk.moves import Columns, act
+from polycnc.language.bulk.moves import Columns, act, note
 
 NEWLINE, BLANK, TAB = 10, 32, 9
 ZERO, NINE, LETTER_A, LETTER_C, LETTER_G, LETTER_N, LETTER_R, LETTER_X, LETTER_Z = (
@@ -103,9 +106,10 @@ class Tables(NamedTuple):
 
 def scan(tables: Tables, columns: Columns) -> int:
     """Work off plain blocks from `PLACE` on; rows go into `columns`. Gives how it ended."""
-    ints, leaves, rules = tables.ints, tables.leaves, tables.rules
+    ints, floats, leaves = tables.ints, tables.floats, tables.leaves
+    rules, factors = tables.rules, tables.factors
     while ints[PLACE] < ints[END]:
-        if ints[BLOCKS] >= ints[MOST_BLOCKS] or ints[ROWS] >= ints[MOST_ROWS]:
+        if ints[BLOCKS] >= ints[MOST_BLOCKS] or ints[ROWS] + ints[NOTES] >= ints[MOST_ROWS]:
             return FULL
         place, node = read_block(tables)
         if place < 0 or place - ints[PLACE] > LONGEST_LINE:
@@ -114,8 +118,14 @@ def scan(tables: Tables, columns: Columns) -> int:
             leaf = leaves[node]
             if leaf < FIRST_RULE:
                 return NOT_PLAIN if leaf == LEAF_NOT_PLAIN else UNKNOWN
-            if not act(ints, tables.floats, rules, tables.factors, leaf, columns):
+            notes = rules[leaf * RULE_WIDTH + LEAVES_NOTE]
+            if notes and ints[NOTES] >= ints[MOST_NOTES]:
+                return FULL
+            if notes and not note(ints, floats, rules, factors, leaf, columns):
                 return NOT_PLAIN
+            if not act(ints, floats, rules, factors, leaf, columns):
+                return NOT_PLAIN
+            ints[NOTES] += notes
             ints[STATE] = rules[leaf * RULE_WIDTH + NEXT_STATE]
         if node != NO_BLOCK or not ints[GRAMMAR] & BLANK_LINES_ARE_NONE:
             ints[BLOCKS] += 1

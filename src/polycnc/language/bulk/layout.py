@@ -24,8 +24,10 @@ PROGRAMMING_FRAME, ZERO_FRAME = 14, 15
 DIRECT, OWES, SHIFTED, MIRRORS, LIMITED = 16, 17, 18, 19, 20
 #: What the control's text looks like: flags of `GRAMMAR_FLAGS`, and digits that a number may have.
 GRAMMAR, MOST_DIGITS = 21, 22
+#: Notes so far, and how many may be.
+NOTES, MOST_NOTES = 23, 24
 #: The keys of the block that is being read: how many, and from where on.
-KEYS, FIRST_KEY, MOST_KEYS = 23, 24, 24
+KEYS, FIRST_KEY, MOST_KEYS = 25, 26, 24
 INTS = FIRST_KEY + MOST_KEYS
 
 # ---- numbers of a scan (`floats`) ---------------------------------------------------------------------------
@@ -59,13 +61,23 @@ FEED_WORD, FIRST_CENTER, SECOND_CENTER, RADIUS = 11, 13, 15, 17
 TARGETS, FIRST_TARGET, TARGET_WIDTH = 19, 20, 4
 #: Whether a feed that is not above zero is the interpreter's.
 POSITIVE_FEED = FIRST_TARGET + TARGET_WIDTH * MOST_KEYS
-RULE_WIDTH = POSITIVE_FEED + 1
+#: Whether the block leaves a note, and the index of that note's value, or -1.
+LEAVES_NOTE, NOTE_WORD = POSITIVE_FEED + 1, POSITIVE_FEED + 2
+RULE_WIDTH = POSITIVE_FEED + 3
 #: Factors: scale and unit of each conversion. A word's stand at the same index as its value's index in `rules`.
 FACTOR_WIDTH = RULE_WIDTH + 2
 #: How often the control's arc tolerance counts where a radius is given.
 RADIUS_TOLERANCES = RULE_WIDTH
+#: A smaller value of a note is the interpreter's.
+LOWEST_NOTE = RULE_WIDTH + 1
 
 NO_MOTION, RAPID_MOTION, FEED_MOTION, ARC_MOTION = range(4)
+
+# ---- what blocks leave beside rows: notes ---------------------------------------------------------------------
+
+#: Rows in front of the note, line and rule of its block. Its value and the position follow among the floats.
+NOTE_ROW, NOTE_LINE, NOTE_RULE = range(3)
+NOTE_WIDTH = 3
 
 # ---- conversions --------------------------------------------------------------------------------------------
 

@@ -33,6 +33,7 @@ from polycnc.language.bulk.layout import (
     LINE,
     LINE_WITHOUT_WAY,
     LOW,
+    LOWEST_NOTE,
     MACHINE,
     MIRRORS,
     MOTION,
@@ -42,6 +43,12 @@ from polycnc.language.bulk.layout import (
     NEW_POSITION,
     NEW_PROGRAMMED,
     NO_MOTION,
+    NOTE_LINE,
+    NOTE_ROW,
+    NOTE_RULE,
+    NOTE_WIDTH,
+    NOTE_WORD,
+    NOTES,
     OFFSETS,
     OWES,
     PENDING,
@@ -83,7 +90,10 @@ SLACK = 5e-10
 
 
 class Columns(NamedTuple):
-    """Columns of the toolpath that a scan writes; `end` flat, `curves` flat with `CURVE_WIDTH` numbers a row."""
+    """Columns of the toolpath that a scan writes; `end` flat, `curves` flat with `CURVE_WIDTH` numbers a row.
+
+    Notes beside them: `notes` flat with `NOTE_WIDTH` numbers each, `said` with its value and the position each.
+    """
 
     kind: Any
     line: Any
@@ -91,6 +101,8 @@ class Columns(NamedTuple):
     end: Any
     curve: Any
     curves: Any
+    notes: Any
+    said: Any
 
 
 def act(ints: Any, floats: Any, rules: Any, factors: Any, number: int, columns: Columns) -> bool:
@@ -115,6 +127,23 @@ def act(ints: Any, floats: Any, rules: Any, factors: Any, number: int, columns: 
         if not done:
             return False
     floats[FEED] = feed
+    return True
+
+
+def note(ints: Any, floats: Any, rules: Any, factors: Any, number: int, columns: Columns) -> bool:
+    """Note down that a block begins here that does more than move; it counts when the block is done."""
+    place, axes = ints[NOTES] * NOTE_WIDTH, ints[AXES]
+    said = ints[NOTES] * (axes + 1)
+    slot = rules[number * RULE_WIDTH + NOTE_WORD]
+    value = floats[VALUES + slot] if slot >= 0 else 0.0
+    if slot >= 0 and value < factors[number * FACTOR_WIDTH + LOWEST_NOTE]:
+        return False
+    columns.notes[place + NOTE_ROW] = ints[ROWS]
+    columns.notes[place + NOTE_LINE] = ints[LINE]
+    columns.notes[place + NOTE_RULE] = number
+    columns.said[said] = value
+    for i in range(axes):
+        columns.said[said + 1 + i] = floats[VECTORS + POSITION * axes + i]
     return True
 
 

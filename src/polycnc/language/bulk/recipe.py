@@ -7,14 +7,19 @@ if every one of its steps carries one; the scanner then does the same without ca
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from enum import IntEnum
+from math import inf
 from typing import Any, NamedTuple, TypeVar
 
 from polycnc.language.bulk import layout
 
 _F = TypeVar("_F", bound=Callable[..., Any])
+#: A step of a plan: gets the channel, and the values of the block's words by their index.
+Step = Callable[[Any, Any], Any]
+#: Something of a channel on which it rests that a block is plain.
+Condition = Callable[[Any], bool]
 
 
 class Way(IntEnum):
@@ -119,6 +124,37 @@ class Arc:
 
 
 @dataclass(frozen=True, slots=True)
+class Note:
+    """A step that touches nothing that the scanner works with: an event, another context.
+
+    The scan goes past it; afterwards the step itself is called where its block stood.
+
+    Attributes:
+        slot: Index of the value that it needs, or -1.
+        lowest: A smaller value is the interpreter's.
+        condition: While it does not hold, the step is the interpreter's.
+    """
+
+    slot: int = -1
+    lowest: float = -inf
+    condition: Condition | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Enter:
+    """A step that changes nothing but the modal state."""
+
+    state: Any
+
+
+@dataclass(frozen=True, slots=True)
+class Idle:
+    """A step that changes nothing as long as a condition holds: a code that is in force already."""
+
+    condition: Condition | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Recipe:
     """What a block of some shape does in some modal state.
 
@@ -126,11 +162,57 @@ class Recipe:
         next_state: The modal state that it leaves, as the dialect names it; hashable.
         feed: Sets the feed before it moves.
         motion: Its move.
+        notes: What it does in front of that, in order, one with a value at the most.
     """
 
     next_state: Any
     feed: SetFeed | None = None
     motion: Straight | Arc | None = None
+    notes: tuple[tuple[Step, Note], ...] = ()
+
+
+class Conditions:
+    """Makes recipes of steps, and keeps the conditions on which those given so far rest."""
+
+    def __init__(self) -> None:
+        self._all: list[Condition] = []
+
+    def hold(self, channel: Any) -> tuple[bool, ...]:
+        """Which of them hold now: while that stays, the recipes do."""
+        return tuple([condition(channel) for condition in self._all])
+
+    def _holds(self, channel: Any, condition: Condition | None) -> bool:
+        if condition is None:
+            return True
+        if condition not in self._all:
+            self._all.append(condition)
+        return condition(channel)
+
+    def recipe(self, channel: Any, steps: Iterable[Step], state: Any) -> Recipe | None:
+        """The recipe of a block that leaves a modal state; None where a step does what cannot be told."""
+        feed: SetFeed | None = None
+        motion: Straight | Arc | None = None
+        notes: list[tuple[Step, Note]] = []
+        for step in steps:
+            told = declared(step)
+            for part in told if type(told) is tuple else (told,):
+                if isinstance(part, Idle) and self._holds(channel, part.condition):
+                    continue
+                if motion is not None:
+                    return None
+                if isinstance(part, Enter):
+                    state = part.state
+                elif isinstance(part, SetFeed):
+                    feed = part
+                elif isinstance(part, Note) and self._holds(channel, part.condition):
+                    notes.append((step, part))
+                elif isinstance(part, (Straight, Arc)):
+                    motion = part
+                else:
+                    return None
+        if sum(note.slot >= 0 for _, note in notes) > 1:
+            return None
+        return Recipe(state, feed, motion, tuple(notes))
 
 
 @dataclass(frozen=True, slots=True)

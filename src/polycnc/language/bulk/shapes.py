@@ -6,10 +6,12 @@ from array import array
 from typing import TYPE_CHECKING
 
 from polycnc.language.bulk import layout
-from polycnc.language.bulk.recipe import AS_TYPED, Arc, Recipe, Straight, Word
+from polycnc.language.bulk.recipe import AS_TYPED, Arc, Straight, Word
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Sequence
+
+    from polycnc.language.bulk.recipe import Note, Recipe, Step
 
 _NO_WORD = Word(-1, AS_TYPED)
 #: More shapes than this are no longer learnt.
@@ -25,6 +27,7 @@ class Shapes:
         rules: Flat `(rules, RULE_WIDTH)`.
         factors: Flat `(rules, FACTOR_WIDTH)`.
         states: Modal states by the number of their root.
+        notes: By the number of a rule, the steps that its blocks leave to the interpreter.
     """
 
     def __init__(self) -> None:
@@ -33,6 +36,7 @@ class Shapes:
         self.rules = array("i", bytes(4 * layout.RULE_WIDTH * layout.FIRST_RULE))
         self.factors = array("d", bytes(8 * layout.FACTOR_WIDTH * layout.FIRST_RULE))
         self.states: dict[int, Hashable] = {}
+        self.notes: dict[int, tuple[tuple[Step, Note], ...]] = {}
         self._roots: dict[Hashable, int] = {}
 
     def root(self, state: Hashable) -> int:
@@ -67,6 +71,7 @@ class Shapes:
         rule[layout.NEXT_STATE] = self.root(recipe.next_state)
         _put_word(rule, factors, layout.FEED_WORD, recipe.feed.word if recipe.feed else None)
         rule[layout.POSITIVE_FEED] = recipe.feed is not None and recipe.feed.positive
+        _put_notes(rule, factors, recipe.notes)
         if isinstance(recipe.motion, Straight):
             _put_straight(rule, recipe.motion)
         elif isinstance(recipe.motion, Arc):
@@ -78,13 +83,27 @@ class Shapes:
             rule[layout.TARGETS] = i + 1
         self.rules.extend(rule)
         self.factors.extend(factors)
-        return len(self.rules) // layout.RULE_WIDTH - 1
+        number = len(self.rules) // layout.RULE_WIDTH - 1
+        self.notes[number] = recipe.notes
+        return number
+
+    def state_behind(self, rule: int) -> Hashable:
+        """The modal state that blocks of a rule leave."""
+        return self.states[self.rules[rule * layout.RULE_WIDTH + layout.NEXT_STATE]]
 
 
 def _put_word(rule: array[int], factors: array[float], place: int, word: Word | None) -> None:
     slot, (way, scale, unit) = word or _NO_WORD
     rule[place], rule[place + 1] = slot, way
     factors[place], factors[place + 1] = scale, unit
+
+
+def _put_notes(rule: array[int], factors: array[float], notes: Sequence[tuple[Step, Note]]) -> None:
+    rule[layout.LEAVES_NOTE], rule[layout.NOTE_WORD] = bool(notes), -1
+    for _, note in notes:
+        if note.slot >= 0:
+            rule[layout.NOTE_WORD] = note.slot
+            factors[layout.LOWEST_NOTE] = note.lowest
 
 
 def _put_straight(rule: array[int], motion: Straight) -> None:
