@@ -76,6 +76,7 @@ def refuse_calls(builder: Builder) -> None:
 
 def finish(channel: Channel, words: Words) -> None:
     """G70 P Q: run the shape once as it is written, then back to where the cycle began."""
+    _refuse_points(words)
     first, last = _shape_numbers(channel, words)
     code: Any = channel.level.code
     code = code.code if isinstance(code, Section) else code
@@ -121,6 +122,7 @@ def _rough(channel: Channel, words: Words, *, along: int) -> None:
     memory, plane = channel.memory, channel.mode["plane"]
     depth_word = INCREMENTS[plane][1 - along]
     series_15 = is_series_15(channel)
+    _refuse_points(words, INCREMENTS[plane])
     _check_words(words, ("P", "Q", "R", *INCREMENTS[plane]), ("D", *CENTERS[plane]) if series_15 else ())
     if "P" not in words and "Q" not in words:
         _store(channel, words, {depth_word: DEPTH, "R": ESCAPE})
@@ -175,6 +177,7 @@ def repeat_pattern(channel: Channel, words: Words) -> None:
     """G73: the shape itself, pass by pass nearer to the finished part."""
     memory, plane = channel.memory, channel.mode["plane"]
     first_word, second_word = INCREMENTS[plane]
+    _refuse_points(words, INCREMENTS[plane])
     _check_words(
         words, ("P", "Q", "R", *INCREMENTS[plane]), ("D", *CENTERS[plane]) if is_series_15(channel) else ()
     )
@@ -219,6 +222,13 @@ def _read(channel: Channel, words: Words) -> tuple[Shape, Contour]:
     if not contour:
         raise channel.control.fail("shape_command", address="P")
     return shape, contour
+
+
+def _refuse_points(words: Words, amounts: tuple[str, ...] = ()) -> None:
+    """G70 to G73 go to no point: axis words but for their own amounts have no meaning in them."""
+    for word in words.plan.axis_words:
+        if word.address not in amounts:
+            raise words.fail("cycle_block", word.address)
 
 
 def _shape_numbers(channel: Channel, words: Words) -> tuple[int, int]:

@@ -261,7 +261,12 @@ class WordAddressProgram:
         if keyword:
             step = parse_statement(reader, keyword, self, index)
         elif not reader.peek():
-            step = WordBlock((), [])
+            # A line that only names the program is none of its blocks.
+            step = (
+                empty_block
+                if text.strip() and head and text.strip() == head.group().strip()
+                else WordBlock((), [])
+            )
         else:
             step = self._words(reader)
         return SkippedBlock(levels, step, empty_block) if levels else step
