@@ -195,6 +195,16 @@ def test_a_thread_runs_its_lead_every_turn() -> None:
     )
 
 
+def test_a_thread_whose_lead_grows_takes_the_revolutions_between_its_leads() -> None:
+    context = Context(feed_mode="G95", spindle_rpm=300.0, spindle_direction=1)
+    rows = Build(axes=("X", "Z"), context=context)
+    rows.row(Kind.THREAD, 0.0, -48.0, feed=2.0, curve=(2.0, 0.0, 1.0))
+    # The last lead is sqrt(2² + 2·1·48) = 10: 8 revolutions at 5 a second, 30 mm/s on average.
+    assert rows.plan(LATHE).times.cutting_s == pytest.approx(
+        trapezoid(48.0, 30.0, LATHE.axis["Z"].acceleration), rel=1e-12
+    )
+
+
 def test_a_tap_ramps_with_the_spindle() -> None:
     spindle = replace(MACHINE.spindles[0], acceleration_rpm_s=600.0)
     machine = replace(MACHINE, spindles=(spindle,))

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 NO_CURVE = -1
 #: Numbers a curve row: centre x y z (work coordinates, mm), unit normal x y z of the arc's plane, full turns
 #: beyond the first, spare. A dwell: seconds, revolutions. A thread or tap: lead mm, start angle degrees;
-#: of a circular thread also its centre and the normal about which it turns counter-clockwise.
+#: of a straight thread what its lead grows by each revolution, mm, of a circular one its centre and the normal about
+#: which it turns counter-clockwise.
 #: A skip move that a signal ends: way that is left to its programmed end, mm.
 CURVE_WIDTH = 8
 CHUNK_ROWS = 65_536

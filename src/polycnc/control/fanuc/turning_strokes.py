@@ -49,7 +49,7 @@ def emit(channel: Channel, strokes: Iterable[PlaneStroke], *, lead: float = 0.0)
             channel.straight(Kind.RAPID, end, speed or nan)
             continue
         if stroke.kind is Kind.THREAD:
-            thread_move(channel, end, lead, stroke.start_angle_deg, kind=ON_CYCLE_THREAD)
+            thread_move(channel, end, (lead, stroke.start_angle_deg), kind=ON_CYCLE_THREAD)
             way_off = WAYS_OFF
             continue
         feed = channel.feed

@@ -15,7 +15,7 @@ from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import Step
@@ -65,12 +65,13 @@ def _plan_straight(builder: Builder, plan: Plan, *, grows: bool) -> Step | None:
     def cut(channel: Channel, values: list[float]) -> None:
         lead = lead_in_force(channel)
         programmed = end_of(channel, values)
+        growth = 0.0
         if growth_slot is not None:
-            growth = values[growth_slot]
-            check_last_lead(channel, programmed, lead, growth_of(growth) if growth_of else growth)
+            growth = growth_of(values[growth_slot]) if growth_of else values[growth_slot]
+            check_last_lead(channel, programmed, lead, growth)
         end = channel.coordinates.to_position(programmed)
         note_retract(channel, end)
-        thread_move(channel, end, lead, angle_of(channel, values), programmed)
+        thread_move(channel, end, (lead, angle_of(channel, values), growth), programmed)
         channel.memory.thread_step = channel.level.current
 
     return cut
@@ -205,18 +206,20 @@ def lead_in_force(channel: Channel) -> float:
 def thread_move(
     channel: Channel,
     end: list[float],
-    lead: float,
-    degrees: float,
+    thread: Sequence[float],
     programmed: list[float] | None = None,
     *,
     kind: str = ON_THREAD,
 ) -> None:
-    """One thread stroke; without way it is nothing. `kind` says whether it is one of a cycle."""
+    """One thread stroke: lead, start angle, growth of the lead; without way it is nothing.
+
+    `kind` says whether it is one of a cycle.
+    """
     if end == channel.coordinates.position:
         channel.coordinates.arrive(end, programmed)
         return
     lock(channel, kind)
-    channel.curve(Kind.THREAD, end, lead, parameters=(lead, degrees), programmed=programmed)
+    channel.curve(Kind.THREAD, end, thread[0], parameters=thread, programmed=programmed)
 
 
 def lock(channel: Channel, kind: str) -> None:

@@ -93,6 +93,18 @@ def lead_of(curves: Floats, state: Floats) -> float:
     return 0.0
 
 
+def mean_lead(curves: Floats, state: Floats, lead: float, way: float) -> float:
+    """What a revolution covers on average over a straight thread whose lead grows with every revolution.
+
+    With `g` the growth, `lead² + 2·g·way` is the square of the last lead, and first and last lead have the mean.
+    """
+    at = int(state[CURVE])
+    is_straight = curves[at + 5] == 0.0 and curves[at + 6] == 0.0 and curves[at + 7] == 0.0
+    if state[KIND] != THREAD or not is_straight:
+        return lead
+    return 0.5 * (lead + sqrt(max(lead * lead + 2.0 * curves[at + 2] * way, 0.0)))
+
+
 def asked_speed(
     curves: Floats, contexts: Floats, record: int, state: Floats, length: float, radius_mm: float
 ) -> float:
@@ -110,6 +122,7 @@ def asked_speed(
         for i in range(STATE_BLOCKS + DELTA * n, STATE_BLOCKS + DELTA * n + n):
             longest = max(longest, abs(state[i]))
         if longest > 0.0:
+            lead = mean_lead(curves, state, lead, longest)
             return lead * revolutions_s(contexts, record, radius_mm) * length / longest
     speed = state[FEED]
     if contexts[record + PER_REVOLUTION] != 0.0:
