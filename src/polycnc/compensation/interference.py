@@ -161,8 +161,11 @@ class InterferenceCheck:
 
     def admit(self, step: Step) -> None:
         """A step is about to be passed on: one that a detour has changed, or one behind it, must do no harm."""
+        policy = step.policy
+        if not policy.looks_far:
+            return
         changed = step.altered or any(other.altered for other in self._passed)
-        if changed and not (step.policy.dares or step.is_commanded):
+        if changed and not (policy.dares or step.is_commanded):
             if step.role is Role.CONTOUR and not step.straight and step.runs_back:
                 self.violations.object(Violation.AVOIDANCE_INTERFERES, step.move)
             if step.role in PATHS and cuts(step.way(), self._known(step)):
