@@ -2,29 +2,20 @@
 
 from __future__ import annotations
 
-import re
-from contextlib import redirect_stdout
-from io import StringIO
-from pathlib import Path
-
 import polycnc
 from polycnc.mainrun import Command, VirtualControl
-
-PAGE = Path(__file__).parents[2] / "docs" / "virtual-control.md"
+from tests.pages import example, page
 
 
 def test_the_example_prints_what_the_page_shows() -> None:
-    code, shown = re.findall(r"```(?:python)?\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)[:2]
-    printed = StringIO()
-    with redirect_stdout(printed):
-        exec(compile(code, PAGE.name, "exec"), {})
-    assert printed.getvalue() == shown
+    printed, shown = example("virtual-control.md")
+    assert printed == shown
 
 
 def test_every_command_is_told() -> None:
-    page = PAGE.read_text(encoding="utf-8")
+    told = page("virtual-control.md")
     for command in set(Command) - {Command.MACHINE_LOCK}:
-        assert f"`{command}(" in page, command
+        assert f"`{command}(" in told, command
 
 
 def test_the_class_is_handed_out_by_the_package() -> None:

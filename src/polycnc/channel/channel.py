@@ -84,17 +84,12 @@ class Channel:
         self.setup = setup
         self.store = store
         self.number = number
-        definition = next(channel for channel in machine.channels if channel.number == number)
+        definition = machine.channel(number)
         self.axes: tuple[str, ...] = definition.names
         self.axis_index = {name: i for i, name in enumerate(self.axes)}
         self.axis_data: tuple[Axis, ...] = tuple(machine.axis[name] for name in definition.axes)
-        x, y, z = (
-            definition.axes.index(definition.geometry[name]) if name in definition.geometry else -1
-            for name in "XYZ"
-        )
-        geometry = (x, y, z)
         start = [setup.start.get(name, 0.0) for name in self.axes]
-        self.coordinates = Coordinates(self.axes, geometry, start)
+        self.coordinates = Coordinates(self.axes, machine.geometry_indices(number), start)
         self.start_position = tuple(start)
         self.toolpath = Toolpath(self.axes) if toolpath is None else toolpath
         self.modes = ModeTable()

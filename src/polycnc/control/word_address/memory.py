@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.nurbs import Curve
     from polycnc.control.word_address.polar_interpolation import PolarPlane
     from polycnc.geometry.frames import Vector
+    from polycnc.machine.setup import Tool
 
 #: Name of the offset that is added to every work coordinate system.
 EXTERNAL = "EXT"
@@ -35,6 +36,11 @@ class ToolOffset:
     radius: float = 0.0
     radius_wear: float = 0.0
     tip: int = 0
+
+    @classmethod
+    def of(cls, tool: Tool) -> ToolOffset:
+        """What a setup gives for a number."""
+        return cls(tool.length, tool.wear.length, tool.radius, tool.wear.radius, int(tool.tip))
 
     @property
     def total_length(self) -> float:
@@ -113,15 +119,11 @@ class Memory:
         setup = channel.setup
         count = len(channel.axes)
         self.parameters = setup.parameters
-        self.work_offsets: dict[str, list[float]] = {EXTERNAL: [0.0] * count}
-        for name, values in setup.work_offsets.items():
-            self.work_offsets[name] = [values.get(axis, 0.0) for axis in channel.axes]
-        self.tools: dict[int, ToolOffset] = {
-            int(number): ToolOffset(
-                tool.length, tool.wear.length, tool.radius, tool.wear.radius, int(tool.tip)
-            )
-            for number, tool in setup.tools.items()
+        self.work_offsets: dict[str, list[float]] = {EXTERNAL: [0.0] * count} | {
+            name: [values.get(axis, 0.0) for axis in channel.axes]
+            for name, values in setup.work_offsets.items()
         }
+        self.tools = {int(number): ToolOffset.of(tool) for number, tool in setup.tools.items()}
         self.wcs = "G54"
         self.local_shift = [0.0] * count
         self.preset_shift = [0.0] * count

@@ -153,13 +153,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
         begin = (c.programmed[geometry[u]], c.programmed[geometry[v]])
         end = (programmed[geometry[u]], programmed[geometry[v]])
         told_by = center_words(values)
-        center: arcs.Point | None
-        if isinstance(told_by, float):
-            center, ends_beside = center_by_radius(channel, begin, end, told_by, ccw), False
-        else:
-            center = (begin[0] + told_by[0], begin[1] + told_by[1])
-            control.check_arc(channel, begin, end, center)
-            ends_beside = abs(arcs.radius_mismatch(begin, end, center)) > control.spiral_tolerance(channel)
+        center, ends_beside = _center(channel, begin, end, told_by, ccw)
         if corner is not None:
             corner(channel, values)
         if center is None:
@@ -175,6 +169,18 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
     first, second = (word_as_data(slot, convert) for slot, convert in zip(slots, converts, strict=True))
     radius_word = word_as_data(radius_slot, radius_of)
     return declare(move, Arc(ccw, plane, told, (first, second), radius_word, line_without_way=True))
+
+
+def _center(
+    channel: Channel, begin: arcs.Point, end: arcs.Point, told_by: float | arcs.Point, ccw: bool
+) -> tuple[arcs.Point | None, bool]:
+    """The centre, None for an arc by R that is a line; and whether the end lies beside the circle about it."""
+    control = channel.control
+    if isinstance(told_by, float):
+        return center_by_radius(channel, begin, end, told_by, ccw), False
+    center = (begin[0] + told_by[0], begin[1] + told_by[1])
+    control.check_arc(channel, begin, end, center)
+    return center, abs(arcs.radius_mismatch(begin, end, center)) > control.spiral_tolerance(channel)
 
 
 def _center_words(
