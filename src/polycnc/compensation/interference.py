@@ -156,7 +156,7 @@ class InterferenceCheck:
     def _pass_over(self, step: Step, left_out: Sequence[Step]) -> None:
         """What came after the steps left out comes after the one in front of them."""
         for other in left_out:
-            step.after.append(partial(self._rows.pass_over, other.edge))
+            step.after.append(partial(self._rows.pass_over, other))
             step.after.extend(other.after)
 
     def admit(self, step: Step) -> None:

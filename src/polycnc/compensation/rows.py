@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from polycnc.compensation.plane import Plane
     from polycnc.compensation.step import Step
     from polycnc.geometry.arcs import Point
-    from polycnc.geometry.offset import Corner, Edge
+    from polycnc.geometry.offset import Corner
 
 
 class RowWriter:
@@ -40,8 +40,12 @@ class RowWriter:
         """From here on the tool is taken to stand on the programmed point."""
         self.vector = self._delta = NO_VECTOR
 
-    def pass_over(self, edge: Edge) -> None:
-        """An edge is left out: the tool stays, and stands beside the end of this edge from now on."""
+    def pass_over(self, step: Step) -> None:
+        """A step is left out: the tool stays in the plane, and stands beside the end of this step from now on."""
+        move, edge, plane = step.move, step.edge, self.plane
+        here = arcs.plus(plane.point(move.start), self._delta)
+        if plane.moves_elsewhere(move):
+            self.after.move(_straight(move, plane.at(move.start, here), plane.at(move.end, here)))
         self._delta = arcs.plus(self._delta, arcs.minus(edge.start, edge.end))
 
     def pass_on(self, move: Move) -> None:
@@ -95,3 +99,9 @@ class RowWriter:
         if hypot(target[0] - u, target[1] - v) > arcs.SAME_POINT_MM:
             self.after.move(row)
         return replace(row, kind=template.kind)
+
+
+def _straight(move: Move, start: list[float], end: list[float]) -> Move:
+    """A straight row between two positions, otherwise as a move."""
+    kind = Kind.RAPID if move.kind is Kind.RAPID else Kind.FEED
+    return replace(move, kind=kind, start=start, end=end, center=None, turns=0.0, parameters=())

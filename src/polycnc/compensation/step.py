@@ -95,7 +95,8 @@ class Step:
         if self.corner is None or self.corner.joint is not Joint.ARC:
             return None
         one, two = (arcs.plus(self.edge.end, self.corner.vectors[k]) for k in (0, -1))
-        return offset.arc(one, two, self.edge.end, self.distance < 0.0)
+        row = _row(one, two, self.edge.end, self.distance < 0.0)
+        return None if row.center is None else row
 
     def way(self) -> list[Edge]:
         """The lines and arcs of the tool from the start of the step to the last of its vectors."""
@@ -104,14 +105,14 @@ class Step:
         edge, vectors = self.edge, self.corner.vectors
         points = [arcs.plus(edge.end, vector) for vector in vectors]
         start = arcs.plus(edge.start, self.first)
-        along = offset.line(start, points[0])
-        if edge.center is not None and not self.straight and along.length > arcs.SAME_POINT_MM:
-            along = offset.arc(start, points[0], edge.center, edge.ccw)
-        around = self.corner.joint is Joint.ARC
-        return [
-            along,
-            *(
-                offset.arc(one, two, edge.end, self.distance < 0.0) if around else offset.line(one, two)
-                for one, two in pairwise(points)
-            ),
-        ]
+        along = _row(start, points[0], None if self.straight else edge.center, edge.ccw)
+        about = edge.end if self.corner.joint is Joint.ARC else None
+        return [along, *(_row(one, two, about, self.distance < 0.0) for one, two in pairwise(points))]
+
+
+def _row(start: Point, end: Point, center: Point | None, ccw: bool) -> Edge:
+    """A line, or an arc about a centre; a tool as large as an inner arc passes through its centre on a line."""
+    if center is None or arcs.radius_of(start, end) <= arcs.SAME_POINT_MM:
+        return offset.line(start, end)
+    nearest = min(arcs.radius_of(center, point) for point in (start, end))
+    return offset.line(start, end) if nearest <= arcs.SAME_POINT_MM else offset.arc(start, end, center, ccw)
