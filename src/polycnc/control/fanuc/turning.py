@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.codes import GCode, Planner, Step
     from polycnc.control.word_address.drilling import Drilling
     from polycnc.control.word_address.plan import Builder, Plan
-    from polycnc.geometry.arcs import Point
     from polycnc.machine.motion_settings import MotionSettings
     from polycnc.messages import AlarmError
     from polycnc.toolpath import Context
@@ -166,10 +165,6 @@ class FanucTurning(CustomMacroControl):
             codes["unit"] = "G20"
         return codes
 
-    def forbidden_zone(self, axis: str, direction: int) -> AlarmError:
-        """The alarm for a way into the zone of G22 or into the barrier."""
-        return self.fail("zone_plus" if direction > 0 else "zone_minus", address=axis, axis=axis)
-
     # ---- axes and numbers ------------------------------------------------------------------------------------
 
     def is_diameter(self, channel: Channel, axis: int) -> bool:
@@ -257,11 +252,6 @@ class FanucTurning(CustomMacroControl):
         if builder.channel.setup.parameters.bit(3403, 5):
             raise self.fail("no_center", address=builder.mode["motion"])
         return path.plan_line(builder, plan)
-
-    def check_arc(self, channel: Channel, start: Point, end: Point, center: Point) -> None:
-        """Alarm for an end point off the circle; 3410 = 0: no check."""
-        if self.arc_tolerance(channel) > 0.0:
-            super().check_arc(channel, start, end, center)
 
     def plan_corner(self, builder: Builder) -> Callable[[Channel, list[float]], object] | None:
         """Chamfer and corner R, or a vector given by I and K within compensation."""

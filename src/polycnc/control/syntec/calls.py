@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.control.syntec import interrupts
 from polycnc.control.syntec.builder import CALLS
 from polycnc.control.syntec.variables import INDEXED_LETTERS, Locals
+from polycnc.control.word_address.macro_calls import enter_macro
 from polycnc.language.syntec.blocks import FORMS
 from polycnc.language.syntec.values import Text, Value
 from polycnc.language.word_address import WordBlock
@@ -131,17 +132,6 @@ def _program(channel: Channel, number: Value | None) -> Program:
         raise control.fail("program_number", address="P")
     found: Program = control.find_program(channel, int(number))
     return found
-
-
-def enter_macro(
-    channel: Channel, program: Program, local: Locals, count: int = 1, *, kind: str = "macro"
-) -> None:
-    """Put a macro on the stack with local variables of its own; zero passes call nothing."""
-    if count < 1:
-        return
-    channel.control.check_nesting(channel, kind)
-    channel.memory.locals = local
-    channel.push(program, kind=kind, repeats=count - 1, local=local)
 
 
 def plan_modal_call(builder: SyntecBuilder, plan: Plan) -> Step | None:

@@ -49,15 +49,12 @@ if TYPE_CHECKING:
     from polycnc.channel.stack import Step as ProgramStep
     from polycnc.control.word_address.codes import GCode, MCode, Planner, Step
     from polycnc.control.word_address.drilling import Drilling
-    from polycnc.control.word_address.memory import ToolOffset
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
     from polycnc.geometry.arcs import Point
     from polycnc.machine.motion_settings import MotionSettings
     from polycnc.program import Program
     from polycnc.toolpath import Context
-
-LAST_OFFSET = 999
 
 
 class SyntecMill(WordAddressControl):
@@ -332,20 +329,6 @@ class SyntecMill(WordAddressControl):
         return float(value) * 10.0 ** -decimals(channel.setup.parameters, inch=False)
 
     # ---- offsets -----------------------------------------------------------------------------------------
-
-    def length_value(self, channel: Channel, number: int) -> float:
-        """Length offset of an H number, mm."""
-        return self._offset(channel, number, "H").total_length
-
-    def radius_value(self, channel: Channel, number: int) -> float:
-        """Radius offset of a D number, mm."""
-        return self._offset(channel, number, "D").total_radius if number else 0.0
-
-    def _offset(self, channel: Channel, number: int, address: str) -> ToolOffset:
-        if not 0 <= number <= LAST_OFFSET:
-            raise self.fail("offset_number", address=address)
-        offset: ToolOffset = channel.memory.offset_number(number)
-        return offset
 
     def compensation_policy(self, channel: Channel) -> Policy:
         """Radius compensation; Pr3819 = 1 checks for overcut."""

@@ -34,8 +34,12 @@ if TYPE_CHECKING:
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.stack import Step as ProgramStep
     from polycnc.control.word_address.codes import Planner, Step
+    from polycnc.control.word_address.memory import ToolOffset
     from polycnc.geometry.arcs import Point
     from polycnc.program import Program
+
+#: Largest number of a tool offset (H, D).
+LAST_OFFSET = 999
 
 
 class WordAddressControl:
@@ -254,6 +258,20 @@ class WordAddressControl:
     def feed_factor(self, _builder: Builder, _form: str, _mode: str) -> float:
         """What an F word counts in: 1 for whole units."""
         return 1.0
+
+    def length_value(self, channel: Channel, number: int) -> float:
+        """Length offset of an H number, mm."""
+        return self._offset(channel, number, "H").total_length
+
+    def radius_value(self, channel: Channel, number: int) -> float:
+        """Radius offset of a D number, mm."""
+        return self._offset(channel, number, "D").total_radius if number else 0.0
+
+    def _offset(self, channel: Channel, number: int, address: str) -> ToolOffset:
+        if not 0 <= number <= LAST_OFFSET:
+            raise self.fail("offset_number", address=address)
+        memory: Memory = channel.memory
+        return memory.offset_number(number)
 
     def arc_tolerance(self, _channel: Channel) -> float:
         """Allowed difference between the radii at start and end of an arc, mm."""

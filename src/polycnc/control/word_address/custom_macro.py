@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.codes import GCode, MCode, Step
     from polycnc.control.word_address.numbers import Convert
     from polycnc.control.word_address.plan import Builder, Plan
+    from polycnc.geometry.arcs import Point
     from polycnc.program import Program
     from polycnc.toolpath import Context
 
@@ -94,7 +95,7 @@ class CustomMacroControl(WordAddressControl):
         return int(channel.setup.parameters.number(1022, name, delivered))
 
     def forbidden_zone(self, axis: str, direction: int) -> AlarmError:
-        """Stored stroke check 2."""
+        """The alarm for a way into the zone of G22 (stored stroke check 2) or into a barrier."""
         return self.fail("zone_plus" if direction > 0 else "zone_minus", address=axis, axis=axis)
 
     def macro_alarm(self, channel: Channel, number: int, told: str) -> AlarmError:
@@ -111,6 +112,11 @@ class CustomMacroControl(WordAddressControl):
         """Allowed difference between the radii at start and end, mm."""
         number, delivered = self.ARC_TOLERANCE_PARAMETER
         return channel.setup.parameters.number(number, default=delivered)
+
+    def check_arc(self, channel: Channel, start: Point, end: Point, center: Point) -> None:
+        """Alarm for an end point off the circle; none where the limit is 0."""
+        if self.arc_tolerance(channel) > 0.0:
+            super().check_arc(channel, start, end, center)
 
     def reference_point(self, channel: Channel, axis: int, number: int) -> float:
         """Machine position of a reference point of an axis."""

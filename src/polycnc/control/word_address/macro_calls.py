@@ -124,17 +124,17 @@ def _macro(channel: Channel, words: Words) -> tuple[Program, int]:
 def enter_macro(
     channel: Channel,
     program: Program,
-    arguments: list[float | None],
+    local: object,
     repeats: int = 1,
     *,
     kind: str = "macro",
 ) -> None:
-    """Put a macro on the stack with local variables of its own; nothing for no repeats."""
+    """Put a macro on the stack with local variables of its own, `local`; nothing for no repeats."""
     if repeats < 1:
         return
     channel.control.check_nesting(channel, kind)
-    channel.memory.locals = arguments
-    channel.push(program, kind=kind, repeats=repeats - 1, local=arguments)
+    channel.memory.locals = local
+    channel.push(program, kind=kind, repeats=repeats - 1, local=local)
 
 
 def plan_modal_call(builder: Builder, plan: Plan) -> Step | None:

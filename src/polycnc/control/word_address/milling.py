@@ -18,10 +18,8 @@ from polycnc.control.word_address.tool_center_point import plan_with_direction
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import Step
-    from polycnc.control.word_address.memory import Memory, ToolOffset
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
-    from polycnc.geometry.arcs import Point
 
 
 CUTTING = frozenset({"G1", "G2", "G3"})
@@ -73,11 +71,6 @@ class MillingControl(CustomMacroControl):
             return None
         return plan_line_by_angle(builder, plan) or plan_with_direction(builder, plan)
 
-    def check_arc(self, channel: Channel, start: Point, end: Point, center: Point) -> None:
-        """Alarm for an end point off the circle; none where the limit is 0."""
-        if self.arc_tolerance(channel) > 0.0:
-            super().check_arc(channel, start, end, center)
-
     def spiral_tolerance(self, channel: Channel) -> float:
         """What an arc takes up on its way; beyond it, where a parameter allows that, the rest is straight."""
         limit, delivered = self.arc_tolerance(channel), self.ARC_TOLERANCE_PARAMETER[1]
@@ -123,20 +116,6 @@ class MillingControl(CustomMacroControl):
         return False
 
     # ---- offsets -------------------------------------------------------------------------------------
-
-    def length_value(self, channel: Channel, number: int) -> float:
-        """Length offset of an H number, mm."""
-        return self._offset(channel, number, "H").total_length
-
-    def radius_value(self, channel: Channel, number: int) -> float:
-        """Radius offset of a D number, mm."""
-        return self._offset(channel, number, "D").total_radius if number else 0.0
-
-    def _offset(self, channel: Channel, number: int, address: str) -> ToolOffset:
-        if not 0 <= number <= 999:
-            raise self.fail("offset_number", address=address)
-        memory: Memory = channel.memory
-        return memory.offset_number(number)
 
     def compensation_policy(self, _channel: Channel) -> Policy:
         """Rules of radius compensation."""
