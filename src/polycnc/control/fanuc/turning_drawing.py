@@ -54,8 +54,9 @@ class OpenLine:
 
 
 def is_on(builder: Builder) -> bool:
-    """Whether drawing dimensions are chosen (3453#0 CRD)."""
-    return bool(builder.channel.setup.parameters.bit(3453, 0))
+    """Whether drawing dimensions are chosen (3453#0 CRD); they need memory operation (II.4.9, note 1)."""
+    setup = builder.channel.setup
+    return bool(setup.parameters.bit(3453, 0)) and setup.switches.mode != "mdi"
 
 
 def plan_line(builder: Builder, plan: Plan) -> Step | None:
