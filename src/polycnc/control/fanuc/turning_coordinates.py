@@ -49,6 +49,7 @@ def set_position(channel: Channel, words: Words) -> None:
 
 def set_local_system(channel: Channel, words: Words) -> None:
     """G52: zero of a local system within each of G54 to G59; an increment moves it."""
+    _refuse_rotation(channel, words, "G52")
     local = channel.memory.local_shift
     drop_vector(channel)
     for axis, value, incremental in words.axes():
@@ -58,6 +59,7 @@ def set_local_system(channel: Channel, words: Words) -> None:
 
 def preset_system(channel: Channel, words: Words) -> None:
     """G50.3 (B, C: G92.1): G50 and G52 of the named axes vanish, and offsets that move the point (1205#7)."""
+    _refuse_rotation(channel, words, "G50.3")
     memory = channel.memory
     for axis, value, _ in words.axes():
         if value != 0.0:

@@ -10,6 +10,7 @@ from math import nan
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.word_address.coordinates import refresh_zero
+from polycnc.control.word_address.path import PLANES
 from polycnc.control.word_address.plan import NOT_YET
 from polycnc.control.word_address.radius import compensation_stage, side_on_display
 from polycnc.messages import AlarmError
@@ -48,7 +49,10 @@ def plan_tool(builder: Builder) -> Step:
     named = bool(builder.axis_words())
     one_shot = named and any(row.axis_words for row in builder.codes)
     moves = named and not one_shot
-    starts_or_ends = mode["motion"] in _ARCS and moves and mode["compensation"] != "G40"
+    arc = mode["motion"] in _ARCS and moves
+    starts_or_ends = arc and mode["compensation"] != "G40"
+    third = builder.channel.coordinates.geometry[PLANES[mode["plane"]][2]]
+    helix = arc and any(word.axis == third for word in builder.axis_words())
 
     def select(channel: Channel, values: list[float]) -> None:
         memory = channel.memory
@@ -61,6 +65,8 @@ def plan_tool(builder: Builder) -> Step:
         channel.event("t", tool=tool)
         if number is None:
             return
+        if helix:
+            raise control.fail("offset_in_thread", address="T")
         if starts_or_ends and (number == 0) != (memory.offset_active == 0):
             raise control.fail("comp_arc_start", address="T")
         select_offset(channel, number, tool)
