@@ -57,6 +57,7 @@ def test_the_column_of_a_code_and_of_an_address() -> None:
     steps = program("N1 (G41) G041 X1. ,R2.\n")
     assert steps.column(0, "G41") == 10
     assert steps.column(0, ",R") == 19
+    assert steps.column(1, "G41") == 0, "what the end of the program finds missing stands in no line"
 
 
 def test_several_blocks_in_a_line_run_one_by_one() -> None:

@@ -123,6 +123,8 @@ class WordAddressProgram:
 
     def column(self, index: int, address: str) -> int:
         """Column, from 1, of an address (`X`, `,R`) or a code (`G41`) in a line; 0 when it is not there."""
+        if index >= len(self.lines):
+            return 0  # what the end of the program finds missing stands in no line
         text = self.blank_comments(self.lines[index])
         if is_fixed_code(address):
             for match in _WORD.finditer(text):
