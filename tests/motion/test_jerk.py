@@ -17,7 +17,7 @@ from polycnc.motion.kernels.columns import LENGTH, SPEED2, piece_width
 from polycnc.motion.limits import EXACT_MM, averages
 from polycnc.motion.planner import Planner
 from polycnc.motion.run import Run
-from polycnc.toolpath import Context
+from polycnc.toolpath import Context, Kind
 from tests.motion.paths import MILL, Build
 from tests.motion.test_limits import UNEVEN, arc, build, line, spiral, spline
 
@@ -190,6 +190,32 @@ def test_drive_accelerates_less_where_an_axis_may_become_fast() -> None:
     pull = MILL.axis["X"].acceleration
     assert seconds(0.4 * top, "DRIVE") == seconds(0.4 * top, "BRISK")
     assert seconds(0.8 * top, "DRIVE") - seconds(0.8 * top, "BRISK") == pytest.approx(0.8 * top / pull)
+
+
+@pytest.mark.parametrize("kind", ["arc", "helix", "spline", "per revolution"])
+def test_drive_acts_on_every_kind_of_path(kind: str) -> None:
+    """From rest at a feed above the part of the velocity; below it DRIVE is BRISK."""
+    lead = Settings(drive_speed=0.5, drive_reduction=0.5)
+    top = MILL.axis["X"].max_feed
+
+    def seconds(feed: float, acceleration: str) -> float:
+        rows = Build(context=Context(acceleration=acceleration, path_mode="G64"))
+        if kind == "per revolution":
+            rows.set(feed_mode="G95", spindle_rpm=600.0, spindle_direction=1)
+            rows.feed(300.0, 0.0, 0.0, feed=feed / 10.0)
+        elif kind == "spline":
+            for k in range(1, 201):
+                rows.row(Kind.SPLINE, 2.0 * k, 40.0 * (1.0 - cos(0.01 * k)), 0.0, feed=feed)
+        else:
+            rise = 5.0 if kind == "helix" else 0.0
+            curve = (0.0, 200.0, 0.0, 0.0, 0.0, 1.0, 0.0)
+            rows.row(Kind.HELIX_CCW if rise else Kind.CCW, 200.0, 200.0, rise, feed=feed, curve=curve)
+        return rows.plan(MILL, settings=lead).times.cutting_s
+
+    pull = MILL.axis["X"].acceleration
+    assert seconds(0.4 * top, "DRIVE") == seconds(0.4 * top, "BRISK")
+    longer = seconds(0.8 * top, "DRIVE") - seconds(0.8 * top, "BRISK")
+    assert 0.3 * 0.8 * top / pull < longer <= 1.2 * 0.8 * top / pull
 
 
 def test_the_pieces_of_a_cut_line_make_up_the_line() -> None:

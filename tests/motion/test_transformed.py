@@ -2,11 +2,23 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+from math import hypot, pi
+from typing import Any
+
+import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import polycnc
 from polycnc.machine import load_machine
 from polycnc.mainrun import State
+from polycnc.motion import Settings
+from polycnc.motion.frames import real_of
+from polycnc.motion.kernels.columns import FORM, ROW, SPEED2, TIMED, piece_width
+from polycnc.motion.planner import Planner
+from polycnc.motion.run import Run
 from polycnc.motion.transformed import RealAxes
 from polycnc.toolpath import Context, Kind, Toolpath
 from tests.mainrun.support import power_on
@@ -25,6 +37,7 @@ G13.1
 M30
 """
 MACHINE = load_machine("lathe-c-transmit")
+SLACK = 1.0 + 1e-6
 
 
 def test_the_real_axes_keep_their_velocity_near_the_centre() -> None:
@@ -51,12 +64,14 @@ def test_a_plan_is_slow_where_the_rotary_axis_has_to_be_fast() -> None:
     assert result.plan.row_s[near] > 15.0 / (c.max_feed * 3.1416 / 180.0)
 
 
-def test_rows_without_a_transformation_have_no_cap() -> None:
+def test_rows_without_a_transformation_have_no_bounds() -> None:
     toolpath = Toolpath(("X", "Z", "C"))
     number = toolpath.context_number(Context())
     toolpath.append(Kind.FEED, 0, 1, number, 10.0, [10.0, 0.0, 90.0])
-    real = RealAxes(tuple(MACHINE.axis[name] for name in "XZC"), (0, -1, 1), (0.0, 0.0, 0.0))
-    assert real.caps(toolpath.chunk, toolpath.contexts) == {}
+    real = RealAxes(MACHINE, 1, ("X", "Z", "C"), Settings(), (0.0, 0.0, 0.0))
+    bounds = real.bounds(toolpath.chunk, toolpath.contexts)
+    assert bounds.enters == {}
+    assert all(len(column) == 0 for column in bounds.shares)
 
 
 @pytest.mark.parametrize("radius", [5.0, 20.0])
@@ -69,3 +84,93 @@ def test_a_circle_around_the_centre_turns_the_rotary_axis_evenly(radius: float) 
     arc = next(i for i, row in enumerate(result.rows) if row["type"] == "ccw")
     seconds = 90.0 / MACHINE.axis["C"].max_feed
     assert result.plan.row_s[arc] >= seconds * 0.98
+
+
+def test_the_path_goes_on_from_where_the_real_axes_are() -> None:
+    """A quarter circle and a line in the plane, then a rapid of the real axes from X20 C180."""
+    text = "O1\nG98 G0 X40. C0\nG12.1\nG3 X0 C20. R20. F300\nG1 X-20. C0\nG13.1\nG0 C90.\nM30\n"
+    result = polycnc.run(text, control="fanuc-0i-tf", machine="lathe-c-transmit")
+    assert not result.alarms
+    assert result.plan.times.cutting_mm == pytest.approx(20.0 * pi / 2.0 + hypot(20.0, 20.0), rel=1e-6)
+    assert result.plan.times.rapid_mm == pytest.approx(20.0 + 90.0, rel=1e-6)
+
+
+def test_a_line_past_the_centre_is_slow_only_next_to_it() -> None:
+    text = "O1\nG98 G0 X60. C0\nG12.1\nG1 X30. C0.1 F3000\nX-30.\nG13.1\nM30\n"
+    result = polycnc.run(text, control="fanuc-0i-tf", machine="lathe-c-transmit")
+    past = next(i for i, row in enumerate(result.rows) if row.get("line") == 5)
+    # Half a turn of C alone takes 0.3 s. At the speed next to the centre the whole line would take a minute.
+    assert 0.3 < result.plan.row_s[past] < 10.0
+
+
+POINT = st.tuples(st.floats(-40.0, 40.0), st.floats(-40.0, 40.0)).map(
+    lambda p: (round(p[0], 3), round(p[1], 3))
+)
+
+
+def polar_program(points: list[tuple[float, float]], arcs: list[bool], feed: int) -> str:
+    """Lines and arcs between points of the plane, each at least 0.1 mm from the centre."""
+    lines, (x, y) = ["O1", "G98 G0 X60. Z5. C0", "G12.1"], (60.0, 0.0)
+    for (a, b), is_arc in zip(points, arcs, strict=False):
+        if hypot(a, b) >= 0.1 and (a, b) != (x, y):
+            code = f"G3 R{round(hypot(a - x, b - y), 3)}" if is_arc else "G1"
+            lines.append(f"{code} X{a} C{b} F{feed}")
+            x, y = a, b
+    return "\n".join([*lines, "G13.1", "M30", ""])
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    st.lists(POINT, min_size=1, max_size=6),
+    st.lists(st.booleans(), min_size=6, max_size=6),
+    st.sampled_from([100, 3000, 30000]),
+)
+def test_real_axes_keep_velocity_acceleration_and_jerk_under_polar_interpolation(
+    points: list[tuple[float, float]], arcs: list[bool], feed: int
+) -> None:
+    result = polycnc.run(polar_program(points, arcs, feed), control="fanuc-0i-tf", machine="lathe-c-transmit")
+    assert not result.alarms
+    for run, context in runs_of(result):
+        times = np.arange(0.0, min(run.seconds, 10.0), 0.001)
+        _, velocity, acceleration = real_motion(run, context, times)
+        jerk = np.diff(acceleration, axis=0) / 0.001
+        for i, name in enumerate("XZC"):
+            axis = MACHINE.axis[name]
+            assert np.abs(velocity[:, i]).max() <= max(axis.rapid, axis.max_feed) * SLACK
+            assert np.abs(acceleration[:, i]).max() <= axis.acceleration * SLACK
+            assert np.abs(jerk[:, i]).max(initial=0.0) <= axis.jerk * SLACK
+
+
+def runs_of(result: polycnc.Result) -> list[tuple[Run, Context]]:
+    """What the axes do from rest to rest, rapids of each axis alone left out."""
+    toolpath, found, n = result.toolpath, list[Any](), 3
+    width = piece_width(n)
+    planner = Planner(
+        toolpath,
+        MACHINE,
+        **result.lead,
+        compiled=False,
+        on_pieces=lambda pieces, count: found.append(np.array(pieces[: count * width]).reshape(count, width)),
+    )
+    planner.finish()
+    pieces, rows = np.concatenate(found), list(toolpath.rows())
+    starts = [*np.flatnonzero(pieces[:, SPEED2] == 0.0).tolist(), len(pieces)]
+    return [
+        (Run(pieces[a:b], n), rows[int(pieces[a, ROW])].context)
+        for a, b in pairwise(starts)
+        if pieces[a, FORM] != TIMED
+    ]
+
+
+def real_motion(run: Run, context: Context, times: Any) -> tuple[Any, Any, Any]:
+    """Position, velocity and acceleration of the real axes, by the chain rule over a short time."""
+    position, velocity, acceleration = run.at(times)
+    short, geometry = 1e-4, MACHINE.geometry_indices(1)
+    places = [position + velocity * t + acceleration * t * t / 2.0 for t in (-short, 0.0, short)]
+    before, now, after = (
+        np.array([real_of(place, context, geometry) for place in laid.tolist()]) for laid in places
+    )
+    ways = [now - before, after - now]
+    for way in ways:
+        way[:, 2] = (way[:, 2] + 180.0) % 360.0 - 180.0
+    return now, (ways[0] + ways[1]) / (2.0 * short), (ways[1] - ways[0]) / short**2

@@ -44,6 +44,7 @@ from polycnc.motion.kernels.columns import (
     REACH2,
     ROW,
     ROW_LENGTH,
+    SHARES,
     STATE_BLOCKS,
     STOP,
     STRAIGHT,
@@ -57,8 +58,8 @@ from polycnc.motion.kernels.columns import (
 from polycnc.motion.kernels.feeds import asked_speed, follows_radius, is_rapid
 from polycnc.motion.kernels.lay import lay
 from polycnc.motion.kernels.speeds import backward
-from polycnc.motion.limits import averages, axis_limits, channel_axes, context_fields
-from polycnc.motion.transformed import RealAxes
+from polycnc.motion.limits import averages, context_fields
+from polycnc.motion.transformed import Bounds, RealAxes
 from polycnc.motion.waits import ORIENT, Waits
 from polycnc.toolpath import Context, Kind, Toolpath
 from polycnc.toolpath.kinds import ARC_KINDS
@@ -137,9 +138,8 @@ class Ahead:
         self._open: tuple[tuple[int, int], str] | None = None
         self._stopped = self._skips = False
         self._geometry = machine.geometry_indices(number)
-        self._last_context = Context()
-        self._left = left
-        self._real = RealAxes(channel_axes(machine, number, self.toolpath.axes), self._geometry, ())
+        self._last_context, self._left = Context(), left
+        self._real: RealAxes
 
     # ---- the channel ---------------------------------------------------------------------------------------
 
@@ -149,7 +149,8 @@ class Ahead:
         self._waits.rapid_stops = settings.rapid_stops
         self._waits.stand_in(channel.setup.spindle_tool if channel.number == 1 else 0)
         channel.main_run = self
-        self.limits = axis_limits(self._machine, self._number, self.toolpath.axes, settings)
+        self._real = RealAxes(self._machine, self._number, self.toolpath.axes, settings, ())
+        self.limits = self._real.limits(None)
 
     def start(self, program: Program, position: Sequence[float]) -> None:
         """Begin with a program; the axes stand at a machine position."""
@@ -306,7 +307,7 @@ class Ahead:
         """Turn the rows of a block into items."""
         self._add_contexts()
         self._take_over()
-        caps = self._real.caps(chunk, self.toolpath.contexts)
+        bounds = self._real.bounds(chunk, self.toolpath.contexts)
         self._delays.clear()
         self._waits.take(chunk, int(self.limits[LIMIT_BLOCKS * self._axes + GEOMETRY]))
         self._waits.parallel.clear()
@@ -328,7 +329,7 @@ class Ahead:
             elif kind == Kind.DWELL:
                 self.end_in_rest()
             else:
-                self._lay(chunk, row, caps.get(row, inf))
+                self._lay(chunk, row, bounds)
         return True
 
     def _take_over(self) -> None:
@@ -353,35 +354,32 @@ class Ahead:
             )
             self._laid_contexts += 1
 
-    def _lay(self, chunk: Chunk, row: int, cap: float) -> None:
-        """Lay a move out as pieces. Its feed is FREE, so that the pieces know what the axes allow.
-
-        `cap` is the highest speed that the real axes allow under a transformation.
-        """
-        n, state = self._axes, self._state
-        self._enter_context(self.toolpath.contexts[chunk.context[row]])
-        end = chunk.end[row * n : (row + 1) * n]
-        rows = Rows([chunk.kind[row]], [chunk.context[row]], [chunk.feed[row]], end, [chunk.curve[row]], [])
-        first = STATE_BLOCKS + POSITION * n
-        start = tuple(state[first : first + n])
-        number = chunk.first + row
-        while lay(rows, 0, chunk.curves, number, self._contexts, self.limits, self._pieces, state) == 0:
+    def _lay(self, chunk: Chunk, row: int, bounds: Bounds) -> None:
+        """Lay a move out as pieces. Its feed is FREE, so that the pieces know what the axes allow."""
+        n, state, context = self._axes, self._state, self.toolpath.contexts[chunk.context[row]]
+        self._enter_context(context)
+        end, limits = chunk.end[row * n : (row + 1) * n], self._real.limits(context.transformation)
+        own, shares = slice(row, row + 1), slice(row * SHARES, (row + 1) * SHARES)
+        rows = Rows(
+            chunk.kind[own], chunk.context[own], chunk.feed[own], end, chunk.curve[own], [],
+            *(column[shares] for column in bounds.shares),
+        )  # fmt: skip
+        start, numbered = tuple(self.position), chunk.first + row
+        while lay(rows, 0, chunk.curves, numbered, self._contexts, limits, self._pieces, state) == 0:
             self._pieces.frombytes(bytes(len(self._pieces) * 8))
-        count = self._laid(number)
+        count = self._laid(numbered)
         if count == 0:
             return
         before = int(state[PIECES]) - count
         self._rests_ahead += self._pieces[before * self._width + PAUSE] > 0.0
         self._split(before)
         self._skips = self._skips or chunk.kind[row] == Kind.SKIP
-        is_arc = (
-            chunk.kind[row] in (*ARC_KINDS, Kind.THREAD)
-            and self._pieces[before * self._width + FORM] != STRAIGHT
-        )
-        way = arc_laid(start, state, self.limits, n) if is_arc else line_laid(start, state, n)
-        self._add_pieces(chunk, row, way, before, count, cap * cap)
+        form = self._pieces[before * self._width + FORM]
+        is_arc = chunk.kind[row] in (*ARC_KINDS, Kind.THREAD) and form != STRAIGHT
+        way = arc_laid(start, state, limits, n) if is_arc else line_laid(start, state, n)
+        self._add_pieces(chunk, row, way, before, count)
 
-    def _add_pieces(self, chunk: Chunk, row: int, way: Way, before: int, count: int, cap2: float) -> None:
+    def _add_pieces(self, chunk: Chunk, row: int, way: Way, before: int, count: int) -> None:
         """Make items of the last `count` records, the pieces of a row."""
         state, is_arc = self._state, isinstance(way, Arc)
         is_cut_short = chunk.kind[row] == Kind.SKIP and chunk.curve[row] >= 0
@@ -390,8 +388,6 @@ class Ahead:
         done = 0.0
         for part in range(count):
             at = (before + part) * self._width
-            for field in (ENTRY2, CAP2):
-                self._pieces[at + field] = min(self._pieces[at + field], cap2)
             share = self._pieces[at + LENGTH] / total
             asked = asked_speed(
                 chunk.curves, self._contexts, record, state, state[ROW_LENGTH],

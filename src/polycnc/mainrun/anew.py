@@ -72,7 +72,7 @@ def line_anew(
     state[first : first + n] = array("d", start)
     end = array("d", piece.way.end)
     records = array("d", bytes(8 * width * ROOM))
-    rows = Rows([piece.kind], [0], [piece.asked if piece.asked < inf else 0.0], end, [-1], [])
+    rows = Rows([piece.kind], [0], [piece.asked if piece.asked < inf else 0.0], end, [-1], [], [], [], [])
     lay(rows, 0, array("d"), piece.row, own, limits, records, state)
     settle_alone(records, n, limits, state)
     del records[int(state[PIECES]) * width :]

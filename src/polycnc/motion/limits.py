@@ -13,6 +13,7 @@ from polycnc.motion.settings import DRIVE, EXACT_STOP_MODES, SOFT, Settings
 if TYPE_CHECKING:
     from polycnc.machine import Axis, Machine, Spindle
     from polycnc.toolpath import Context
+    from polycnc.toolpath.context import Transformation
 
 #: Deviation that counts as none: what a control resolves.
 EXACT_MM = 0.001
@@ -27,12 +28,23 @@ def channel_axes(machine: Machine, channel: int, names: tuple[str, ...]) -> tupl
     return tuple(machine.axis.get(called.get(name, name)) for name in names)
 
 
-def axis_limits(machine: Machine, channel: int, names: tuple[str, ...], settings: Settings) -> array[float]:
+def axis_limits(
+    machine: Machine,
+    channel: int,
+    names: tuple[str, ...],
+    settings: Settings,
+    transformation: Transformation | None = None,
+) -> array[float]:
     """The kernels' `limits` for the columns of a toolpath.
 
     An axis that a transformation makes is taken to be as slow as the slowest linear one.
     """
     axes = channel_axes(machine, channel, names)
+    if transformation is not None:
+        made = transformation.geometry
+        axes = tuple(
+            None if axis is not None and axis.rotary and i in made else axis for i, axis in enumerate(axes)
+        )
     linear = [axis for axis in machine.axes if not axis.rotary] or list(machine.axes)
 
     def numbers(field: str) -> list[float]:
@@ -50,6 +62,8 @@ def axis_limits(machine: Machine, channel: int, names: tuple[str, ...], settings
     for i, name in enumerate("XYZ"):
         if geometry[i] < 0 and name in built.virtual and name in names:
             geometry[i] = names.index(name)
+    if transformation is not None:
+        geometry = list(transformation.geometry)
     acceleration = numbers("acceleration")
     step = settings.overload * machine.interpolation_cycle_s
     blocks = (
@@ -103,7 +117,9 @@ def context_fields(
         station,
         not context.frame.is_identity,
         -1.0 if context.frame.mirrors else 1.0,
-        (settings.rapid_by_axis or context.rapid_by_axis) and not context.lag_s,
+        (settings.rapid_by_axis or context.rapid_by_axis)
+        and not context.lag_s
+        and context.transformation is None,
         *averages,
         settings.drive_speed if context.acceleration == DRIVE else 1.0,
         settings.drive_reduction,

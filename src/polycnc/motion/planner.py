@@ -40,7 +40,7 @@ from polycnc.motion.kernels.columns import (
     Rows,
     piece_width,
 )
-from polycnc.motion.limits import averages, axis_limits, channel_axes, context_fields
+from polycnc.motion.limits import averages, context_fields
 from polycnc.motion.plan import Plan, Times, ToolTimes
 from polycnc.motion.settings import DEFAULT, Settings
 from polycnc.motion.transformed import RealAxes
@@ -108,11 +108,9 @@ class Planner:
         self._compiled = compiled
         self._feed_profile = feed_profile
         self._kernels = PLAIN
-        self._limits = axis_limits(machine, channel, toolpath.axes, settings)
         self._state = _new_state(self._axes, start)
-        built = next((c for c in machine.channels if c.number == channel), machine.channels[0])
-        geometry = machine.geometry_indices(built.number)
-        self._real = RealAxes(channel_axes(machine, channel, toolpath.axes), geometry, start)
+        self._real = RealAxes(machine, channel, toolpath.axes, settings, start)
+        self._limits = self._real.limits(None)
         self._pieces = array("d", bytes(8 * self._width * FIRST_ROOM))
         self._room = FULL_ROOM
         self._contexts = array("d")
@@ -161,34 +159,32 @@ class Planner:
         stops = array("B", [self._waits.stands_for(event) for event in chunk.events])
         see = self._kernels.see
         feed = chunk.feed if self._feed_profile is None else self._feed_profile(chunk)
-        feed = self._within_real_axes(chunk, feed)
-        rows = Rows(
-            see(chunk.kind), see(chunk.context), see(feed), see(chunk.end), see(chunk.curve), see(stops)
-        )
-        fixed = see(chunk.curves), chunk.first, see(self._contexts), see(self._limits)
+        bounds = self._real.bounds(chunk, self._toolpath.contexts)
+        columns = (chunk.kind, chunk.context, feed, chunk.end, chunk.curve, stops, *bounds.shares)
+        kind, *others = (see(column) for column in columns)
+        fixed = see(chunk.curves), chunk.first, see(self._contexts)
         row = 0
-        while True:
-            row = self._kernels.lay(rows, row, *fixed, see(self._pieces), see(self._state))
-            if row == len(chunk):
-                return True
-            self._make_room()
+        for edge in (*bounds.enters, len(chunk)):
+            rows = Rows(kind[:edge], *others)
+            while row < edge:
+                row = self._kernels.lay(
+                    rows, row, *fixed, see(self._limits), see(self._pieces), see(self._state)
+                )
+                if row < edge:
+                    self._make_room()
+            if edge in bounds.enters:
+                context = self._toolpath.contexts[chunk.context[edge]]
+                self._enter(context, bounds.enters[edge], chunk.first + edge)
+        return True
 
-    def _within_real_axes(self, chunk: Chunk, feed: array[float]) -> array[float]:
-        """Feeds that real axes under a transformation can follow."""
-        contexts = self._toolpath.contexts
-        caps = self._real.caps(chunk, contexts)
-        if not caps:
-            return feed
-        feed = feed[:]
-        for row, cap in caps.items():
-            mode = contexts[chunk.context[row]].feed_mode
-            if mode == "G94":
-                feed[row] = min(feed[row], cap) if feed[row] > 0.0 else cap
-            elif mode == "G95":
-                context = contexts[chunk.context[row]]
-                turns = self._waits.rpm(context, 0.0) / 60.0
-                feed[row] = min(feed[row], cap / turns) if turns > 0.0 else feed[row]
-        return feed
+    def _enter(self, context: Context, position: list[float], row: int) -> None:
+        """Before a row a transformation begins or ends: at rest the path goes on from where the real axes are."""
+        settle_alone(self._pieces, self._axes, self._limits, self._state)
+        self._look_ahead(row)
+        self._limits = self._real.limits(context.transformation)
+        first = STATE_BLOCKS + POSITION * self._axes
+        self._state[STOP] = 1.0
+        self._state[first : first + self._axes] = array("d", position)
 
     def finish(self) -> Plan:
         """Plan what the toolpath still holds, to a stop behind the last row, and give the result."""
@@ -197,7 +193,7 @@ class Planner:
                 self.take(chunk)
         self._waits.settle(self._next_row)
         settle_alone(self._pieces, self._axes, self._limits, self._state)
-        self._look_ahead(finish=True)
+        self._look_ahead(self._next_row)
         self._settle_parallel(self._next_row)
         return self._plan()
 
@@ -219,24 +215,26 @@ class Planner:
         room = len(self._pieces) // self._width
         if room >= self._room:
             before = self._state[PIECES]
-            self._look_ahead(finish=False)
+            self._look_ahead()
             if self._state[PIECES] < before and 2 * self._state[PIECES] <= room:
                 return
             self._room = 2 * room
         self._pieces.frombytes(bytes(8 * self._width * room))
 
-    def _look_ahead(self, *, finish: bool) -> None:
+    def _look_ahead(self, end: int | None = None) -> None:
         """Find the speeds of all pieces that nothing still to come can change, and drop those pieces.
+
+        Of all pieces if the axes come to rest before the row `end`.
 
         The last pieces wait for the rows behind them, for a spline bends there, and a bound on the speed may
         reach back; the joint before them is taken as a stop.
         """
         count, width, see = int(self._state[PIECES]), self._width, self._kernels.see
-        last = count if finish else self._settled(count)
+        last = self._settled(count) if end is None else count
         if last <= 0:
             return
         final = self._kernels.backward(see(self._pieces), last, self._axes, see(self._limits))
-        if finish:
+        if end is not None:
             final = count
         if final <= 0:
             return  # so far everything hangs on what is still to come
@@ -258,7 +256,7 @@ class Planner:
         pieces[: len(rest)] = rest
         pieces[SPEED2] = end2
         self._state[PIECES] = count - final
-        planned_rows = int(rest[ROW]) if rest else self._next_row
+        planned_rows = int(rest[ROW]) if end is None else end
         self._settle_parallel(planned_rows)
         if not self._keep_rows:
             del self._row_s[: planned_rows - self._first_row]

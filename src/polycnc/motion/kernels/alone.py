@@ -19,6 +19,7 @@ from polycnc.motion.kernels.columns import (
     BLEND,
     CAP2,
     JERK,
+    LAST_EASE,
     LENGTH,
     PAUSE,
     PIECES,
@@ -57,12 +58,12 @@ def settle_alone(pieces: Floats, n: int, limits: Floats, state: Floats) -> None:
     state[ALONE] = 0.0
     at = (count - 1) * piece_width(n)
     here, length = at + VECTORS + PLACES * n, pieces[at + LENGTH]
-    pull, jerk = inf, inf
+    pull, jerk, ease = inf, inf, state[LAST_EASE]
     for i in range(n):
         share = abs(pieces[here + n + i] - pieces[here + i]) / length
         if share > 0.0:
-            pull = min(pull, limits[ACCELERATION * n + i] / share)
-            jerk = min(jerk, limits[JERK * n + i] / share)
+            pull = min(pull, ease * limits[ACCELERATION * n + i] / share)
+            jerk = min(jerk, ease * limits[JERK * n + i] / share)
     top = min(sqrt(pieces[at + CAP2]), state[WANTED])
     ramp = best_ramp(length, top, pull, jerk)
     pieces[at + PULL] = min(pull, 0.5 * jerk * ramp)

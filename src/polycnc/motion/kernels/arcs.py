@@ -17,6 +17,8 @@ from polycnc.motion.kernels.columns import (
     CURVE,
     CURVED,
     DELTA,
+    DRIVE_SPEED,
+    EASE,
     ENTRY2,
     EXIT2,
     EXIT_PULL,
@@ -37,6 +39,7 @@ from polycnc.motion.kernels.columns import (
     MIRROR,
     OFFSETS,
     PATH_FEED,
+    PATH_PULL,
     PIECES_PER_TURN,
     PLACES,
     POSITION,
@@ -48,7 +51,12 @@ from polycnc.motion.kernels.columns import (
     ROTARY,
     ROTARY_WEIGHT,
     ROW_LENGTH,
+    ROW_TOP,
     SAME_POINT_MM,
+    SHARE_COUNT,
+    SHARE_EASE,
+    SHARE_END,
+    SHARE_TOP,
     SMOOTH,
     STATE_BLOCKS,
     SWEEP,
@@ -65,6 +73,7 @@ from polycnc.motion.kernels.feeds import (
     asked_speed,
     bound,
     bounded,
+    drive_factor,
     follows_radius,
     has_room,
     next_piece,
@@ -211,6 +220,7 @@ def lay_arc(
     way = arc_point(0.0, n, limits, weight, state)
     length = 0.5 * (way + end_way) * sweep
     radius, highest = facing_radius(0.0, n, limits, state), limits[LIMIT_BLOCKS * n + PATH_FEED]
+    highest = min(highest, state[ROW_TOP])
     speed = min(bounded(asked_speed(curves, contexts, record, state, length, radius), state), highest)
     entry2, pull = point_cap2(n, limits, state, margin), inf
     if gentle:
@@ -222,6 +232,7 @@ def lay_arc(
     state[ALONE] = 0.0
     state[JOINT_PULL] = min(state[JOINT_PULL], pull)
     for part in range(parts):
+        own = share_of_arc(part / parts, (part + 1) / parts, state)
         if follows_radius(contexts, record):
             radius = facing_radius((part + 0.5) * step, n, limits, state)
             speed = min(bound(asked_speed(curves, contexts, record, state, length, radius), state), highest)
@@ -234,13 +245,16 @@ def lay_arc(
         store_point(pieces, at + VECTORS, n, state, margin)
         next_way = arc_point((part + 1) * step, n, limits, weight, state)
         store_point(pieces, at + VECTORS + n, n, state, margin)
-        bound_curve(pieces, at, n, limits, speed)
+        bound_curve(pieces, at, n, limits, min(speed, own))
+        if contexts[record + DRIVE_SPEED] < 1.0 or state[EASE] < 1.0:
+            slow_down(contexts, record, pieces, at, n, limits, state)
         if gentle:
             bend = max(bend, curvature(n, limits, weight, state))
-            cap2, pull = arc_hold(contexts, record, n, limits, state, bend, speed)
+            before = pull
+            cap2, pull = arc_hold(contexts, record, n, limits, state, bend, min(speed, own))
             pieces[at + CAP2], pieces[at + PULL] = min(cap2, pieces[at + CAP2]), pull
             pieces[at + HOLD2] = min(entry2, pieces[at + CAP2])
-            pieces[at + HOLD_PULL] = pull if part > 0 else min(state[JOINT_PULL], pull)
+            pieces[at + HOLD_PULL] = min(before if part > 0 else state[JOINT_PULL], pull)
         pieces[at + LENGTH] = 0.5 * (way + next_way) * step
         pieces[at + ENTRY2] = min(entry2, pieces[at + CAP2])
         entry2 = min(pieces[at + CAP2], point_cap2(n, limits, state, margin))
@@ -251,6 +265,32 @@ def lay_arc(
     state[EXIT_PULL] = pull
     state[EXIT2], state[ROW_LENGTH], state[METRIC], state[SMOOTH] = entry2, length, weight, 0.0
     return True
+
+
+def share_of_arc(first: float, last: float, state: Floats) -> float:
+    """Highest speed on a part of an arc under a transformation; sets EASE to what holds there."""
+    count, start, top = int(state[SHARE_COUNT]), 0.0, inf
+    if count > 1:
+        state[EASE] = 1.0
+        for k in range(count):
+            if start < last and state[SHARE_END + k] > first:
+                top, state[EASE] = min(top, state[SHARE_TOP + k]), min(state[EASE], state[SHARE_EASE + k])
+            start = state[SHARE_END + k]
+    return top
+
+
+def slow_down(
+    contexts: Floats, record: int, pieces: Floats, at: int, n: int, limits: Floats, state: Floats
+) -> None:
+    """Set PATH_PULL of a curved piece: under DRIVE, and where real axes behind the path need it."""
+    fastest, factor = sqrt(pieces[at + CAP2]), state[EASE]
+    for end in range(2):
+        first = at + VECTORS + end * n
+        factor = min(
+            factor,
+            state[EASE] * drive_factor(contexts, record, n, limits, state, pieces, first, fastest),
+        )
+    pieces[at + PATH_PULL] = factor * pieces[at + PULL]
 
 
 def curvature(n: int, limits: Floats, weight: float, state: Floats) -> float:

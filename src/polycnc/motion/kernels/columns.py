@@ -28,10 +28,17 @@ RAPID, CW, CCW, HELIX_CW, HELIX_CCW, SPLINE, THREAD, TAP, REF, SKIP, DWELL, EVEN
     12,
 )
 CURVE_WIDTH = 8
+#: Shares of a row under a transformation.
+SHARES = 16
 
 
 class Rows(NamedTuple):
-    """Columns of a chunk as the table has them; `stops` says of each event whether the axes stand for it."""
+    """Columns of a chunk as the table has them; `stops` says of each event whether the axes stand for it.
+
+    Under a transformation every row has SHARES shares: `share` says where each of them ends (0 to 1 of the row's way; a
+    first one that ends at 1 is alone), `top` bounds the path speed, and `ease` says by which factor the limits of the
+    columns must shrink for the real axes to keep theirs (`motion/transformed.py`). All empty where none acts.
+    """
 
     kind: Ints
     context: Ints
@@ -39,6 +46,9 @@ class Rows(NamedTuple):
     end: Floats
     curve: Ints
     stops: Ints
+    share: Floats
+    top: Floats
+    ease: Floats
 
 
 # `limits`: blocks of n numbers (mm or degrees, s), then what is there once.
@@ -67,12 +77,13 @@ FRAME, OFFSETS = 21, 33
 # rest. HOLD2 and HOLD_PULL bound speed and acceleration along the path on HOLD_WAY before and behind its start
 # (`hold.py`). RAMP and BLEND are the averages of the run that begins with the piece, seconds. MARGIN is the factor
 # by which q' and q'' are stored larger than they are. EARLY are the seconds by which the run that begins with the piece
-# may begin before the averages of the one before have come to rest; PAUSE bounds them. Behind VECTORS stand q' at
-# start and end, q'' at start and end, and the axes' positions at start and end: 6·n numbers.
+# may begin before the averages of the one before have come to rest; PAUSE bounds them. PATH_PULL bounds the
+# acceleration along a curved piece beside its axes. Behind VECTORS stand q' at start and end, q'' at start and end, and
+# the axes' positions at start and end: 6·n numbers.
 (
     LENGTH, CAP2, PULL, ENTRY2, REACH2, SPEED2, END2, TIME, FORM, ROW, SLOT,
-    PEAK2, RATE, PAUSE, HOLD2, HOLD_PULL, HOLD_WAY, RAMP, BLEND, MARGIN, EARLY, VECTORS,
-) = range(22)  # fmt: skip
+    PEAK2, RATE, PAUSE, HOLD2, HOLD_PULL, HOLD_WAY, RAMP, BLEND, MARGIN, EARLY, PATH_PULL, VECTORS,
+) = range(23)  # fmt: skip
 PLACES, PIECE_BLOCKS = 4, 6
 #: A line; a part of a curve under the limits of a line (with limited jerk); a part of a curve under limits that
 #: change along it; a rapid of every axis by itself.
@@ -88,9 +99,11 @@ EXIT_PULL, TOP2, TOP_PULL, LOW2, LOW_PULL, AHEAD, WINDOW, ALONE, WANTED, FREE = 
 JOINT_PULL, REST, RUN_RAMP, RUN_BLEND, OVERLAP_BEFORE = range(18, 23)
 # the row at hand (CURVE: where its record in `curves` begins, or -1; FACING: its end in X, work coordinates),
 KIND, NUMBER, ROW_SLOT, FEED, CURVE, FACING = range(23, 29)
+# its largest speed, and EASE at its start (1 without transformation); that at the end of the row before; its shares,
+ROW_TOP, EASE, LAST_EASE, SHARE_COUNT, SHARE_END, SHARE_TOP, SHARE_EASE = 29, 30, 31, 32, 33, 49, 65
 # its arc (unit vectors to the start, along the way there, and of the axis; angle, radius, growth of the
 # radius, rise),
-BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 29, 38, 39, 40, 41, 42
+BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 81, 90, 91, 92, 93, 94
 # and blocks of n numbers: machine position before the row, q' at the end of the last piece; end of the row,
 # way there, and room for one q' and q''; q'' at the end of the last piece.
 POSITION, TANGENT, TARGET, DELTA, UNIT, BEND, BENT_BEFORE, BLOCKS = range(8)
@@ -103,7 +116,7 @@ PIECES_PER_TURN = 48
 #: Pieces of a straight cut under constant surface speed, where the speed follows the radius.
 FACING_PIECES = 16
 #: Cosine of the angle between two spline chords from which on it counts as a corner.
-SMOOTH_COS = 0.7
+SMOOTH_COS = 0.9
 #: Two ends of an arc nearer than this (mm) make it a full circle.
 SAME_POINT_MM = 1e-7
 

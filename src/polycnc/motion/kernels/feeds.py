@@ -10,6 +10,8 @@ from polycnc.motion.kernels.columns import (
     CURVE,
     CUTS_PER_PIECE,
     DELTA,
+    DRIVE_REDUCTION,
+    DRIVE_SPEED,
     EARLY,
     EXIT2,
     FEED,
@@ -24,6 +26,7 @@ from polycnc.motion.kernels.columns import (
     LAG_S,
     MARGIN,
     NUMBER,
+    PATH_PULL,
     PAUSE,
     PER_REVOLUTION,
     PIECES,
@@ -48,6 +51,8 @@ from polycnc.motion.kernels.columns import (
     SURFACE_MM_S,
     TAP,
     THREAD,
+    TOP_FEED,
+    TOP_RAPID,
     VECTORS,
     WITHOUT_FEED,
     Floats,
@@ -146,6 +151,28 @@ def lagging_pull(contexts: Floats, record: int, speed: float) -> float:
     return speed * speed / (2.0 * contexts[record + LAG_S] * above)
 
 
+def drive_factor(
+    contexts: Floats,
+    record: int,
+    n: int,
+    limits: Floats,
+    state: Floats,
+    ways: Floats,
+    first: int,
+    speed: float,
+) -> float:
+    """DRIVE: the part of the acceleration that is left where an axis passes DRIVE_SPEED of its velocity.
+
+    `ways` from `first` on is q', `speed` the highest speed along the path.
+    """
+    part, block = contexts[record + DRIVE_SPEED], (TOP_RAPID if is_rapid(state) else TOP_FEED) * n
+    if part < 1.0:
+        for i in range(n):
+            if speed * abs(ways[first + i]) > part * limits[block + i]:
+                return 1.0 - contexts[record + DRIVE_REDUCTION]
+    return 1.0
+
+
 def bounded(asked: float, state: Floats) -> float:
     """The speed asked for, or no bound where none is; such rows are counted."""
     if not asked > 0.0:
@@ -181,6 +208,7 @@ def next_piece(pieces: Floats, state: Floats, form: int, cap2: float, n: int) ->
     state[EXIT2] = cap2
     pieces[at + FORM], pieces[at + ROW], pieces[at + SLOT] = form, state[NUMBER], state[ROW_SLOT]
     pieces[at + HOLD2], pieces[at + HOLD_PULL], pieces[at + PAUSE], pieces[at + MARGIN] = inf, inf, 0.0, 1.0
+    pieces[at + PATH_PULL] = inf
     pieces[at + RAMP], pieces[at + BLEND], pieces[at + EARLY] = state[RUN_RAMP], state[RUN_BLEND], 0.0
     return at
 

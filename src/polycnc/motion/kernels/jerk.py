@@ -20,6 +20,7 @@ from polycnc.motion.kernels.columns import (
     BEND,
     BENT_BEFORE,
     BLEND_S,
+    EASE,
     GEOMETRY,
     JERK,
     JOINT_PULL,
@@ -82,7 +83,7 @@ def corner_hold2(
     shorter, mean = min(length, state[ROW_LENGTH]), 0.5 * (length + state[ROW_LENGTH])
     turn, least = 0.0, inf
     for i in range(n):
-        a, j = limits[ACCELERATION * n + i], limits[JERK * n + i]
+        a, j = state[EASE] * limits[ACCELERATION * n + i], state[EASE] * limits[JERK * n + i]
         step = abs(state[unit + i] - state[tangent + i])
         if limits[ROTARY * n + i] == 0.0:
             turn += step * step
@@ -120,7 +121,7 @@ def arc_hold(
     for k in range(3):
         i = int(limits[geometry + k])
         if i >= 0:
-            pull = min(pull, ALONG * axis_pull(contexts[record + RAMP_S], n, limits, i))
+            pull = min(pull, ALONG * state[EASE] * axis_pull(contexts[record + RAMP_S], n, limits, i))
             if state[BASIS + k] != 0.0 or state[BASIS + 3 + k] != 0.0:
                 a, j = min(a, limits[ACCELERATION * n + i]), min(j, limits[JERK * n + i])
     tolerance = contexts[record + TOLERANCE]
@@ -128,4 +129,4 @@ def arc_hold(
         speed * speed, ACROSS * a / curvature, 12.0 * STRAY_CURVE * tolerance / (blend * blend * curvature)
     )
     cap2 = min(cap2, (JERK_CURVE * j / (curvature * curvature)) ** (2.0 / 3.0))
-    return cap2, min(pull, JERK_BOTH * j / (3.0 * curvature * sqrt(cap2)))
+    return cap2, min(pull, JERK_BOTH * state[EASE] * j / (3.0 * curvature * sqrt(cap2)))

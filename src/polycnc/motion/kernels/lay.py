@@ -20,10 +20,10 @@ from polycnc.motion.kernels.columns import (
     CURVED,
     CW,
     DELTA,
-    DRIVE_REDUCTION,
     DRIVE_SPEED,
     DWELL,
     EARLY,
+    EASE,
     ENTRY2,
     EVENT,
     EXACT_STOP,
@@ -37,11 +37,13 @@ from polycnc.motion.kernels.columns import (
     GEOMETRY,
     HAS_FRAME,
     HELIX_CCW,
-    INVERSE_TIME,
+    HOLD2,
+    HOLD_PULL,
     JERK,
     JOINT_PULL,
     KIND,
     LAG_S,
+    LAST_EASE,
     LENGTH,
     LIMIT_BLOCKS,
     METRIC,
@@ -51,8 +53,8 @@ from polycnc.motion.kernels.columns import (
     OVERLAP_BEFORE,
     OVERLAPS,
     PATH_FEED,
+    PATH_PULL,
     PAUSE,
-    PER_REVOLUTION,
     PIECES,
     POSITION,
     PULL,
@@ -65,6 +67,12 @@ from polycnc.motion.kernels.columns import (
     ROTARY_WEIGHT,
     ROW_LENGTH,
     ROW_SLOT,
+    ROW_TOP,
+    SHARE_COUNT,
+    SHARE_EASE,
+    SHARE_END,
+    SHARE_TOP,
+    SHARES,
     SKIP,
     SMOOTH,
     SPINDLE_REV_S2,
@@ -93,6 +101,7 @@ from polycnc.motion.kernels.feeds import (
     axes_of,
     bound,
     bounded,
+    drive_factor,
     follows_radius,
     has_room,
     is_rapid,
@@ -147,11 +156,30 @@ def lay(
                 state[STOP] = 1.0  # the axes wait for the spindle's zero mark
             state[KIND], state[NUMBER], state[FEED] = kind, number + row, rows.feed[row]
             state[CURVE] = rows.curve[row] * CURVE_WIDTH
+            take_shares(rows, row, state)
             state[ROW_SLOT] = 2 * rows.context[row] + (0 if is_rapid(state) else 1)
             aim(rows.end, row * n, contexts, record, n, limits, state)
             if not lay_move(curves, contexts, record, n, limits, pieces, state):
                 return row
+            state[LAST_EASE] = state[SHARE_EASE + max(int(state[SHARE_COUNT]) - 1, 0)]
     return len(rows.kind)
+
+
+def take_shares(rows: Rows, row: int, state: Floats) -> None:
+    """Set ROW_TOP, EASE and the shares of the row at hand."""
+    state[SHARE_COUNT], state[ROW_TOP], state[SHARE_EASE] = 0.0, inf, 1.0
+    if len(rows.share) > 0:
+        first, count = row * SHARES, 1
+        while rows.share[first + count - 1] < 1.0:
+            count += 1
+        for k in range(count):
+            state[SHARE_END + k] = rows.share[first + k]
+            state[SHARE_TOP + k] = rows.top[first + k]
+            state[SHARE_EASE + k] = rows.ease[first + k]
+        state[SHARE_COUNT] = count
+        state[ROW_TOP] = state[SHARE_TOP] if count == 1 else inf
+    before = state[LAST_EASE]
+    state[EASE] = min(state[SHARE_EASE], before) if before > 0.0 else state[SHARE_EASE]
 
 
 def aim(end: Floats, at: int, contexts: Floats, record: int, n: int, limits: Floats, state: Floats) -> None:
@@ -265,30 +293,25 @@ def lay_straight(
         length = norm(state, delta, n, limits, weight)
     if length == 0.0:
         return True
-    facing = int(limits[LIMIT_BLOCKS * n + GEOMETRY])
-    end_x, start_x, parts = state[FACING], state[FACING], 1
-    if facing >= 0 and follows_radius(contexts, record):
-        start_x -= state[delta + facing]
-        if abs(end_x - start_x) > 0.02 * max(abs(end_x), abs(start_x)):
-            parts = FACING_PIECES
+    parts, start_x = parts_of_line(contexts, record, n, limits, state)
+    end_x, shared = state[FACING], state[SHARE_COUNT] > 1.0
     if not has_room(pieces, contexts, record, state, parts, n):
         return False
-    top, pull = line_limits(contexts, record, n, limits, state, length)
-    lead = lead_of(curves, state)
-    if state[KIND] == TAP and lead > 0.0:
-        pull = min(pull, lead * contexts[record + SPINDLE_REV_S2])
-    lags = contexts[record + LAG_S] > 0.0
-    if lags:
-        asked = asked_speed(curves, contexts, record, state, length, end_x)
-        pull = min(pull, lagging_pull(contexts, record, min(top, asked)))
-    entry2 = 0.0
+    top, pull = line_limits(curves, contexts, record, n, limits, state, length, start_x)
+    entry2, first, last, whole_pull, before = 0.0, 0.0, 0.0, pull / state[EASE], pull
     for part in range(parts):
-        radius = start_x + (end_x - start_x) * (part + 0.5) / parts
+        first, last = last, state[SHARE_END + part] if shared else (part + 1) / parts
+        own = state[SHARE_TOP + part] if shared else inf
+        if shared and part > 0:
+            pull = whole_pull * state[SHARE_EASE + part]
+        radius = start_x + (end_x - start_x) * 0.5 * (first + last)
         asked = asked_speed(curves, contexts, record, state, length, radius)
         if part == 0:
-            speed = min(top, bounded(asked, state))
+            speed = min(top, own, bounded(asked, state))
             wanted = min(top, asked) if asked > 0.0 else top
-            is_line = parts == 1 and not lags and state[KIND] not in (SPLINE, THREAD, TAP)
+            is_line = (
+                parts == 1 and contexts[record + LAG_S] == 0.0 and state[KIND] not in (SPLINE, THREAD, TAP)
+            )
             wanted = wanted if is_line else 0.0
             entry2 = join(contexts, record, n, limits, state, length, weight, speed * speed, wanted)
             state[JOINT_PULL] = min(state[JOINT_PULL], pull)
@@ -297,13 +320,17 @@ def lay_straight(
             state[ALONE] = (2.0 if state[REST] > 0.0 else 1.0) if is_line else 0.0
             state[WANTED] = wanted
         else:
-            speed = min(top, bound(asked, state))
+            speed = min(top, own, bound(asked, state))
             entry2 = min(state[EXIT2], speed * speed)
         at = next_piece(pieces, state, STRAIGHT, speed * speed, n)
-        place(pieces, at, n, state, part / parts, (part + 1) / parts)
+        place(pieces, at, n, state, first, last)
         if part == 0:
             open_joint(pieces, at, state, entry2)
-        pieces[at + LENGTH], pieces[at + CAP2], pieces[at + PULL] = length / parts, speed * speed, pull
+        elif shared:
+            pieces[at + HOLD2], pieces[at + HOLD_PULL] = entry2, min(pull, before)
+        before = pull
+        pieces[at + LENGTH], pieces[at + CAP2] = (last - first) * length, speed * speed
+        pieces[at + PULL] = pull
         pieces[at + ENTRY2] = entry2
         if state[KIND] == SPLINE:
             lay_chord(contexts, record, pieces, at, n, limits, state, length, weight)
@@ -315,16 +342,32 @@ def lay_straight(
     return True
 
 
-def line_limits(
-    contexts: Floats, record: int, n: int, limits: Floats, state: Floats, length: float
-) -> tuple[float, float]:
-    """Speed and acceleration along the row at hand that its axes allow; sets UNIT to its direction.
+def parts_of_line(contexts: Floats, record: int, n: int, limits: Floats, state: Floats) -> tuple[int, float]:
+    """Number of pieces that the line at hand is laid in, and the turning radius at its start."""
+    end_x, start_x, facing = state[FACING], state[FACING], int(limits[LIMIT_BLOCKS * n + GEOMETRY])
+    if state[SHARE_COUNT] > 1.0:
+        return int(state[SHARE_COUNT]), start_x
+    if facing >= 0 and follows_radius(contexts, record):
+        start_x -= state[STATE_BLOCKS + DELTA * n + facing]
+        if abs(end_x - start_x) > 0.02 * max(abs(end_x), abs(start_x)):
+            return FACING_PIECES, start_x
+    return 1, start_x
 
-    DRIVE: a row on which an axis may become faster than DRIVE_SPEED of its velocity accelerates less all along.
-    """
+
+def line_limits(
+    curves: Floats,
+    contexts: Floats,
+    record: int,
+    n: int,
+    limits: Floats,
+    state: Floats,
+    length: float,
+    radius: float,
+) -> tuple[float, float]:
+    """Speed and acceleration along the row at hand that its axes allow; sets UNIT to its direction."""
     delta, unit = STATE_BLOCKS + DELTA * n, STATE_BLOCKS + UNIT * n
     top_block = (TOP_RAPID if is_rapid(state) else TOP_FEED) * n
-    top = inf if is_rapid(state) else limits[LIMIT_BLOCKS * n + PATH_FEED]
+    top = state[ROW_TOP] if is_rapid(state) else min(limits[LIMIT_BLOCKS * n + PATH_FEED], state[ROW_TOP])
     pull = inf
     for i in range(n):
         state[unit + i] = state[delta + i] / length
@@ -337,22 +380,15 @@ def line_limits(
         alone = is_rapid(state) and limits[LIMIT_BLOCKS * n + RAPID_STOPS] != 0.0
         pull = line_pull(contexts, record, n, limits, state, alone or state[KIND] == TAP)
     elif contexts[record + DRIVE_SPEED] < 1.0:
-        pull = drive_pull(contexts, record, n, limits, state, top, pull)
-    return top, pull
-
-
-def drive_pull(
-    contexts: Floats, record: int, n: int, limits: Floats, state: Floats, top: float, pull: float
-) -> float:
-    """Acceleration along a row under DRIVE, for the path speed `top` and the acceleration without it."""
-    if not is_rapid(state) and contexts[record + PER_REVOLUTION] == contexts[record + INVERSE_TIME] == 0.0:
-        top = min(top, state[FEED]) if state[FEED] > 0.0 else top
-    for i in range(n):
-        speed = top * abs(state[STATE_BLOCKS + UNIT * n + i])
-        block = TOP_RAPID if is_rapid(state) else TOP_FEED
-        if speed > contexts[record + DRIVE_SPEED] * limits[block * n + i]:
-            return pull * (1.0 - contexts[record + DRIVE_REDUCTION])
-    return pull
+        asked = bound(asked_speed(curves, contexts, record, state, length, radius), state)
+        pull *= drive_factor(contexts, record, n, limits, state, state, unit, min(top, asked))
+    lead = lead_of(curves, state)
+    if state[KIND] == TAP and lead > 0.0:
+        pull = min(pull, lead * contexts[record + SPINDLE_REV_S2])
+    if contexts[record + LAG_S] > 0.0:
+        asked = asked_speed(curves, contexts, record, state, length, state[FACING])
+        pull = min(pull, lagging_pull(contexts, record, min(top, asked)))
+    return top, state[EASE] * pull
 
 
 def lay_chord(
@@ -376,6 +412,8 @@ def lay_chord(
     here = at + VECTORS
     before = here - piece_width(n)
     pieces[at + FORM] = CURVED if contexts[record + RAMP_S] == 0.0 else BENT
+    if contexts[record + DRIVE_SPEED] < 1.0 or state[EASE] < 1.0:
+        pieces[at + PATH_PULL] = pieces[at + PULL]
     for i in range(n):
         pieces[here + i] = pieces[here + n + i] = state[unit + i]
         pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = 0.0

@@ -20,6 +20,7 @@ from polycnc.motion.kernels.columns import (
     ENTRY2,
     FORM,
     LENGTH,
+    PATH_PULL,
     PAUSE,
     PEAK2,
     PULL,
@@ -134,7 +135,8 @@ def bound2(
     here, there, half = at + VECTORS + n, at + VECTORS, -0.5 / pieces[at + LENGTH]
     if at_start:
         here, there, half = there, here, -half
-    lowest, intercept, slope = inf, inf, 0.0
+    flat = 2.0 * pieces[at + PATH_PULL] * pieces[at + LENGTH]
+    lowest, intercept, slope = known2 + flat, flat, 1.0
     for i in range(n):
         a = limits[ACCELERATION * n + i]
         push = pieces[here + i] * half
@@ -197,7 +199,7 @@ def curved_time(
         return seconds, high2, steady  # nearly level at the peak: nothing to win
     first = at + VECTORS
     for _ in range(TRIES):
-        left = inf
+        left = pieces[at + PATH_PULL]
         for i in range(2 * n):
             share = abs(pieces[first + i])
             if share > 0.0:
