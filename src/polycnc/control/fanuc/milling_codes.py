@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import wraps
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.fanuc.milling_cycles import MILLING_DRILLING
@@ -40,29 +41,23 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.plan import Builder
     from polycnc.control.word_address.words import Words
 
-#: Codes that a drilling cycle refuses (PS0044).
-_RETURNS = {
-    "G27": coordinates.check_reference,
-    "G28": coordinates.return_to_reference,
-    "G29": coordinates.return_from_reference,
-    "G30": coordinates.return_to_further_reference,
-}
 
+def outside_cycles(code: str, handler: Handler, takes: str = "") -> GCode:
+    """A row of a code that a drilling cycle refuses (PS0044)."""
 
-def _outside_cycles(code: str, handler: Handler) -> Handler:
-    """A handler that refuses its code while a drilling cycle is active."""
-
+    @wraps(handler)
     def act(channel: Channel, words: Words) -> None:
         if is_active(channel):
             raise words.fail("cycle_reference", code)
         handler(channel, words)
 
-    return act
+    return moves(code, act, takes)
 
 
 def tool_length(handler: Handler) -> Handler:
     """A length code; it ends tool centre point control."""
 
+    @wraps(handler)
     def act(channel: Channel, words: Words) -> None:
         tool_center_point.end_following(channel)
         handler(channel, words)
@@ -106,7 +101,10 @@ ROWS = table(
     GCode("G23", "stroke", extended.stroke_check_off),
     GCode("G25", "fluctuation"),
     GCode("G26", "fluctuation", takes="P Q R I"),
-    *(moves(code, _outside_cycles(code, act), "P" if code == "G30" else "") for code, act in _RETURNS.items()),
+    outside_cycles("G27", coordinates.check_reference),
+    outside_cycles("G28", coordinates.return_to_reference),
+    outside_cycles("G29", coordinates.return_from_reference),
+    outside_cycles("G30", coordinates.return_to_further_reference, "P"),
     moves("G31", skip.skip_move, "P"),
     GCode("G33", "motion", ends="cycle", planner=thread.plan_thread),
     moves("G37", tool_measuring.measure_length, "H"),

@@ -38,7 +38,7 @@ _WORDS = "ABWUIKHP"
 
 
 def plan_grinding(builder: Builder, plan: Plan) -> Step | None:
-    """A block in the mode of a grinding cycle: take over its words, and run the cycle, even for an empty block."""
+    """G71 to G74 of grinding: a block takes over its words and runs the cycle, even where it is empty."""
     code, control = builder.mode["motion"], builder.control
     named = [address for address in _WORDS if builder.has(address)]
     builder.take(*named)

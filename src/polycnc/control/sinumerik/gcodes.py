@@ -2,6 +2,10 @@
 
 Source: job planning 16.1 (statement list) and the list of G functions of the Fundamentals. Position 0 of a
 tuple is number 1 of the group. A group that is not modal acts in its block only.
+
+Where a function acts: groups 1 and 2 in the tables of `plan`, frames of group 3 in `frame_codes`, what else has an
+effect of its own when its block runs in `EFFECTS` and `LATE_EFFECTS` of `plan`. The other groups are read by those who
+follow them, under the group's name: `mode["path_mode"]`.
 """
 
 from __future__ import annotations

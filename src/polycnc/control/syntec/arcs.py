@@ -27,12 +27,12 @@ THREE_POINT_CODES = ("G2.4", "G3.4")
 
 
 def plan_arc_cw(builder: Builder, plan: Plan) -> Step | None:
-    """G02."""
+    """G02: an arc or a helix, clockwise."""
     return _plan_arc(builder, plan, ccw=False)
 
 
 def plan_arc_ccw(builder: Builder, plan: Plan) -> Step | None:
-    """G03."""
+    """G03: an arc or a helix, counter-clockwise."""
     return _plan_arc(builder, plan, ccw=True)
 
 

@@ -152,7 +152,7 @@ def plan_modal_call(builder: SyntecBuilder, plan: Plan) -> Step | None:
 
 
 def end_modal_call(channel: Channel, _words: Words) -> None:
-    """G67."""
+    """G67: all modal calls end."""
     channel.memory.modal_calls.clear()
 
 

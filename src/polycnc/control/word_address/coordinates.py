@@ -160,5 +160,5 @@ def forget_feed(channel: Channel, words: Words) -> None:
 
 
 def note_context(channel: Channel, _words: Words) -> None:
-    """A modal code that only shows in the context (plane, unit, path mode)."""
+    """G17 to G21, G61 to G64, G70, G71, G96, G97: a modal code that only shows in the context."""
     channel.context_changed()

@@ -149,5 +149,5 @@ def stroke_check_on(channel: Channel, words: Words) -> None:
 
 
 def stroke_check_off(channel: Channel, _words: Words) -> None:
-    """G23."""
+    """G23: the zone of G22 may be entered again."""
     channel.stroke_zone = None

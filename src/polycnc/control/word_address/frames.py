@@ -51,7 +51,7 @@ def rotate(channel: Channel, words: Words) -> None:
 
 
 def end_rotation(channel: Channel, _words: Words) -> None:
-    """G69."""
+    """G69 (on lathes G69.1): the rotation ends."""
     channel.memory.frames.rotation = IDENTITY
     _refresh(channel)
 
@@ -67,7 +67,7 @@ def scale(channel: Channel, words: Words) -> None:
 
 
 def end_scale(channel: Channel, _words: Words) -> None:
-    """G50."""
+    """G50: scaling ends."""
     channel.memory.frames.scale = IDENTITY
     _refresh(channel)
 

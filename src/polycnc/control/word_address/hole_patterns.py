@@ -24,7 +24,7 @@ MOST_HOLES = 9999
 
 
 def circle_of_holes(channel: Channel, words: Words) -> None:
-    """X Y centre, I radius, J angle of the first hole, K count (negative: clockwise)."""
+    """MELDAS G34: X Y centre, I radius, J angle of the first hole, K count (negative: clockwise)."""
     count = _count(words, "K", signed=True)
     radius = abs(_length(words, "I"))
     drill_points(
@@ -33,7 +33,7 @@ def circle_of_holes(channel: Channel, words: Words) -> None:
 
 
 def line_of_holes(channel: Channel, words: Words) -> None:
-    """X Y first hole, I pitch, J angle of the line, K count."""
+    """MELDAS G35: X Y first hole, I pitch, J angle of the line, K count."""
     count = _count(words, "K")
     pitch = _length(words, "I")
     drill_points(
@@ -42,7 +42,7 @@ def line_of_holes(channel: Channel, words: Words) -> None:
 
 
 def arc_of_holes(channel: Channel, words: Words) -> None:
-    """X Y centre, I radius, J angle of the first hole, P angle from hole to hole, K count."""
+    """MELDAS G36: X Y centre, I radius, J angle of the first hole, P angle from hole to hole, K count."""
     count = _count(words, "K")
     radius = abs(_length(words, "I"))
     start, pitch = words.angle("J") or 0.0, words.angle("P") or 0.0
@@ -52,7 +52,7 @@ def arc_of_holes(channel: Channel, words: Words) -> None:
 
 
 def grid_of_holes(channel: Channel, words: Words) -> None:
-    """X Y first hole, I pitch and P count along the first axis, J pitch and K count along the second."""
+    """MELDAS G37.1: X Y first hole, I pitch and P count along the first axis, J pitch and K count along the second."""
     columns, rows = _count(words, "P"), _count(words, "K")
     pitches = (_length(words, "I"), _length(words, "J"))
     drill_points(channel, hole_patterns.grid(plane_point(channel, words), pitches, columns, rows))

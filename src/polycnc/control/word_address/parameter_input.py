@@ -24,7 +24,7 @@ def begin(channel: Channel) -> None:
 
 
 def end(channel: Channel, _words: Words) -> None:
-    """G11."""
+    """G11: no more parameters are set by blocks."""
     channel.mode = channel.mode.with_code("data_input", "G11")
 
 

@@ -53,12 +53,12 @@ def target(channel: Channel, words: tuple[AxisWord, ...], values: list[float]) -
 
 
 def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
-    """G00."""
+    """G00: a rapid move."""
     return _plan_straight(builder, plan, Kind.RAPID)
 
 
 def plan_line(builder: Builder, plan: Plan) -> Step | None:
-    """G01."""
+    """G01: a straight cut."""
     return _plan_straight(builder, plan, Kind.FEED)
 
 
@@ -102,12 +102,12 @@ def _plan_straight(builder: Builder, plan: Plan, kind: Kind) -> Step | None:
 
 
 def plan_arc_cw(builder: Builder, plan: Plan) -> Step | None:
-    """G02."""
+    """G02: an arc or a helix, clockwise."""
     return _plan_arc(builder, plan, ccw=False)
 
 
 def plan_arc_ccw(builder: Builder, plan: Plan) -> Step | None:
-    """G03."""
+    """G03: an arc or a helix, counter-clockwise."""
     return _plan_arc(builder, plan, ccw=True)
 
 

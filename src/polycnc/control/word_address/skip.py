@@ -21,7 +21,7 @@ TORQUE_LIMIT_SKIP = (98, 99)
 
 
 def skip_move(channel: Channel, words: Words) -> None:
-    """G31: straight at F to the target or to where the skip signal comes; the rest of the way is dropped."""
+    """G31 (MELDAS also G31.1 to G31.3): straight at F to the target or to the skip signal; what is left is dropped."""
     if channel.mode["compensation"] != "G40":
         raise words.fail("comp_skip", "G31")
     number = words.integer("P") if "P" in words else 1
