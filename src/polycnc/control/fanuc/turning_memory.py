@@ -175,7 +175,8 @@ class TurningMemory(MacroMemory):
 
     def set_cycle_parameter(self, number: int, value: float) -> None:
         """What the first block of a turning cycle says, a parameter from then on (II.4.2.1 to 4.2.7)."""
-        set_parameter(self.channel, ParameterKey(number), value, keeps_plans=True)
+        if value != self.parameters.number(number):
+            set_parameter(self.channel, ParameterKey(number), value, keeps_plans=True)
 
     def turning_offset(self, number: int) -> TurningOffset:
         """An offset number; zero until it is set."""
