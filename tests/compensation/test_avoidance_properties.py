@@ -25,8 +25,9 @@ from tests.compensation.support import CODES, G17, Recorder
 
 #: What counts as a cut, mm.
 CUT_MM = 1e-4
-LINES = policies.FANUC_A.outer
-ARCS = Outer(90.0, Joint.ARC)
+LINES = replace(policies.FANUC_A, avoids=True)
+ARCS = replace(LINES, outer=Outer(90.0, Joint.ARC))
+POLICIES = [LINES, ARCS, policies.SINUMERIK_NORM_G450, policies.SINUMERIK_NORM_G451]
 
 
 @dataclass(frozen=True)
@@ -158,17 +159,15 @@ def polyline(*points: tuple[float, float]) -> list[Piece]:
     st.sampled_from([1, -1]),
     st.sampled_from([0.8, 2.0, 4.0, 7.0]),
     st.integers(3, 8),
-    st.sampled_from([LINES, ARCS]),
+    st.sampled_from(POLICIES),
 )
 # A step before an acute corner that is turned about: without its vectors the way would cut the corner.
 @example(polyline((10, 0), (11.834, 0), (12.364, 1.13), (14.509, -1.033), (19.511, -3.671)), 1, 2.0, 8, ARCS)
 @example(polyline((10, 0), (11.315, 0), (11.974, 4.107), (13.421, 0.986), (14.436, -0.179)), 1, 4.0, 8, ARCS)
 def test_a_tool_that_avoids_interference_never_cuts_the_work(
-    contour: list[Piece], side: int, radius: float, read_blocks: int, outer: Outer
+    contour: list[Piece], side: int, radius: float, read_blocks: int, policy: Policy
 ) -> None:
-    policy = replace(
-        policies.FANUC_A, read_blocks=read_blocks, outer=outer, avoids=True, looks_far=True, least_move_mm=0.0
-    )
+    policy = replace(policy, read_blocks=read_blocks, least_move_mm=0.0)
     try:
         recorder = compensate(policy, contour, side, radius)
     except AlarmError:
@@ -185,6 +184,6 @@ def test_most_jagged_contours_have_a_way_round() -> None:
     contour = polyline(
         (10, 0), (11, 0.5), (12, 0.7), (14, 0.7), (14.5, 0.2), (15, 0.2), (15.5, 0.7), (20, 0.7)
     )
-    policy = replace(policies.FANUC_A, read_blocks=8, avoids=True, looks_far=True)
+    policy = replace(LINES, read_blocks=8)
     recorder = compensate(policy, contour, 1, 4.0)
     assert deepest_cut(recorder, contour, 1, 4.0) < 1e-3

@@ -17,11 +17,11 @@ from polycnc.geometry.offset import Joint, Outer
 from polycnc.messages import AlarmError
 from tests.compensation.support import CODES, Reader
 
-_FAR = replace(policies.FANUC_A, avoids=True, looks_far=True, read_blocks=8)
+_AVOIDS = replace(policies.FANUC_A, avoids=True, read_blocks=8)
 POLICIES = [
     policies.FANUC_A, policies.FANUC_B, policies.FANUC_C, policies.SYNTEC, policies.HARTFORD,
-    policies.SINUMERIK_NORM_G450, policies.SINUMERIK_KONT_G451, _FAR, replace(_FAR, outer=Outer(90.0, Joint.ARC)),
-    replace(_FAR, outer=Outer(90.0, Joint.ARC), dares=True),
+    policies.SINUMERIK_NORM_G450, policies.SINUMERIK_KONT_G451, _AVOIDS, replace(_AVOIDS, outer=Outer(90.0, Joint.ARC)),
+    replace(_AVOIDS, outer=Outer(90.0, Joint.ARC), dares=True),
 ]  # fmt: skip
 
 

@@ -328,6 +328,7 @@ def test_corner_motion_below_the_limit_is_left_out_but_not_before_a_long_arc() -
 
 # ---- what is refused ---------------------------------------------------------------------------------------
 
+AVOIDS = replace(policies.FANUC_A, avoids=True)
 SLOT = "G1 G41 X20 Y0\nX40\nY-20\nX{}\nY0\nX80\nG40 Y20"
 
 
@@ -345,10 +346,10 @@ def refused(policy: Policy, program: str, violations: Mapping[Violation, str] = 
         (policies.FANUC_A, "G1 G41 X20 Y0\nX30\nG3 X34 Y4 I0 J4\nG1 Y20", ("INNER_RADIUS_TOO_SMALL", 3)),
         (policies.FANUC_A, "G1 G41 X20 Y0\nX30\nG3 X34 Y4 I0 J0\nG1 Y20", ("INNER_RADIUS_TOO_SMALL", 3)),
         (policies.FANUC_A, SLOT.format(49), ("INTERFERENCE", 4)),
-        (policies.SINUMERIK_NORM_G450, SLOT.format(49), ("NO_AVOIDANCE", 4)),
+        (AVOIDS, SLOT.format(49), ("NO_AVOIDANCE", 4)),
         # A groove wider at its bottom than at its mouth: without the bottom the walls lead outwards.
         (
-            policies.SINUMERIK_NORM_G450,
+            AVOIDS,
             "G1 G41 X20 Y0\nX40\nX38 Y-20\nX48\nX46 Y0\nX80\nG40 Y20",
             ("AVOIDANCE_DANGEROUS", 4),
         ),
@@ -375,7 +376,7 @@ def test_a_control_that_does_not_check_runs_on() -> None:
 
 
 def test_an_interference_is_avoided_by_leaving_the_move_out() -> None:
-    recorder = run(policies.SINUMERIK_NORM_G450, "G1 G41 X0 Y0\nX20\nX40\nX41 Y1\nY60\nX0\nG40 Y-20")
+    recorder = run(AVOIDS, "G1 G41 X0 Y0\nX20\nX40\nX41 Y1\nY60\nX0\nG40 Y-20")
     assert recorder.rows[:3] == [("feed", 20, 5), ("feed", 36, 5), ("feed", 36, 55)]
 
 
@@ -442,9 +443,14 @@ def test_g40_with_a_wall_and_a_nose_tip_gives_the_positions_of_the_manual_s_lath
 
 
 def test_what_comes_after_a_move_that_was_left_out_happens_where_the_tool_stands() -> None:
-    far = replace(policies.FANUC_A, avoids=True, looks_far=True, read_blocks=8)
+    far = replace(policies.FANUC_A, avoids=True, read_blocks=8)
     recorder = run(far, "G1 G41 X0 Y0\nX20\nX40\nX41 Y1\nZ-3\nY60\nX0\nG40 Y-20")
     plunge = next(move for move in recorder.moves if move.end[2] != move.start[2])
     assert plunge.start[:2] == plunge.end[:2] == pytest.approx([36, 5])
     for one, two in zip(recorder.moves, recorder.moves[1:], strict=False):
         assert one.end == pytest.approx(two.start)
+
+
+def test_a_slot_narrower_than_the_tool_is_bridged_where_all_of_it_is_seen() -> None:
+    recorder = run(policies.SINUMERIK_NORM_G450, SLOT.format(49))
+    assert [row for row in recorder.rows if row[1] < 80] == [("feed", 20, 5), ("feed", 49, 5)]

@@ -116,7 +116,7 @@ def leave_out_crossing_vectors(previous: Step, step: Step) -> bool:
     return True
 
 
-def meets_arc_behind(previous: Step, step: Step) -> bool:
+def _meets_arc_behind(previous: Step, step: Step) -> bool:
     """Let the move in front run on to the arc about the corner behind a step too short for the tool."""
     joint = step.joint_arc
     if joint is None or step.corner is None:
@@ -139,7 +139,7 @@ def detours(window: Sequence[Step], number: int) -> Iterator[Detour]:
         if leave_out_crossing_vectors(before, after):
             yield Detour(before, [after], replace(following), between)
     before, after = _altered(first), _altered(last)
-    if meets_arc_behind(before, after):
+    if _meets_arc_behind(before, after):
         yield Detour(before, [after], replace(following), between)
     if first.distance * following.distance <= 0.0:
         return

@@ -259,7 +259,7 @@ class CutterCompensation:
                 corner = vectors.without_small_moves(corner, following.edge, step.policy.least_move_mm)
             step.corner = corner
             if step.role is Role.CONTOUR and step.forced is None and not step.holds:
-                self._interference.check(step, following)
+                self._interference.check(step)
         self._window[-1].lead_to(following)
 
     def _no_intersection(self, step: Step, following: Step) -> Corner:

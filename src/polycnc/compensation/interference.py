@@ -13,12 +13,9 @@ from polycnc.compensation.avoidance import (
     detours,
     least_harmful,
     leave_out_crossing_vectors,
-    meets_arc_behind,
 )
 from polycnc.compensation.policies import Violation
 from polycnc.compensation.step import Role
-from polycnc.geometry import arcs, offset
-from polycnc.geometry.offset import Corner
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -71,11 +68,10 @@ class InterferenceCheck:
 
     # ---- when a corner has been closed ---------------------------------------------------------------------
 
-    def check(self, step: Step, following: Step) -> None:
+    def check(self, step: Step) -> None:
         """Look for vectors that have changed places with those just found (FANUC 0i-TF Plus 5.4.6)."""
-        policy = step.policy
-        if step.corner is None or policy.looks_far:
-            # What looks far decides when the block in front is passed on.
+        if step.corner is None or step.policy.avoids:
+            # Ways round are chosen when the block in front is passed on: then most is known.
             return
         self._check_far_pairs(step, step.corner.vectors[0])
         previous = self._window[-2] if len(self._window) > 1 else None
@@ -86,10 +82,7 @@ class InterferenceCheck:
             or not _is_checked(step)
         ):
             return
-        if policy.avoids:
-            if step.runs_back:
-                self._avoid(previous, step, following)
-        elif not leave_out_crossing_vectors(previous, step):
+        if not leave_out_crossing_vectors(previous, step):
             self.violations.object(Violation.INTERFERENCE, step.move)
 
     def _check_far_pairs(self, step: Step, vector: Point) -> None:
@@ -101,33 +94,12 @@ class InterferenceCheck:
             if crosses(earlier.edge, earlier.corner.vectors[-1], step.edge, vector):
                 self.violations.object(Violation.INTERFERENCE, step.move)
 
-    def _avoid(self, previous: Step, step: Step, following: Step) -> None:
-        """Leave a move out: the one in front runs on to the one that follows."""
-        if previous.avoided and not step.policy.dares:
-            self.violations.object(Violation.AVOIDANCE_INTERFERES, step.move)
-        if meets_arc_behind(previous, step):
-            return
-        before, beyond = previous.edge, following.edge
-        point = None
-        if previous.role is following.role is Role.CONTOUR:
-            point = offset.meet(before, beyond, step.distance, step.distance)
-        if point is None:
-            self.violations.object(Violation.NO_AVOIDANCE, step.move)
-            return
-        vector = arcs.minus(point, before.end)
-        leads_back = offset.reverses(before, previous.first, vector)
-        if not step.policy.dares and (leads_back or offset.is_outer(before, beyond, step.distance)):
-            self.violations.object(Violation.AVOIDANCE_DANGEROUS, step.move)
-        previous.corner, previous.avoided = Corner([vector]), True
-        self._pass_over(previous, [step])
-        self._window.remove(step)
-
     # ---- before a block is passed on -----------------------------------------------------------------------
 
     def keep_clear(self) -> None:
         """Compare the end of the first block with those of the blocks read, the farthest first (5.4.6)."""
         first = self._window[0]
-        if not first.policy.looks_far or first.corner is None or first.is_commanded:
+        if not first.policy.avoids or first.corner is None or first.is_commanded:
             return
         numbers = [
             n
@@ -162,7 +134,7 @@ class InterferenceCheck:
     def admit(self, step: Step) -> None:
         """A step is about to be passed on: one that a detour has changed, or one behind it, must do no harm."""
         policy = step.policy
-        if not policy.looks_far:
+        if not policy.avoids:
             return
         changed = step.altered or any(other.altered for other in self._passed)
         if changed and not (policy.dares or step.is_commanded):
@@ -182,7 +154,9 @@ class InterferenceCheck:
         """Whether the tool cuts one of two blocks on the way along the other, though no vectors cross."""
         first, step = self._window[0], self._window[number]
         one_side = first.distance * step.distance > 0.0
-        if first.role not in PATHS or not (one_side and step.policy.checks_direction):
+        if first.role not in PATHS or step.role is not Role.CONTOUR:
+            return False
+        if not (one_side and step.policy.checks_direction):
             return False
         if cuts(first.way(), [step]):
             return True

@@ -53,8 +53,8 @@ class Policy:
         recommand_is_square: G41 or G42 written again on the same side makes the block in front end square.
         checks_direction: Interference is where a compensated line or arc runs against the programmed (5008).
         checks_arcs: The same for arcs alone.
-        avoids: Interference is avoided by leaving moves out where possible; otherwise it is an alarm.
-        looks_far: The way round leads past all blocks read (FANUC 19607#5), not only past the next one.
+        avoids: Interference is led round where possible, past any of the blocks read (FANUC 19607#5, 5.4.6.3);
+            otherwise it is an alarm.
         dares: A dangerous way round an interference is taken without an alarm (19607#6).
     """
 
@@ -68,7 +68,6 @@ class Policy:
     checks_direction: bool = True
     checks_arcs: bool = True
     avoids: bool = False
-    looks_far: bool = False
     dares: bool = False
 
 

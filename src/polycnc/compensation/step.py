@@ -49,7 +49,6 @@ class Step:
         holds: It keeps the vector of its start (G38).
         starts_square: The block in front ends square on itself.
         straight: Its vectors were left out, so it is a straight move.
-        avoided: Its end was moved to avoid an interference.
         altered: A detour round an interference changed it.
         corner_arc: The block of G39 after it, and the direction on which the arc ends square.
         after: What came after it, in order.
@@ -68,7 +67,6 @@ class Step:
     holds: bool = False
     starts_square: bool = False
     straight: bool = False
-    avoided: bool = False
     altered: bool = False
     corner_arc: tuple[Move, Point | None] | None = None
     after: list[Callable[[], None]] = field(default_factory=list)

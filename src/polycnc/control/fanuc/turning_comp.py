@@ -38,7 +38,6 @@ def policy(channel: Channel) -> Policy:
         checks_direction=not (bit(5008, 3) or bit(5008, 1)),
         checks_arcs=not bit(5008, 3),
         avoids=bool(bit(19607, 5)),
-        looks_far=bool(bit(19607, 5)),
         dares=bool(bit(19607, 6)),
     )
 

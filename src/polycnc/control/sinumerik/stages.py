@@ -42,6 +42,9 @@ POLICIES = {
 VIOLATIONS = {
     Violation.ARC_START: "10753",
     Violation.ARC_CANCEL: "10754",
+    Violation.NO_AVOIDANCE: "10751",
+    Violation.AVOIDANCE_DANGEROUS: "10751",
+    Violation.AVOIDANCE_INTERFERES: "10751",
 }
 CORNER_VIOLATIONS: dict[CornerViolation, str] = {}
 SIDES = {"G41": 1, "G42": -1}
