@@ -84,24 +84,19 @@ def test_an_output_of_the_program_comes_in_time() -> None:
     assert virtual.signals.since("UO001") == pytest.approx(1.0, abs=0.05)
 
 
-def test_a_sinumerik_program_waits_for_an_input() -> None:
-    text = "WHILE $A_IN[1]==FALSE\nENDWHILE\nG0 X10\nM30\n"
-    virtual = power_on(text, "sinumerik-840d")
+@pytest.mark.parametrize(
+    ("control", "text", "signal"),
+    [
+        ("sinumerik-840d", "WHILE $A_IN[1]==FALSE\nENDWHILE\nG0 X10\nM30\n", "$A_IN[1]"),
+        ("syntec-mill", "%@MACRO\nWHILE (READDI(3) = 0) DO\nEND_WHILE;\nG0 X10.;\nM30;\n", "I3"),
+    ],
+)
+def test_a_program_waits_for_an_input(control: str, text: str, signal: str) -> None:
+    virtual = power_on(text, control)
     virtual.cycle_start()
     virtual.step(1.0)
     assert virtual.machine_position[0] == 0.0
-    virtual.signals["$A_IN[1]"] = 1.0
-    assert virtual.run(limit_s=10.0) is State.READY
-    assert virtual.machine_position[0] == 10.0
-
-
-def test_a_syntec_program_waits_for_an_input() -> None:
-    text = "%@MACRO\nWHILE (READDI(3) = 0) DO\nEND_WHILE;\nG0 X10.;\nM30;\n"
-    virtual = power_on(text, "syntec-mill")
-    virtual.cycle_start()
-    virtual.step(1.0)
-    assert virtual.machine_position[0] == 0.0
-    virtual.signals["I3"] = 1.0
+    virtual.signals[signal] = 1.0
     assert virtual.run(limit_s=10.0) is State.READY
     assert virtual.machine_position[0] == 10.0
 

@@ -1,8 +1,8 @@
-"""The steps of a program that are kept, by number."""
+"""The steps of a program: those that are kept, by number, and several that stand in one line."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
@@ -45,3 +45,16 @@ def forget_steps(steps: KeptSteps) -> None:
         steps.clear()
     else:
         steps[:] = [None] * len(steps)
+
+
+def several(steps: Sequence[Step]) -> Step:
+    """The blocks of one line as one step: one after the other, up to one that leaves the line."""
+
+    def run(channel: Channel) -> None:
+        level, index = channel.level, channel.level.index
+        for step in steps:
+            step(channel)
+            if channel.level is not level or level.index != index or channel.finished:
+                return
+
+    return run

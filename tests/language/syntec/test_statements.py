@@ -5,6 +5,7 @@ from typing import Any
 
 import pytest
 
+from polycnc.channel.intervention import NOTHING_BACK
 from polycnc.language.syntec.executable import IsoProgram, MacroProgram, executable
 from polycnc.language.syntec.values import VACANT
 from polycnc.messages import AlarmError
@@ -28,7 +29,7 @@ class Recorder:
 
     def plan(self, _channel: Any, signature: tuple[str, ...]) -> Any:
         step = lambda _channel, values: self.blocks.append((signature, values))  # noqa: E731
-        return SimpleNamespace(mode=self.mode, steps=(step,))
+        return SimpleNamespace(mode=self.mode, steps=(step,), takes_back=NOTHING_BACK)
 
     def run(self) -> Recorder:
         for _ in range(10_000):

@@ -6,6 +6,7 @@ import re
 from bisect import bisect_left
 from typing import TYPE_CHECKING
 
+from polycnc.language.steps import several
 from polycnc.language.syntec.layout import NO_SEQUENCE
 from polycnc.language.syntec.statements import StatementReader
 from polycnc.language.syntec.tokens import tokenize
@@ -100,7 +101,7 @@ class IsoProgram(WordAddressProgram):
         steps = StatementReader(tokens, macro=False).read().steps
         if len(steps) <= 1:
             return steps[0] if steps else empty_block
-        return _several(steps)
+        return several(steps)
 
     def find_sequence(self, number: int, _index: int = 0, mistake: str = "no_sequence") -> int:
         """The step of `N number`, the first of equal ones in the file."""
@@ -140,16 +141,3 @@ def _in_file(program: Program, line: int, index: int) -> int:
     if not 0 < line < program.first_line + len(program.lines) or index < 0:
         raise AlarmError(NO_LINE, number=line)
     return index
-
-
-def _several(steps: Sequence[Step]) -> Step:
-    """The blocks of one line, one after the other, up to one that leaves the line."""
-
-    def run(channel: Channel) -> None:
-        level, index = channel.level, channel.level.index
-        for step in steps:
-            step(channel)
-            if channel.level is not level or level.index != index or channel.finished:
-                return
-
-    return run

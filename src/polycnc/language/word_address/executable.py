@@ -7,7 +7,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.language.steps import kept_steps
+from polycnc.language.steps import kept_steps, several
 from polycnc.language.word_address.joining import JOINABLE, MAX_JOINED, join, join_loop
 from polycnc.language.word_address.macro_b import Reader, compile_source
 from polycnc.language.word_address.statements import KEYWORD, LoopEnd, parse_statement
@@ -249,7 +249,7 @@ class WordAddressProgram:
             start = end + 1
         if len(blocks) <= 1:
             return blocks[0] if blocks else empty_block
-        return _several(blocks)
+        return several(blocks)
 
     def _block(self, text: str, line: str, index: int) -> Step:
         """One block: program number, skip marks, sequence number, then a statement or words."""
@@ -405,14 +405,3 @@ class SkippedBlock:
     def __call__(self, channel: Channel) -> None:
         """Run the step that the switches choose."""
         (self._on if channel.skip_levels & self._levels else self._off)(channel)
-
-
-def _several(blocks: list[Step]) -> Step:
-    def run(channel: Channel) -> None:
-        level, index = channel.level, channel.level.index
-        for block in blocks:
-            block(channel)
-            if channel.level is not level or level.index != index or channel.finished:
-                return
-
-    return run
