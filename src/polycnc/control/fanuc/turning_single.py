@@ -31,8 +31,6 @@ FEED_HOLD = "*SP"
 CYCLES = frozenset({"G90", "G92", "G94"})
 #: M codes of the control itself: blocks with nothing else do not repeat a cycle.
 _PROGRAM_CODES = frozenset({2, 30, 98, 99, 198})
-#: Codes of group 00 that leave the words of a cycle alone.
-_KEEPING = frozenset({"G4", "G10", "G11"})
 #: Groups of codes that do not repeat a cycle where they stand without its words: one-shot codes, macro calls, G80.
 _IDLE_GROUPS = frozenset({"", "macro", "cycle"})
 
@@ -176,14 +174,11 @@ def _taper_letters(builder: Builder, code: str) -> tuple[str, ...]:
 
 
 def plan_clearing(builder: Builder) -> Step | None:
-    """Another one-shot code than G04, or another motion code, makes the control forget the cycle's words.
-
-    G10 and G11 are of group 00 and yet none of the one-shot codes (II.2).
-    """
+    """Another one-shot code than G04, or another motion code, makes the control forget the cycle's words."""
     for codes, field in ((CYCLES, "single_cycle"), (turning_grinding.CODES, "grinding")):
         if builder.before["motion"] not in codes:
             continue
         leaves = builder.mode["motion"] not in codes
-        if leaves or any(not row.group and row.code not in _KEEPING for row in builder.codes):
+        if leaves or any(not row.group and row.code != "G4" for row in builder.codes):
             return lambda channel, _values: getattr(channel.memory, field).clear()
     return None
