@@ -355,18 +355,22 @@ def _hole(channel: Channel, code: str, data: CycleData) -> Hole:
 
 
 def _with_halts(channel: Channel, strokes: Iterator[Stroke], halts: Halts) -> Iterator[Stroke]:
-    """Note where single block halts: behind strokes and dwells; the end of the hole is not counted here."""
+    """Note where single block halts: behind strokes and dwells; the end of the hole is not counted here.
+
+    A dwell behind an M code (unclamping an axis) belongs to the action that the code ends.
+    """
     if halts is Halts.NONE or not channel.single_block:
         yield from strokes
         return
-    waits = False
+    waits, last = False, None
     for stroke in strokes:
         if stroke.action not in (Action.OUTPUT, Action.SPINDLE):
-            if waits:
+            if waits and not (stroke.action is Action.DWELL and last is Action.OUTPUT):
                 channel.halt_inside()
             on_r = halts is Halts.APPROACH and stroke.action is Action.RAPID
             waits = halts is Halts.ALL or on_r
             halts = Halts.NONE if on_r else halts
+        last = stroke.action
         yield stroke
 
 
