@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.coordinates import Coordinates
 from polycnc.channel.failure import end_run, take_back
-from polycnc.channel.intervention import NOTHING_BACK
+from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.mode import Mode, ModeTable
 from polycnc.channel.path import Move, PathStage, TableStage, is_way, points_of_arc
 from polycnc.channel.stack import Executable, Level
@@ -57,6 +57,7 @@ class Channel:
         single_block: Hand over behind every block at which single block operation halts.
         inner_halts: Blocks at which single block halts inside the block that runs, before its end.
         takes_back: What the running block takes back of a manual intervention.
+        moved_by_hand: The last intervention in front of a block that was not prepared yet.
         block_by_block: With it, behind every other block too.
         main_run: What executes the rows while the channel runs; None where nobody waits for that.
         share_after: The share of a skip move to an end, at a feed, that is done after some seconds (None: all of it);
@@ -114,6 +115,7 @@ class Channel:
         self.single_block = bool(setup.switches.single_block)
         self.inner_halts: list[str] = []
         self.takes_back = NOTHING_BACK
+        self.moved_by_hand: MovedByHand | None = None
         self.block_by_block = False
         self.main_run: MainRun | None = None
         self.share_after: Callable[[Channel, list[float], float, float], float | None] | None = None

@@ -20,3 +20,15 @@ class TakesBack(NamedTuple):
 
 
 NOTHING_BACK = TakesBack()
+
+
+class MovedByHand(NamedTuple):
+    """What an operator has moved in front of a block that was not prepared yet: the program goes on from there.
+
+    Attributes:
+        machine: Where the axes stand since, machine position.
+        way: What they were moved.
+    """
+
+    machine: tuple[float, ...]
+    way: tuple[float, ...]

@@ -7,11 +7,14 @@ from typing import TYPE_CHECKING, Protocol
 from polycnc.channel.interface import Control as ChannelControl
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from polycnc.channel.channel import Channel
     from polycnc.machine.motion_settings import MotionSettings
     from polycnc.machine.plc import Plc
     from polycnc.messages import Catalogue
     from polycnc.program import Form
+    from polycnc.toolpath import Context
 
 
 class Control(ChannelControl, Protocol):
@@ -37,6 +40,12 @@ class Control(ChannelControl, Protocol):
 
     def reset(self, channel: Channel) -> None:
         """Bring a channel into the state after reset and after the end of a program; its axes stay."""
+
+    def give_up(self, channel: Channel, modal: Mapping[str, str], context: Context) -> None:
+        """A reset in the midst of a program: as `reset`, from what holds in the block in execution.
+
+        What the channel has prepared behind it does not count.
+        """
 
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """How the control leads the axes, by its machine parameters."""

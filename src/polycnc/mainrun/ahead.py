@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from array import array
 from collections import deque
-from dataclasses import replace
 from math import inf, sqrt
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.intervention import NOTHING_BACK
+from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.waits import PREPROCESSING, Wait
-from polycnc.mainrun.anew import line_anew
+from polycnc.mainrun.anew import line_anew, parts_of
 from polycnc.mainrun.geometry import Arc, arc_laid, line_laid, way_along
 from polycnc.mainrun.items import Block, BlockEnd, Happening, Item, Piece, Rates, Standing
 from polycnc.motion.frames import carried, real_of
@@ -31,6 +30,7 @@ from polycnc.motion.kernels.columns import (
     FREE,
     GEOMETRY,
     HOLD_WAY,
+    LARGEST_OVERRIDE,
     LENGTH,
     LIMIT_BLOCKS,
     LOW2,
@@ -55,7 +55,7 @@ from polycnc.motion.kernels.columns import (
     Rows,
     piece_width,
 )
-from polycnc.motion.kernels.feeds import asked_speed, follows_radius, is_rapid
+from polycnc.motion.kernels.feeds import asked_speed, faster, follows_radius, is_rapid
 from polycnc.motion.kernels.lay import lay
 from polycnc.motion.kernels.speeds import backward
 from polycnc.motion.limits import averages, context_fields
@@ -232,11 +232,15 @@ class Ahead:
         first = STATE_BLOCKS + POSITION * self._axes
         return list(self._state[first : first + self._axes])
 
-    def arrived(self, position: Sequence[float]) -> None:
-        """Tell the channel that the axes have come to rest elsewhere than its rows have led them."""
+    def arrived(self, position: Sequence[float], by_hand: Sequence[float] = ()) -> None:
+        """Tell the channel that the axes have come to rest elsewhere than its rows have led them.
+
+        `by_hand` is what an operator has moved of it.
+        """
         self.stand_at(position)
         real = real_of(position, self._last_context, self._geometry)
         self.channel.coordinates.arrive_machine(real)
+        self.channel.moved_by_hand = MovedByHand(tuple(real), tuple(by_hand)) if by_hand else None
 
     def stand_at(self, position: Sequence[float]) -> None:
         """The axes stand elsewhere than the rows have led them."""
@@ -416,9 +420,17 @@ class Ahead:
                     by_axis=self._pieces[at + FORM] == TIMED,
                     overridden=chunk.kind[row] == Kind.TAP and self._settings.taps_overridden,
                     held=chunk.kind[row] == Kind.TAP and self._settings.taps_held,
+                    faster=faster(chunk.curves, state),
+                    largest_override=self._largest_override(chunk, row),
                 )
             )
             done += share
+
+    def _largest_override(self, chunk: Chunk, row: int) -> float:
+        """Of a tap, by its record of parameters; any for other moves."""
+        if chunk.kind[row] != Kind.TAP or chunk.curve[row] < 0:
+            return inf
+        return chunk.curves[chunk.curve[row] * CURVE_WIDTH + LARGEST_OVERRIDE] or inf
 
     def _add_piece(self, piece: Piece) -> None:
         self._way_ahead += piece.length
@@ -445,7 +457,7 @@ class Ahead:
                 at -= width
                 parts.insert(0, (self._pieces[at + LENGTH], at))
                 left += self._pieces[at + LENGTH]
-            pieces = list(_parts(piece, parts, self._pieces))
+            pieces = list(parts_of(piece, parts, self._pieces))
             if len(parts) > 1:
                 place = self.items.index(piece)
                 del self.items[place]
@@ -575,23 +587,6 @@ class Ahead:
     def axes(self) -> int:
         """Number of axes."""
         return self._axes
-
-
-def _parts(piece: Piece, lengths: list[tuple[float, int]], records: Sequence[float]) -> Iterator[Piece]:
-    """A piece as its records say now: bounds, and the parts that it was cut into."""
-    if len(lengths) == 1:
-        piece.entry2, piece.cap2 = (records[lengths[0][1] + field] for field in (ENTRY2, CAP2))
-        yield piece
-        return
-    first = piece.first
-    for k, (length, at) in enumerate(lengths):
-        is_last = k == len(lengths) - 1
-        share = piece.first + piece.share - first if is_last else piece.share * length / piece.length
-        yield replace(
-            piece, first=first, share=share, length=length, entry2=records[at + ENTRY2], cap2=records[at + CAP2],
-            left=piece.left if is_last else 0.0,
-        )  # fmt: skip
-        first += share
 
 
 def _without_function(delays: list[tuple[str, float]], code: object) -> list[tuple[str, float]]:

@@ -1,4 +1,4 @@
-"""A row that begins elsewhere than its program has led the axes: laid out anew as a line from rest to rest."""
+"""Pieces laid out anew: a row that begins elsewhere than its program has led the axes, a piece that was cut."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from polycnc.motion.kernels.lay import lay
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from polycnc.mainrun.items import Piece
 
@@ -89,3 +89,20 @@ def line_anew(
         )  # fmt: skip
         done += share
     return records, pieces
+
+
+def parts_of(piece: Piece, lengths: list[tuple[float, int]], records: Sequence[float]) -> Iterator[Piece]:
+    """A piece as its records say now: bounds, and the parts that it was cut into."""
+    if len(lengths) == 1:
+        piece.entry2, piece.cap2 = (records[lengths[0][1] + field] for field in (ENTRY2, CAP2))
+        yield piece
+        return
+    first = piece.first
+    for k, (length, at) in enumerate(lengths):
+        is_last = k == len(lengths) - 1
+        share = piece.first + piece.share - first if is_last else piece.share * length / piece.length
+        yield replace(
+            piece, first=first, share=share, length=length, entry2=records[at + ENTRY2], cap2=records[at + CAP2],
+            left=piece.left if is_last else 0.0,
+        )  # fmt: skip
+        first += share

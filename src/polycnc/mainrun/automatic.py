@@ -111,6 +111,7 @@ class Automatic:
         self._waiting = False
         self._blocked = False
         self._moved_on = False
+        self._by_hand: tuple[float, ...] = ()
         self._cycle_s = cycle_s
         self._skip_after_s = skip_after_s
         self._skips_at = inf
@@ -262,7 +263,8 @@ class Automatic:
         item = self.ahead.items[0]
         if isinstance(item, Piece):
             return self._begin(item)
-        held = self.rates.hold and (self.context.feed_hold or (isinstance(item, Block) and self._may_hold()))
+        held = self.context.feed_hold or (isinstance(item, Block) and self._may_hold())
+        held = self.rates.gives_up or (self.rates.hold and held)
         if held and self._x2 == 0.0 and not isinstance(item, BlockEnd):
             return False
         return self._pass(item)
@@ -288,7 +290,8 @@ class Automatic:
             return False
         if self._moved_on:
             self._moved_on = False
-            self.ahead.arrived(self.position)
+            self.ahead.arrived(self.position, self._by_hand)
+            self._by_hand = ()
         if waiting.reason == "preprocessing":
             self._machinery.synchronise()
             self._until = self.time + self._cycle_s
@@ -394,7 +397,7 @@ class Automatic:
             return
         self._cap2 = self.rates.cap2(motion.piece)
         self._look_ahead()
-        held = self.rates.hold and motion.piece.context.feed_hold
+        held = self.rates.gives_up or (self.rates.hold and motion.piece.context.feed_hold)
         rapid = 0.0 if held else self.rates.rapid_on(motion.piece)
         motion.revise(self.time, self.ahead.reach2(), self._cap2, rapid)
         self._lead()
@@ -452,7 +455,7 @@ class Automatic:
         """Nothing is prepared: what the axes were moved by hand is where the program goes on from."""
         if any(self.stray.owed):
             self.position = self.stray.counted(self.position)
-            self.stray.take_back(-1)
+            self._by_hand = tuple(self.stray.take_back(-1))
             self._moved_on = True
 
     def start(self) -> None:

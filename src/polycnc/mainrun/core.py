@@ -259,7 +259,7 @@ class Core(ABC):
                 self._signals[f"NOT_REFERENCED_{name}"] = 0.0
 
     def _resume(self) -> None:
-        self._returning = self._searched = self._rates.hold = False
+        self._returning = self._searched = self._rates.hold = self._rates.gives_up = False
         for lane in self._lanes.values():
             lane.manual.leave()
         self._end_halt()
@@ -293,7 +293,7 @@ class Core(ABC):
 
     def _give_up(self) -> None:
         """The axes stand: the program is given up, the control is as after reset."""
-        self._giving_up = self._searched = self._rates.hold = False
+        self._giving_up = self._searched = self._rates.hold = self._rates.gives_up = False
         self._end_halt()
         self._pulse("ENDED")
         here = {number: lane.machine_position for number, lane in self._lanes.items()}
@@ -329,7 +329,7 @@ class Core(ABC):
             lane.manual.brake_all(self.time)
 
     def _brake(self, state: State) -> None:
-        self._rates.hold = self._giving_up = True
+        self._rates.hold = self._rates.gives_up = self._giving_up = True
         self._revise()
         self._brake_hands()
         self._returning = False
@@ -414,7 +414,8 @@ class Core(ABC):
     def _set_rates(self) -> None:
         """The speeds follow the override switches; a soft key of the machine holds the feed at 100 %."""
         dials, rates = self._dials, self._rates
-        rates.feed = 1.0 if self._signals[FEED_IS_100] else dials.feed
+        rates.feed_cancelled = bool(self._signals[FEED_IS_100])
+        rates.feed = 1.0 if rates.feed_cancelled else dials.feed
         rates.rapid, rates.spindle = dials.rapid, dials.spindle
         in_dry_run = self._switches.dry_run and self._program_mode is not Mode.TAPE
         rates.dry_run = JOG_RATE / 60.0 if in_dry_run else 0.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.intervention import NOTHING_BACK
@@ -74,6 +75,8 @@ class Piece:
         rapid: Runs at rapid traverse.
         fixed: Bound to the spindle (thread, tap): no override, no feed hold, but for what follows.
         overridden: A tap on which the feed override acts all the same; `held` one that feed hold stops.
+        faster: How much faster than programmed a tap comes out where no override acts on it.
+        largest_override: The largest feed override of a tap.
         per_revolution: Its speed follows the spindle.
         left: Way from its end to the programmed end of a skip move that a signal cuts there, mm.
         is_coasting: What is run behind a skip signal.
@@ -100,6 +103,8 @@ class Piece:
     is_coasting: bool = False
     overridden: bool = False
     held: bool = False
+    faster: float = 1.0
+    largest_override: float = inf
 
     def at(self, share: float) -> list[float]:
         """Machine position after a share of the piece."""
@@ -120,6 +125,8 @@ class Rates:
         spindle: Spindle override.
         dry_run: Speed of feed moves in dry run at 100 %, mm/s; 0 for off.
         hold: Feed hold: the axes come to rest.
+        feed_cancelled: The feed override is switched off.
+        gives_up: Reset or emergency stop: so they do in threads and taps.
     """
 
     feed: float = 1.0
@@ -127,6 +134,8 @@ class Rates:
     spindle: float = 1.0
     dry_run: float = 0.0
     hold: bool = False
+    feed_cancelled: bool = False
+    gives_up: bool = False
 
     def rapid_on(self, piece: Piece) -> float:
         """Rapid override that acts on a piece."""
@@ -134,8 +143,11 @@ class Rates:
 
     def cap2(self, piece: Piece) -> float:
         """Largest squared speed on a piece."""
+        if self.gives_up:
+            return 0.0
         if piece.fixed:
-            feed = self.feed if piece.overridden else 1.0
+            overridden = piece.overridden and not self.feed_cancelled
+            feed = min(self.feed, piece.largest_override) / piece.faster if overridden else 1.0
             if feed == 0.0 or (self.hold and piece.held):
                 return 0.0
             return min(piece.cap2, piece.asked * piece.asked * feed * feed)

@@ -173,8 +173,12 @@ class Lane:
 
     def give_up(self) -> None:
         """The axes stand: the program is given up, the channel is as after reset."""
+        running, modal, context = self.automatic.block, self.automatic.modal, self.automatic.context
         self.automatic.abandon()
         self.machinery.reset()
-        self.channel.control.reset(self.channel)
+        if running is None:
+            self.channel.control.reset(self.channel)
+        else:
+            self.channel.control.give_up(self.channel, modal, context)
         if self.channel.group is not None:
             self.channel.group.end(self.number)

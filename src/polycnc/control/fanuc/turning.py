@@ -13,6 +13,7 @@ from polycnc.control.fanuc import (
     turning_drawing,
     turning_drilling,
     turning_files,
+    turning_intervention,
     turning_limits,
     turning_repetitive,
     turning_reset,
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.channel.intervention import TakesBack
     from polycnc.channel.stack import Level
     from polycnc.channel.stack import Step as ProgramStep
     from polycnc.compensation.policies import Policy
@@ -228,6 +230,14 @@ class FanucTurning(CustomMacroControl):
         yield from super().modal_changes(rows)
         if any(row.code in turning_tapping.TAPS for row in rows) and any(row.ends for row in rows):
             yield "cycle", self.power_on["cycle"]
+
+    def takes_back(self, builder: Builder, plan: Plan) -> TakesBack:
+        """What a block takes back of a manual intervention."""
+        return turning_intervention.takes_back(builder) or super().takes_back(builder, plan)
+
+    def before_motion(self, builder: Builder, plan: Plan) -> list[Step]:
+        """A turning cycle begins where the tool was before it was moved by hand."""
+        return turning_intervention.plan_return(builder, plan)
 
     def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
         """Modal macro calls; words of single cycles that a one-shot code clears."""

@@ -90,6 +90,7 @@ def _rules(choice: _Choice) -> Drilling:
         least_increments="Q",
         axis=_axis,
         relief=_relief,
+        largest_override=turning_tapping.largest_override,
         turn=_turn,
         dress=_dress,
         halts=_halts,

@@ -99,6 +99,12 @@ def gear_limit(channel: Channel) -> float:
     return highest
 
 
+def largest_override(channel: Channel) -> float:
+    """The feed override (5203#4) may not lead the spindle above its gear's highest speed; 0 for any (II.4.5.4.2)."""
+    speed = channel.memory.spindle_speed
+    return gear_limit(channel) / speed if speed > 0.0 else 0.0
+
+
 def extraction(channel: Channel) -> float:
     """How much faster a rigid tap comes out (5200#4 DOV, 5201#4 OV3, 5211, J; II.4.5.4)."""
     memory = channel.memory

@@ -125,6 +125,10 @@ class Sinumerik:
         reset(channel, _start_codes(channel, memory.data))
         initialise(channel, RESET, keep_values=memory.data.keeps_first_values)
 
+    def give_up(self, channel: Channel, modal: Mapping[str, str], context: Context) -> None:  # noqa: ARG002
+        """A reset in the midst of a program: machine data decide what holds behind it."""
+        self.reset(channel)
+
     def _memory(self, channel: Channel) -> Memory:
         names = axis_names(channel)
         columns = {**_machine_columns(channel), **_columns(channel)}

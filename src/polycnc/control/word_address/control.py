@@ -180,6 +180,14 @@ class WordAddressControl:
         """The state after reset, and after the end of a program."""
         reset(channel)
 
+    def give_up(self, channel: Channel, modal: Mapping[str, str], context: Context) -> None:
+        """A reset in the midst of a program: blocks that were only prepared have changed no state that stays."""
+        memory = channel.memory
+        channel.mode = channel.modes.mode(modal)
+        memory.wcs, memory.spindle_speed = context.wcs, context.spindle_rpm
+        memory.spindle_direction = context.spindle_direction
+        self.reset(channel)
+
     def start_codes(self, channel: Channel) -> dict[str, str]:  # noqa: ARG002 - parameters decide on a lathe
         """Code of every modal group at program start."""
         return dict(self.power_on)
@@ -218,6 +226,10 @@ class WordAddressControl:
         give_way(builder)
         planner = self.g_codes[builder.mode["motion"]].planner
         return planner(builder, plan) if planner is not None else None
+
+    def before_motion(self, _builder: Builder, _plan: Plan) -> list[Step]:
+        """Steps in front of everything else that a block does."""
+        return []
 
     def takes_back(self, builder: Builder, plan: Plan) -> TakesBack:
         """What a block takes back of a manual intervention: axes named absolutely; in a cycle each as it moves."""

@@ -93,6 +93,11 @@ def lead_from_feed(channel: Channel) -> float:
     return channel.feed * 60.0 / speed if speed > 0.0 else 0.0
 
 
+def any_override(_channel: Channel) -> float:
+    """The machine sets no bound."""
+    return 0.0
+
+
 def no_relief(_channel: Channel, _code: str) -> float:
     """Pecks follow each other without a retract."""
     return 0.0
@@ -144,6 +149,7 @@ class Drilling:
         shift: Shift off the wall along two geometry axes, the first and second of the hole's plane.
         lead: Lead of a tap, mm.
         check: Alarms for what must not be when a cycle begins to drill.
+        largest_override: The largest feed override of a tap; 0 for any.
         turn: What a reversal or stop of the spindle within a cycle does.
         least_increments: Words that count least increments even under calculator input.
         dress: What the machine adds to the strokes of a hole (clamping an axis), by cycle code.
@@ -166,6 +172,7 @@ class Drilling:
     relief: Callable[[Channel, str], float] = no_relief
     shift: Callable[[Channel, CycleData, tuple[int, int]], tuple[float, float]] = shift_by_center_words
     lead: Callable[[Channel], float] = lead_from_feed
+    largest_override: Callable[[Channel], float] = any_override
     turn: Callable[[Channel, int], None] = turn_spindle
     check: Callable[[Channel, str], None] = nothing_to_check
     least_increments: Sequence[str] = ""
@@ -435,8 +442,9 @@ def _stroke(channel: Channel, axis: int, stroke: Stroke) -> None:
     if stroke.action is Action.FEED:
         channel.straight(Kind.FEED, position, feed, end)
     elif position != c.position:
-        lead = channel.control.drilling_rules(channel).lead(channel)
-        channel.curve(Kind.TAP, position, feed, parameters=(lead, 0.0), programmed=end)
+        rules: Drilling = channel.control.drilling_rules(channel)
+        parameters = (rules.lead(channel), 0.0, stroke.factor, rules.largest_override(channel))
+        channel.curve(Kind.TAP, position, feed, parameters=parameters, programmed=end)
 
 
 def _shift(channel: Channel, center: list[float], data: CycleData, part: float) -> None:

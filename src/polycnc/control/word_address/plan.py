@@ -200,6 +200,7 @@ class Builder:
         plan.takes_back = self.control.takes_back(self, plan)
         before, after = self._auxiliary_steps(plan)
         steps = [
+            *self.control.before_motion(self, plan),
             *before,
             *(self.handled(r.handler, plan) for r in rows if r.handler and r.order < Order.MOTION),
         ]

@@ -108,6 +108,8 @@ BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 81, 90, 91, 92, 93, 94
 # way there, and room for one q' and q''; q'' at the end of the last piece.
 POSITION, TANGENT, TARGET, DELTA, UNIT, BEND, BENT_BEFORE, BLOCKS = range(8)
 
+#: Of a tap, in its record in `curves`: how much faster than at its lead it runs, and the largest override (0: none).
+FACTOR, LARGEST_OVERRIDE = 2, 3
 #: With limited jerk lines are cut: room for so many pieces more than a row has, and for each of its pieces.
 SPARE_PIECES, CUTS_PER_PIECE = 64, 3
 #: Pieces of a full turn. Over 7.5° an axis exceeds what holds at both ends by little; `lay_arc` says by how

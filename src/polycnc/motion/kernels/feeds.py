@@ -14,6 +14,7 @@ from polycnc.motion.kernels.columns import (
     DRIVE_SPEED,
     EARLY,
     EXIT2,
+    FACTOR,
     FEED,
     FORM,
     FREE,
@@ -110,6 +111,14 @@ def mean_lead(curves: Floats, state: Floats, lead: float, way: float) -> float:
     return 0.5 * (lead + sqrt(max(lead * lead + 2.0 * curves[at + 2] * way, 0.0)))
 
 
+def faster(curves: Floats, state: Floats) -> float:
+    """How much faster than its lead asks the row at hand runs: a tap on its way out; 1 for other moves."""
+    if state[KIND] != TAP or state[CURVE] < 0.0:
+        return 1.0
+    factor: float = curves[int(state[CURVE]) + FACTOR]
+    return factor if factor > 0.0 else 1.0
+
+
 def asked_speed(
     curves: Floats, contexts: Floats, record: int, state: Floats, length: float, radius_mm: float
 ) -> float:
@@ -127,7 +136,7 @@ def asked_speed(
         for i in range(STATE_BLOCKS + DELTA * n, STATE_BLOCKS + DELTA * n + n):
             longest = max(longest, abs(state[i]))
         if longest > 0.0:
-            lead = mean_lead(curves, state, lead, longest)
+            lead = mean_lead(curves, state, lead, longest) * faster(curves, state)
             return lead * revolutions_s(contexts, record, radius_mm) * length / longest
     speed = state[FEED]
     if contexts[record + PER_REVOLUTION] != 0.0:
@@ -183,9 +192,9 @@ def bounded(asked: float, state: Floats) -> float:
 def bound(asked: float, state: Floats) -> float:
     """The speed asked for, or no bound where none is.
 
-    Where the feed is FREE, because overrides will act on it, it bounds threads, taps and rapids alone.
+    Where the feed is FREE, because overrides will act on it, it bounds threads and rapids alone.
     """
-    is_free = state[FREE] != 0.0 and state[KIND] != THREAD and state[KIND] != TAP and not is_rapid(state)
+    is_free = state[FREE] != 0.0 and state[KIND] != THREAD and not is_rapid(state)
     return inf if is_free or not asked > 0.0 else asked
 
 
