@@ -152,6 +152,8 @@ class Coordinates:
             offsets: Shift of every axis, tool included.
             travelled: The next incremental word of an axis travels the change as well (tool lengths).
         """
+        if self.direct and frame == self.zero and offsets == self.offsets:
+            return  # or the way to the machine and back would leave rounding noise
         machine = self.machine
         before = self.position
         self.zero = frame

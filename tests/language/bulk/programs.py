@@ -7,6 +7,50 @@ from hypothesis import strategies as st
 #: Spindle speeds, right ones and some that a control may refuse.
 SPEEDS = (" S1200", "S800", " S1200", " S0", " S1500.", " S99.5", "S-5")
 CODES = ("G1 ", "G1", "G01 ", "G0 ", "G00", "G90 ", "G91 ", "G90G1 ", "G0 G91 ")
+#: Codes that are mostly in force already, or change no way.
+REPEATED = (
+    "G17 ",
+    "G17G1",
+    "G54 ",
+    "G54 G17 G90 ",
+    "G94 ",
+    "G94",
+    "G40 ",
+    "G64 ",
+    "G61 ",
+    "G21 ",
+    "G1 G97 ",
+    "G69 ",
+    "G50 ",
+    "G23 ",
+)
+REPEATED_SINUMERIK = (
+    "G17 ",
+    "G17G1",
+    "G54 ",
+    "G54 G17 G90 ",
+    "G94 ",
+    "G94",
+    "G40 ",
+    "G64 ",
+    "G60 ",
+    "G71 ",
+    "G1 G40 G64 ",
+    "G500 ",
+)
+REPEATED_LATHE = (
+    "G18 ",
+    "G18G1",
+    "G54 ",
+    "G54 G18 ",
+    "G98 ",
+    "G98",
+    "G64 ",
+    "G61 ",
+    "G21 ",
+    "G1 G97 ",
+    "G69.1 ",
+)
 _decimals = st.integers(0, 6)
 
 

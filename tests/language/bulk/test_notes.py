@@ -1,4 +1,5 @@
-"""Words and codes of plain blocks that tell more than a way: S."""
+# ruff: noqa: E501 - programs stand as they are written
+"""Words and codes of plain blocks beside a way: S, modes of the path, codes that are in force already."""
 
 from __future__ import annotations
 
@@ -21,7 +22,7 @@ def program(control_id: str, *blocks: str) -> str:
 def test_speeds_are_scanned(control_id: str) -> None:
     text = program(control_id, *BLOCKS)
     assert differences(text, control_id) == []
-    assert scanned(text, control_id) == len(BLOCKS)
+    assert scanned(text, control_id) >= len(BLOCKS)
 
 
 @pytest.mark.parametrize("control_id", CONTROLS)
@@ -66,3 +67,78 @@ def test_a_spindle_in_step_with_another_tells_its_speed_too() -> None:
         "syntec-mill", "X9.", "G51.2 P1 Q2 R0", "X8. S150", "X7. S150", "X6. S200", "G50.2", "X5. S10"
     )
     assert differences(text, "syntec-mill") == []
+
+
+#: Codes that are in force from the second block on.
+IN_FORCE = {
+    "fanuc-m": ("G17", "G54", "G90", "G94", "G64", "G40", "G21", "G69", "G50", "G80", "G97", "G98"),
+    "meldas-m": ("G17", "G54", "G90", "G94", "G64", "G40", "G21", "G69", "G50", "G80", "G97", "G98"),
+    "syntec-mill": ("G17", "G54", "G90", "G94", "G64", "G71", "G69", "G50", "G97", "G98"),
+    "sinumerik-840d": ("G17", "G54", "G90", "G94", "G64", "G40", "G71"),
+    "fanuc-0i-tf": ("G18", "G54", "G64", "G21", "G69.1", "G80", "G97", "G98"),
+}
+
+
+@pytest.mark.parametrize(
+    ("control_id", "code"), [(control, code) for control, codes in IN_FORCE.items() for code in codes]
+)
+def test_codes_that_are_in_force_are_scanned(control_id: str, code: str) -> None:
+    setup = {"work_offsets": {"G54": {"X": 0.1, "Z": 0.7}}}
+    code = code.replace("G69.1", "")
+    blocks = ("G54 G64", "X0.3", f"{code} X1.7", f"{code} G1 X2.6 F500.", code, f"G0 {code} X3.", "X4.")
+    text = program(control_id, *blocks)
+    assert differences(text, control_id, setup) == []
+    assert scanned(text, control_id, setup) >= len(blocks) - 1
+
+
+@pytest.mark.parametrize("control_id", CONTROLS)
+def test_a_mode_of_the_path_is_scanned(control_id: str) -> None:
+    codes = ("G64", "G60", "G64", "G60") if control_id == "sinumerik-840d" else ("G64", "G61", "G63", "G64")
+    blocks = [f"{code} X{i}." if i % 2 else f"{code}\nX{i}." for i, code in enumerate(codes * 2, 1)]
+    text = program(control_id, *blocks)
+    assert differences(text, control_id) == []
+    assert scanned(text, control_id) >= 12
+
+
+@pytest.mark.parametrize(
+    "between",
+    [
+        "G54 P3", "G10 L2 P1 X5. Y5.", "#5221=7.5", "G52 X5.", "G92 X0", "G68 X0 Y0 R30.", "G51 X0 Y0 P2.", "G18", "G55", "G20", "G95 F0.2",
+        "G61", "G43 H1", "G41 D1 X3.", "G22 X5. I3.",
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("control_id", ["fanuc-m", "meldas-m", "syntec-mill"])
+def test_what_changes_in_front_of_a_code_in_force_counts_both_ways(control_id: str, between: str) -> None:
+    setup = {
+        "work_offsets": {"G54": {"X": 0.1, "Y": 0.7}, "G55": {"X": 3.3}},
+        "tools": {1: {"length": 3.3, "radius": 1}},
+    }
+    stretch = (
+        "G54 X1.1",
+        "G17 X2.2",
+        "G94 X3.3 F100.",
+        "G64 X4.4",
+        "G40 X5.5",
+        "G21 X6.6",
+        "G69 X7.7",
+        "G90 G54 G17 Y3.",
+    )
+    text = program(control_id, *stretch, between, *stretch, between, *stretch)
+    assert differences(text, control_id, setup) == []
+
+
+@pytest.mark.parametrize(
+    "between",
+    [
+        "TRANS X3", "$P_UIFR[1]=CTRANS(X,5)", "G55", "ROT RPL=30", "G18", "G95 F0.2", "G60", "G41 X3", "G70", "$TC_DP3[1,1]=7", "T1 D1",
+        "$P_BFRAME=CTRANS(Y,2)",
+    ],
+)  # fmt: skip
+def test_what_changes_in_front_of_a_function_in_force_counts_both_ways(between: str) -> None:
+    setup = {
+        "work_offsets": {"G54": {"X": 0.1, "Y": 0.7}, "G55": {"X": 3.3}},
+        "tools": {1: {"length": 3.3, "radius": 1}},
+    }
+    stretch = ("G54 X1.1", "G17 X2.2", "G94 X3.3 F100", "G64 X4.4", "G40 X5.5", "G71 X6.6", "G90 G54 G17 Y3")
+    text = program("sinumerik-840d", *stretch, between, *stretch, between, *stretch)
+    assert differences(text, "sinumerik-840d", setup) == []

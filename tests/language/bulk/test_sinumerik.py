@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from polycnc.channel.scanner import Bulk
 from polycnc.language.bulk.compiled import plain_scan
 from tests.language.bulk.both_ways import PLAIN, differences, run
-from tests.language.bulk.programs import number, plain, program, words
+from tests.language.bulk.programs import CODES, REPEATED_SINUMERIK, number, plain, program, words
 
 CONTROL = "sinumerik-840d"
 COMMENTS = (" ; PASS 2", ";", " ;(X) G2", "; ;")
@@ -70,7 +70,11 @@ WRONG = st.one_of(
     ),
 )  # fmt: skip
 MILLING = program(
-    st.one_of(plain("XYZ", COMMENTS, equals=True), plain("XYZ", COMMENTS, equals=True), arc()),
+    st.one_of(
+        plain("XYZ", COMMENTS, equals=True),
+        plain("XYZ", COMMENTS, CODES + REPEATED_SINUMERIK, equals=True),
+        arc(),
+    ),
     OTHERS,
     WRONG,
     "G90 G17 G54 G1 F1000",

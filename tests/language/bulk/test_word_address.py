@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from polycnc.channel.scanner import Bulk
 from polycnc.language.bulk.compiled import plain_scan
 from tests.language.bulk.both_ways import differences
-from tests.language.bulk.programs import any_arc, arc, number, plain, program
+from tests.language.bulk.programs import CODES, REPEATED, REPEATED_LATHE, any_arc, arc, number, plain, program
 
 FANUC_COMMENTS = (" (PASS 2)", "(a;b", ";", " ; (X)", ";  ", "(1)(2)")
 FANUC_OTHERS = st.sampled_from(
@@ -41,7 +41,9 @@ SETUP = {
     "start": {"X": 1.5, "Z": 300},
 }
 FANUC = program(
-    st.one_of(plain("XYZ", FANUC_COMMENTS), plain("XYZ", FANUC_COMMENTS), arc(FANUC_COMMENTS)),
+    st.one_of(
+        plain("XYZ", FANUC_COMMENTS), plain("XYZ", FANUC_COMMENTS, CODES + REPEATED), arc(FANUC_COMMENTS)
+    ),
     FANUC_OTHERS,
     FANUC_WRONG,
     "O0001\nG90 G54 G1 F1000.",
@@ -82,7 +84,7 @@ def test_a_machine_with_rotary_axes_gives_the_same(text: str) -> None:
 
 SYNTEC_COMMENTS = (" (PASS 2)", " // X5", ";", " ; ", "(1) (2)")
 SYNTEC = program(
-    st.one_of(plain("XYZ", SYNTEC_COMMENTS), plain("XYZ", SYNTEC_COMMENTS), arc(SYNTEC_COMMENTS)),
+    st.one_of(plain("XYZ", SYNTEC_COMMENTS), plain("XYZ", SYNTEC_COMMENTS, CODES + REPEATED), arc(SYNTEC_COMMENTS)),
     st.sampled_from(
         (
             "", "  ", "(ONLY A COMMENT)", "// COMMENT", "N100", "/G1 X5.", "M3 S1000", "M5", "T2 M6", "G4 X0.1", "G54", "G55",
@@ -105,7 +107,7 @@ def test_syntec_programs_give_the_same_both_ways(text: str) -> None:
 
 
 LATHE = program(
-    plain("XZUW", FANUC_COMMENTS, ("G1 ", "G01", "G0 ", "G00", "G1")),
+    plain("XZUW", FANUC_COMMENTS, ("G1 ", "G01", "G0 ", "G00", "G1", *REPEATED_LATHE)),
     st.sampled_from(
         (
             "", "(ONLY A COMMENT)", "N100", "M3 S1000", "M5", "T0101", "T0202", "T0100", "G4 X0.1", "G54", "G55", "G50 S2000",

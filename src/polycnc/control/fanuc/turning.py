@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.codes import GCode, Planner, Step
     from polycnc.control.word_address.drilling import Drilling
     from polycnc.control.word_address.plan import Builder, Plan
+    from polycnc.language.bulk import Condition
     from polycnc.machine.motion_settings import MotionSettings
     from polycnc.messages import AlarmError
     from polycnc.toolpath import Context
@@ -58,6 +59,7 @@ class FanucTurning(CustomMacroControl):
     alarm_files: ClassVar[tuple[str, ...]] = ("fanuc/alarms.toml",)
     default_machine: ClassVar[str] = "lathe2"
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
+    settled_codes: ClassVar[Mapping[str, Condition]] = turning_coordinates.SETTLED
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = {

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.turning_corners import corner_waits
 from polycnc.control.fanuc.turning_tools import refresh
-from polycnc.control.word_address import coordinates, extended, planes
+from polycnc.control.word_address import coordinates, extended, planes, settled
 from polycnc.control.word_address.path import PLANES
 from polycnc.control.word_address.radius import suspended
 from polycnc.geometry.frames import IDENTITY, about, rotation
@@ -139,6 +139,25 @@ def keep_feed_number(channel: Channel, words: Words) -> None:
     if "F" not in words and before != code:
         channel.feed = channel.feed * 60.0 if code == "G99" else channel.feed / 60.0
     channel.context_changed()
+
+
+def _feed_is_settled(channel: Channel) -> bool:
+    """G98, G99: F has been typed under this code."""
+    return bool(channel.memory.feed_code == channel.mode["feed"])
+
+
+def _plane_is_settled(channel: Channel) -> bool:
+    """G17 to G19: as on every control, and no corner waits for its next block."""
+    return channel.head is None and channel.memory.plane == channel.mode["plane"] and settled.plane(channel)
+
+
+#: Codes that change nothing where they are in force already; see `word_address.settled`.
+SETTLED = {
+    **dict.fromkeys(("G17", "G18", "G19"), _plane_is_settled),
+    **dict.fromkeys(("G54", "G55", "G56", "G57", "G58", "G59"), settled.work_offset),
+    **dict.fromkeys(("G98", "G99"), _feed_is_settled),
+    "G69.1": settled.frame,
+}
 
 
 def feed_number(channel: Channel) -> float:

@@ -39,7 +39,7 @@ _ROWS = table(
     moves("G37", tool_measuring.measure_length, "R D"),
     moves("G37.1", hole_patterns.grid_of_holes, "I J P K"),
     moves("G53", coordinates.move_in_machine_system),
-    GCode("G61.1", "path", coordinates.note_context),
+    GCode("G61.1", "path", coordinates.note_context, only_changes=True),
     GCode("G7", handler=hypothetical_axis.switch, axis_words=True, order=Order.MOTION),
 )
 G_CODES = with_aliases(_ROWS, ALIASES)

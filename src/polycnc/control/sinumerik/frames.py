@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.memory import Memory
+    from polycnc.geometry.frames import Frame
 
 #: System frames by the name of their variable, in the order of the chain (job planning 5.7.2).
 BEFORE_BASE = ("$P_PARTFRAME", "$P_SETFRAME", "$P_EXTFRAME")
@@ -67,6 +68,12 @@ class Frames:
         self.active_settable = self.settable[number]
         self.active_base = list(self.base)
         self.active_global_base = list(self.global_base)
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether `select` with the active number would change nothing."""
+        active = self.active_settable, list(self.active_base), list(self.active_global_base)
+        return active == (self.settable[self.number], list(self.base), list(self.global_base))
 
     def actual_base(self) -> NcFrame:
         """`$P_ACTBFRAME`: the base frames that the masks include, global ones first."""
@@ -126,20 +133,32 @@ def apply(channel: Channel, suppression: str = "", *, travelled: bool = False) -
         suppression: G53, G153 or SUPA while their block runs.
         travelled: The next incremental word of an axis travels the change as well.
     """
-    memory: Memory = channel.memory
     coordinates = channel.coordinates
+    frame, offsets = _to_machine(channel, suppression)
+    if frame != coordinates.zero or offsets != coordinates.offsets:
+        coordinates.set_zero(frame, offsets, travelled=travelled)
+        channel.context_changed()
+
+
+def is_settled(channel: Channel) -> bool:
+    """Whether a zero offset that is in force would change nothing now: G500, G54 ... once more."""
+    frames, c = channel.memory.frames, channel.coordinates
+    return frames.is_settled and _to_machine(channel, "") == (c.zero, c.offsets)
+
+
+def _to_machine(channel: Channel, suppression: str) -> tuple[Frame, list[float]]:
+    """The way from the display to the machine by the active frames and the tool."""
+    memory: Memory = channel.memory
     total = memory.frames.total(suppression)
     offsets = [0.0] * len(channel.axes)
     for axis, part in total.others.items():
         if part.factor != 1.0:
             raise not_supported(f"SCALE, MIRROR {axis}")
         offsets[memory.column(axis)] += part.coarse + part.fine
-    for column, length in zip(coordinates.geometry, memory.tools.lengths, strict=True):
+    for column, length in zip(channel.coordinates.geometry, memory.tools.lengths, strict=True):
         if column >= 0:
             offsets[column] += length
-    if total.frame != coordinates.zero or offsets != coordinates.offsets:
-        coordinates.set_zero(total.frame, offsets, travelled=travelled)
-        channel.context_changed()
+    return total.frame, offsets
 
 
 def changed(channel: Channel) -> None:

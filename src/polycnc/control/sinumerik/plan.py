@@ -6,6 +6,7 @@ corners; motion, or what a function of group 2 or 3 does; stops. A program end c
 
 from __future__ import annotations
 
+from functools import partial
 from math import nan
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -29,16 +30,17 @@ from polycnc.control.sinumerik import (
 from polycnc.control.sinumerik.block import Draft, Step
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.positions import axis_diameters
-from polycnc.language.bulk import Enter, declare
+from polycnc.language.bulk import Enter, Idle, Note, declare
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
     from polycnc.control.sinumerik.block import Values
     from polycnc.control.sinumerik.memory import Memory
+    from polycnc.language.bulk import Condition
     from polycnc.language.sinumerik.words import Block
 
 #: Path motion by the function of group 1.
@@ -103,15 +105,15 @@ def make_plan(channel: Channel, block: Block) -> Plan:
     mode = _axis_diameters(channel, block, channel.mode.with_codes(modal), codes)
     draft = Draft(channel, block, mode, codes)
     if mode is not channel.mode or any(name in IN_CONTEXT for name, _ in modal):
-        draft.steps.append(_enter(mode, modal))
-    draft.steps += [EFFECTS[name] for name, _ in modal if name in EFFECTS]
+        draft.steps.append(_enter(mode, modal, changes=mode is not channel.mode))
+    draft.steps += [_effect(EFFECTS, channel.mode, name, code) for name, code in modal if name in EFFECTS]
     own = _own_function(draft)
     moving = _motion(draft) if own is None and "frame" not in codes and "block_motion" not in codes else None
     ends = _words(draft)
     # A retraction ends compensation itself, behind its line or arc.
     leaves = codes.get("block_motion") in smooth_approach.RETRACTIONS and codes.get("side") == "G40"
-    late = [name for name, _ in modal if name in LATE_EFFECTS and not (leaves and name == "side")]
-    draft.steps += [LATE_EFFECTS[name] for name in late]
+    late = [(name, code) for name, code in modal if name in LATE_EFFECTS and not (leaves and name == "side")]
+    draft.steps += [_effect(LATE_EFFECTS, channel.mode, name, code) for name, code in late]
     measures = measuring.measure(draft)
     if measures is not None:
         draft.steps.append(measures[0])
@@ -193,7 +195,7 @@ def _is_bare_motion(block: Block, codes: dict[str, str]) -> bool:
     return codes.get("motion") in LINEAR or bool(block.words and all(w.address in "SF" for w in block.words))
 
 
-def _enter(mode: Mode, modal: list[tuple[str, str]]) -> Step:
+def _enter(mode: Mode, modal: list[tuple[str, str]], *, changes: bool) -> Step:
     """A step that brings the modal state about."""
     matters = not modal or any(name in IN_CONTEXT for name, _ in modal)
 
@@ -202,7 +204,16 @@ def _enter(mode: Mode, modal: list[tuple[str, str]]) -> Step:
         if matters:
             channel.context_changed()
 
-    return run if matters else declare(run, Enter(mode))
+    if not changes:
+        return declare(run, Idle())
+    return declare(run, (Enter(mode), Note()) if matters else Enter(mode))
+
+
+def _effect(effects: Mapping[str, Step], before: Mode, name: str, code: str) -> Step:
+    """What a modal function does beside being active; one that is in force already may change nothing."""
+    if before[name] != code or name not in SETTLED:
+        return effects[name]
+    return declare(partial(effects[name]), Idle(SETTLED[name]))
 
 
 def _own_function(draft: Draft) -> Step | None:
@@ -348,6 +359,38 @@ def _rules(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps ha
     stages.changed_rules(channel)
 
 
+def _lengths_are_settled(channel: Channel) -> bool:
+    """The plane gives the tool the lengths that it has."""
+    tools, data = channel.memory.tools, channel.memory.data
+    before = tools.lengths
+    tools.assign_lengths(channel.mode["plane"], data)
+    after, tools.lengths = tools.lengths, before
+    return bool(after == before) and frames.is_settled(channel)
+
+
+def _feed_is_settled(channel: Channel) -> bool:
+    """The kind of feed is the one in force, and no speed is to be kept from G96."""
+    memory, code = channel.memory, channel.mode["feed"]
+    feed = tables.FEED_TYPES[code]
+    return (
+        bool(feed.mode == memory.feed_mode)
+        and not feed.surface_speed
+        and code not in spindle_speed.KEEPS_SPEED
+    )
+
+
+def _contour_is_settled(channel: Channel) -> bool:
+    """No compensation is active."""
+    return channel.memory.stages is None or not channel.memory.stages.cutter.active
+
+
+#: When functions of a group that are in force already change nothing.
+SETTLED: dict[str, Condition] = {
+    "zero_offset": frames.is_settled,
+    "plane": _lengths_are_settled,
+    "feed": _feed_is_settled,
+    **dict.fromkeys(("approach", "corner", "side"), _contour_is_settled),
+}
 #: Right after the modal state has changed.
 EFFECTS: dict[str, Step] = {
     "zero_offset": _zero_offset,

@@ -47,11 +47,12 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.stack import Step as ProgramStep
-    from polycnc.control.word_address.codes import GCode, MCode, Planner, Step
+    from polycnc.control.word_address.codes import GCode, Handler, MCode, Planner, Step
     from polycnc.control.word_address.drilling import Drilling
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
     from polycnc.geometry.arcs import Point
+    from polycnc.language.bulk import Condition
     from polycnc.machine.motion_settings import MotionSettings
     from polycnc.program import Program
     from polycnc.toolpath import Context
@@ -73,6 +74,8 @@ class SyntecMill(WordAddressControl):
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z"}
     INCH_CODE: ClassVar[str] = "G70"
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = False
+    only_context: ClassVar[frozenset[Handler]] = WordAddressControl.only_context | {coordinates.cutting_mode}
+    settled_codes: ClassVar[Mapping[str, Condition]] = motion.SETTLED
 
     # ---- programs ----------------------------------------------------------------------------------------
 

@@ -7,9 +7,10 @@ from functools import partial
 from math import copysign, hypot, nan, sqrt
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address import auxiliary, path, radius, skip
+from polycnc.control.word_address import auxiliary, path, radius, settled, skip
 from polycnc.control.word_address.path import CENTER_WORDS, PLANES
 from polycnc.geometry import arcs
+from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -107,6 +108,30 @@ def change_feed_mode(channel: Channel, words: Words) -> None:
             channel.feed = memory.feeds.get(mode, DEFAULT_FEED[mode])
         memory.feed_mode = mode
     channel.context_changed()
+
+
+def _feed_is_settled(channel: Channel) -> bool:
+    """G93 to G95: the feed in force is that of the code."""
+    return bool(channel.memory.feed_mode == channel.mode["feed"])
+
+
+def _plane_is_settled(channel: Channel) -> bool:
+    """G17 to G19: no polar interpolation has a plane of its own."""
+    return channel.memory.polar is None
+
+
+def _frame_is_settled(channel: Channel) -> bool:
+    """G69: nothing is rotated or tilted."""
+    return channel.coordinates.direct and channel.memory.tilt is IDENTITY
+
+
+#: Codes that change nothing where they are in force already; see `word_address.settled`.
+SETTLED = {
+    **settled.MILLING,
+    "G69": _frame_is_settled,
+    **dict.fromkeys(("G17", "G18", "G19"), _plane_is_settled),
+    **dict.fromkeys(("G93", "G94", "G95"), _feed_is_settled),
+}
 
 
 def with_inverse_time(builder: Builder, plan: Plan, step: Step) -> Step:

@@ -52,6 +52,7 @@ class GCode:
         order: When in the block it acts.
         ends: Another modal group that goes back to its power-on code (a motion code ends a drilling cycle).
         idle_in_cycle: Has no effect in a block while a drilling cycle is active.
+        only_changes: Acts only where another code of its group was in force.
         not_yet: Known to the control, not executed by polycnc.
     """
 
@@ -64,6 +65,7 @@ class GCode:
     order: Order = Order.SETTING
     ends: str = ""
     idle_in_cycle: bool = False
+    only_changes: bool = False
     not_yet: bool = False
 
     @property

@@ -33,9 +33,10 @@ if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.stack import Step as ProgramStep
-    from polycnc.control.word_address.codes import Planner, Step
+    from polycnc.control.word_address.codes import Handler, Planner, Step
     from polycnc.control.word_address.memory import ToolOffset
     from polycnc.geometry.arcs import Point
+    from polycnc.language.bulk import Condition
     from polycnc.program import Program
 
 #: Largest number of a tool offset (H, D).
@@ -57,6 +58,8 @@ class WordAddressControl:
         addresses: What words beside axis words and code arguments do (F, S, T, H, D …).
         power_on: Code of every modal group at power-on.
         alarms: Names of mistakes to alarm codes.
+        only_context: Handlers that do no more than change the context.
+        settled_codes: When codes that are in force already change nothing; see `settled.py`.
         foreign_codes: Codes of other makers to message ids of hints.
         drilling: The drilling cycles.
         FEED_AT_START: Feed that holds before any F (mm/s), or None for the alarm of a missing feed.
@@ -74,6 +77,8 @@ class WordAddressControl:
     addresses: ClassVar[Mapping[str, Planner]] = {}
     power_on: ClassVar[Mapping[str, str]] = {}
     alarms: ClassVar[Mapping[str, str]] = {}
+    only_context: ClassVar[frozenset[Handler]] = frozenset((coordinates.note_context,))
+    settled_codes: ClassVar[Mapping[str, Condition]] = {}
     foreign_codes: ClassVar[Mapping[str, str]] = {}
     drilling: ClassVar[Drilling] = Drilling({})
     FEED_AT_START: ClassVar[float | None] = None

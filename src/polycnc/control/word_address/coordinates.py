@@ -17,6 +17,12 @@ if TYPE_CHECKING:
 
 def refresh_zero(channel: Channel, *, travelled: bool = False) -> None:
     """Work out the shift from display to machine anew: external + work + local + G92 offset + tool length."""
+    channel.coordinates.set_zero(channel.memory.zero_frame, zero_offsets(channel), travelled=travelled)
+    channel.context_changed()
+
+
+def zero_offsets(channel: Channel) -> list[float]:
+    """What lies between display and machine now, for every axis."""
     memory = channel.memory
     parts = zip(
         memory.work_offset(EXTERNAL),
@@ -26,8 +32,7 @@ def refresh_zero(channel: Channel, *, travelled: bool = False) -> None:
         memory.length_offset,
         strict=True,
     )
-    channel.coordinates.set_zero(memory.zero_frame, [sum(values) for values in parts], travelled=travelled)
-    channel.context_changed()
+    return [sum(values) for values in parts]
 
 
 def select_work_offset(channel: Channel, _words: Words) -> None:
@@ -153,7 +158,7 @@ REFERENCE_WINDOW_MM = 0.0015
 
 
 def forget_feed(channel: Channel, words: Words) -> None:
-    """G93 to G95: a change of the feed mode asks for a new F, which a block may bring with it."""
+    """G93 to G95: another feed mode asks for a new F, which the block may bring with it."""
     if "F" not in words:
         channel.feed = nan
     channel.context_changed()

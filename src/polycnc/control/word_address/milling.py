@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policies import HARTFORD, Policy
-from polycnc.control.word_address import corners, normal_line, nurbs, tilted_plane
+from polycnc.control.word_address import corners, normal_line, nurbs, settled, tilted_plane
 from polycnc.control.word_address.codes import MCode
 from polycnc.control.word_address.custom_macro import CustomMacroControl
 from polycnc.control.word_address.interlocks import guarded, guarded_motion, unlisted
@@ -16,10 +16,13 @@ from polycnc.control.word_address.parameter_input import plan_parameter_block
 from polycnc.control.word_address.tool_center_point import plan_with_direction
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
+    from polycnc.language.bulk import Condition
 
 
 CUTTING = frozenset({"G1", "G2", "G3"})
@@ -36,6 +39,7 @@ class MillingControl(CustomMacroControl):
 
     OVERRUN_PARAMETER: ClassVar[int] = 5440
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
+    settled_codes: ClassVar[Mapping[str, Condition]] = settled.MILLING
     NORMAL_LINE_PARAMETERS: ClassVar[NormalLineParameters] = NormalLineParameters(5480, 5481, 5482, 5483)
     CURVE_BEGINS_AT_TOOL: ClassVar[bool] = True
     POLAR_CODES: ClassVar[frozenset[str]] = CustomMacroControl.POLAR_CODES | {"G90", "G91", "G94", "G95"}

@@ -16,6 +16,7 @@ from polycnc.control.word_address.codes import GCode, MCode, Order, Step
 from polycnc.control.word_address.extended import end_of_exact_stop, exact_stop_block
 from polycnc.control.word_address.numbers import Convert, NumberRules, length_converter
 from polycnc.control.word_address.words import Words
+from polycnc.language.bulk import Idle, Note, declare
 from polycnc.language.word_address.words import FORMS, is_fixed_code
 from polycnc.messages import AlarmError
 
@@ -169,6 +170,27 @@ class Builder:
         """A step that calls a handler with the block's words."""
         return lambda channel, values: handler(channel, Words(plan, values))
 
+    def _in_force(self, row: GCode) -> bool:
+        return bool(row.group) and self.before.codes.get(row.group) == row.code
+
+    def _is_repeated(self, row: GCode) -> bool:
+        """Whether a code that only changes something is in force already; its words are its own all the same."""
+        if not row.only_changes or not self._in_force(row):
+            return False
+        self.take(*row.addresses)
+        return True
+
+    def _acted(self, row: GCode, handler: Handler, plan: Plan) -> Step:
+        """The step of a code's handler; it says so where it only tells the context, or may change nothing."""
+        step, control = self.handled(handler, plan), self.control
+        if any(self.has(address) for address in row.addresses):
+            return step
+        if handler in control.only_context:
+            return declare(step, Note())
+        if self._in_force(row) and row.code in control.settled_codes:
+            return declare(step, Idle(control.settled_codes[row.code]))
+        return step
+
     def axis_words(self) -> tuple[AxisWord, ...]:
         """The axis words of the block; they count as taken."""
         words: list[AxisWord] = []
@@ -193,7 +215,7 @@ class Builder:
             plan.mode = self.before
             plan.steps = (call,)
             return plan
-        rows = sorted(self.codes, key=lambda row: row.order)
+        rows = sorted((row for row in self.codes if not self._is_repeated(row)), key=lambda row: row.order)
         for row in rows:
             self.take(*row.addresses)
         plan.axis_words = self.axis_words()
@@ -202,7 +224,7 @@ class Builder:
         steps = [
             *self.control.before_motion(self, plan),
             *before,
-            *(self.handled(r.handler, plan) for r in rows if r.handler and r.order < Order.MOTION),
+            *(self._acted(r, r.handler, plan) for r in rows if r.handler and r.order < Order.MOTION),
         ]
         if not any(row.axis_words for row in rows):
             motion = self.control.plan_motion(self, plan)
