@@ -238,7 +238,9 @@ def plan_drilling(builder: Builder, plan: Plan) -> Step:
     def run(channel: Channel, values: list[float]) -> None:
         memory, c = channel.memory, channel.coordinates
         if entering or memory.cycle_data is None or memory.cycle_data.axis != words.axis:
-            memory.cycle_data = CycleData(words.axis, c.programmed[words.axis])
+            # An offset that waits for the next move is not in the programmed point yet; the level counts with it.
+            initial = c.programmed[words.axis] + c.pending[words.axis]
+            memory.cycle_data = CycleData(words.axis, initial)
         if not words.drills:
             return
         data: CycleData = memory.cycle_data
