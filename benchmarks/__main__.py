@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from benchmarks import bulk, interpreter, planner, sinumerik, startup, turning
+from benchmarks import bulk, interpreter, mainrun, planner, sinumerik, startup, turning
 
 BENCHMARKS = (
     interpreter.plain_blocks,
@@ -20,6 +20,7 @@ BENCHMARKS = (
     turning.cycles,
     planner.speed,
     planner.optimum,
+    mainrun.real_time,
 )
 
 

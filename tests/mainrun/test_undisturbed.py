@@ -79,10 +79,10 @@ def test_no_piece_is_ticked_through() -> None:
     steps = 0
     advance = virtual._automatic.advance
 
-    def counted(until: float) -> None:
+    def counted(until: float, *, freely: bool = False) -> None:
         nonlocal steps
         steps += 1
-        advance(until)
+        advance(until, freely=freely)
 
     virtual._automatic.advance = counted  # type: ignore[method-assign]
     virtual.cycle_start()

@@ -8,56 +8,38 @@ from __future__ import annotations
 
 from array import array
 from collections import deque
-from math import inf, sqrt
+from functools import partial
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.waits import PREPROCESSING, Wait
-from polycnc.mainrun.anew import line_anew, parts_of
-from polycnc.mainrun.geometry import Arc, arc_laid, line_laid, way_along
-from polycnc.mainrun.items import Block, BlockEnd, Happening, Item, Piece, Rates, Standing
+from polycnc.mainrun.anew import line_anew
+from polycnc.mainrun.geometry import arc_laid, line_laid, way_along
+from polycnc.mainrun.items import Block, BlockEnd, Happening, Item, Move, Piece, Rates, Standing
+from polycnc.mainrun.laid import Laid
 from polycnc.motion.frames import carried, real_of
-from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.arcs import facing_radius
 from polycnc.motion.kernels.columns import (
-    BLEND,
-    BLOCKS,
     CAP2,
-    EARLY,
     ENTRY2,
     FACING,
     FORM,
-    FREE,
     GEOMETRY,
-    HOLD_WAY,
     LARGEST_OVERRIDE,
     LENGTH,
     LIMIT_BLOCKS,
-    LOW2,
-    LOW_PULL,
     OFFSETS,
-    PAUSE,
     PER_REVOLUTION,
-    PIECES,
-    POSITION,
-    RAMP,
-    REACH2,
     ROW,
     ROW_LENGTH,
     SHARES,
-    STATE_BLOCKS,
-    STOP,
     STRAIGHT,
     SWEEP,
     TIMED,
-    TOP2,
-    WINDOW,
     Rows,
-    piece_width,
 )
 from polycnc.motion.kernels.feeds import asked_speed, faster, follows_radius, is_rapid
-from polycnc.motion.kernels.lay import lay
-from polycnc.motion.kernels.speeds import backward
 from polycnc.motion.limits import averages, context_fields
 from polycnc.motion.transformed import Bounds, RealAxes
 from polycnc.motion.waits import ORIENT, Waits
@@ -72,7 +54,6 @@ if TYPE_CHECKING:
     from polycnc.channel.intervention import TakesBack
     from polycnc.machine.model import Machine
     from polycnc.machine.motion_settings import MotionSettings
-    from polycnc.mainrun.geometry import Way
     from polycnc.mainrun.shared_axes import SharedAxes
     from polycnc.messages import AlarmError
     from polycnc.program import Program
@@ -86,6 +67,11 @@ MOST = 4096
 BLOCKS_A_CYCLE = 1000
 #: Waits of the channel behind a block that counts as one even without rows.
 BEHIND_A_BLOCK = frozenset({"single-block", "stop"})
+#: Kinds of rows that may be arcs, and those that the spindle leads.
+ARC_WAYS = frozenset((*ARC_KINDS, Kind.THREAD))
+BOUND_TO_SPINDLE = frozenset((Kind.THREAD, Kind.TAP))
+#: Nothing among the moves themselves lets the axes stand.
+NO_STOPS = array("B")
 #: Waits of the channel that only let others look in.
 PASSING = frozenset({"chunk", "block", "single-block"})
 
@@ -110,10 +96,6 @@ class Ahead:
     def __init__(self, machine: Machine, number: int, left: SharedAxes) -> None:
         self.toolpath = Toolpath(machine.channel_axes(number), chunk_rows=1, on_full=self._take)
         self.items: deque[Item] = deque()
-        self._held: deque[Piece] = deque()  # those of the items that are pieces
-        self._planned = array("d")
-        self._way_ahead = 0.0  # of them, mm
-        self._rests_ahead = 0  # those at whose start the axes rest
         self.channel: Channel
         self.waiting: Wait | None = None
         self.finished = True
@@ -121,15 +103,9 @@ class Ahead:
         self.has_caught_up = False
         self._run: Iterator[Wait] = iter(())
         self._axes = len(self.toolpath.axes)
-        self._width = piece_width(self._axes)
         self._settings: MotionSettings
-        self.limits: array[float]
+        self._laid = Laid(self._axes)
         self._machine, self._number = machine, number
-        self._state = array("d", bytes(8 * (STATE_BLOCKS + BLOCKS * self._axes)))
-        self._state[FREE] = 1.0
-        self._state[LOW2] = self._state[LOW_PULL] = inf
-        self._pieces = array("d", bytes(8 * self._width * 256))
-        self._contexts = array("d")
         self._stations: dict[tuple[object, ...], int] = {}
         self._laid_contexts = 0
         self._delays: dict[int, list[tuple[str, float]]] = {}
@@ -139,6 +115,7 @@ class Ahead:
         self._stopped = self._skips = False
         self._geometry = machine.geometry_indices(number)
         self._last_context, self._left = Context(), left
+        self._facing = -1
         self._real: RealAxes
 
     # ---- the channel ---------------------------------------------------------------------------------------
@@ -150,7 +127,8 @@ class Ahead:
         self._waits.stand_in(channel.setup.spindle_tool if channel.number == 1 else 0)
         channel.main_run = self
         self._real = RealAxes(self._machine, self._number, self.toolpath.axes, settings, ())
-        self.limits = self._real.limits(None)
+        limits = self._laid.limits = self._real.limits(None)
+        self._facing = int(limits[LIMIT_BLOCKS * self._axes + GEOMETRY])
 
     def start(self, program: Program, position: Sequence[float]) -> None:
         """Begin with a program; the axes stand at a machine position."""
@@ -168,12 +146,9 @@ class Ahead:
     def clear(self, position: Sequence[float]) -> None:
         """Forget everything prepared."""
         self.items.clear()
-        self._held.clear()
-        self._way_ahead, self._rests_ahead = 0.0, 0
-        del self._planned[:]
+        self._laid.clear()
         self._blocks.clear()
         self._open = None
-        self._state[PIECES] = 0.0
         self._last_context = Context()
         self._real.stand(position)
         self.stand_at(position)
@@ -195,7 +170,7 @@ class Ahead:
 
     def _suffices(self, items: int) -> bool:
         """Whether so much is prepared, and enough for bounds that reach back."""
-        return len(self.items) > items and (len(self.items) > MOST or self._reaches())
+        return len(self.items) > items and (len(self.items) > MOST or self._laid.reaches)
 
     def _rests(self) -> bool:
         """Whether the channel does not go on by itself."""
@@ -203,8 +178,7 @@ class Ahead:
 
     def end_in_rest(self) -> None:
         """The axes come to rest behind what is prepared."""
-        self._state[STOP] = 1.0
-        settle_alone(self._pieces, self._axes, self.limits, self._state)
+        self._laid.end_in_rest()
 
     def refuse(self, error: AlarmError) -> None:
         """What is prepared cannot be executed: an alarm is in its place."""
@@ -229,8 +203,7 @@ class Ahead:
     @property
     def position(self) -> list[float]:
         """Machine position behind everything prepared."""
-        first = STATE_BLOCKS + POSITION * self._axes
-        return list(self._state[first : first + self._axes])
+        return self._laid.position
 
     def arrived(self, position: Sequence[float], by_hand: Sequence[float] = ()) -> None:
         """Tell the channel that the axes have come to rest elsewhere than its rows have led them.
@@ -244,9 +217,7 @@ class Ahead:
 
     def stand_at(self, position: Sequence[float]) -> None:
         """The axes stand elsewhere than the rows have led them."""
-        first = STATE_BLOCKS + POSITION * self._axes
-        self._state[STOP] = 1.0
-        self._state[first : first + self._axes] = array("d", position)
+        self._laid.stand_at(position)
 
     def _step(self) -> None:
         """Run the channel to its next wait."""
@@ -313,7 +284,7 @@ class Ahead:
         self._take_over()
         bounds = self._real.bounds(chunk, self.toolpath.contexts)
         self._delays.clear()
-        self._waits.take(chunk, int(self.limits[LIMIT_BLOCKS * self._axes + GEOMETRY]))
+        self._waits.take(chunk, self._facing)
         self._waits.parallel.clear()
         contexts = self.toolpath.contexts
         for row in range(len(chunk)):
@@ -338,9 +309,8 @@ class Ahead:
 
     def _take_over(self) -> None:
         """An axis that another channel has moved since is where that one has left it."""
-        first = STATE_BLOCKS + POSITION * self._axes
         for column, position in self._left.taken(self._number, self.channel.group):
-            self._state[first + column] = position
+            self._laid.move_axis(column, position)
 
     def _delay(self, row: int, why: str, _context: int, seconds: float) -> None:
         if seconds > 0.0:
@@ -353,78 +323,53 @@ class Ahead:
             smoothing = averages(context, self._machine, self._settings)
             key = (context.tool, context.tool_name, *turning, smoothing)
             station = self._stations.setdefault(key, len(self._stations))
-            self._contexts.extend(
+            self._laid.contexts.extend(
                 context_fields(context, self._axes, spindle, station, self._settings, smoothing)
             )
             self._laid_contexts += 1
 
     def _lay(self, chunk: Chunk, row: int, bounds: Bounds) -> None:
         """Lay a move out as pieces. Its feed is FREE, so that the pieces know what the axes allow."""
-        n, state, context = self._axes, self._state, self.toolpath.contexts[chunk.context[row]]
+        n, laid, kind = self._axes, self._laid, chunk.kind[row]
+        context = self.toolpath.contexts[chunk.context[row]]
         self._enter_context(context)
-        end, limits = chunk.end[row * n : (row + 1) * n], self._real.limits(context.transformation)
+        start, limits = tuple(laid.position), self._real.limits(context.transformation)
         own, shares = slice(row, row + 1), slice(row * SHARES, (row + 1) * SHARES)
         rows = Rows(
-            chunk.kind[own], chunk.context[own], chunk.feed[own], end, chunk.curve[own], [],
-            *(column[shares] for column in bounds.shares),
+            chunk.kind[own], chunk.context[own], chunk.feed[own], chunk.end[row * n : (row + 1) * n],
+            chunk.curve[own], NO_STOPS, *(column[shares] for column in bounds.shares),
         )  # fmt: skip
-        start, numbered = tuple(self.position), chunk.first + row
-        while lay(rows, 0, chunk.curves, numbered, self._contexts, limits, self._pieces, state) == 0:
-            self._pieces.frombytes(bytes(len(self._pieces) * 8))
-        count = self._laid(numbered)
-        if count == 0:
+        found = laid.lay(rows, chunk.curves, chunk.first + row, limits)
+        if not found:
             return
-        before = int(state[PIECES]) - count
-        self._rests_ahead += self._pieces[before * self._width + PAUSE] > 0.0
-        self._split(before)
-        self._skips = self._skips or chunk.kind[row] == Kind.SKIP
-        form = self._pieces[before * self._width + FORM]
-        is_arc = chunk.kind[row] in (*ARC_KINDS, Kind.THREAD) and form != STRAIGHT
-        way = arc_laid(start, state, limits, n) if is_arc else line_laid(start, state, n)
-        self._add_pieces(chunk, row, way, before, count)
-
-    def _add_pieces(self, chunk: Chunk, row: int, way: Way, before: int, count: int) -> None:
-        """Make items of the last `count` records, the pieces of a row."""
-        state, is_arc = self._state, isinstance(way, Arc)
-        is_cut_short = chunk.kind[row] == Kind.SKIP and chunk.curve[row] >= 0
-        record = chunk.context[row] * (OFFSETS + self._axes)
-        total = sum(self._pieces[(before + part) * self._width + LENGTH] for part in range(count))
-        done = 0.0
-        for part in range(count):
-            at = (before + part) * self._width
-            share = self._pieces[at + LENGTH] / total
-            asked = asked_speed(
-                chunk.curves, self._contexts, record, state, state[ROW_LENGTH],
-                self._radius(record, done + 0.5 * share, is_arc=is_arc),
-            )  # fmt: skip
-            self._add_piece(
-                Piece(
-                    way=way,
-                    row=chunk.first + row,
-                    length=self._pieces[at + LENGTH],
-                    first=done,
-                    share=share if part < count - 1 else 1.0 - done,
-                    kind=chunk.kind[row],
-                    context=self.toolpath.contexts[chunk.context[row]],
-                    program=self.toolpath.programs[chunk.program[row]],
-                    line=chunk.line[row],
-                    entry2=self._pieces[at + ENTRY2],
-                    cap2=self._pieces[at + CAP2],
-                    asked=asked if asked > 0.0 else inf,
-                    rapid=is_rapid(state),
-                    fixed=chunk.kind[row] in (Kind.THREAD, Kind.TAP),
-                    per_revolution=self._contexts[record + PER_REVOLUTION] != 0.0,
-                    left=chunk.curves[chunk.curve[row] * CURVE_WIDTH]
-                    if part == count - 1 and is_cut_short
-                    else 0.0,
-                    by_axis=self._pieces[at + FORM] == TIMED,
-                    overridden=chunk.kind[row] == Kind.TAP and self._settings.taps_overridden,
-                    held=chunk.kind[row] == Kind.TAP and self._settings.taps_held,
-                    faster=faster(chunk.curves, state),
-                    largest_override=self._largest_override(chunk, row),
-                )
+        self._skips = self._skips or kind == Kind.SKIP
+        form = laid.field(found[0], FORM)
+        is_arc = kind in ARC_WAYS and form != STRAIGHT
+        way = arc_laid(start, laid.state, limits, n) if is_arc else line_laid(start, laid.state, n)
+        record = chunk.context[row] * (OFFSETS + n)
+        self.items.append(
+            Move(
+                way,
+                chunk.first + row,
+                kind,
+                context,
+                self.toolpath.programs[chunk.program[row]],
+                chunk.line[row],
+                self._asks(chunk, record, found, is_arc=is_arc),
+                is_rapid(laid.state),
+                kind in BOUND_TO_SPINDLE,
+                laid.contexts[record + PER_REVOLUTION] != 0.0,
+                chunk.curves[chunk.curve[row] * CURVE_WIDTH]
+                if kind == Kind.SKIP and chunk.curve[row] >= 0
+                else 0.0,
+                form == TIMED,
+                kind == Kind.TAP and self._settings.taps_overridden,
+                kind == Kind.TAP and self._settings.taps_held,
+                faster(chunk.curves, laid.state),
+                self._largest_override(chunk, row),
+                sum(laid.field(at, LENGTH) for at in found),
             )
-            done += share
+        )
 
     def _largest_override(self, chunk: Chunk, row: int) -> float:
         """Of a tap, by its record of parameters; any for other moves."""
@@ -432,39 +377,21 @@ class Ahead:
             return inf
         return chunk.curves[chunk.curve[row] * CURVE_WIDTH + LARGEST_OVERRIDE] or inf
 
-    def _add_piece(self, piece: Piece) -> None:
-        self._way_ahead += piece.length
-        self.items.append(piece)
-        self._held.append(piece)
-
-    def _laid(self, number: int) -> int:
-        """The number of pieces of the row laid last."""
-        count, last = 0, int(self._state[PIECES]) - 1
-        while last - count >= 0 and self._pieces[(last - count) * self._width + ROW] == number:
-            count += 1
-        return count
-
-    def _split(self, count: int) -> None:
-        """A new row may bound and cut pieces before it (`hold.py`): the first `count` records and items agree again."""
-        width, held = self._width, self._held
-        reach = max(self._pieces[k * width + HOLD_WAY] for k in range(count, int(self._state[PIECES])))
-        at, way = count * width, 0.0
-        fresh: list[Piece] = []
-        while held and (way < reach or len(held) != at // width):
-            piece, left, parts = held.pop(), 0.0, list[tuple[float, int]]()
-            way += piece.length
-            while not parts or left < piece.length * (1.0 - 1e-9):
-                at -= width
-                parts.insert(0, (self._pieces[at + LENGTH], at))
-                left += self._pieces[at + LENGTH]
-            pieces = list(parts_of(piece, parts, self._pieces))
-            if len(parts) > 1:
-                place = self.items.index(piece)
-                del self.items[place]
-                for part in reversed(pieces):
-                    self.items.insert(place, part)
-            fresh = [*pieces, *fresh]
-        held.extend(fresh)
+    def _asks(
+        self, chunk: Chunk, record: int, found: Sequence[int], *, is_arc: bool
+    ) -> tuple[tuple[float, float], ...]:
+        """Speeds that the program asks for in the row laid last, by shares of its way; `found` are its pieces."""
+        state, contexts = self._laid.state, self._laid.contexts
+        follows = self._facing >= 0 and follows_radius(contexts, record)
+        lengths = [self._laid.field(at, LENGTH) for at in found] if follows else [1.0]
+        total, done, asks = sum(lengths), 0.0, []
+        for length in lengths:
+            share = length / total
+            radius = self._radius(record, done + 0.5 * share, is_arc=is_arc)
+            speed = asked_speed(chunk.curves, contexts, record, state, state[ROW_LENGTH], radius)
+            done += share
+            asks.append((done, speed if speed > 0.0 else inf))
+        return tuple(asks)
 
     def _enter_context(self, context: Context) -> None:
         """Where a transformation begins or ends, the path goes on from where the real axes are."""
@@ -474,13 +401,12 @@ class Ahead:
 
     def _radius(self, record: int, middle: float, *, is_arc: bool) -> float:
         """Turning radius at a share of the row laid last, as the planner takes it."""
-        state, n = self._state, self._axes
-        facing = int(self.limits[LIMIT_BLOCKS * n + GEOMETRY])
+        state, n, facing = self._laid.state, self._axes, self._facing
         if facing < 0:
             return 0.0
-        follows = follows_radius(self._contexts, record)
+        follows = follows_radius(self._laid.contexts, record)
         if is_arc:
-            return facing_radius(middle * state[SWEEP] if follows else 0.0, n, self.limits, state)
+            return facing_radius(middle * state[SWEEP] if follows else 0.0, n, self._laid.limits, state)
         return state[FACING] - (way_along(state, facing, n) * (1.0 - middle) if follows else 0.0)
 
     # ---- speeds --------------------------------------------------------------------------------------------
@@ -503,85 +429,84 @@ class Ahead:
             single_block: Every block ends in a halt.
             stops: Says in front of which items the axes stand for another reason.
         """
-        at, width = 0, self._width
-        # A copy: what the axes allow must be known again when the overrides change.
-        pieces = self._planned = self._pieces[: int(self._state[PIECES]) * width]
-        closed = False
+        self._laid.plan(partial(self._entries, rates, cap2, gated, single_block, stops))
+        self.revised = False
+
+    def _entries(
+        self, rates: Rates, cap2: float, gated: bool, single_block: bool, stops: Callable[[Item], bool] | None,
+        records: array[float], width: int,
+    ) -> Iterator[tuple[int, float]]:  # fmt: skip
+        """The largest squared speed at the start of each piece, by what the operator has set."""
+        at, closed, end = 0, False, len(records)
         for item in self.items:
             closed = closed or (stops is not None and stops(item))
-            if isinstance(item, Piece):
-                own = rates.cap2(item)
-                pieces[at + ENTRY2] = 0.0 if closed else min(item.entry2, cap2, own)
-                cap2, closed = own, False
-                at += width
-            elif isinstance(item, Block):
+            if isinstance(item, Block):
                 closed = closed or gated
             elif isinstance(item, BlockEnd):
                 closed = closed or single_block
-        backward(pieces, int(self._state[PIECES]), self._axes, self.limits)
-        self.revised = False
+            elif isinstance(item, Move):
+                row, done = records[at + ROW], item.done
+                while at < end and records[at + ROW] == row:
+                    share = records[at + LENGTH] / item.total
+                    own = rates.cap2(item, records[at + CAP2], item.asked(done + 0.5 * share))
+                    yield at, 0.0 if closed else min(records[at + ENTRY2], cap2, own)
+                    cap2, closed = own, False
+                    done += share
+                    at += width
 
+    @property
     def reach2(self) -> float:
         """Largest squared speed at which the next piece may be entered; 0 where none is prepared."""
-        return self._planned[REACH2] if self._planned else 0.0
-
-    def pop_piece(self) -> array[Any]:
-        """Take the piece in front out of the queue; its record."""
-        self.items.popleft()
-        self._held.popleft()
-        width, count = self._width, int(self._state[PIECES])
-        record = self._pieces[:width]
-        self._way_ahead -= record[LENGTH]
-        self._rests_ahead -= record[PAUSE] > 0.0
-        self._pieces[: (count - 1) * width] = self._pieces[width : count * width]
-        self._state[PIECES] = count - 1
-        del self._planned[:width]
-        return record
-
-    def begin_elsewhere(self, piece: Piece, start: Sequence[float]) -> None:
-        """The rest of the row of a piece goes to its end from another start; the axes rest at both."""
-        while self._held and self._held[0].row == piece.row:
-            self.pop_piece()
-        number, width = self.toolpath.context_number(piece.context), self._width
-        size, count = OFFSETS + self._axes, int(self._state[PIECES])
-        fields = self._contexts[number * size : (number + 1) * size]
-        records, pieces = line_anew(piece, start, fields, self.limits)
-        if count == 0:
-            self._state[STOP] = 1.0
-        else:
-            self._rests_ahead += self._pieces[PAUSE] == 0.0
-            self._pieces[ENTRY2] = self._held[0].entry2 = 0.0
-            self._pieces[PAUSE] = max(self._pieces[PAUSE], self._pieces[RAMP] + 2.0 * self._pieces[BLEND])
-        self._pieces[0:0] = records
-        self._state[PIECES] = count + len(pieces)
-        for record, each in zip(range(0, len(records), width), pieces, strict=True):
-            self._rests_ahead += records[record + PAUSE] > 0.0
-            self._way_ahead += each.length
-        self.items.extendleft(reversed(pieces))
-        self._held.extendleft(reversed(pieces))
+        return self._laid.reach2
 
     @property
     def early(self) -> float:
-        """Seconds by which the next piece may begin before the axes rest: strokes of drilling cycles overlap."""
-        if not self._held:
-            return 0.0
-        return min(self._pieces[EARLY], self._pieces[PAUSE])
+        """Seconds by which the next piece may begin before the axes rest."""
+        return self._laid.early
+
+    @property
+    def limits(self) -> array[float]:
+        """The machine, as the planner's kernels take it."""
+        return self._laid.limits
+
+    def front_cap2(self, rates: Rates) -> float:
+        """Largest squared speed on the piece in front."""
+        move = self.items[0]
+        assert isinstance(move, Move)
+        middle = move.done + 0.5 * self._laid.front(LENGTH) / move.total
+        return rates.cap2(move, self._laid.front(CAP2), move.asked(middle))
+
+    def pop_piece(self) -> tuple[Piece, array[Any]]:
+        """Take the piece in front, and its record; its move leaves the queue with its last one."""
+        move, laid = self.items[0], self._laid
+        assert isinstance(move, Move)
+        is_last = laid.is_last_of_row
+        record = laid.take()
+        share = 1.0 - move.done if is_last else record[LENGTH] / move.total
+        piece = Piece(
+            move.way, move.row, move.kind, move.context, move.program, move.line, move.rapid, move.fixed,
+            move.per_revolution, move.left if is_last else 0.0, move.by_axis, move.overridden, move.held,
+            move.faster, move.largest_override, record[LENGTH], move.done, share, record[CAP2],
+            move.asked(move.done + 0.5 * share),
+        )  # fmt: skip
+        move.done += share
+        if is_last:
+            self.items.popleft()
+        return piece, record
+
+    def begin_elsewhere(self, move: Move | Piece, start: Sequence[float]) -> None:
+        """The rest of a row goes to its end from another start; the axes rest at both."""
+        while self.items and isinstance(self.items[0], Move) and self.items[0].row == move.row:
+            self.pop_piece()
+        fields = self._laid.context_fields(self.toolpath.context_number(move.context), OFFSETS + self._axes)
+        records, moves = line_anew(move, start, fields, self._laid.limits)
+        self._laid.put_in_front(records)
+        self.items.extendleft(moves)
 
     @property
     def is_last_piece(self) -> bool:
         """Whether a row to come could still change the piece in front, and nobody knows when one will come."""
-        if self._state[STOP] != 0.0 or self.finished or self.waiting is not None:
-            return False
-        return self._state[PIECES] <= 1.0 or not self._reaches()
-
-    def _reaches(self) -> bool:
-        """Whether so much is prepared behind the piece in front that no row to come can bound it."""
-        if not self._held:
-            return False
-        if self._rests_ahead > (self._pieces[PAUSE] > 0.0):
-            return True
-        reach = 0.5 * sqrt(self._state[TOP2]) * self._state[WINDOW]
-        return self._way_ahead - self._pieces[LENGTH] >= reach
+        return not self._rests() and self._laid.may_change
 
     @property
     def axes(self) -> int:

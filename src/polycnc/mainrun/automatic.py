@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Protocol
 from polycnc.channel.intervention import NOTHING_BACK
 from polycnc.mainrun.anew import can_begin_elsewhere
 from polycnc.mainrun.follower import Follower
-from polycnc.mainrun.items import Block, BlockEnd, Happening, Piece, Rates, Standing
+from polycnc.mainrun.geometry import Line
+from polycnc.mainrun.items import Block, BlockEnd, Happening, Move, Rates, Standing
 from polycnc.mainrun.motion import AxesMotion, Motion, PathMotion
 from polycnc.mainrun.stray import NO_WAY, Stray
 from polycnc.motion.frames import real_of
@@ -23,11 +24,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from polycnc.mainrun.ahead import Ahead
-    from polycnc.mainrun.items import Item
+    from polycnc.mainrun.items import Item, Piece
     from polycnc.messages import AlarmError
 
 #: Squared speed below which the axes stand, (mm/s)².
 REST2 = 1e-9
+#: Points at which an arc beside its path is held against the limits.
+ARC_POINTS = 48
 
 
 class Machinery(Protocol):
@@ -75,6 +78,7 @@ class Automatic:
         time: Simulated time, s.
         running: Cycle start has been given, and nothing has halted the run since.
         halt: Why it has halted: `single-block`, `M00`, `M01`, `alarm`, `end`; empty while it runs.
+        attention: Somebody else has to act on what has just happened.
         single_block: Halt behind every block.
         block: The block in execution.
         context: What holds in it.
@@ -96,6 +100,7 @@ class Automatic:
         self.time = 0.0
         self.running = False
         self.halt = ""
+        self.attention = False
         self.single_block = False
         self.block: Block | None = None
         self.context = Context()
@@ -159,8 +164,13 @@ class Automatic:
 
     # ---- time ----------------------------------------------------------------------------------------------
 
-    def advance(self, until: float) -> None:
-        """Execute up to a time."""
+    def advance(self, until: float, *, freely: bool = False) -> None:
+        """Execute up to a time.
+
+        Args:
+            until: The time.
+            freely: Come back before it when `attention` is asked for, or when nothing goes on.
+        """
         machinery = self._machinery
         while (due := self._due()) <= until:
             self.time = max(self.time, due)
@@ -179,16 +189,25 @@ class Automatic:
                 self._blocked = False
             else:
                 self._blocked = True
+                if freely:
+                    return
                 if machinery.due > until:
                     break
                 self.time = machinery.due
-        self.time = max(self.time, until)
+            if freely and self.attention:
+                self.attention = False
+                return
+        if due < inf or not freely:
+            self.time = max(self.time, until)
 
     def _due(self) -> float:
         """When something happens next, as far as it is known."""
-        if self.motion is not None:
-            rests = [at for at in (self.motion.rest, self._settles) if at > self.time]
-            return min(self.motion.end, *rests, self._skips_at, self._machinery.due)
+        motion, now = self.motion, self.time
+        if motion is not None:
+            due = min(motion.end, self._skips_at, self._machinery.due)
+            if now < motion.rest < due:
+                due = motion.rest
+            return self._settles if now < self._settles < due else due
         if self._waiting and self._machinery.busy:
             return self._machinery.due
         return min(max(self._until, self.time), self._machinery.due)
@@ -235,7 +254,7 @@ class Automatic:
             self._follower.enter(coasting.piece, coasting.length, done)
             self._lead()
         self._x2, self._moved_on = 0.0, True
-        while self.ahead.items and isinstance(self.ahead.items[0], Piece):
+        while self.ahead.items and isinstance(self.ahead.items[0], Move):
             self.ahead.pop_piece()
 
     def skip_signal(self) -> list[float] | None:
@@ -261,7 +280,7 @@ class Automatic:
         if not self.ahead.items:
             return self._run_out(filled=filled)
         item = self.ahead.items[0]
-        if isinstance(item, Piece):
+        if isinstance(item, Move):
             return self._begin(item)
         held = self.context.feed_hold or (isinstance(item, Block) and self._may_hold())
         held = self.rates.gives_up or (self.rates.hold and held)
@@ -339,22 +358,22 @@ class Automatic:
         self.block, self.modal = block, block.modal
         self._machinery.enter(block)
 
-    def _begin(self, piece: Piece) -> bool:
-        """Start along a piece."""
+    def _begin(self, move: Move) -> bool:
+        """Start along the next piece of a move."""
         if self.stray and self._x2 == 0.0:
-            if (error := self._beyond(piece)) is not None:
+            if (error := self._beyond(move)) is not None:
                 self.ahead.refuse(error)
                 return True
-            if self._take_back(piece, self.position):
+            if self._take_back(move, self.position):
                 self._look_ahead()
                 return True
         if self.ahead.is_last_piece:
             self.ahead.end_in_rest()
-        cap2 = self.rates.cap2(piece)
+        cap2 = self.ahead.front_cap2(self.rates)
         if self._x2 == 0.0 and cap2 == 0.0:
             return False
         ahead = self.ahead
-        record = ahead.pop_piece()
+        piece, record = ahead.pop_piece()
         self.context = self.place = piece.context
         self._cap2 = cap2
         if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
@@ -371,7 +390,7 @@ class Automatic:
             self.motion = AxesMotion(piece, ahead.limits, self.time, self.rates.rapid_on(piece), record[RAMP])
         else:
             self.motion = PathMotion(
-                piece, record, ahead.limits, self.time, self._x2, ahead.reach2(), cap2, follower.window
+                piece, record, ahead.limits, self.time, self._x2, ahead.reach2, cap2, follower.window
             )
         self._lead()
         return True
@@ -395,11 +414,12 @@ class Automatic:
         if motion is None:
             self._look_ahead()
             return
-        self._cap2 = self.rates.cap2(motion.piece)
+        piece = motion.piece
+        self._cap2 = self.rates.cap2(piece, piece.cap2, piece.asked)
         self._look_ahead()
         held = self.rates.gives_up or (self.rates.hold and motion.piece.context.feed_hold)
         rapid = 0.0 if held else self.rates.rapid_on(motion.piece)
-        motion.revise(self.time, self.ahead.reach2(), self._cap2, rapid)
+        motion.revise(self.time, self.ahead.reach2, self._cap2, rapid)
         self._lead()
 
     # ---- beside the path -----------------------------------------------------------------------------------
@@ -411,7 +431,7 @@ class Automatic:
         if motion is not None and self._take_back(motion.piece, motion.machine(self.time)):
             self.motion, self._x2, self._skips_at = None, 0.0, inf
 
-    def _take_back(self, piece: Piece, here: Sequence[float]) -> bool:
+    def _take_back(self, piece: Move | Piece, here: Sequence[float]) -> bool:
         """Let the row of a piece go to its end from where the axes are; false where it does not do that."""
         if self.block is None or not can_begin_elsewhere(piece):
             return False
@@ -434,21 +454,26 @@ class Automatic:
             if isinstance(item, Block):
                 back = item.takes_back
                 return self.stray.owes(back.at_once | back.by_move)
-            if not isinstance(item, Piece):
+            if not isinstance(item, Move):
                 return False
-            return (item.first == 0.0 and self.stray.owes(back.by_move)) or self._beyond(item) is not None
+            return (item.done == 0.0 and self.stray.owes(back.by_move)) or self._beyond(item) is not None
 
         return stops
 
-    def _beyond(self, piece: Piece) -> AlarmError | None:
-        """The alarm of a piece that would lead the axes, which are beside the path, out of their limits."""
+    def _beyond(self, move: Move) -> AlarmError | None:
+        """The alarm of a move that would lead the axes, which are beside the path, out of their limits."""
         channel = self.ahead.channel
-        end = self.stray.beside(real_of(piece.at(1.0), piece.context, channel.coordinates.geometry))
-        for axis, (value, (low, high)) in enumerate(zip(end, channel.limits, strict=False)):
-            if not low - NO_WAY <= value <= high + NO_WAY:
-                error: AlarmError = channel.control.over_travel(channel.axes[axis], 1 if value > high else -1)
-                error.line = piece.line
-                return error
+        shares = (1.0,) if isinstance(move.way, Line) else (k / ARC_POINTS for k in range(1, ARC_POINTS + 1))
+        for share in shares:
+            laid = move.way.at(share)
+            end = self.stray.beside(real_of(laid, move.context, channel.coordinates.geometry))
+            for axis, (value, (low, high)) in enumerate(zip(end, channel.limits, strict=False)):
+                if not low - NO_WAY <= value <= high + NO_WAY:
+                    error: AlarmError = channel.control.over_travel(
+                        channel.axes[axis], 1 if value > high else -1
+                    )
+                    error.line = move.line
+                    return error
         return None
 
     def _count_stray(self) -> None:
@@ -464,7 +489,7 @@ class Automatic:
         self.revise()
 
     def _stop(self, reason: str) -> None:
-        self.running, self.halt = False, reason
+        self.running, self.halt, self.attention = False, reason, True
         self._x2 = 0.0
         self._machinery.halted(reason)
 

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 FEED_RANGE, RAPID_RANGE, SPINDLE_RANGE = (0.0, 2.0), (0.0, 1.0), (0.5, 1.2)
 #: Switches that keep axes from moving.
 LOCKS = ("machine_lock", "z_lock")
+#: Cycles that a program runs at least before anybody looks, where nobody has to.
+FREE_CYCLES = 256
 #: A run without limit ends after a day.
 LONGEST_RUN_S = 86400.0
 
@@ -340,6 +342,10 @@ class VirtualControl(ByHand):
         cycle = self.machine.interpolation_cycle_s
         last = self._cycles + ceil(limit_s / cycle)
         while self.is_busy and self._cycles < last and (due := self._due()) < inf:
+            if self._runs_freely:
+                until = min(max(due, (self._cycles + FREE_CYCLES) * cycle), last * cycle)
+                self._automatic.advance(until, freely=True)
+                due = self.time
             # Whole pieces in one step: nothing can happen before `due` but by a command.
             self._cycles = min(max(ceil(due / cycle - 1e-9), self._cycles + 1), last)
             self._advance(self._cycles * cycle)

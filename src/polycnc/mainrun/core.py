@@ -175,6 +175,7 @@ class Core(ABC):
         lane = self._lanes[number]
         self._prepare(lane)
         lane.machinery.reset()
+        self._automatic.attention = True
         lane.ahead.begin(run, lane.automatic.position)
         lane.automatic.time = max(each.automatic.time for each in self._lanes.values())
         lane.automatic.single_block = bool(self._switches.single_block)
@@ -211,9 +212,18 @@ class Core(ABC):
 
     def _advance(self, until: float) -> None:
         """Go from event to event."""
+        if self._runs_freely:
+            self._automatic.advance(until, freely=True)
+            self._move_to(self.time)
         while (due := self._due()) < until:
             self._move_to(max(due, self.time))
         self._move_to(until)
+
+    @property
+    def _runs_freely(self) -> bool:
+        """Whether one channel runs its program, and nothing else happens."""
+        lane, quiet = self._lane, not (self._giving_up or self._returning)
+        return quiet and len(self._lanes) == 1 and lane.manual.place is None and lane.automatic.running
 
     def _move_to(self, time: float) -> None:
         for lane in list(self._lanes.values()):
@@ -363,6 +373,7 @@ class Core(ABC):
         self._report("signal", name=name, value=value)
         if name in KEYS and value:
             self._pressed.append(name)
+            self._automatic.attention = True
         if name == SKIP_SIGNAL and value:
             for lane in self._lanes.values():
                 here = lane.automatic.skip_signal()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.intervention import NOTHING_BACK
@@ -59,52 +58,85 @@ class Standing:
 
 
 @dataclass(slots=True, eq=False)
-class Piece:
-    """A piece of the path: a line, a chord, or 7.5° of an arc.
+class Move:
+    """A row of the path that is laid out; its pieces are made when their turn comes.
 
     Attributes:
-        way: The row that it is a part of; `row` is its number.
-        length: Of the piece, mm.
-        first: Share of the row that lies before it; `share` is its own.
+        way: Where it leads; `row` is its number.
         kind: Kind of the row.
         context: What holds in it.
         program: Name of the program; `line` the line in its file.
-        entry2: Largest squared speed at its start that its neighbours' geometry allows.
-        cap2: Largest squared speed that the axes allow in it.
-        asked: Speed that the program asks for, mm/s; infinite where it asks for none.
+        asks: Speed that the program asks for up to a share of the way, mm/s; infinite where it asks for none.
         rapid: Runs at rapid traverse.
         fixed: Bound to the spindle (thread, tap): no override, no feed hold, but for what follows.
+        per_revolution: Its speed follows the spindle.
+        left: Way from its end to the programmed end of a skip move that a signal cuts there, mm.
+        by_axis: A rapid on which every axis runs alone.
         overridden: A tap on which the feed override acts all the same; `held` one that feed hold stops.
         faster: How much faster than programmed a tap comes out where no override acts on it.
         largest_override: The largest feed override of a tap.
-        per_revolution: Its speed follows the spindle.
-        left: Way from its end to the programmed end of a skip move that a signal cuts there, mm.
-        is_coasting: What is run behind a skip signal.
-        by_axis: A rapid on which every axis runs alone.
+        total: Length of its pieces, mm, and `done` the share of those that have been taken.
     """
 
     way: Way
     row: int
-    length: float
-    first: float
-    share: float
     kind: int
     context: Context
     program: str
     line: int
-    entry2: float
-    cap2: float
-    asked: float
+    asks: tuple[tuple[float, float], ...]
     rapid: bool
     fixed: bool
     per_revolution: bool
     left: float
     by_axis: bool
+    overridden: bool
+    held: bool
+    faster: float
+    largest_override: float
+    total: float
+    done: float = 0.0
+
+    def asked(self, share: float) -> float:
+        """Speed that the program asks for at a share of the way."""
+        if len(self.asks) == 1:
+            return self.asks[0][1]
+        return next((speed for end, speed in self.asks if share <= end), self.asks[-1][1])
+
+
+@dataclass(slots=True, eq=False)
+class Piece:
+    """A piece of the path: a line, a chord, or 7.5° of an arc. What it shares with its row is as in `Move`.
+
+    Attributes:
+        length: Of the piece, mm.
+        first: Share of the row that lies before it; `share` is its own.
+        cap2: Largest squared speed that the axes allow in it.
+        asked: Speed that the program asks for, mm/s; infinite where it asks for none.
+        is_coasting: What is run behind a skip signal.
+    """
+
+    way: Way
+    row: int
+    kind: int
+    context: Context
+    program: str
+    line: int
+    rapid: bool
+    fixed: bool
+    per_revolution: bool
+    left: float
+    by_axis: bool
+    overridden: bool
+    held: bool
+    faster: float
+    largest_override: float
+    length: float
+    first: float
+    share: float
+    cap2: float
+    asked: float
     is_coasting: bool = False
-    overridden: bool = False
-    held: bool = False
-    faster: float = 1.0
-    largest_override: float = inf
 
     def at(self, share: float) -> list[float]:
         """Machine position after a share of the piece."""
@@ -112,7 +144,7 @@ class Piece:
         return self.way.at(1.0 if last else self.first + self.share * share)
 
 
-Item = Block | BlockEnd | Happening | Standing | Piece
+Item = Block | BlockEnd | Happening | Standing | Move
 
 
 @dataclass(slots=True)
@@ -137,31 +169,32 @@ class Rates:
     feed_cancelled: bool = False
     gives_up: bool = False
 
-    def rapid_on(self, piece: Piece) -> float:
-        """Rapid override that acts on a piece."""
-        return self.rapid if piece.context.rapid_override else 1.0
+    def rapid_on(self, move: Move | Piece) -> float:
+        """Rapid override that acts on a move."""
+        return self.rapid if move.context.rapid_override else 1.0
 
-    def cap2(self, piece: Piece) -> float:
-        """Largest squared speed on a piece."""
+    def cap2(self, move: Move | Piece, cap2: float, asked: float) -> float:
+        """Largest squared speed on a piece of a move, where the axes allow `cap2` and the program asks for `asked`."""
+        context = move.context
         if self.gives_up:
             return 0.0
-        if piece.fixed:
-            overridden = piece.overridden and not self.feed_cancelled
-            feed = min(self.feed, piece.largest_override) / piece.faster if overridden else 1.0
-            if feed == 0.0 or (self.hold and piece.held):
+        if move.fixed:
+            overridden = move.overridden and not self.feed_cancelled
+            feed = min(self.feed, move.largest_override) / move.faster if overridden else 1.0
+            if feed == 0.0 or (self.hold and move.held):
                 return 0.0
-            return min(piece.cap2, piece.asked * piece.asked * feed * feed)
-        if self.hold and piece.context.feed_hold:
+            return min(cap2, asked * asked * feed * feed)
+        if self.hold and context.feed_hold:
             return 0.0
-        if piece.by_axis:
-            return self.rapid_on(piece) ** 2
-        if piece.rapid:
-            return piece.cap2 * self.rapid_on(piece) ** 2
+        if move.by_axis:
+            return self.rapid_on(move) ** 2
+        if move.rapid:
+            return cap2 * self.rapid_on(move) ** 2
         if self.dry_run:
             speed = self.dry_run * self.feed
-            return min(piece.cap2, speed * speed)
-        feed = self.feed if piece.context.feed_override else 1.0
-        speed = piece.asked * feed if feed > 0.0 else 0.0
-        if piece.per_revolution and piece.context.spindle_override:
+            return min(cap2, speed * speed)
+        feed = self.feed if context.feed_override else 1.0
+        speed = asked * feed if feed > 0.0 else 0.0
+        if move.per_revolution and context.spindle_override:
             speed *= self.spindle
-        return min(piece.cap2, speed * speed)
+        return min(cap2, speed * speed)

@@ -75,6 +75,8 @@ class Machinery:
     @property
     def due(self) -> float:
         """When a function is done, or a rule of the machine acts."""
+        if not self._running:
+            return self._signals.due
         if any(end == inf and self._signals.is_done(code) for code, end in self._running.items()):
             return self._clock()
         return min(min(self._running.values(), default=inf), self._signals.due)

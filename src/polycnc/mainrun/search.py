@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from polycnc.mainrun.items import Block, Happening, Piece
+from polycnc.mainrun.items import Block, Happening, Move
 from polycnc.toolpath import Context
 
 if TYPE_CHECKING:
@@ -55,9 +55,9 @@ def search(ahead: Ahead, program: str, line: int) -> Found | None:
                 found.functions = list(functions.values())
                 return found
             found.modal = item.modal
-        if isinstance(item, Piece):
-            ahead.pop_piece()
-            found.position, found.context = item.at(1.0), item.context
+        if isinstance(item, Move):
+            piece, _ = ahead.pop_piece()
+            found.position, found.context = piece.at(1.0), piece.context
             continue
         ahead.items.popleft()
         if isinstance(item, Happening):
