@@ -101,6 +101,26 @@ def test_axes_keep_their_limits_on_facets_of_a_circle(
     check(facets(radius, angle, noise, seed, context), UNEVEN)
 
 
+@settings(max_examples=25, deadline=None)
+@given(
+    st.floats(0.1, 30.0),
+    st.floats(0.1, 0.6),
+    st.integers(3, 20),
+    st.sampled_from([1.0, 100.0, 1e6]),
+    contexts,
+)
+def test_axes_keep_their_limits_on_splines_of_few_points(
+    radius: float, angle: float, points: int, feed: float, context: Context
+) -> None:
+    """A chord turns much: bounds that begin on it must not cut it before its end is known."""
+    rows = Build(context=context).feed(0.3 * radius, 0.1 * radius, 0.0, feed=feed)
+    x, y, _ = rows.end
+    for k in range(1, points + 1):
+        grown = radius * (1.0 + 0.3 * sin(3.0 * k / points))
+        rows.row(Kind.SPLINE, x + grown * sin(k * angle), y + radius - grown * cos(k * angle), 0.0, feed=feed)
+    check(rows, MILL)
+
+
 def facets(radius: float, angle: float, noise: float, seed: int, context: Context) -> Build:
     """A circle in short lines, as a CAM system writes it, a little off."""
     off = np.random.default_rng(seed).uniform(-noise, noise, (120, 2))

@@ -118,7 +118,7 @@ PIECES_PER_TURN = 48
 #: Pieces of a straight cut under constant surface speed, where the speed follows the radius.
 FACING_PIECES = 16
 #: Cosine of the angle between two spline chords from which on it counts as a corner.
-SMOOTH_COS = 0.9
+SMOOTH_COS = 0.8
 #: Two ends of an arc nearer than this (mm) make it a full circle.
 SAME_POINT_MM = 1e-7
 

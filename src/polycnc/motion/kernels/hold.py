@@ -22,6 +22,7 @@ from polycnc.motion.kernels.columns import (
     HOLD2,
     HOLD_PULL,
     HOLD_WAY,
+    KIND,
     LENGTH,
     LOW2,
     LOW_PULL,
@@ -30,6 +31,7 @@ from polycnc.motion.kernels.columns import (
     PIECES,
     PLACES,
     PULL,
+    SPLINE,
     TIMED,
     TOP2,
     TOP_PULL,
@@ -116,7 +118,8 @@ def hold_ahead(pieces: Floats, p: int, n: int, state: Floats) -> None:
             edge = min(edge, left)
         if q > 0:
             way += pieces[joint - width + LENGTH]
-    if worth_cutting(pieces, at, edge):
+    # The next point of a spline still turns the end of its last chord.
+    if state[KIND] != SPLINE and worth_cutting(pieces, at, edge):
         cut(pieces, p, n, state, edge)
     pieces[at + CAP2], pieces[at + PULL] = min(cap2, low2), min(pull, low_pull)
     state[LOW2], state[LOW_PULL] = low2, low_pull
