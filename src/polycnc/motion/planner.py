@@ -129,6 +129,11 @@ class Planner:
         return int(self._limits[LIMIT_BLOCKS * self._axes + GEOMETRY])
 
     @property
+    def real_axes(self) -> RealAxes:
+        """What the machine's axes do under a transformation."""
+        return self._real
+
+    @property
     def position(self) -> list[float]:
         """Machine position behind the last row laid out; before the first, that of the start."""
         first = STATE_BLOCKS + POSITION * self._axes

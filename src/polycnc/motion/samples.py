@@ -96,7 +96,7 @@ class Sampler:
         self._tails: list[tuple[Run, float]] = []
         self._row = RowFacts(Kind.EVENT, 0, 0, Context(), 0.0, 0.0, 0.0)
         self._forgotten = 0
-        self._position = planner.position
+        self._position = self._rest = planner.position
         planner.on_pieces, planner.on_wait = self._pieces, self._wait
 
     # ---- what the planner tells ----------------------------------------------------------------------------
@@ -165,6 +165,8 @@ class Sampler:
         if early:
             self._tails.append((run, seconds))
         self._position = run.end
+        still = np.zeros((1, self._n))
+        self._rest = self._planner.real_axes.motion((run.end[None], still, still), self._row.context)[0][0]
         for row in range(self._forgotten, int(pieces[-1, ROW])):
             self._facts.pop(row, None)
         self._forgotten = int(pieces[-1, ROW])
@@ -208,7 +210,7 @@ class Sampler:
 
         for times in _batches(self._times(seconds)):
             still = np.zeros((len(times), self._n))
-            place = np.repeat(np.array([self._position]), len(times), axis=0)
+            place = np.repeat(np.array([self._rest]), len(times), axis=0)
             share = times / seconds
             speed = self._rpm + share * (rpm - self._rpm)
             angle = self._angle + 3.0 * (self._rpm + speed) * times
@@ -240,7 +242,9 @@ class Sampler:
                 speed = sense * 60.0 * np.abs(moved[1][:, axis]) / tap.lead
             else:
                 speed, angle = rpm[k], self._angle + turned[k] + 6.0 * rpm[k] * (times - start[k])
-            self._say(times, moved, speed, angle, [facts[int(row)] for row in run.rows[run.piece_at(times)]])
+            said = [facts[int(row)] for row in run.rows[run.piece_at(times)]]
+            moved = self._planner.real_axes.motion(moved, tap.context)
+            self._say(times, moved, speed, angle, said)
         if sense != 0.0:
             self._angle += sense * 360.0 * float(np.abs(run.end - self._position)[run.main_axis]) / tap.lead
             self._rpm = 0.0

@@ -18,9 +18,9 @@ from __future__ import annotations
 
 from array import array
 from math import atan2, cos, hypot, inf, pi, sin, sqrt
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from polycnc.motion.frames import carried, machine_of, work_of
+from polycnc.motion.frames import carried, machine_of, real_of, work_of
 from polycnc.motion.kernels.columns import ACCELERATION, JERK, SHARES
 from polycnc.motion.limits import axis_limits, channel_axes, rotary_weight
 from polycnc.motion.settings import SOFT
@@ -44,6 +44,8 @@ BEND = 0.5
 TWIST, TURN = 0.2, 0.3
 #: Derivatives are differences over so many mm or degrees: by the columns, along the path.
 STEP, PATH_STEP = 1e-3, 5e-3
+#: Derivatives by time are differences over so many seconds.
+SHORT_S = 1e-4
 #: Derivatives below this count as none.
 NOTHING = 1e-9
 #: Places at which a row is looked at first; a change of the demand by more than UNEVEN is worth shares.
@@ -151,6 +153,23 @@ class RealAxes:
                         column[row * SHARES + k] = number
             self._laid, self._context = machine_of(end, context, self._geometry), context
         return bounds
+
+    def motion(self, moved: tuple[Any, Any, Any], context: Context) -> tuple[Any, Any, Any]:
+        """Position, velocity and acceleration of the real axes, (k, axes), for those of the columns."""
+        if context.transformation is None:
+            return moved
+        import numpy as np
+
+        position, velocity, acceleration = moved
+        nearby = [position + velocity * t + acceleration * (0.5 * t * t) for t in (-SHORT_S, 0.0, SHORT_S)]
+        before, now, after = (
+            np.array([real_of(place, context, self._geometry) for place in laid.tolist()]) for laid in nearby
+        )
+        turning = np.array([self._rotary(i) for i in range(len(self._axes))])
+        came, goes = (
+            np.where(turning, (way + 180.0) % 360.0 - 180.0, way) for way in (now - before, after - now)
+        )
+        return now, (came + goes) / (2.0 * SHORT_S), (goes - came) / SHORT_S**2
 
     def _shares(
         self, chunk: Chunk, row: int, start: list[float], end: list[float], context: Context

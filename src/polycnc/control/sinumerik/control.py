@@ -131,10 +131,7 @@ class Sinumerik:
 
     def _memory(self, channel: Channel) -> Memory:
         names = axis_names(channel)
-        columns = {**_machine_columns(channel), **_columns(channel)}
-        data = MachineData(
-            channel.setup.parameters, {name: channel.axes[column] for name, column in columns.items()}
-        )
+        data = _machine_data(channel)
         definition = next(c for c in channel.machine.channels if c.number == channel.number)
         master = data.integer("$MC_SPIND_DEF_MASTER_SPIND")
         numbers = definition.spindles
@@ -339,9 +336,18 @@ class Sinumerik:
         """The program has run more blocks than allowed."""
         return AlarmError("PC0002", hint="hint.block-limit")
 
-    def motion_settings(self, _channel: Channel) -> MotionSettings:
-        """How the control leads the axes: rapids stop only where an exact stop does; feeds count linear axes."""
-        return MotionSettings(rapid_stops=False, rotary_in_feed=False)
+    def motion_settings(self, channel: Channel) -> MotionSettings:
+        """How the control leads the axes: rapids stop only where an exact stop does; feeds count linear axes.
+
+        DRIVE: MD35220 and MD35230 of the axis that asks for most caution.
+        """
+        data = _machine_data(channel)
+        return MotionSettings(
+            rapid_stops=False,
+            rotary_in_feed=False,
+            drive_speed=min(data.number("$MA_ACCEL_REDUCTION_SPEED_POINT", name) for name in channel.axes),
+            drive_reduction=max(data.number("$MA_ACCEL_REDUCTION_FACTOR", name) for name in channel.axes),
+        )
 
     # ---- variables by name
 
@@ -357,6 +363,13 @@ class Sinumerik:
         """Names of all variables that hold something."""
         memory: Memory = channel.memory
         return [f"R{n}" for n, value in enumerate(memory.language.r) if value]
+
+
+def _machine_data(channel: Channel) -> MachineData:
+    """Machine data as the setup gives them."""
+    columns = {**_machine_columns(channel), **_columns(channel)}
+    names = {name: channel.axes[column] for name, column in columns.items()}
+    return MachineData(channel.setup.parameters, names)
 
 
 def _tolerance(memory: Memory, path_mode: str) -> float:

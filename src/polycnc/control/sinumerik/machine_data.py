@@ -113,6 +113,8 @@ DELIVERED: dict[str, Datum] = {
     "$MA_COMPRESS_POS_TOL": Datum(33100, 0.1),
     "$MA_REFP_SET_POS": Datum(34100, 0.0),
     "$MA_SPIND_VELO_LIMIT": Datum(35100, 10000.0),
+    "$MA_ACCEL_REDUCTION_SPEED_POINT": Datum(35220, 1.0),
+    "$MA_ACCEL_REDUCTION_FACTOR": Datum(35230, 0.0),
     "$MA_GEAR_STEP_MAX_VELO": Datum(35110, 500.0),
     "$MA_AX_VELO_LIMIT": Datum(36200, 11500.0),
     "$MA_POS_LIMIT_MINUS": Datum(36100, -1e8),
