@@ -10,7 +10,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from benchmarks.measure import Figure, against, best_of, process_time, rate, skipped
+from benchmarks.measure import Figure, against, best_of, interpret, process_time, rate, skipped
 
 PLAIN_BLOCKS = 200_000
 PEER_BLOCKS = 4_000
@@ -60,28 +60,10 @@ def program(blocks: int) -> str:
     return "\n".join(["O0001", "G90 G54 G0 X0 Y0 Z10.", "G1 Z-1. F1000.", *contour(blocks), "M30", ""])
 
 
-def interpret(text: str) -> int:
-    """Run a text through the general interpreter, without planning or export; gives the number of rows."""
-    from polycnc.channel.channel import Channel
-    from polycnc.control.registry import control
-    from polycnc.machine import load_machine
-    from polycnc.machine.setup import Setup
-    from polycnc.program import ProgramStore
-
-    store = ProgramStore()
-    main = store.add_text("MAIN", text)
-    channel = Channel(control("fanuc-m"), load_machine("mill3"), Setup(), store)
-    for _ in channel.run(main):
-        pass
-    if channel.alarms:
-        raise RuntimeError(channel.alarms[0].code)
-    return len(channel.toolpath)
-
-
 def plain_blocks() -> Iterator[Figure]:
     """200,000 short G1 blocks."""
     text = program(PLAIN_BLOCKS)
-    ours = PLAIN_BLOCKS / best_of(lambda: interpret(text))
+    ours = PLAIN_BLOCKS / best_of(lambda: interpret(text, "fanuc-m", "mill3"))
     yield rate("short G1 blocks", ours, 40_000, "blocks/s")
     try:
         from pygcode import Line, Machine
@@ -101,7 +83,7 @@ def plain_blocks() -> Iterator[Figure]:
 
 def macro_loop() -> Iterator[Figure]:
     """Assignments, trigonometry, IF and a G1 in each pass."""
-    ours = LOOP_PASSES / best_of(lambda: interpret(OUR_LOOP))
+    ours = LOOP_PASSES / best_of(lambda: interpret(OUR_LOOP, "fanuc-m", "mill3"))
     rs274 = shutil.which("rs274")
     if rs274 is None:
         yield skipped(
@@ -116,8 +98,9 @@ def macro_loop() -> Iterator[Figure]:
 
 
 _MEMORY = """
-from benchmarks.interpreter import interpret, program, resident_mb
-interpret(program(1000))
+from benchmarks.interpreter import program, resident_mb
+from benchmarks.measure import interpret
+interpret(program(1000), "fanuc-m", "mill3")
 before = resident_mb()
 from polycnc.toolpath import Toolpath
 table = Toolpath(("X", "Y", "Z"))

@@ -1,4 +1,4 @@
-"""Measuring: processor time of this process or of a child, and how a result is said."""
+"""Measuring: a program to interpret, processor time of this process or of a child, and how a result is said."""
 
 from __future__ import annotations
 
@@ -37,6 +37,25 @@ def process_time(command: Sequence[str], runs: int = 3) -> float:
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         times.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
     return min(times)
+
+
+def interpret(text: str, control_id: str, machine: str, name: str = "MAIN") -> int:
+    """Run a text through the interpreter, without planning or export; gives the number of rows."""
+    from polycnc.channel.channel import Channel
+    from polycnc.control.registry import control
+    from polycnc.machine import load_machine
+    from polycnc.machine.setup import Setup
+    from polycnc.program import ProgramStore
+
+    chosen = control(control_id)
+    store = ProgramStore(form=chosen.form)
+    main = store.add_text(name, text)
+    channel = Channel(chosen, load_machine(machine), Setup(), store)
+    for _ in channel.run(main):
+        pass
+    if channel.alarms:
+        raise RuntimeError(channel.alarms[0].code)
+    return len(channel.toolpath)
 
 
 def rate(name: str, ours: float, limit: float, unit: str) -> Figure:

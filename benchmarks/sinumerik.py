@@ -13,11 +13,12 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from benchmarks.measure import Figure, against, best_of, rate, skipped
+from benchmarks.measure import Figure, against, best_of, interpret, rate, skipped
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+MAIN = "/_N_WKS_DIR/_N_BENCH_WPD/_N_MAIN_MPF"
 PEER = "nc-gcode-interpreter 0.2.8"
 PASSES = 200_000
 BLOCKS = 200_000
@@ -61,24 +62,6 @@ def different_blocks(blocks: int) -> str:
     return "\n".join(["R1=0.5 R2=20", "G90 G0 X0 Y0", *lines, "M30", ""])
 
 
-def interpret(text: str) -> int:
-    """Run a text through the interpreter, without planning or export; gives the number of rows."""
-    from polycnc.channel.channel import Channel
-    from polycnc.control.registry import control
-    from polycnc.machine import load_machine
-    from polycnc.machine.setup import Setup
-    from polycnc.program import Form, ProgramStore
-
-    store = ProgramStore(form=Form.SINUMERIK)
-    main = store.add_text("/_N_WKS_DIR/_N_BENCH_WPD/_N_MAIN_MPF", text)
-    channel = Channel(control("sinumerik-840d"), load_machine("mill3"), Setup(), store)
-    for _ in channel.run(main):
-        pass
-    if channel.alarms:
-        raise RuntimeError(channel.alarms[0].code)
-    return len(channel.toolpath)
-
-
 def loop() -> Iterator[Figure]:
     """Assignments, trigonometry, IF/ELSE, array access and a G1 in each pass."""
     yield from _compared("SINUMERIK loop", LOOP, PASSES, "passes/s", STATED_PASSES, PASSES_GOAL)
@@ -91,7 +74,7 @@ def blocks() -> Iterator[Figure]:
 
 
 def _compared(name: str, text: str, count: int, unit: str, stated: float, goal: float) -> Iterator[Figure]:
-    ours = count / best_of(lambda: interpret(text))
+    ours = count / best_of(lambda: interpret(text, "sinumerik-840d", "mill3", MAIN))
     python = _peer_python()
     theirs = _peer_rate(python, text, count) if isinstance(python, Path) else python
     if isinstance(theirs, float):

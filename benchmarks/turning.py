@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from benchmarks.measure import Figure, best_of, rate
+from benchmarks.measure import Figure, best_of, interpret, rate
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -53,28 +53,11 @@ def program() -> str:
     return "\n".join([*lines, ""])
 
 
-def interpret(text: str) -> int:
-    """Run a text through the interpreter, without planning or export; gives the number of rows."""
-    from polycnc.channel.channel import Channel
-    from polycnc.control.registry import control
-    from polycnc.machine import load_machine
-    from polycnc.machine.setup import Setup
-    from polycnc.program import ProgramStore
-
-    store = ProgramStore()
-    main = store.add_text("MAIN", text)
-    channel = Channel(control("fanuc-0i-tf"), load_machine("lathe2"), Setup(), store)
-    for _ in channel.run(main):
-        pass
-    if channel.alarms:
-        raise RuntimeError(channel.alarms[0].code)
-    return len(channel.toolpath)
-
-
 def cycles() -> Iterator[Figure]:
     """Moves that G71, G70 and G76 make of a program, in a second."""
     text = program()
-    moves = interpret(text)
-    yield rate(
-        "G71, G70, G76 with 40 shape blocks", moves / best_of(lambda: interpret(text)), MOVES_LIMIT, "moves/s"
-    )
+
+    def expand() -> int:
+        return interpret(text, "fanuc-0i-tf", "lathe2")
+
+    yield rate("G71, G70, G76 with 40 shape blocks", expand() / best_of(expand), MOVES_LIMIT, "moves/s")
