@@ -120,25 +120,27 @@ def drill(hole: Hole) -> Iterator[Stroke]:
     yield from leave(hole)
 
 
-def peck_breaking_chips(hole: Hole) -> Iterator[Stroke]:
-    """Peck by peck, with a short retract between (G73)."""
+def peck_by_peck(hole: Hole, into: Action, back: Action, *, clears: bool) -> Iterator[Stroke]:
+    """From depth to depth to the bottom, between pecks back by the relief; `clears`: out to R before that."""
     yield Stroke(Action.RAPID, hole.r)
     for depth in depths(hole):
-        yield Stroke(Action.FEED, depth)
+        yield Stroke(into, depth)
         if depth != hole.bottom:
-            yield Stroke(Action.RAPID, above(hole, depth))
+            if clears:
+                yield Stroke(back, hole.r)
+            yield Stroke(back, above(hole, depth))
+
+
+def peck_breaking_chips(hole: Hole) -> Iterator[Stroke]:
+    """Peck by peck, with a short retract between (G73)."""
+    yield from peck_by_peck(hole, Action.FEED, Action.RAPID, clears=False)
     yield Stroke(Action.DWELL, hole.dwell_s)
     yield from leave(hole)
 
 
 def peck_clearing_chips(hole: Hole) -> Iterator[Stroke]:
     """Peck by peck, out to R after each, and back to the clearance above the depth reached (G83)."""
-    yield Stroke(Action.RAPID, hole.r)
-    for depth in depths(hole):
-        yield Stroke(Action.FEED, depth)
-        if depth != hole.bottom:
-            yield Stroke(Action.RAPID, hole.r)
-            yield Stroke(Action.RAPID, above(hole, depth))
+    yield from peck_by_peck(hole, Action.FEED, Action.RAPID, clears=True)
     yield Stroke(Action.DWELL, hole.dwell_s)
     yield from leave(hole)
 

@@ -6,7 +6,7 @@ from enum import IntEnum
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from polycnc.cycles.drilling import Action, Hole, Stroke, above, depths
+from polycnc.cycles.drilling import Action, Hole, Stroke, peck_by_peck
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterator
@@ -87,22 +87,13 @@ def with_extraction(strokes: Iterator[Stroke], hole: Hole, factor: float) -> Ite
 
 def tap_clearing_chips(hole: Hole) -> Iterator[Stroke]:
     """As `tap`; after each peck out to R and back to `relief` above the depth reached (5200#5)."""
-    yield Stroke(Action.RAPID, hole.r)
-    for depth in depths(hole):
-        yield Stroke(Action.TAP, depth)
-        if depth != hole.bottom:
-            yield Stroke(Action.TAP, hole.r)
-            yield Stroke(Action.TAP, above(hole, depth))
+    yield from peck_by_peck(hole, Action.TAP, Action.TAP, clears=True)
     yield from _tap_out(hole)
 
 
 def tap(hole: Hole) -> Iterator[Stroke]:
     """In with the spindle in step, dwell, reverse, out; pecks retract by `relief` (II.4.5)."""
-    yield Stroke(Action.RAPID, hole.r)
-    for depth in depths(hole):
-        yield Stroke(Action.TAP, depth)
-        if depth != hole.bottom:
-            yield Stroke(Action.TAP, above(hole, depth))
+    yield from peck_by_peck(hole, Action.TAP, Action.TAP, clears=False)
     yield from _tap_out(hole)
 
 
