@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from functools import wraps
 from math import nan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from polycnc.control.fanuc.turning_corners import corner_waits
 from polycnc.control.fanuc.turning_tools import refresh
@@ -14,9 +15,13 @@ from polycnc.geometry.frames import IDENTITY, about, rotation
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.words import Words
+    from polycnc.geometry.frames import Frame
+
+T = TypeVar("T")
 
 
 def set_position(channel: Channel, words: Words) -> None:
@@ -215,24 +220,28 @@ def rotate(channel: Channel, words: Words) -> None:
     c.set_programming(parts.product(), parts.shift, stays=bool(memory.parameters.bit(11600, 5)))
 
 
-def without_rotation(step: Step) -> Step:
-    """A cycle, in which coordinate rotation has no effect (II.5.9)."""
+def without_rotation(cycle: Callable[[Channel, T], None]) -> Callable[[Channel, T], None]:
+    """A cycle, step or handler, in which coordinate rotation has no effect (II.5.9)."""
 
-    def run(channel: Channel, values: list[float]) -> None:
-        parts, c = channel.memory.frames, channel.coordinates
-        rotation_before = parts.rotation
-        if rotation_before.is_identity:
-            step(channel, values)
-            return
-        parts.rotation = IDENTITY
-        c.set_programming(parts.product(), parts.shift)
+    @wraps(cycle)
+    def run(channel: Channel, words: T) -> None:
+        before = set_rotation(channel, IDENTITY)
         try:
-            step(channel, values)
+            cycle(channel, words)
         finally:
-            parts.rotation = rotation_before
-            c.set_programming(parts.product(), parts.shift)
+            set_rotation(channel, before)
 
     return run
+
+
+def set_rotation(channel: Channel, turned: Frame) -> Frame:
+    """Rotate the coordinates from now on; the rotation before."""
+    parts = channel.memory.frames
+    before: Frame = parts.rotation
+    if before is not turned:
+        parts.rotation = turned
+        channel.coordinates.set_programming(parts.product(), parts.shift)
+    return before
 
 
 def mirror_turret(channel: Channel, words: Words) -> None:

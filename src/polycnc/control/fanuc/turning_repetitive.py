@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import Level
 from polycnc.control.fanuc.turning_comp import SHAPE_KIND
-from polycnc.control.fanuc.turning_coordinates import plane_axes
+from polycnc.control.fanuc.turning_coordinates import plane_axes, set_rotation, without_rotation
 from polycnc.control.fanuc.turning_drilling import is_series_15
 from polycnc.control.fanuc.turning_shape import Section, contour_of, read_shape, section_steps
 from polycnc.control.fanuc.turning_single import cut_pass, runout
@@ -29,6 +29,7 @@ from polycnc.cycles.threading import ThreadCuts, thread_passes
 from polycnc.cycles.turning_pattern import repeat_pattern as pattern_strokes
 from polycnc.cycles.turning_peck import Pecks, peck_columns
 from polycnc.cycles.turning_rough import Roughing, rough
+from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.word_address.functions import round_half_away
 from polycnc.toolpath import Kind
@@ -85,6 +86,7 @@ def finish(channel: Channel, words: Words) -> None:
     section = Level(
         Section(code, end), begin, begin, level.program_number, 0, begin, SHAPE_KIND, level.locals
     )
+    section.data["rotation"] = set_rotation(channel, IDENTITY)
     section.data["start"] = channel.coordinates.position
     section.data["compensated"] = bool(channel.memory.side)
     if is_compensated(channel):
@@ -97,6 +99,7 @@ def finish(channel: Channel, words: Words) -> None:
 def end_of_shape(channel: Channel) -> None:
     """The shape of G70 is cut: back to the start in rapid, on with the block behind G70."""
     section = channel.pop()
+    set_rotation(channel, section.data["rotation"])
     start: list[float] = section.data["start"]
     if channel.memory.side and not section.data["compensated"]:
         raise channel.control.fail("shape_compensation_open", address="Q")
@@ -108,11 +111,13 @@ def end_of_shape(channel: Channel) -> None:
     enter_compensation(channel)
 
 
+@without_rotation
 def rough_turning(channel: Channel, words: Words) -> None:
     """G71: strokes along the first axis of the plane."""
     _rough(channel, words, along=0)
 
 
+@without_rotation
 def rough_facing(channel: Channel, words: Words) -> None:
     """G72: strokes along the second axis of the plane."""
     _rough(channel, words, along=1)
@@ -173,6 +178,7 @@ def _turned(pair: tuple[float, float], along: int) -> tuple[float, float]:
     return (pair[1], pair[0]) if along else pair
 
 
+@without_rotation
 def repeat_pattern(channel: Channel, words: Words) -> None:
     """G73: the shape itself, pass by pass nearer to the finished part."""
     memory, plane = channel.memory, channel.mode["plane"]
@@ -310,11 +316,13 @@ def _cut(channel: Channel, strokes: Iterable[PlaneStroke]) -> None:
 # ---- pecking -----------------------------------------------------------------------------------------------------
 
 
+@without_rotation
 def peck_facing(channel: Channel, words: Words) -> None:
     """G74: pecks along the first axis of the plane, columns along the second."""
     _peck(channel, words, along=0)
 
 
+@without_rotation
 def groove(channel: Channel, words: Words) -> None:
     """G75: pecks along the second axis of the plane, columns along the first."""
     _peck(channel, words, along=1)
@@ -371,6 +379,7 @@ def _corner(
 # ---- threading ---------------------------------------------------------------------------------------------------
 
 
+@without_rotation
 def thread(channel: Channel, words: Words) -> None:
     """G76: a whole thread, pass by pass."""
     memory = channel.memory
