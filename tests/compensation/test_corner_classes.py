@@ -175,3 +175,17 @@ def test_cancel_of_types_a_and_b(other: int, side: int, turn: float) -> None:
     assert (corner.way_round(False) if corner.is_outer else square) == points(
         run(policies.FANUC_B, corner, "front"), 1
     )
+
+
+@pytest.mark.parametrize("side", [1, -1], ids=["G41", "G42"])
+@pytest.mark.parametrize("arcs", [False, True], ids=["CCC=0", "CCC=1"])
+def test_a_path_that_turns_right_back_is_an_outer_corner(side: int, arcs: bool) -> None:
+    policy = replace(policies.FANUC_A, outer=ARCS) if arcs else policies.FANUC_A
+    reach = 0.0 if arcs else TOOL
+    rows = points(run(policy, Corner(0, 0, 180, side), "both"), 1)
+    assert [(reach, side * TOOL), (reach, -side * TOOL)] == rows
+
+
+@pytest.mark.parametrize("side", [1, -1], ids=["G41", "G42"])
+def test_a_path_that_goes_straight_on_has_one_vector(side: int) -> None:
+    assert [(0.0, side * TOOL)] == points(run(policies.FANUC_A, Corner(0, 0, 0, side), "both"), 1)
