@@ -89,7 +89,7 @@ def cuts(way: Iterable[Edge], steps: Iterable[Step]) -> bool:
     """Whether the tool on its way comes nearer to a contour than its radius."""
     rows = list(way)
     return any(
-        distance.between(row, step.edge) < abs(step.distance) - max(_SPARE_MM, step.policy.least_move_mm)
+        distance.between(row, step.contour) < abs(step.distance) - max(_SPARE_MM, step.policy.least_move_mm)
         for step in steps
         if step.role is Role.CONTOUR
         for row in rows

@@ -219,7 +219,7 @@ class CutterCompensation:
         """Put a plane move into the window; it closes the corner in front of it."""
         distance = self._side * self._radius
         shift = (abs(distance) * self._tip[0], abs(distance) * self._tip[1])
-        step = Step(move, edge, self._role, distance, shift, self.policy, self._read, self._rows.vector)
+        step = Step(move, edge, edge, self._role, distance, shift, self.policy, self._read, self._rows.vector)
         step.forced, step.holds, step.starts_square = self._forced, self._holds, self._starts_square
         self._forced, self._holds, self._starts_square = None, False, False
         step.edge = self._checked(step)
@@ -245,6 +245,7 @@ class CutterCompensation:
         radius = min(arcs.radius_of(edge.center, edge.start), arcs.radius_of(edge.center, edge.end))
         if offset.offset_radius(radius, step.distance, edge.ccw) < -offset.SMOOTH_MM:
             if step.policy.avoids:
+                step.altered = True
                 return offset.line(edge.start, edge.end)
             self._violations.object(Violation.INNER_RADIUS_TOO_SMALL, step.move)
         return edge

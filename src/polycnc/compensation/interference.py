@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections import deque
 from functools import partial
+from itertools import pairwise
+from math import pi
 from typing import TYPE_CHECKING
 
 from polycnc.compensation.avoidance import (
@@ -16,6 +18,7 @@ from polycnc.compensation.avoidance import (
 )
 from polycnc.compensation.policies import Violation
 from polycnc.compensation.step import Role
+from polycnc.geometry import offset
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -101,10 +104,11 @@ class InterferenceCheck:
         first = self._window[0]
         if not first.policy.avoids or first.corner is None or first.is_commanded:
             return
+        bent = self._bent()
         numbers = [
-            n
-            for n in range(len(self._window) - 2, 0, -1)
-            if self._interferes(n) or self._cut_each_other(n + 1)
+            number
+            for number in range(len(self._window) - 2, 0, -1)
+            if self._interferes(number) or (number + 1 >= bent and self._cut_each_other(number + 1))
         ]
         if not numbers:
             return
@@ -149,6 +153,18 @@ class InterferenceCheck:
         return [other for other in (*self._passed, *self._window) if other.distance * step.distance > 0.0]
 
     # ---- what interferes with the first block of the window ------------------------------------------------
+
+    def _bent(self) -> int:
+        """The first block behind turns of 90 degrees in all: only from there on can the tool come near the first again.
+
+        The window's length where there is none.
+        """
+        total = self._window[0].contour.sweep
+        for number, (one, two) in enumerate(pairwise(self._window), 1):
+            total += abs(offset.turn(one.edge, two.edge)) + two.contour.sweep
+            if total >= 0.5 * pi:
+                return number
+        return len(self._window)
 
     def _cut_each_other(self, number: int) -> bool:
         """Whether the tool cuts one of two blocks on the way along the other, though no vectors cross."""

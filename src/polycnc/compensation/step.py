@@ -37,7 +37,8 @@ class Step:
 
     Attributes:
         move: As programmed.
-        edge: Its edge.
+        contour: The line or arc that it cuts.
+        edge: What the tool is led along: the same, or the chord of an arc that it does not fit into (5.4.6.3).
         role: Start-up, contour or cancel.
         distance: Signed offset of the contour, left positive.
         shift: Added to every vector (nose centre to tip).
@@ -55,6 +56,7 @@ class Step:
     """
 
     move: Move
+    contour: Edge
     edge: Edge
     role: Role
     distance: float
