@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.path import PassingStage, Recorder
 from polycnc.channel.way import Way
-from polycnc.control.sinumerik import arguments, limits, tables
+from polycnc.control.sinumerik import arguments, limits, stages, tables
 from polycnc.control.sinumerik.cycles_contour import COUNTER_CLOCKWISE, sent_away, without_away
 from polycnc.geometry import arcs, zones
 from polycnc.language.sinumerik.nc_frame import NcFrame
@@ -280,8 +280,6 @@ def _guard(channel: Channel, wanted: bool) -> None:
         channel.table, memory.guard = memory.guard.after, None
     if memory.stages is not None:
         memory.stages.cutter.after = channel.table
-    from polycnc.control.sinumerik import stages
-
     stages.relax(channel)
 
 
