@@ -129,14 +129,16 @@ def scanner() -> Iterator[Figure]:
     yield Figure("scanner, first run ever", f"{seconds:.1f} s for compiling, kept from then on", None)
 
 
+#: Peak of the process itself: what `getrusage` tells counts the process that has started it, too.
 _MEMORY = """
-import resource, sys
+import re, sys
 from polycnc.cli.app import main
 sys.argv = ["polycnc", "run", sys.argv[1], "--control", "fanuc-m", "--trace", sys.argv[2]]
 try:
     main()
 finally:
-    print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+    with open("/proc/self/status") as status:
+        print(int(re.search("VmHWM:\\s*(\\d+)", status.read())[1]) / 1024)
 """
 
 

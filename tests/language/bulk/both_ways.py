@@ -30,13 +30,19 @@ def run(
     bulk: Bulk | None = None,
     *,
     travel: float = inf,
+    files: Mapping[str, str] | None = None,
     **limits: Any,
 ) -> Channel:
-    """Run a program to its end; programmed stops are started again. `travel` limits every axis to either side."""
+    """Run a program to its end; programmed stops are started again.
+
+    `travel` limits every axis to either side, `files` are further programs by their names.
+    """
     built = control(control_id)
     store = ProgramStore(form=built.form)
     name = "/_N_WKS_DIR/_N_TEST_WPD/_N_MAIN_MPF" if built.form is Form.SINUMERIK else "MAIN"
     program = store.add_text(name, text)
+    for key, content in (files or {}).items():
+        store.add_text(key, content)
     start = parse_setup(setup or {})
     chosen = machine(start.machine or built.default_machine)
     if travel < inf:
