@@ -260,6 +260,42 @@ def test_a_line_from_rest_to_rest_takes_a_fifth_longer_than_anything_could(lengt
     assert least < rows.plan(MILL, settings=SOFT).total_s < 1.2 * least
 
 
+@pytest.mark.parametrize("pieces", [2, 20, 1000])
+@pytest.mark.parametrize(("length", "feed"), [(100.0, 20.0), (100.0, 1e4), (2.0, 400.0)])
+def test_short_lines_in_one_direction_take_as_long_as_one_line(
+    length: float, feed: float, pieces: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("polycnc.motion.planner.FULL_ROOM", 256)
+
+    def seconds(count: int) -> float:
+        rows = Build(context=Context(path_mode="G64"))
+        for k in range(1, count + 1):
+            rows.feed(0.8 * length * k / count, 0.6 * length * k / count, 0.0, feed=feed)
+        return rows.plan(MILL, settings=SOFT, compiled=False).total_s
+
+    assert seconds(pieces) == pytest.approx(seconds(1), rel=1e-9)
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    st.lists(
+        st.tuples(st.floats(0.001, 5.0), st.sampled_from([0, 0, 0, 1]), st.booleans()),
+        min_size=2,
+        max_size=20,
+    ),
+    contexts,
+)
+def test_axes_keep_their_limits_where_straight_runs_change_direction_or_feed(
+    steps: list[tuple[float, int, bool]], context: Context
+) -> None:
+    rows, angle = Build(context=context), 0.3
+    for way, turn, is_slow in steps:
+        angle += 0.5 * turn
+        x, y, _ = rows.end
+        rows.feed(x + way * cos(angle), y + way * sin(angle), 0.0, feed=60.0 if is_slow else 300.0)
+    check(rows, UNEVEN)
+
+
 def test_a_slow_corner_before_an_arc_does_not_slow_down_the_arc() -> None:
     alone, after_corner = (Build(context=Context(path_mode="G64")) for _ in range(2))
     alone.arc(20.0, 0.0, 0.0, center=(10.0, 0.0))

@@ -17,6 +17,7 @@ from polycnc.motion.compiled import PLAIN, compiled_kernels
 from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
+    ALONE,
     BLOCKS,
     END2,
     GEOMETRY,
@@ -33,6 +34,7 @@ from polycnc.motion.kernels.columns import (
     SPEED2,
     STATE_BLOCKS,
     STOP,
+    STRAIGHT_RUN,
     TOP2,
     TOP_RAPID,
     WINDOW,
@@ -276,7 +278,7 @@ class Planner:
         while last > 0 and way < reach and pieces[last * width + PAUSE] == 0.0:
             way += pieces[last * width + LENGTH]
             last -= 1
-        return last
+        return min(last, count - int(state[STRAIGHT_RUN])) if state[ALONE] == 2.0 else last
 
     # ---- rows and totals
     # -------------------------------------------------------------------------------------------

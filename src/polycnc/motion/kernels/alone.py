@@ -3,7 +3,8 @@
 Averaged over T, a line from rest to rest may accelerate by `u = j·T/2` (`jerk.py`): a long T delays its end, a short
 one takes the acceleration. Without a level part the time `2·√(L/u) + T` is least for `T = ∛(2·L/j)`, with one
 (`L/v + v/u + T`) for `T = √(2·v/j)`; the smaller of the two holds. That is 3·∛(2·L/j), a fifth more than any motion
-within the jerk could do. Positions need no average, for there is no corner.
+within the jerk could do. Positions need no average, for there is no corner. Lines that go on in one direction at one
+speed are one line.
 
 A corner that is passed at c holds both lines at c on `c·W/2` around it (`hold.py`): it costs W at least. A rest there
 often costs less, because T is then chosen for each line.
@@ -18,6 +19,7 @@ from polycnc.motion.kernels.columns import (
     ALONE,
     BLEND,
     CAP2,
+    FREE,
     JERK,
     LAST_EASE,
     LENGTH,
@@ -27,7 +29,10 @@ from polycnc.motion.kernels.columns import (
     PULL,
     RAMP,
     ROW_LENGTH,
+    SHARE_COUNT,
     STATE_BLOCKS,
+    STOP,
+    STRAIGHT_RUN,
     TANGENT,
     UNIT,
     VECTORS,
@@ -37,6 +42,10 @@ from polycnc.motion.kernels.columns import (
     piece_width,
 )
 
+#: Turns smaller than this count as none; most pieces of a straight run, for they wait in the buffer for its end.
+NO_TURN, LONGEST_RUN = 1e-9, 4096
+#: Part by which speeds that count as one may differ.
+SAME_SPEED = 1e-9
 #: Part of the acceleration that is reckoned with on a line that is not alone.
 SHARED = 0.35
 
@@ -50,13 +59,31 @@ def best_ramp(length: float, top: float, pull: float, jerk: float) -> float:
     return min(ramp, sqrt(2.0 * top / jerk)) if top < inf else ramp
 
 
+def goes_straight_on(n: int, state: Floats, wanted: float) -> bool:
+    """Whether the line at hand goes on with a straight run from rest, in its direction and at its speed.
+
+    Where overrides will act, pieces are run before the end of the run is known.
+    """
+    if state[ALONE] != 2.0 or state[STOP] != 0.0 or state[FREE] != 0.0 or state[SHARE_COUNT] > 0.0:
+        return False
+    if abs(wanted - state[WANTED]) > SAME_SPEED * wanted:
+        return False
+    for i in range(n):
+        if abs(state[STATE_BLOCKS + UNIT * n + i] - state[STATE_BLOCKS + TANGENT * n + i]) > NO_TURN:
+            return False
+    return state[STRAIGHT_RUN] < LONGEST_RUN
+
+
 def settle_alone(pieces: Floats, n: int, limits: Floats, state: Floats) -> None:
-    """The axes come to rest behind the last row: if it is a line from rest, it gets averages of its own."""
+    """The axes come to rest behind the last row: if it ends a straight run from rest, that gets averages of its own."""
     count = int(state[PIECES])
     if state[ALONE] != 2.0 or count == 0:
         return
     state[ALONE] = 0.0
-    at = (count - 1) * piece_width(n)
+    width, first = piece_width(n), count - int(state[STRAIGHT_RUN])
+    at, run = (count - 1) * width, 0.0
+    for p in range(first, count):
+        run += pieces[p * width + LENGTH]
     here, length = at + VECTORS + PLACES * n, pieces[at + LENGTH]
     pull, jerk, ease = inf, inf, state[LAST_EASE]
     for i in range(n):
@@ -65,9 +92,12 @@ def settle_alone(pieces: Floats, n: int, limits: Floats, state: Floats) -> None:
             pull = min(pull, ease * limits[ACCELERATION * n + i] / share)
             jerk = min(jerk, ease * limits[JERK * n + i] / share)
     top = min(sqrt(pieces[at + CAP2]), state[WANTED])
-    ramp = best_ramp(length, top, pull, jerk)
-    pieces[at + PULL] = min(pull, 0.5 * jerk * ramp)
-    pieces[at + RAMP], pieces[at + BLEND], pieces[at + PAUSE] = ramp, 0.0, ramp
+    ramp = best_ramp(run, top, pull, jerk)
+    for p in range(first, count):
+        at = p * width
+        pieces[at + PULL] = min(pull, 0.5 * jerk * ramp)
+        pieces[at + RAMP], pieces[at + BLEND] = ramp, 0.0
+    pieces[first * width + PAUSE] = ramp
 
 
 def pays_to_rest(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import inf
 
-from polycnc.motion.kernels.alone import best_ramp, settle_alone
+from polycnc.motion.kernels.alone import best_ramp, goes_straight_on, settle_alone
 from polycnc.motion.kernels.arcs import find_arc, lay_arc
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
@@ -81,6 +81,7 @@ from polycnc.motion.kernels.columns import (
     STATION,
     STOP,
     STRAIGHT,
+    STRAIGHT_RUN,
     TANGENT,
     TAP,
     TARGET,
@@ -313,11 +314,16 @@ def lay_straight(
                 parts == 1 and contexts[record + LAG_S] == 0.0 and state[KIND] not in (SPLINE, THREAD, TAP)
             )
             wanted = wanted if is_line else 0.0
+            goes_on = is_line and goes_straight_on(n, state, wanted)
+            if goes_on:
+                speed, wanted, pull = state[WANTED], state[WANTED], state[EXIT_PULL]
             entry2 = join(contexts, record, n, limits, state, length, weight, speed * speed, wanted)
             state[JOINT_PULL] = min(state[JOINT_PULL], pull)
             if state[REST] > 0.0:
                 settle_alone(pieces, n, limits, state)
-            state[ALONE] = (2.0 if state[REST] > 0.0 else 1.0) if is_line else 0.0
+            goes_on = goes_on and state[REST] == 0.0
+            state[STRAIGHT_RUN] = state[STRAIGHT_RUN] + 1.0 if goes_on else 1.0
+            state[ALONE] = (2.0 if goes_on or state[REST] > 0.0 else 1.0) if is_line else 0.0
             state[WANTED] = wanted
         else:
             speed = min(top, own, bound(asked, state))
