@@ -348,7 +348,7 @@ def thread(draft: Draft) -> Step | None:
     lead = lead_of(draft)
     start_angle = draft.take("SF")
     change = draft.take("F") if draft.mode["motion"] in ("G34", "G35") else None
-    sign = -1.0 if draft.mode["motion"] == "G35" else 1.0
+    sign, factor = -1.0 if draft.mode["motion"] == "G35" else 1.0, length_factor(draft.mode)
     goal = goal_of(draft)
     if goal is None:
         return None
@@ -360,7 +360,7 @@ def thread(draft: Draft) -> Step | None:
             raise AlarmError("16730")
         parameters = [lead(channel, values, end), angle]
         if change is not None:
-            parameters.append(sign * number(values, change))
+            parameters.append(sign * number(values, change) * factor)
         special(channel, Kind.THREAD, end, nan, parameters)
 
     return run
