@@ -360,6 +360,8 @@ class WordAddressControl:
         """The context that holds now."""
         mode, memory, c = channel.mode, channel.memory, channel.coordinates
         diameters = sum(1 << i for i in range(len(channel.axes)) if self.is_diameter(channel, i))
+        # A last stage that turns positions into those of the axes leaves nothing to transform.
+        transformation = c.transformation if channel.table is channel.rows else None
         return Context(
             plane=mode["plane"],
             inch=self.is_inch(mode),
@@ -374,9 +376,8 @@ class WordAddressControl:
             path_mode="G9" if memory.exact_stop_block else mode.codes.get("path", "G64"),
             diameter_axes=diameters,
             wcs=memory.wcs,
-            # A last stage that turns positions into those of the axes leaves nothing to transform.
-            transformation=c.transformation if channel.table is channel.rows else None,
-            geometry=None if c.transformation or c.geometry == memory.basic_geometry else c.geometry,
+            transformation=transformation,
+            geometry=None if transformation or c.geometry == memory.basic_geometry else c.geometry,
         )
 
     def motion_settings(self, _channel: Channel) -> MotionSettings:

@@ -72,9 +72,10 @@ def cylinder(channel: Channel, words: Words) -> None:
     memory.geometry_before = c.geometry
     c.transform(memory.cylinder, unrolled_geometry(channel, memory.cylinder))
     channel.mode = channel.mode.with_code(GROUP, "G7.1")
-    channel.table = CylinderStage(memory.cylinder, channel.rows)
+    channel.table = CylinderStage(memory.cylinder, c.geometry, channel.rows)
     channel.head = channel.table
     memory.compensation = None
+    channel.context_changed()
 
 
 def unrolled_geometry(channel: Channel, unrolled: Cylinder) -> tuple[int, int, int]:
@@ -110,19 +111,24 @@ def end_cylinder(channel: Channel) -> None:
     memory.compensation = memory.cylinder = None
     channel.mode = channel.mode.with_code(GROUP, "")
     channel.coordinates.transform(None, memory.geometry_before)
+    channel.context_changed()
 
 
 class CylinderStage(PassingStage):
     """The last stage of the path on a cylinder: lengths on its surface become degrees."""
 
-    def __init__(self, cylinder: Cylinder, after: PathStage) -> None:
+    def __init__(self, cylinder: Cylinder, geometry: tuple[int, int, int], after: PathStage) -> None:
         super().__init__(after)
         self._cylinder = cylinder
+        self._slot = geometry.index(cylinder.axis)
 
     def move(self, move: Move) -> None:
-        """Take the next move; see `PathStage`."""
-        real = self._cylinder.real
-        self.after.move(replace(move, start=real(move.start), end=real(move.end)))
+        """Take the next move; see `PathStage`. The centre of an arc is shown in degrees as well."""
+        real, center = self._cylinder.real, move.center
+        if center is not None:
+            x, y, z = (v / self._cylinder.mm_per_degree if i == self._slot else v for i, v in enumerate(center))
+            center = (x, y, z)
+        self.after.move(replace(move, start=real(move.start), end=real(move.end), center=center))
 
 
 def check_block(builder: Builder, refused: frozenset[str]) -> None:
