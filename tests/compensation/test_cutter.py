@@ -454,3 +454,16 @@ def test_what_comes_after_a_move_that_was_left_out_happens_where_the_tool_stands
 def test_a_slot_narrower_than_the_tool_is_bridged_where_all_of_it_is_seen() -> None:
     recorder = run(policies.SINUMERIK_NORM_G450, SLOT.format(49))
     assert [row for row in recorder.rows if row[1] < 80] == [("feed", 20, 5), ("feed", 49, 5)]
+
+
+@pytest.mark.parametrize("policy", [AVOIDS, replace(AVOIDS, read_blocks=8), policies.SINUMERIK_NORM_G451])
+def test_the_way_out_may_cross_the_way_in(policy: Policy) -> None:
+    # Round a square: in along X0 from below, out along Y0 to the left; the two ways cross in its corner.
+    recorder = run(policy, "G1 G41 X0 Y-20\nY50\nX50\nY0\nX-20\nG40 Y-30")
+    assert recorder.points == [(-5, -20), (-5, 55), (55, 55), (55, -5), (-20, -5), (-20, -30)]
+
+
+@pytest.mark.parametrize("policy", [AVOIDS, replace(AVOIDS, read_blocks=8), policies.SINUMERIK_NORM_G451])
+def test_a_contour_may_overlap_its_beginning(policy: Policy) -> None:
+    recorder = run(policy, "G1 G41 X0 Y0\nY50\nX50\nY0\nX0\nY3\nG40 X-20", start=(-30.0, 0.0, 0.0))
+    assert recorder.points == [(-5, 0), (-5, 55), (55, 55), (55, -5), (-5, -5), (-5, 3), (-20, 3)]

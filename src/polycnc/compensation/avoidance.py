@@ -65,12 +65,14 @@ class Detour:
         """
         if self.is_outer or self.first.runs_back:
             return Violation.AVOIDANCE_DANGEROUS
-        if cuts([row for step in (self.first, *self.between) for row in step.way()], known):
+        if any(cuts(step, known) for step in (self.first, *self.between)):
             return Violation.AVOIDANCE_DANGEROUS
         following = self.following
         if following.corner is None:
             following = replace(following, corner=blind_end(following))
-        if following.role is Role.CONTOUR and (following.runs_back or cuts(following.way()[:1], known)):
+        if following.role is Role.CONTOUR and (
+            following.runs_back or cuts(following, known, following.way()[:1])
+        ):
             return Violation.AVOIDANCE_INTERFERES
         return None
 
@@ -85,15 +87,29 @@ def least_harmful(detours: Iterable[Detour], known: Sequence[Step]) -> tuple[Det
     return min(judged, key=lambda pair: _HARMS.index(pair[1]), default=None)
 
 
-def cuts(way: Iterable[Edge], steps: Iterable[Step]) -> bool:
-    """Whether the tool on its way comes nearer to a contour than its radius."""
-    rows = list(way)
+def cuts(step: Step, known: Iterable[Step], way: Sequence[Edge] | None = None) -> bool:
+    """Whether the tool comes nearer to a contour than its radius.
+
+    Args:
+        step: A step with its vectors.
+        known: The steps whose contours count.
+        way: The part of its way that is looked at; all of it by default.
+    """
+    rows = step.way() if way is None else way
     return any(
-        distance.between(row, step.contour) < abs(step.distance) - max(_SPARE_MM, step.policy.least_move_mm)
-        for step in steps
-        if step.role is Role.CONTOUR
+        distance.between(row, other.contour)
+        < abs(other.distance) - max(_SPARE_MM, other.policy.least_move_mm)
+        and not _crosses_itself(step.contour, other.contour)
+        for other in known
+        if other.role is Role.CONTOUR
         for row in rows
     )
+
+
+def _crosses_itself(one: Edge, two: Edge) -> bool:
+    """Whether blocks that do not follow each other meet, as the ways into and out of a contour do."""
+    follow = min(arcs.radius_of(one.end, two.start), arcs.radius_of(two.end, one.start)) <= arcs.SAME_POINT_MM
+    return not follow and one is not two and distance.between(one, two) <= arcs.SAME_POINT_MM
 
 
 def leave_out_crossing_vectors(previous: Step, step: Step) -> bool:

@@ -144,7 +144,7 @@ class InterferenceCheck:
         if changed and not (policy.dares or step.is_commanded):
             if step.role is Role.CONTOUR and not step.straight and step.runs_back:
                 self.violations.object(Violation.AVOIDANCE_INTERFERES, step.move)
-            if step.role in PATHS and cuts(step.way(), self._known(step)):
+            if step.role in PATHS and cuts(step, self._known(step)):
                 self.violations.object(Violation.AVOIDANCE_DANGEROUS, step.move)
         self._passed.append(step)
 
@@ -174,13 +174,13 @@ class InterferenceCheck:
             return False
         if not (one_side and step.policy.checks_direction):
             return False
-        if cuts(first.way(), [step]):
+        if cuts(first, [step]):
             return True
         # A way that is to be changed itself, when its turn comes, says nothing.
         between = self._window[1 : number + 2]
         if step.corner is None or any(other.is_commanded or other.runs_back for other in between):
             return False
-        return cuts(step.way(), [first])
+        return cuts(step, [first])
 
     def _interferes(self, number: int) -> bool:
         first, step = self._window[0], self._window[number]
