@@ -126,7 +126,9 @@ class CylinderStage(PassingStage):
         """Take the next move; see `PathStage`. The centre of an arc is shown in degrees as well."""
         real, center = self._cylinder.real, move.center
         if center is not None:
-            x, y, z = (v / self._cylinder.mm_per_degree if i == self._slot else v for i, v in enumerate(center))
+            x, y, z = (
+                v / self._cylinder.mm_per_degree if i == self._slot else v for i, v in enumerate(center)
+            )
             center = (x, y, z)
         self.after.move(replace(move, start=real(move.start), end=real(move.end), center=center))
 
