@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address import auxiliary, frames, interruption, overrides, subprograms
+from polycnc.control.word_address import auxiliary, frames, overrides, subprograms
 from polycnc.control.word_address.codes import MCode, m_table
 
 if TYPE_CHECKING:
@@ -51,8 +51,3 @@ FANUC_M_CODES = m_table(
     MCode(29, handler=auxiliary.arm_rigid_tapping),
     *after(60, 65),
 )
-#: The interruption macro in place of the magazine codes M96 and M97 (6003#7).
-INTERRUPTION = {
-    96: MCode(96, handler=interruption.enable, takes="P", silent=True),
-    97: MCode(97, handler=interruption.disable, silent=True),
-}

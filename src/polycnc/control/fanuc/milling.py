@@ -12,7 +12,7 @@ from polycnc.control.fanuc.code_calls import registered_codes
 from polycnc.control.fanuc.milling_codes import ADDRESSES, G_CODES, POWER_ON
 from polycnc.control.fanuc.milling_cycles import MILLING_DRILLING
 from polycnc.control.fanuc.milling_variables import MILLING_VARIABLES
-from polycnc.control.word_address.interruption import interruptible
+from polycnc.control.word_address import interruption
 from polycnc.control.word_address.milling import MillingControl
 from polycnc.control.word_address.variables import MacroMemory
 
@@ -52,14 +52,12 @@ class FanucMilling(MillingControl):
 
     def m_row(self, builder: Builder, number: int) -> MCode:
         """The row of an M code; M96 P and M97 are those of the interruption macro where 6003#7 enables it."""
-        if number in hartford.INTERRUPTION and _interruptible(builder.channel):
-            return hartford.INTERRUPTION[number]
-        return super().m_row(builder, number)
+        return interruption.m_code(builder.channel, number) or super().m_row(builder, number)
 
     def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
         """The step of the active motion or cycle, which an interruption may cut."""
         step = super().plan_motion(builder, plan)
-        return step and interruptible(builder, step)
+        return step and interruption.interruptible(builder, step)
 
     def several_m_codes(self, channel: Channel) -> bool:
         """3404#7: up to three M codes in a block."""
@@ -89,9 +87,3 @@ class FanucMilling(MillingControl):
     def make_memory(self, channel: Channel) -> MacroMemory:
         """Offsets, tools and variables."""
         return MacroMemory(channel, MILLING_VARIABLES)
-
-
-def _interruptible(channel: Channel) -> bool:
-    """6003#7 MUS; a setup that names interrupt inputs means them."""
-    setup = channel.setup
-    return bool(setup.parameters.bit(6003, 7, default=int(bool(setup.switches.interrupts))))

@@ -27,7 +27,7 @@ from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.fanuc.turning_codes import ADDRESSES, M_CODES, POWER_ON, g_table, written_codes
 from polycnc.control.fanuc.turning_memory import TurningMemory
 from polycnc.control.fanuc.turning_variables import TURNING_VARIABLES
-from polycnc.control.word_address import path
+from polycnc.control.word_address import interruption, path
 from polycnc.control.word_address.codes import MCode
 from polycnc.control.word_address.custom_macro import CustomMacroControl
 
@@ -212,8 +212,14 @@ class FanucTurning(CustomMacroControl):
         return turning_data.plan_parameter_block(builder, plan) or super().call_by_code(builder, plan)
 
     def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
-        """The step of the active motion code, or of the active drilling cycle; balanced paths start it together."""
-        return turning_balance.together(builder, plan, self._motion_step(builder, plan))
+        """The step of the active motion code, or of the active drilling cycle; balanced paths start it together.
+
+        An interruption may cut it, but for the shape that G70 runs (II.4.2.8).
+        """
+        motion = self._motion_step(builder, plan)
+        if motion is not None:
+            motion = turning_shape.interruptible(builder, motion)
+        return turning_balance.together(builder, plan, motion)
 
     def _motion_step(self, builder: Builder, plan: Plan) -> Step | None:
         if builder.mode["cycle"] != "G80":
@@ -308,7 +314,7 @@ class FanucTurning(CustomMacroControl):
             return MCode(number, handler=turning_drilling.note_clamp(number), silent=True)
         if builder.mode.codes.get(turning_shape.GROUP) == turning_shape.READING and number not in _CALLS:
             return MCode(number, silent=True)
-        return self.m_code(number)
+        return interruption.m_code(builder.channel, number) or self.m_code(number)
 
     # ---- offsets ---------------------------------------------------------------------------------------------
 

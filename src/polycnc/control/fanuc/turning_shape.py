@@ -17,6 +17,7 @@ from polycnc.control.fanuc.turning_comp import SHAPE_KIND
 from polycnc.control.fanuc.turning_coordinates import plane_axes
 from polycnc.control.fanuc.turning_corners import TurningCorner
 from polycnc.control.fanuc.turning_tools import nose_radius, nose_tip
+from polycnc.control.word_address import interruption
 from polycnc.control.word_address.path import PLANES
 from polycnc.control.word_address.radius import violation_codes
 from polycnc.cycles.contour import Contour, Piece
@@ -229,3 +230,17 @@ class Section:
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self.code, name)
+
+
+def interruptible(builder: Builder, motion: Step) -> Step:
+    """A motion that an interruption macro may cut, where it belongs to no shape of G70 to G73 (II.4.2.8)."""
+    if builder.mode.codes.get(GROUP) == READING:
+        return motion
+    cut = interruption.interruptible(builder, motion)
+    if cut is motion:
+        return motion
+
+    def move(channel: Channel, values: list[float]) -> None:
+        (motion if channel.level.kind == SHAPE_KIND else cut)(channel, values)
+
+    return move

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.codes import MCode
 from polycnc.control.word_address.skip import signal_position
 from polycnc.control.word_address.variables import LOCALS
 from polycnc.messages import AlarmError
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 #: Kind of an interruption program's level.
 LEVEL = "interrupt"
 #: 6003: types of the interruption.
-OWN_LOCALS_BIT, BLOCK_FIRST_BIT = 5, 2
+OWN_LOCALS_BIT, BLOCK_FIRST_BIT, ENABLED_BIT = 5, 2, 7
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +62,20 @@ def enable(channel: Channel, words: Words) -> None:
 def disable(channel: Channel, _words: Words) -> None:
     """M97."""
     channel.mode = channel.mode.with_code("interruption", "M97")
+
+
+#: The codes of the interruption macro; on machines without it they are the builder's.
+M_CODES = {
+    96: MCode(96, handler=enable, takes="P", silent=True),
+    97: MCode(97, handler=disable, silent=True),
+}
+
+
+def m_code(channel: Channel, number: int) -> MCode | None:
+    """M96 or M97 where 6003#7 MUS enables the interruption macro; a setup that names interrupt inputs means it."""
+    setup = channel.setup
+    enabled = setup.parameters.bit(6003, ENABLED_BIT, default=int(bool(setup.switches.interrupts)))
+    return M_CODES.get(number) if enabled else None
 
 
 def interruptible(builder: Builder, motion: Step) -> Step:
