@@ -428,14 +428,20 @@ def lay_chord(
     for i in range(n):
         state[bend + i] = state[unit + i] * state[ROW_LENGTH] + state[tangent + i] * length
     size, mean = norm(state, bend, n, limits, weight), 0.5 * (length + state[ROW_LENGTH])
-    cap2 = pieces[at + ENTRY2]
+    cap2, top2, turn2 = pieces[at + ENTRY2], inf, 0.0
     for i in range(n):
+        turn2 += (state[unit + i] - state[tangent + i]) ** 2
         direction, curvature = state[bend + i] / size, (state[unit + i] - state[tangent + i]) / mean
         pieces[before + n + i] = pieces[here + i] = direction
         pieces[before + 3 * n + i] = pieces[here + 2 * n + i] = curvature
         if direction != 0.0:
             top = limits[TOP_FEED * n + i] / direction
-            cap2 = min(cap2, top * top)
+            top2 = min(top2, top * top)
         if curvature != 0.0:
             cap2 = min(cap2, limits[ACCELERATION * n + i] / abs(curvature))
-    pieces[at + ENTRY2] = cap2
+    # In the middle of its chord the curve is longer than the chord by `turn²/16` at most (a cubic, `run.py`).
+    for chord in (at - piece_width(n), at):
+        pieces[chord + CAP2] = min(pieces[chord + CAP2], top2) * (1.0 - 0.125 * turn2)
+        pieces[chord + ENTRY2] = min(pieces[chord + ENTRY2], pieces[chord + CAP2])
+    pieces[at + ENTRY2] = min(cap2, pieces[at + CAP2], pieces[at - piece_width(n) + CAP2])
+    state[EXIT2] = pieces[at + CAP2]
