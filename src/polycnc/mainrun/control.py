@@ -219,6 +219,8 @@ class VirtualControl(ByHand):
         if self._signals["INCREMENTAL_ENCODERS"]:
             for axis in self.channel.axes:
                 self._signals[f"NOT_REFERENCED_{axis}"] = 1.0
+        for lane in self._lanes.values():
+            lane.forget_shift()
         self._brake(State.BRAKING)
 
     def key(self, name: str, *, pressed: bool = True) -> None:

@@ -110,6 +110,12 @@ class Lane:
             self.manual.leave()
             self.automatic.intervene(way, absolute=absolute)
 
+    def forget_shift(self) -> None:
+        """What was moved with manual absolute off shifts the coordinates no more."""
+        here, stray = self.machine_position, self.automatic.stray
+        stray.kept = [0.0] * len(stray.kept)
+        self.stand_at(here)
+
     def stand_at(self, position: Sequence[float]) -> None:
         """The real axes stand here and no program runs."""
         self.manual.leave()

@@ -25,7 +25,7 @@ class Stray:
 
     Attributes:
         owed: Moved with manual absolute on; absolute words take it back.
-        kept: Moved with manual absolute off; it stays until the axis has returned to its reference point.
+        kept: Moved with manual absolute off; it stays until the axis has returned to its reference point, or power-on.
     """
 
     def __init__(self, axes: int) -> None:
