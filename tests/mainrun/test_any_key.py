@@ -32,6 +32,14 @@ PROGRAMS = {
 }
 MAIN = 'INIT(2,"B")\nSTART(2)\nG0 X10\nRELEASE(Y)\nG1 X80 F6000\nWAITM(1,1,2)\nG1 X0\nWAITE(2)\nG0 Y3\nM30\n'
 SIDE = "GET(Y)\nG1 Y50 F3000\nWAITM(1,1,2)\nG4 F0.5\nG1 Y20\nRELEASE(Y)\nM30\n"
+
+
+def power_off_and_on(virtual: VirtualControl) -> None:
+    virtual.power_off()
+    virtual.run()
+    virtual.power_on()
+
+
 KEYS: tuple[Callable[[VirtualControl, Random], object], ...] = (
     lambda now, _: now.cycle_start(),
     lambda now, _: now.cycle_start(),
@@ -63,7 +71,7 @@ KEYS: tuple[Callable[[VirtualControl, Random], object], ...] = (
     lambda now, dice: now.signals.__setitem__("SKIP", float(dice.random() < 0.5)),
     lambda now, dice: now.signals.__setitem__(dice.choice(("CYCLE_START", "FEED_HOLD", "RESET")), 1.0),
     lambda now, dice: now.signals.__setitem__(dice.choice(("CYCLE_START", "FEED_HOLD", "RESET")), 0.0),
-    lambda now, dice: (now.power_off(), now.step(0.5), now.power_on()),
+    lambda now, _: power_off_and_on(now),
 )
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from polycnc.mainrun import State, VirtualControl
+from polycnc.mainrun import CommandRefused, State, VirtualControl
 from polycnc.session import open_session
 from tests.mainrun.support import recorded
 
@@ -175,3 +175,31 @@ def test_axis_groups_of_one_file_meet() -> None:
     assert virtual.run() is State.READY
     assert begins[1, 4] == begins[2, 9]
     assert begins[1, 4] > 1.0
+
+
+def test_a_block_search_does_not_wait_for_another_channel() -> None:
+    virtual = two_channels()
+    with pytest.raises(CommandRefused):
+        virtual.block_search(7)
+    virtual.cycle_start()
+    assert virtual.run() is State.READY
+
+
+def test_axes_of_the_second_channel_are_moved_by_hand() -> None:
+    virtual = VirtualControl("fanuc-0i-tf", machine="lathe2-2path")
+    virtual.select_mode("jog")
+    virtual.jog("Z", 1, channel=2)
+    virtual.step(1.0)
+    virtual.stop_jog("Z", channel=2)
+    virtual.run()
+    assert virtual.channels[2].positions.machine["Z"] > 10.0
+    assert virtual.channels[1].positions.machine["Z"] == 0.0
+    with pytest.raises(CommandRefused):
+        virtual.jog("Z", 1, channel=3)
+
+
+def test_an_axis_is_moved_by_hand_in_the_channel_that_owns_it() -> None:
+    virtual = two_channels()
+    virtual.select_mode("jog")
+    with pytest.raises(CommandRefused):
+        virtual.jog("Y", 1, channel=2)

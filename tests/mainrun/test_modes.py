@@ -439,3 +439,32 @@ def test_machine_lock_and_block_search_wait_until_an_axis_moved_by_hand_stands()
     machine.step(5.0)
     machine.set_switches(machine_lock=True)
     assert machine.switches.machine_lock
+
+
+@pytest.mark.parametrize("end", ["M2", "M30"])
+def test_m02_of_a_machining_centre_asks_for_a_reset_and_m30_does_not(end: str) -> None:
+    virtual = power_on(f"O1\nG0 X10.\n{end}\n")
+    virtual.cycle_start()
+    virtual.run()
+    if end == "M2":
+        with pytest.raises(CommandRefused, match="reset"):
+            virtual.cycle_start()
+        virtual.reset()
+    virtual.cycle_start()
+    assert virtual.run() is State.READY
+    assert virtual.parts == 2
+
+
+@pytest.mark.parametrize(("end", "bit"), [("M02", 5), ("M30", 4)])
+def test_3404_keeps_a_lathe_from_rewinding(end: str, bit: int) -> None:
+    text = f"O1\nG0 X10.\n{end}\n"
+    for value in (0, 1 << bit):
+        virtual = power_on(text, "fanuc-0i-tf", setup={"parameters": {3404: value}})
+        virtual.cycle_start()
+        virtual.run()
+        if value:
+            with pytest.raises(CommandRefused, match="reset"):
+                virtual.cycle_start()
+            virtual.load(text)
+        virtual.cycle_start()
+        assert virtual.run() is State.READY

@@ -121,4 +121,6 @@ class ByHand(Readings):
         index = lane.channel.axis_index.get(name.upper())
         if index is None:
             raise CommandRefused("mainrun.axis", axis=name, known=", ".join(lane.channel.axes))
+        if (owner := self._group.owner[lane.channel.axis_data[index].name]) not in (0, channel):
+            raise CommandRefused("mainrun.value", name="channel", allowed=str(owner), value=channel)
         return lane, index

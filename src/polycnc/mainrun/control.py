@@ -18,7 +18,7 @@ from math import ceil, inf
 from typing import TYPE_CHECKING, Any
 
 from polycnc.mainrun.byhand import ByHand
-from polycnc.mainrun.core import LOCKED_STATES, MANUAL_ABSOLUTE, SINGLE_BLOCK_KINDS
+from polycnc.mainrun.core import AT_END, LOCKED_STATES, MANUAL_ABSOLUTE, SINGLE_BLOCK_KINDS
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.programs import forget_skipped
 from polycnc.mainrun.search import search
@@ -64,6 +64,7 @@ class VirtualControl(ByHand):
         """
         self._ask(Command.LOAD)
         self._programs.load(source)
+        self._signals[AT_END] = 0.0
         for lane in self._lanes.values():
             lane.channel.store = self._programs.store
 
@@ -146,6 +147,8 @@ class VirtualControl(ByHand):
             program = sources.get(self.mode, self._programs.main)
             if program is None:
                 raise CommandRefused("mainrun.no-program")
+            if self.mode is Mode.AUTO and self._signals[AT_END]:
+                raise CommandRefused("mainrun.at-end")
             self._ask_machine("CYCLE_START")
             self._program_mode = self.mode
             self._pulse("STARTED")

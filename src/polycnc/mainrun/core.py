@@ -49,6 +49,10 @@ JOG_RATE = 1000.0
 HALT_SIGNALS = {"M00": "HALT_M00", "M0": "HALT_M00", "M01": "HALT_M01", "M1": "HALT_M01"}
 #: Manual absolute: coordinates count what is moved by hand while a program waits (FANUC *ABSM, which means on by 0).
 MANUAL_ABSOLUTE = "MANUAL_ABSOLUTE"
+#: The program has ended without going back to its top: M02 on machines whose rules latch this, or by the control's
+#: parameters. A reset goes back.
+AT_END = "M02_END"
+PROGRAM_ENDS = frozenset((2, 30))
 #: The soft key that holds the feed at 100 %.
 FEED_IS_100 = "F_100"
 HALTS = {"end": State.READY, "alarm": State.ALARM}
@@ -306,6 +310,7 @@ class Core(ABC):
         self._giving_up = self._searched = self._rates.hold = self._rates.gives_up = False
         self._end_halt()
         self._pulse("ENDED")
+        self._signals[AT_END] = 0.0
         here = {number: lane.machine_position for number, lane in self._lanes.items()}
         for number, lane in self._lanes.items():
             lane.give_up()
@@ -365,6 +370,9 @@ class Core(ABC):
 
     def _on_event(self, number: int, event: Event) -> None:
         self._report("event", number, type=event.type, **event.data)
+        stays: Callable[..., bool] | None = getattr(self.control, "stays_at_end", None)
+        if stays is not None and event.type == "m" and event.data.get("code") in PROGRAM_ENDS:
+            self._signals[AT_END] = float(stays(self.channel, event.data["code"]))
 
     def _on_block(self, number: int, block: Block) -> None:
         self._report("block", number, program=block.program, line=block.line)

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 LASTING = ((3, 4, 5, 13, 14, 19), (7, 8, 9), (50,), (10, 11), (68, 69))
 #: How often the program may compute for an interpolation cycle without coming to a block.
 PATIENCE = 1000
+#: What is looked through at most: a program that begins again at its end (M99) never comes to an end.
+LONGEST = 1_000_000
 
 
 @dataclass(slots=True)
@@ -40,13 +42,16 @@ def search(ahead: Ahead, program: str, line: int) -> Found | None:
     """Go on in what is prepared to a block; it is then the next item. None where the program ends before it."""
     found = Found(ahead.position, Context())
     functions: dict[object, Happening] = {}
-    patience = PATIENCE
-    while patience > 0:
+    patience, left = PATIENCE, LONGEST
+    while patience > 0 and left > 0:
+        left -= 1
         patience = PATIENCE if ahead.fill() else patience - 1
         if not ahead.items:
             if ahead.finished:
                 return None
             if ahead.waiting is not None:
+                if ahead.waiting.until is not None and not ahead.waiting.until():
+                    return None  # another channel, which does not run, would have to do something first
                 ahead.proceed()
             continue
         item = ahead.items[0]

@@ -120,6 +120,10 @@ class FanucTurning(CustomMacroControl):
             returns_to_path=bool(bit(7001, 0)),
         )
 
+    def stays_at_end(self, channel: Channel, code: int) -> bool:
+        """3404#5 M02, 3404#4 M30: the program is not rewound to its top."""
+        return bool(channel.setup.parameters.bit(3404, 4 if code == 30 else 5))
+
     def make_memory(self, channel: Channel) -> TurningMemory:
         """Offsets, tools and variables."""
         return TurningMemory(channel, TURNING_VARIABLES)
