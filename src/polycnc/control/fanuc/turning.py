@@ -24,7 +24,14 @@ from polycnc.control.fanuc import (
     turning_tools,
 )
 from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
-from polycnc.control.fanuc.turning_codes import ADDRESSES, M_CODES, POWER_ON, g_table, written_codes
+from polycnc.control.fanuc.turning_codes import (
+    ADDRESSES,
+    M_CODES,
+    POWER_ON,
+    g_table,
+    missing_codes,
+    written_codes,
+)
 from polycnc.control.fanuc.turning_memory import TurningMemory
 from polycnc.control.fanuc.turning_variables import TURNING_VARIABLES
 from polycnc.control.word_address import interruption, path
@@ -99,6 +106,7 @@ class FanucTurning(CustomMacroControl):
             grinding=bool(bit(5106, 0)),
             series_15=turning_drilling.drills_in_series_15(channel),
             balance=turning_balance.is_available(channel),
+            missing=missing_codes(channel.setup.parameters),
         )
 
     def written_code(self, channel: Channel, group: str) -> str:

@@ -44,6 +44,8 @@ from polycnc.control.word_address.codes import GCode, MCode, Order, m_table
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from polycnc.machine.setup import Parameters
+
 SYSTEMS = "ABC"
 
 
@@ -199,9 +201,31 @@ GRINDING = tuple(
 )
 
 
+#: Functions that a machine may lack: parameter, bit, the value of the bit that says so, and the codes it takes away.
+FUNCTIONS = (
+    (8133, 0, 0, frozenset({"G96"})),
+    (8135, 5, 1, frozenset({"G65", "G66", "G66.1", "G67"})),
+    (8136, 7, 1, frozenset({"G38", "G39", "G41", "G42"})),
+)
+
+
+def missing_codes(parameters: Parameters) -> frozenset[str]:
+    """The codes whose functions the machine lacks: they are improper ones then (PS0010, II.2)."""
+    lacking = (
+        codes for number, bit, off, codes in FUNCTIONS if parameters.bit(number, bit, default=1 - off) == off
+    )
+    return frozenset[str]().union(*lacking)
+
+
 @cache
 def g_table(
-    system: str, *, circular_thread: bool, grinding: bool, series_15: bool, balance: bool
+    system: str,
+    *,
+    circular_thread: bool,
+    grinding: bool,
+    series_15: bool,
+    balance: bool,
+    missing: frozenset[str] = frozenset(),
 ) -> Mapping[str, GCode]:
     """The G table of a system as programs write it, with what the machine's parameters choose."""
     column = SYSTEMS.index(system)
@@ -213,7 +237,9 @@ def g_table(
         *(BALANCE if balance else MIRROR),
         *(row for code in drilling for row in same(GCode(code, "cycle"))),
     )
-    return {row.codes[column]: row.code for row in chosen if row.codes[column]}
+    return {
+        row.codes[column]: row.code for row in chosen if row.codes[column] and row.code.code not in missing
+    }
 
 
 @cache
