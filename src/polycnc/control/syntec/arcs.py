@@ -9,7 +9,7 @@ from polycnc.control.syntec.parameters import has_option
 from polycnc.control.syntec.tip_control import TIP_CODES
 from polycnc.control.word_address import path
 from polycnc.control.word_address.path import CENTER_WORDS, PLANES
-from polycnc.control.word_address.plain import targets, word
+from polycnc.control.word_address.words_as_data import targets_as_data, word_as_data
 from polycnc.geometry import arcs
 from polycnc.language.bulk import Arc, declare
 from polycnc.toolpath import Kind
@@ -62,7 +62,7 @@ class ArcWords:
 
     def centers_as_data(self) -> tuple[Word | None, Word | None]:
         """The centre words, for the scanner."""
-        first, second = map(word, self.centers, self.converts)
+        first, second = map(word_as_data, self.centers, self.converts)
         return first, second
 
     def radius_mm(self, values: list[float]) -> float:
@@ -116,7 +116,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
             channel, programmed, center, (u, v, w), ccw=ccw, feed=channel.feed, turns=float((turns or 1) - 1)
         )
 
-    ends = targets(plan.axis_words)
+    ends = targets_as_data(plan.axis_words)
     if ends is None or polar or words.turns is not None or builder.mode["scaling"] == "G51":
         return move
     return declare(
@@ -126,7 +126,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
             words.plane,
             ends,
             words.centers_as_data(),
-            word(words.radius, words.radius_of),
+            word_as_data(words.radius, words.radius_of),
             needs_feed=False,
             radius_tolerances=2.0,
         ),

@@ -10,8 +10,7 @@ from math import hypot, nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address import stretched_arcs
-from polycnc.control.word_address.plain import targets as targets_as_data
-from polycnc.control.word_address.plain import word as word_as_data
+from polycnc.control.word_address.words_as_data import targets_as_data, word_as_data
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import axis_vector

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address import path, stretched_arcs
 from polycnc.control.word_address.interlocks import holds_an_axis
-from polycnc.control.word_address.numbers import conversion
-from polycnc.language.bulk import Arc, Conditions, Recipe, Spelling, Target, Word
+from polycnc.language.bulk import Arc, Conditions, Recipe, Spelling
 from polycnc.language.bulk.layout import FIRST_CODE, FORMS
 from polycnc.messages import AlarmError
 
@@ -20,28 +20,10 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
     from polycnc.channel.scanner import LastMoves
-    from polycnc.control.word_address.numbers import Convert
-    from polycnc.control.word_address.plan import AxisWord, Plan
+    from polycnc.control.word_address.plan import Plan
 
 #: How a number was written, as the scanner counts it; see `language.word_address.words`.
 _FORMS = ("", ".", ":", ";")
-
-
-def targets(words: Sequence[AxisWord]) -> tuple[Target, ...] | None:
-    """Axis words as data; None where one has a conversion that cannot be told."""
-    found = []
-    for axis_word in words:
-        told = conversion(axis_word.convert)
-        if told is None:
-            return None
-        found.append(Target(axis_word.slot, told, axis_word.axis, axis_word.incremental))
-    return tuple(found)
-
-
-def word(slot: int | None, convert: Convert | None) -> Word | None:
-    """A word as data; None where the block does not have it."""
-    told = conversion(convert)
-    return None if slot is None or told is None else Word(slot, told)
 
 
 class PlainBlocks:
@@ -115,9 +97,6 @@ class PlainBlocks:
 
 def _keeps_circles(channel: Channel) -> bool:
     """Whether the programming frame leaves circles of the plane circles, mirrored as a whole or not at all."""
-    # Imported late: `path` tells its plans as data with this module.
-    from polycnc.control.word_address import path, stretched_arcs
-
     frame, plane = channel.coordinates.programming, path.PLANES[channel.mode["plane"]]
     mirrored = path.mirrors_plane(frame, plane) == frame.mirrors
     return mirrored and not stretched_arcs.is_stretched(frame, plane)
