@@ -152,8 +152,10 @@ def _feed_is_settled(channel: Channel) -> bool:
 
 
 def _plane_is_settled(channel: Channel) -> bool:
-    """G17 to G19: as on every control, and no corner waits for its next block."""
-    return channel.head is None and channel.memory.plane == channel.mode["plane"] and settled.plane(channel)
+    """G17 to G19: as on every control; no corner waits for its next block, and no single cycle has words."""
+    memory = channel.memory
+    unchanged = memory.plane == channel.mode["plane"] and not memory.single_cycle
+    return channel.head is None and unchanged and settled.plane(channel)
 
 
 #: Codes that change nothing where they are in force already; see `word_address.settled`.
@@ -176,8 +178,7 @@ def select_plane(channel: Channel, words: Words) -> None:
     if memory.side and memory.plane != code:
         raise words.fail("comp_plane", code)
     _refuse_corner(channel, words, code)
-    if memory.plane != code:
-        memory.single_cycle.clear()
+    memory.single_cycle.clear()  # also where the code changes nothing (II.4.1.6)
     memory.plane = code
     planes.lay_axes(channel, words)
 
