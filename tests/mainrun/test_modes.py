@@ -342,6 +342,16 @@ def test_dry_run_takes_the_jog_rate() -> None:
     assert virtual.feed == pytest.approx(1000.0)
 
 
+@pytest.mark.parametrize("control", ["fanuc-m", "fanuc-0i-tf"])
+def test_1410_is_the_speed_of_a_dry_run(control: str) -> None:
+    text = "O1\nG98 G1 Z1000. F10.\nM30\n" if control == "fanuc-0i-tf" else "O1\nG1 X1000. F10.\nM30\n"
+    virtual = power_on(text, control, setup={"parameters": {1410: 600}})
+    virtual.set_switches(dry_run=True)
+    virtual.cycle_start()
+    virtual.step(1.0)
+    assert virtual.feed == pytest.approx(600.0)
+
+
 def test_under_machine_lock_the_display_runs_and_the_axes_stand() -> None:
     virtual = power_on(TWO_MOVES)
     virtual.set_switches(machine_lock=True)

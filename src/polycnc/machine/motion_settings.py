@@ -41,6 +41,8 @@ class MotionSettings:
         drive_reduction: `DRIVE`: by this part of its acceleration (MD35230).
         taps_overridden: The feed override acts on rigid taps (FANUC 5203#4 OVS).
         taps_held: Feed hold stops a rigid tap at once (FANUC 5200#6 FHD).
+        dry_run_speed: Speed of feed moves in dry run at a feed override of 100 %, mm/s (FANUC 1410; else the jog rate
+            of the Hartford manual).
         returns_to_path: Axes that were moved by hand go back to where the program waits before it goes on (SINUMERIK
             REPOSA, FANUC 7001#0 MIT); else it goes on from where they are.
     """
@@ -59,6 +61,7 @@ class MotionSettings:
     drive_reduction: float = 0.0
     taps_overridden: bool = False
     taps_held: bool = False
+    dry_run_speed: float = 1000.0 / 60.0
     returns_to_path: bool = True
 
 

@@ -201,6 +201,11 @@ class Ahead:
         return self._settings.returns_to_path
 
     @property
+    def dry_run_speed(self) -> float:
+        """Speed of feed moves in dry run, mm/s."""
+        return self._settings.dry_run_speed
+
+    @property
     def position(self) -> list[float]:
         """Machine position behind everything prepared."""
         return self._laid.position

@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 KEYS = frozenset({"CYCLE_START", "FEED_HOLD", "RESET", "EMERGENCY_STOP", "POWER_OFF"})
 #: What the reasons of a halt lead to; every other one stops.
 LOCKED_STATES = frozenset((State.EMERGENCY, State.OFF))
-#: Jog rate and dry run speed at a feed override of 100 %, mm/min or degrees/min (Hartford manual).
+#: Jog rate at a feed override of 100 %, mm/min or degrees/min (Hartford manual).
 JOG_RATE = 1000.0
 #: Programmed stops that the machine's rules know of.
 HALT_SIGNALS = {"M00": "HALT_M00", "M0": "HALT_M00", "M01": "HALT_M01", "M1": "HALT_M01"}
@@ -437,7 +437,7 @@ class Core(ABC):
         rates.feed = 1.0 if rates.feed_cancelled else dials.feed
         rates.rapid, rates.spindle = dials.rapid, dials.spindle
         in_dry_run = self._switches.dry_run and self._program_mode is not Mode.TAPE
-        rates.dry_run = JOG_RATE / 60.0 if in_dry_run else 0.0
+        rates.dry_run = self._ahead.dry_run_speed if in_dry_run else 0.0
         self._revise()
 
     def _machine_alarm(self, code: str) -> None:

@@ -76,12 +76,13 @@ class FanucMilling(MillingControl):
         )
 
     def motion_settings(self, channel: Channel) -> MotionSettings:
-        """1401#1 LRP: rapids run on a line; else every axis by itself. 7001#0 MIT: manual intervention and return."""
+        """1401#1 LRP: rapids run on a line; else every axis by itself. 7001#0 MIT: manual intervention and return. 1410: dry run."""
         bit = channel.setup.parameters.bit
         return replace(
             super().motion_settings(channel),
             rapid_by_axis=not bit(1401, 1),
             returns_to_path=bool(bit(7001, 0)),
+            dry_run_speed=(abs(channel.setup.parameters.number(1410)) or 1000.0) / 60.0,
         )
 
     def make_memory(self, channel: Channel) -> MacroMemory:

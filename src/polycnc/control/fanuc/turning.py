@@ -117,7 +117,7 @@ class FanucTurning(CustomMacroControl):
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """1401#1 LRP: rapids run on a line, else every axis by itself; what acts on a rigid tap (5203#4, 5200#6).
 
-        7001#0 MIT: manual intervention and return.
+        7001#0 MIT: manual intervention and return. 1410: dry run.
         """
         bit = channel.setup.parameters.bit
         return replace(
@@ -126,6 +126,7 @@ class FanucTurning(CustomMacroControl):
             taps_overridden=bool(bit(5203, 4)),
             taps_held=bool(bit(5200, 6)),
             returns_to_path=bool(bit(7001, 0)),
+            dry_run_speed=(abs(channel.setup.parameters.number(1410)) or 1000.0) / 60.0,
         )
 
     def stays_at_end(self, channel: Channel, code: int) -> bool:
