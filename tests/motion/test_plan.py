@@ -218,6 +218,19 @@ def test_a_cut_without_feed_is_counted() -> None:
     assert rows.plan(MACHINE).rows_without_feed == 1
 
 
+@pytest.mark.parametrize("kind", ["feed", "arc", "thread", "tap"])
+def test_moves_that_wait_for_a_spindle_at_rest_are_counted(kind: str) -> None:
+    rows = Build(context=Context(feed_mode="G95", spindle_rpm=0.0))
+    if kind == "feed":
+        rows.feed(10.0, 0.0, 0.0, feed=0.2)
+    elif kind == "arc":
+        rows.arc(0.0, 10.0, 0.0, center=(0.0, 5.0), feed=0.2)
+    else:
+        rows.row(Kind.THREAD if kind == "thread" else Kind.TAP, 0.0, 0.0, -10.0, feed=1.0, curve=(1.0, 0.0))
+    result = rows.plan(MACHINE)
+    assert (result.rows_without_feed, result.rows_without_spindle) == (0, 1)
+
+
 def test_rotary_axes_alone_move_in_degrees() -> None:
     axes = tuple(
         replace(a, rapid=90.0, max_feed=90.0, acceleration=180.0) if a.rotary else a for a in MILL4.axes

@@ -69,6 +69,8 @@ def _lines(result: Result, happenings: Happenings, file: str) -> Iterator[str]:
     yield text("run.travel", cutting=f"{times.cutting_mm:,.1f}", rapid=f"{times.rapid_mm:,.1f}")
     if result.plan.rows_without_feed:
         yield text("run.without-feed", count=result.plan.rows_without_feed)
+    if result.plan.rows_without_spindle:
+        yield text("run.without-spindle", count=result.plan.rows_without_spindle)
     yield from _tools(result)
 
 

@@ -69,14 +69,16 @@ class Plan:
         times: All of the toolpath.
         tools: By tool, in the order of first use.
         row_s: Seconds of each row of the toolpath, waits before it included; empty where rows were not kept.
-        rows_without_feed: Cutting rows that had no feed, or a feed per revolution of a spindle at rest. They
-            are planned as fast as the axes can go.
+        rows_without_feed: Cutting rows that had no feed. They are planned as fast as the axes can go.
+        rows_without_spindle: Cutting rows with a feed per revolution, threads and taps whose spindle stands: a machine
+            would wait without end. They are planned as fast as the axes can go.
     """
 
     times: Times
     tools: tuple[ToolTimes, ...]
     row_s: array[float]
     rows_without_feed: int
+    rows_without_spindle: int = 0
 
     @property
     def total_s(self) -> float:

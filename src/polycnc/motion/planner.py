@@ -32,6 +32,7 @@ from polycnc.motion.kernels.columns import (
     REACH2,
     ROW,
     SPEED2,
+    STANDING_SPINDLE,
     STATE_BLOCKS,
     STOP,
     STRAIGHT_RUN,
@@ -324,7 +325,8 @@ class Planner:
             tools.setdefault(key, ToolTimes(*key)).times += times
             total += times
         used = tuple(tool for tool in tools.values() if tool.tool or tool.name or tool.times.total_s > 0.0)
-        return Plan(total, used, self._row_s, int(self._state[WITHOUT_FEED]))
+        without_feed, without_spindle = int(self._state[WITHOUT_FEED]), int(self._state[STANDING_SPINDLE])
+        return Plan(total, used, self._row_s, without_feed, without_spindle)
 
 
 def _station(context: Context) -> tuple[object, ...]:

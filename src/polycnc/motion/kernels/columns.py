@@ -101,11 +101,11 @@ JOINT_PULL, REST, RUN_RAMP, RUN_BLEND, OVERLAP_BEFORE = range(18, 23)
 KIND, NUMBER, ROW_SLOT, FEED, CURVE, FACING = range(23, 29)
 # its largest speed, and EASE at its start (1 without transformation); that at the end of the row before; its shares,
 ROW_TOP, EASE, LAST_EASE, SHARE_COUNT, SHARE_END, SHARE_TOP, SHARE_EASE = 29, 30, 31, 32, 33, 49, 65
-# pieces of the straight run from rest that the row at hand goes on with,
-STRAIGHT_RUN = 81
+# pieces of the straight run from rest that the row at hand goes on with; rows that wait for a spindle at rest,
+STRAIGHT_RUN, STANDING_SPINDLE = 81, 82
 # its arc (unit vectors to the start, along the way there, and of the axis; angle, radius, growth of the
 # radius, rise),
-BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 82, 91, 92, 93, 94, 95
+BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 83, 92, 93, 94, 95, 96
 # and blocks of n numbers: machine position before the row, q' at the end of the last piece; end of the row,
 # way there, and room for one q' and q''; q'' at the end of the last piece.
 POSITION, TANGENT, TARGET, DELTA, UNIT, BEND, BENT_BEFORE, BLOCKS = range(8)

@@ -48,6 +48,7 @@ from polycnc.motion.kernels.columns import (
     RUN_RAMP,
     SLOT,
     SPARE_PIECES,
+    STANDING_SPINDLE,
     STATE_BLOCKS,
     SURFACE_MM_S,
     TAP,
@@ -185,7 +186,8 @@ def drive_factor(
 def bounded(asked: float, state: Floats) -> float:
     """The speed asked for, or no bound where none is; such rows are counted."""
     if not asked > 0.0:
-        state[WITHOUT_FEED] += 1.0
+        waits = state[FEED] > 0.0 or state[KIND] == THREAD or state[KIND] == TAP
+        state[STANDING_SPINDLE if waits else WITHOUT_FEED] += 1.0
     return bound(asked, state)
 
 
