@@ -52,6 +52,8 @@ def overridden(channel: Channel, context: Context) -> Context:
     memory = channel.memory
     switches = memory.control_switches.get("cntl2", 0)
     tapping = context.path_mode == TAPPING_MODE
+    if not (tapping or memory.tapping or switches or memory.cancelled_overrides):
+        return context
     return replace(
         context,
         feed_override=not (tapping or memory.tapping or FEED in memory.cancelled_overrides)
