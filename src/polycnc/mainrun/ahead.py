@@ -360,7 +360,6 @@ class Ahead:
                 context,
                 self.toolpath.programs[chunk.program[row]],
                 chunk.line[row],
-                self._asks(chunk, record, found, is_arc=is_arc),
                 is_rapid(laid.state),
                 kind in BOUND_TO_SPINDLE,
                 laid.contexts[record + PER_REVOLUTION] != 0.0,
@@ -372,6 +371,7 @@ class Ahead:
                 kind == Kind.TAP and self._settings.taps_held,
                 faster(chunk.curves, laid.state),
                 self._largest_override(chunk, row),
+                self._asks(chunk, record, found, is_arc=is_arc),
                 sum(laid.field(at, LENGTH) for at in found),
             )
         )

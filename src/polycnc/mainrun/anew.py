@@ -77,9 +77,8 @@ def line_anew(
     if not records:
         return records, []
     anew = Move(
-        Line(tuple(start), tuple(end)), move.row, move.kind, move.context, move.program, move.line, ((1.0, asked),),
+        Line(tuple(start), tuple(end)), move.row, move.kind, move.context, move.program, move.line,
         move.rapid, move.fixed, move.per_revolution, 0.0, records[FORM] == TIMED, move.overridden, move.held,
-        move.faster, move.largest_override,
-        sum(records[LENGTH::width]),
+        move.faster, move.largest_override, ((1.0, asked),), sum(records[LENGTH::width]),
     )  # fmt: skip
     return records, [anew]

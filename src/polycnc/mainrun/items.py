@@ -58,15 +58,14 @@ class Standing:
 
 
 @dataclass(slots=True, eq=False)
-class Move:
-    """A row of the path that is laid out; its pieces are made when their turn comes.
+class Row:
+    """What a row of the path and its pieces share.
 
     Attributes:
         way: Where it leads; `row` is its number.
         kind: Kind of the row.
         context: What holds in it.
         program: Name of the program; `line` the line in its file.
-        asks: Speed that the program asks for up to a share of the way, mm/s; infinite where it asks for none.
         rapid: Runs at rapid traverse.
         fixed: Bound to the spindle (thread, tap): no override, no feed hold, but for what follows.
         per_revolution: Its speed follows the spindle.
@@ -75,7 +74,6 @@ class Move:
         overridden: A tap on which the feed override acts all the same; `held` one that feed hold stops.
         faster: How much faster than programmed a tap comes out where no override acts on it.
         largest_override: The largest feed override of a tap.
-        total: Length of its pieces, mm, and `done` the share of those that have been taken.
     """
 
     way: Way
@@ -84,7 +82,6 @@ class Move:
     context: Context
     program: str
     line: int
-    asks: tuple[tuple[float, float], ...]
     rapid: bool
     fixed: bool
     per_revolution: bool
@@ -94,6 +91,18 @@ class Move:
     held: bool
     faster: float
     largest_override: float
+
+
+@dataclass(slots=True, eq=False)
+class Move(Row):
+    """A row that is laid out; its pieces are made when their turn comes.
+
+    Attributes:
+        asks: Speed that the program asks for up to a share of the way, mm/s; infinite where it asks for none.
+        total: Length of its pieces, mm, and `done` the share of those that have been taken.
+    """
+
+    asks: tuple[tuple[float, float], ...]
     total: float
     done: float = 0.0
 
@@ -105,8 +114,8 @@ class Move:
 
 
 @dataclass(slots=True, eq=False)
-class Piece:
-    """A piece of the path: a line, a chord, or 7.5° of an arc. What it shares with its row is as in `Move`.
+class Piece(Row):
+    """A piece of the path: a line, a chord, or 7.5° of an arc.
 
     Attributes:
         length: Of the piece, mm.
@@ -116,21 +125,6 @@ class Piece:
         is_coasting: What is run behind a skip signal.
     """
 
-    way: Way
-    row: int
-    kind: int
-    context: Context
-    program: str
-    line: int
-    rapid: bool
-    fixed: bool
-    per_revolution: bool
-    left: float
-    by_axis: bool
-    overridden: bool
-    held: bool
-    faster: float
-    largest_override: float
     length: float
     first: float
     share: float
@@ -169,11 +163,11 @@ class Rates:
     feed_cancelled: bool = False
     gives_up: bool = False
 
-    def rapid_on(self, move: Move | Piece) -> float:
+    def rapid_on(self, move: Row) -> float:
         """Rapid override that acts on a move."""
         return self.rapid if move.context.rapid_override else 1.0
 
-    def cap2(self, move: Move | Piece, cap2: float, asked: float) -> float:
+    def cap2(self, move: Row, cap2: float, asked: float) -> float:
         """Largest squared speed on a piece of a move, where the axes allow `cap2` and the program asks for `asked`."""
         context = move.context
         if self.gives_up:

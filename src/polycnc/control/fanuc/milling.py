@@ -76,7 +76,7 @@ class FanucMilling(MillingControl):
         )
 
     def motion_settings(self, channel: Channel) -> MotionSettings:
-        """1401#1 LRP: rapids run on a line; else every axis by itself. 7001#0 MIT: manual intervention and return. 1410: dry run."""
+        """1401#1 LRP: rapids on a line, else every axis by itself; 7001#0 MIT: manual intervention and return; 1410."""
         bit = channel.setup.parameters.bit
         return replace(
             super().motion_settings(channel),
