@@ -57,8 +57,10 @@ class Context:
             1626), 0 for what the axes can do. `lag_from` is the speed, mm/s, from which on it acts (1627).
         overlap: Whether strokes of a drilling cycle overlap (FANUC 1681): `Overlap`.
         transformation: From the positions of the toolpath to those of the real axes, where they differ.
-        geometry: Columns of X, Y and Z, where the program has named other axes for the plane than the machine file
-            (parallel axes: FANUC 1022, SYNTEC 2.17); else None.
+        machine_diameters: As `diameter_axes`, of the machine display where that differs: an axis of the plane of polar
+            interpolation may be a radius. None where it does not.
+        unrolled: A rotary axis whose positions are lengths on a surface (FANUC G07.1), by its column, and the degrees
+            of a millimetre, by which it is shown.
     """
 
     plane: str = "G17"
@@ -92,4 +94,5 @@ class Context:
     lag_from: float = 0.0
     overlap: Overlap = 0
     transformation: Transformation | None = None
-    geometry: tuple[int, int, int] | None = None
+    machine_diameters: int | None = None
+    unrolled: tuple[int, float] | None = None

@@ -195,23 +195,29 @@ class Display:
         scale = self._scales.get(id(context))
         if scale is None:
             length = 1.0 / INCH_MM if context.inch else 1.0
-            diameter = [2.0 if context.diameter_axes >> i & 1 else 1.0 for i in range(len(self.axes))]
+            diameter = _diameters(context.diameter_axes, len(self.axes))
             angles = self.layout.rotary.difference(self._geometry(context))
-            work = tuple(d if i in angles else d * length for i, d in enumerate(diameter))
+            work = [d if i in angles else d * length for i, d in enumerate(diameter)]
+            if context.unrolled is not None:
+                work[context.unrolled[0]] = context.unrolled[1]
+            if context.machine_diameters is not None:
+                diameter = _diameters(context.machine_diameters, len(self.axes))
             feed = _TIME_FACTOR[context.feed_mode] * (1.0 if context.feed_mode == "G93" else length)
             unit = "inch" if context.inch else "mm"
-            scale = self._scales[id(context)] = Scale(work, tuple(diameter), length, feed, unit)
+            scale = self._scales[id(context)] = Scale(tuple(work), tuple(diameter), length, feed, unit)
         return scale
 
     def _geometry(self, context: Context) -> tuple[int, int, int]:
         """Columns of X, Y, Z of what is shown."""
         made = context.transformation
-        return context.geometry or self.layout.geometry if made is None else made.geometry
+        return self.layout.geometry if made is None else made.geometry
 
     def _modulo(self, context: Context) -> frozenset[int]:
         """Axes whose display stays within one turn; not one that a transformation makes a length."""
         made = context.transformation
-        return self.layout.modulo if made is None else self.layout.modulo.difference(made.geometry)
+        if made is None or context.unrolled is not None:
+            return self.layout.modulo
+        return self.layout.modulo.difference(made.geometry)
 
     def curve(self, kind: int, curve: Sequence[float], context: Context) -> dict[str, Any]:
         """What the curve parameters of a row add to its record."""
@@ -263,6 +269,11 @@ class Display:
                 curves[:, 6], turns, np.nan
             )
         return found
+
+
+def _diameters(axes: int, count: int) -> list[float]:
+    """The factor of every axis: 2 for those whose bit is set."""
+    return [2.0 if axes >> i & 1 else 1.0 for i in range(count)]
 
 
 def _shown(value: float) -> float:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from polycnc.control.syntec.planes import geometry_axes
+from polycnc.control.syntec.planes import geometry_axes, settled_plane
+from tests.support import run
 
 XY, ZX, YZ = (0, 1), (2, 0), (1, 2)
 NAMES = ("X", "Y", "Z2", "Z1", "Z3")
@@ -34,3 +35,10 @@ def test_a_rotary_axis_named_with_the_plane_takes_what_the_plane_still_needs() -
 
 def test_a_direction_without_an_axis_takes_what_is_left() -> None:
     assert geometry_axes(("X", "U", "Z"), (1,), XY, (0, 1, 2)) == (1, 0, 2)
+
+
+@pytest.mark.parametrize(("machine", "settled"), [("mill3", True), ("mill4", False)])
+def test_a_plane_written_again_changes_nothing_only_where_every_axis_has_its_place(
+    machine: str, settled: bool
+) -> None:
+    assert settled_plane(run("G1 X1. F100\nM30\n", "syntec-mill", machine=machine)) is settled

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import polycnc
 from polycnc.control.word_address.cylinder import Cylinder
 from polycnc.control.word_address.polar_interpolation import PolarPlane
 from tests.support import codes, ends, moves, run
@@ -59,8 +60,9 @@ def test_a_reset_ends_the_mode_where_the_axes_stand(mode: str, machine: str, con
 
 def test_many_plain_blocks_on_a_cylinder_are_those_of_single_ones() -> None:
     text = "G1 X0 A0 F100\nG7.1 A30.\n" + "".join(f"X{i}.\nA{i}.\n" for i in range(1, 200)) + "G7.1 A0\nM30\n"
-    last = ends(run(text, machine="mill4"))[-1]
-    assert last == pytest.approx((199.0, 0.0, 0.0, 199.0))
+    channel = run(text, machine="mill4")
+    assert ends(channel)[-1] == pytest.approx((199.0, 0.0, 0.0, 199.0 * 30.0 * tau / 360.0))
+    assert channel.coordinates.machine == pytest.approx([199.0, 0.0, 0.0, 199.0])
 
 
 @pytest.mark.parametrize("code", ["G0 X1.", "G28 X0", "G54", "G81 Z-1. R0", "G43 H1", "G17"])
@@ -107,3 +109,13 @@ def test_an_alarm_on_a_cylinder_leaves_the_axes_where_the_last_block_has_led_the
     assert channel.coordinates.machine == pytest.approx([10.0, 0.0, 0.0, 30.0])
     channel.control.reset(channel)
     assert channel.coordinates.machine == pytest.approx([10.0, 0.0, 0.0, 30.0])
+
+
+def test_lines_and_arcs_on_a_cylinder_have_the_length_of_its_surface() -> None:
+    text = (
+        "G0 X100. Z10. C0\nG98 G1 Z0 F100\nG7.1 C50.\nC90.\nG2 Z-10. C101.459 R10.\nG1 Z-20.\nG7.1 C0\nM30\n"
+    )
+    result = polycnc.run(text, control="fanuc-0i-tf", machine="lathe-c")
+    assert not result.alarms
+    lengths = 10.0 + 50.0 * tau / 4.0 + 10.0 * tau / 4.0 + 10.0
+    assert result.plan.times.cutting_mm == pytest.approx(lengths, abs=0.05)

@@ -7,6 +7,7 @@ from functools import partial
 from math import copysign, hypot, nan, sqrt
 from typing import TYPE_CHECKING
 
+from polycnc.control.syntec import planes
 from polycnc.control.word_address import auxiliary, path, radius, settled, skip
 from polycnc.control.word_address.path import CENTER_WORDS, PLANES
 from polycnc.geometry import arcs
@@ -115,11 +116,6 @@ def _feed_is_settled(channel: Channel) -> bool:
     return bool(channel.memory.feed_mode == channel.mode["feed"])
 
 
-def _plane_is_settled(channel: Channel) -> bool:
-    """G17 to G19: no polar interpolation has a plane of its own."""
-    return channel.memory.polar is None
-
-
 def _frame_is_settled(channel: Channel) -> bool:
     """G69: nothing is rotated or tilted."""
     return channel.coordinates.direct and channel.memory.tilt is IDENTITY
@@ -129,7 +125,7 @@ def _frame_is_settled(channel: Channel) -> bool:
 SETTLED = {
     **settled.MILLING,
     "G69": _frame_is_settled,
-    **dict.fromkeys(("G17", "G18", "G19"), _plane_is_settled),
+    **dict.fromkeys(("G17", "G18", "G19"), planes.settled_plane),
     **dict.fromkeys(("G93", "G94", "G95"), _feed_is_settled),
 }
 

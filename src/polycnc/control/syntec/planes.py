@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address import coordinates
 from polycnc.control.word_address.path import PLANES
+from polycnc.control.word_address.planes import choose_axes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,15 +22,27 @@ NAMED_FIRST = "XYZUVW"
 
 def select_plane(channel: Channel, words: Words) -> None:
     """G17, G18, G19; within polar interpolation its plane stays (2.15.2, note 4)."""
-    memory, c = channel.memory, channel.coordinates
+    memory = channel.memory
     if memory.polar is not None:
         channel.mode = channel.mode.with_code("plane", "G17")
     else:
         named = [axis for axis, _, _ in words.axes()]
-        c.geometry = geometry_axes(
-            channel.axes, named, PLANES[channel.mode["plane"]][:2], memory.basic_geometry
+        plane = PLANES[channel.mode["plane"]][:2]
+        choose_axes(channel, geometry_axes(channel.axes, named, plane, memory.basic_geometry))
+    channel.context_changed()
+
+
+def settled_plane(channel: Channel) -> bool:
+    """Whether the plane that is in force may be written again with any axes: each of them has its place already."""
+    memory, basic = channel.memory, channel.memory.basic_geometry
+    return (
+        memory.polar is None
+        and memory.parallel is None
+        and all(
+            axis in basic and CLASSES.get(name[0]) == basic.index(axis)
+            for axis, name in enumerate(channel.axes)
         )
-    coordinates.note_context(channel, words)
+    )
 
 
 def geometry_axes(

@@ -39,9 +39,11 @@ def start_polar(channel: Channel, words: Words) -> None:
     here = c.position
     eccentricity = (words.length("X") or 0.0, words.length("C") or 0.0)
     side = -1.0 if here[linear] < 0.0 else 1.0
+    diameter = memory.is_diameter(linear)
     memory.diameters[linear] = False
     geometry = (linear, rotary, c.geometry[2])
-    enter_polar(channel, PolarPlane(linear, rotary, geometry, here[rotary], eccentricity, side), "G17")
+    polar = PolarPlane(linear, rotary, geometry, here[rotary], eccentricity, side, diameter)
+    enter_polar(channel, polar, "G17")
 
 
 def end_polar(channel: Channel, words: Words) -> None:

@@ -360,8 +360,9 @@ class WordAddressControl:
         """The context that holds now."""
         mode, memory, c = channel.mode, channel.memory, channel.coordinates
         diameters = sum(1 << i for i in range(len(channel.axes)) if self.is_diameter(channel, i))
+        polar, unrolled = memory.polar, memory.cylinder
         # A last stage that turns positions into those of the axes leaves nothing to transform.
-        transformation = c.transformation if channel.table is channel.rows else None
+        transformation = c.transformation or memory.parallel if channel.table is channel.rows else None
         return Context(
             plane=mode["plane"],
             inch=self.is_inch(mode),
@@ -377,7 +378,8 @@ class WordAddressControl:
             diameter_axes=diameters,
             wcs=memory.wcs,
             transformation=transformation,
-            geometry=None if transformation or c.geometry == memory.basic_geometry else c.geometry,
+            machine_diameters=diameters | polar.diameter << polar.linear if polar else None,
+            unrolled=(unrolled.axis, 1.0 / unrolled.mm_per_degree) if unrolled else None,
         )
 
     def motion_settings(self, _channel: Channel) -> MotionSettings:

@@ -1,21 +1,19 @@
 """Cylindrical interpolation G07.1: the surface of a cylinder is unrolled into a plane.
 
-Words of the rotary axis stay degrees. Inside the path the axis is a length on the surface, so that arcs and radius
-compensation see a plane; the last stage turns it back into degrees.
+Words of the rotary axis stay degrees, and so does what the displays show. In the toolpath the axis is a length on the
+surface, so that arcs, radius compensation and the planner see a plane.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import PassingStage
 from polycnc.control.word_address.path import PLANES
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.channel.path import Move, PathStage
     from polycnc.control.word_address.plan import Builder
     from polycnc.control.word_address.words import Words
 
@@ -31,7 +29,7 @@ class Cylinder:
     Attributes:
         axis: Column of the rotary axis.
         mm_per_degree: Length of a degree on the surface.
-        geometry: Columns of X, Y and Z.
+        geometry: Columns of X, Y and Z while the cylinder is unrolled.
     """
 
     axis: int
@@ -68,19 +66,17 @@ def cylinder(channel: Channel, words: Words) -> None:
         raise words.fail("cylinder_code", "G7.1")
     axis, c = named[0].axis, channel.coordinates
     channel.flush()
-    memory.cylinder = Cylinder(axis, radius * pi / 180.0, c.geometry)
     memory.geometry_before = c.geometry
-    c.transform(memory.cylinder, unrolled_geometry(channel, memory.cylinder))
+    memory.cylinder = Cylinder(axis, radius * pi / 180.0, unrolled_geometry(channel, axis))
+    c.transform(memory.cylinder, memory.cylinder.geometry)
     channel.mode = channel.mode.with_code(GROUP, "G7.1")
-    channel.table = CylinderStage(memory.cylinder, c.geometry, channel.rows)
-    channel.head = channel.table
     memory.compensation = None
     channel.context_changed()
 
 
-def unrolled_geometry(channel: Channel, unrolled: Cylinder) -> tuple[int, int, int]:
+def unrolled_geometry(channel: Channel, axis: int) -> tuple[int, int, int]:
     """The unrolled axis takes the place of a plane axis: by 1022, else of the one that the cylinder's own is not."""
-    axis, plane = unrolled.axis, channel.mode["plane"]
+    plane = channel.mode["plane"]
     u, v, _ = PLANES[plane]
     role = channel.control.axis_role(channel, axis)
     own = _turns_about(channel, axis)
@@ -106,31 +102,10 @@ def end_cylinder(channel: Channel) -> None:
     if memory.cylinder is None:
         return
     channel.flush()
-    channel.table = channel.rows
-    channel.head = None
     memory.compensation = memory.cylinder = None
     channel.mode = channel.mode.with_code(GROUP, "")
     channel.coordinates.transform(None, memory.geometry_before)
     channel.context_changed()
-
-
-class CylinderStage(PassingStage):
-    """The last stage of the path on a cylinder: lengths on its surface become degrees."""
-
-    def __init__(self, cylinder: Cylinder, geometry: tuple[int, int, int], after: PathStage) -> None:
-        super().__init__(after)
-        self._cylinder = cylinder
-        self._slot = geometry.index(cylinder.axis)
-
-    def move(self, move: Move) -> None:
-        """Take the next move; see `PathStage`. The centre of an arc is shown in degrees as well."""
-        real, center = self._cylinder.real, move.center
-        if center is not None:
-            x, y, z = (
-                v / self._cylinder.mm_per_degree if i == self._slot else v for i, v in enumerate(center)
-            )
-            center = (x, y, z)
-        self.after.move(replace(move, start=real(move.start), end=real(move.end), center=center))
 
 
 def check_block(builder: Builder, refused: frozenset[str]) -> None:

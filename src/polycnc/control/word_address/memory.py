@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.macro_calls import ModalCall
     from polycnc.control.word_address.normal_stage import NormalStage
     from polycnc.control.word_address.nurbs import Curve
+    from polycnc.control.word_address.planes import ParallelAxes
     from polycnc.control.word_address.polar_interpolation import PolarPlane
     from polycnc.geometry.frames import Vector
     from polycnc.machine.setup import Tool
@@ -106,7 +107,7 @@ class Memory:
         cycle_data: What the active drilling cycle remembers.
         intermediate: Intermediate point of the last G28/G30 (programmed coordinates), for G29.
         curve: The curve that G06.2 blocks are telling.
-        basic_geometry: Axes X, Y, Z, whatever parallel ones a plane has chosen.
+        basic_geometry: Axes X, Y, Z, whatever parallel ones a plane has chosen; `parallel` holds those.
         polar: Plane of polar coordinate interpolation while it is on; `cylinder` the same for cylindrical.
         cancelled_overrides: Overrides that the program has switched off; `tapping` while a tapping cycle works.
         overlap: How the stroke of a drilling cycle meets the next one (`toolpath.context`).
@@ -165,6 +166,7 @@ class Memory:
         self.basic_geometry = channel.coordinates.geometry
         self.polar: PolarPlane | None = None
         self.cylinder: Cylinder | None = None
+        self.parallel: ParallelAxes | None = None
         self.cancelled_overrides: frozenset[str] = frozenset()
         self.tapping = False
         self.overlap = NO_OVERLAP

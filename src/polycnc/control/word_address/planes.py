@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address import cylinder
@@ -10,6 +11,32 @@ from polycnc.control.word_address.path import PLANES
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.words import Words
+
+
+@dataclass(frozen=True, slots=True)
+class ParallelAxes:
+    """Other axes than those of the machine file are X, Y and Z; every axis moves as it is named."""
+
+    geometry: tuple[int, int, int]
+
+    def real(self, end: list[float]) -> list[float]:
+        """The axes where the path is."""
+        return list(end)
+
+    def display(self, real: list[float]) -> list[float]:
+        """The path where the axes are."""
+        return list(real)
+
+
+def choose_axes(channel: Channel, geometry: tuple[int, int, int]) -> None:
+    """Let these axes be X, Y and Z of the plane."""
+    memory = channel.memory
+    channel.coordinates.geometry = geometry
+    if geometry == memory.basic_geometry:
+        memory.parallel = None
+    elif memory.parallel is None or memory.parallel.geometry != geometry:
+        memory.parallel = ParallelAxes(geometry)
+    channel.context_changed()
 
 
 def select_plane(channel: Channel, words: Words) -> None:
@@ -29,8 +56,12 @@ def lay_axes(channel: Channel, words: Words) -> None:
         if role in (5, 6, 7):
             basic[role - 5] = axis
     geometry = (basic[0], basic[1], basic[2])
-    if memory.cylinder is not None:
-        memory.geometry_before = geometry
-        geometry = cylinder.unrolled_geometry(channel, memory.cylinder)
-    c.geometry = geometry
+    if memory.cylinder is None:
+        choose_axes(channel, geometry)
+        return
+    memory.geometry_before = geometry
+    memory.cylinder = replace(
+        memory.cylinder, geometry=cylinder.unrolled_geometry(channel, memory.cylinder.axis)
+    )
+    c.transform(memory.cylinder, memory.cylinder.geometry)
     channel.context_changed()

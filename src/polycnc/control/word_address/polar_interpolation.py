@@ -39,6 +39,7 @@ class PolarPlane:
         start_deg: Work coordinate of the rotary axis where the plane was chosen; it is the direction of the first axis.
         eccentricity: Program zero against the rotation centre, mm.
         side: -1 where the linear axis stands on the negative side of the centre.
+        diameter: The machine display shows diameters of the linear axis.
     """
 
     linear: int
@@ -47,6 +48,7 @@ class PolarPlane:
     start_deg: float
     eccentricity: tuple[float, float] = (0.0, 0.0)
     side: float = 1.0
+    diameter: bool = False
 
     def real(self, end: list[float]) -> list[float]:
         """Work coordinates of the real axes at a point of the plane: mm (radius) and degrees."""
@@ -89,7 +91,14 @@ def start_polar(channel: Channel, words: Words) -> None:
     geometry = list(c.geometry)
     geometry[PLANES[plane][1]] = rotary
     side = -1.0 if here[linear] < 0.0 else 1.0
-    polar = PolarPlane(linear, rotary, (geometry[0], geometry[1], geometry[2]), here[rotary], side=side)
+    polar = PolarPlane(
+        linear,
+        rotary,
+        (geometry[0], geometry[1], geometry[2]),
+        here[rotary],
+        side=side,
+        diameter=channel.control.is_diameter(channel, linear),
+    )
     enter_polar(channel, polar, plane)
 
 
