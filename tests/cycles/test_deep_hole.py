@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from polycnc.cycles.deep_hole import automatic_limit, degressive_depths, peck, tap_in_steps
@@ -32,6 +32,7 @@ def test_strokes_become_shorter_as_told(
 
 
 @given(SIZES, SIZES, st.floats(0.2, 20.0) | st.floats(-1.0, -0.01) | st.just(0.0), st.floats(0.0, 10.0))
+@example(0.5, 0.5000000000000001, 0.0, 0.0)
 def test_strokes_go_down_to_exactly_the_depth(first: float, total: float, by: float, shortest: float) -> None:
     depths = degressive_depths(first, total, by, shortest)
     assert depths[-1] == total

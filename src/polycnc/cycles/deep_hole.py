@@ -31,7 +31,7 @@ def degressive_depths(first: float, total: float, by: float, shortest: float = 0
             sliver.
         shortest: Least stroke under a factor.
     """
-    depths = [min(first, total)]
+    depths = [total if first >= total - SAME_MM else first]
     nominal = first
     while total - depths[-1] > SAME_MM:
         rest = total - depths[-1]
