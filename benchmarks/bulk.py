@@ -92,9 +92,9 @@ def _against(name: str, ours: float, theirs: float) -> Figure:
 def scanner() -> Iterator[Figure]:
     """From the lines of a program to columns of the toolpath, in this process."""
     from polycnc.channel.channel import Channel
-    from polycnc.channel.scanner import Bulk
     from polycnc.control.registry import control
     from polycnc.language.bulk.compiled import NATIVE
+    from polycnc.language.bulk.scanner import Bulk
     from polycnc.machine import load_machine
     from polycnc.machine.setup import Setup
     from polycnc.program import ProgramStore

@@ -19,8 +19,8 @@ LAYERS = (
     "toolpath",
     "machine",
     "program",
-    "language",
     "channel",
+    "language",
     "cycles",
     "compensation",
     "control",
@@ -42,11 +42,8 @@ def layer_of(module: str) -> str | None:
 
 
 def imports_of(path: Path) -> set[str]:
-    """Full names of what a module imports, in functions too; what only type checkers read does not count."""
+    """Full names of what a module imports, in functions and for type checkers too."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
-    for node in ast.walk(tree):
-        if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
-            node.body = [ast.Pass()]
     found: set[str] = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
 from polycnc.channel.group import ChannelGroup
-from polycnc.channel.scanner import Bulk
 from polycnc.control.alarm_text import alarm_text
+from polycnc.language.bulk.scanner import Bulk
 from polycnc.machine.layout import axis_layout
 from polycnc.messages import UserError
 from polycnc.toolpath import Toolpath

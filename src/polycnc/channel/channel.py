@@ -26,9 +26,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from polycnc.channel.group import ChannelGroup
-    from polycnc.channel.interface import Control, MainRun, Zone
-    from polycnc.channel.scanner import Bulk, Scanner
-    from polycnc.channel.stack import Step
+    from polycnc.channel.interface import Bulk, Control, MainRun, Scanner, Zone
+    from polycnc.channel.steps import Step
     from polycnc.geometry.frames import Vector
     from polycnc.machine.model import Axis, Machine
     from polycnc.machine.setup import Setup
@@ -203,9 +202,7 @@ class Channel:
         if self.bulk is None or not self.bulk.pays(len(level.steps)):
             return None
         if self._scanner is None:
-            dialect = self._control.plain_blocks(self)
-            if dialect is not None:
-                self._scanner = self.bulk.scanner(dialect, len(self.axes))
+            self._scanner = self.bulk.scanner(self)
         return self._scanner if hasattr(level.code, "step_of_line") else None
 
     def pop(self) -> Level:

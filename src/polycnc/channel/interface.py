@@ -1,4 +1,4 @@
-"""What a channel asks of those around it: its control, the main run, zones that a program has forbidden."""
+"""What a channel asks of those around it: its control, what scans plain blocks, the main run, forbidden zones."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.channel.scanner import Dialect
-    from polycnc.channel.stack import Executable, Level, Step
+    from polycnc.channel.stack import Executable, Level
+    from polycnc.channel.steps import Step
     from polycnc.messages import AlarmError
     from polycnc.program import Program
     from polycnc.toolpath import Context
@@ -36,9 +36,6 @@ class Control(Protocol):
     def over_travel(self, axis: str, direction: int) -> AlarmError:
         """The alarm for a target beyond a limit of an axis; direction is 1 or -1."""
 
-    def plain_blocks(self, channel: Channel) -> Dialect | None:
-        """What a scanner must know of the control's plain blocks; None where every block is interpreted."""
-
     def halts(self, channel: Channel, level: Level, step: Step) -> bool:
         """Whether single block operation halts behind the block that `step` of `level` was."""
 
@@ -47,6 +44,23 @@ class Control(Protocol):
 
     def arithmetic_alarm(self, error: ArithmeticError) -> AlarmError:
         """The alarm for a division by zero or an overflow in an expression."""
+
+
+class Scanner(Protocol):
+    """What works off the plain blocks of a channel without running them one by one."""
+
+    def lead(self, channel: Channel) -> range:
+        """Work off plain blocks; gives as many numbers as blocks are the interpreter's before the next try."""
+
+
+class Bulk(Protocol):
+    """Whether and how plain blocks are scanned (`language/bulk/`)."""
+
+    def pays(self, lines: int) -> bool:
+        """Whether a program of so many lines is long enough."""
+
+    def scanner(self, channel: Channel) -> Scanner | None:
+        """What scans for a channel; None where every block is interpreted."""
 
 
 class MainRun(Protocol):

@@ -8,12 +8,9 @@ from typing import TYPE_CHECKING, Any, Protocol
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from polycnc.channel.channel import Channel
-    from polycnc.channel.scanner import Scanner
-    from polycnc.language.steps import FewSteps
+    from polycnc.channel.interface import Scanner
+    from polycnc.channel.steps import FewSteps, Step
     from polycnc.program import Program
-
-    Step = Callable[[Channel], None]
 
 
 class Executable(Protocol):

@@ -1,1 +1,5 @@
-"""Lexers, parsers and expression compilers: word address with macro B, SYNTEC macro, SINUMERIK."""
+"""From the text of a program to the steps that a channel runs: lexers, parsers and expression compilers.
+
+One folder for each language: `word_address` with custom macro B, `syntec` with its macro language, `sinumerik`. `bulk`
+is the short cut for plain blocks of all of them.
+"""

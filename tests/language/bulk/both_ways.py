@@ -9,10 +9,10 @@ from math import inf
 from typing import Any
 
 from polycnc.channel.channel import Channel
-from polycnc.channel.scanner import Bulk
 from polycnc.control.registry import control
 from polycnc.language.bulk import layout
 from polycnc.language.bulk.compiled import plain_scan
+from polycnc.language.bulk.scanner import Bulk
 from polycnc.machine import load_machine
 from polycnc.machine.setup_file import parse_setup
 from polycnc.program import Form, ProgramStore

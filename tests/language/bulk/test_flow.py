@@ -9,8 +9,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from polycnc.channel.scanner import Bulk
 from polycnc.language.bulk import compiled
+from polycnc.language.bulk.scanner import Bulk
 from polycnc.program import long_text
 from polycnc.session import open_session
 from tests.language.bulk.both_ways import PLAIN, differences, outcome, run

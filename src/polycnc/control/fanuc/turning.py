@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.intervention import TakesBack
     from polycnc.channel.stack import Level
-    from polycnc.channel.stack import Step as ProgramStep
+    from polycnc.channel.steps import Step as ProgramStep
     from polycnc.compensation.policies import Policy
     from polycnc.control.data_files import DataFiles
     from polycnc.control.word_address.codes import GCode, Planner, Step

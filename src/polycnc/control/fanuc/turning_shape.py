@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.path import Move
     from polycnc.channel.stack import Level
-    from polycnc.channel.stack import Step as BlockStep
+    from polycnc.channel.steps import Step as BlockStep
     from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.plan import Builder, Plan
 

@@ -54,7 +54,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Executable, Level
-    from polycnc.channel.stack import Step as ProgramStep
+    from polycnc.channel.steps import Step as ProgramStep
     from polycnc.control.sinumerik.block import Values
     from polycnc.control.sinumerik.plan import Plan
     from polycnc.control.sinumerik.system_variables import SystemVariable

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from polycnc.channel.channel import Channel
-    from polycnc.channel.stack import Step
+    from polycnc.channel.steps import Step
     from polycnc.control.sinumerik.memory import Memory
 
 #: The plane of a cycle by the units of _DMODE; 0 and others: that of the caller.

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
-    from polycnc.channel.scanner import LastMoves
     from polycnc.control.sinumerik.memory import Memory
+    from polycnc.language.bulk.scanner import LastMoves
     from polycnc.language.sinumerik.executable import SinumerikProgram
 
 SPELLING = Spelling(

@@ -46,7 +46,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Executable, Level
-    from polycnc.channel.stack import Step as ProgramStep
+    from polycnc.channel.steps import Step as ProgramStep
     from polycnc.control.word_address.codes import GCode, Handler, MCode, Planner, Step
     from polycnc.control.word_address.drilling import Drilling
     from polycnc.control.word_address.plan import Builder, Plan

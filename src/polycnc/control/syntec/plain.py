@@ -10,7 +10,7 @@ from polycnc.language.syntec.blocks import MAX_DIGITS
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.channel.scanner import LastMoves
+    from polycnc.language.bulk.scanner import LastMoves
 
 SPELLING = Spelling(MAX_DIGITS, round_comments=True, slash_comments=True, hexadecimal=True)
 

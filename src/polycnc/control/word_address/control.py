@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
     from polycnc.channel.stack import Executable, Level
-    from polycnc.channel.stack import Step as ProgramStep
+    from polycnc.channel.steps import Step as ProgramStep
     from polycnc.control.word_address.codes import Handler, Planner, Step
     from polycnc.control.word_address.memory import ToolOffset
     from polycnc.geometry.arcs import Point

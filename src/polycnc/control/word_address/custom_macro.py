@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Level
-    from polycnc.channel.stack import Step as ProgramStep
+    from polycnc.channel.steps import Step as ProgramStep
     from polycnc.control.word_address.code_calls import CodeCalls
     from polycnc.control.word_address.codes import GCode, MCode, Step
     from polycnc.control.word_address.numbers import Convert

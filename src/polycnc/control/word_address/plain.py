@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
-    from polycnc.channel.scanner import LastMoves
     from polycnc.control.word_address.plan import Plan
+    from polycnc.language.bulk.scanner import LastMoves
 
 #: How a number was written, as the scanner counts it; see `language.word_address.words`.
 _FORMS = ("", ".", ":", ";")

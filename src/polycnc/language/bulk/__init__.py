@@ -2,7 +2,7 @@
 
 `kernels` reads and works off blocks, `moves` holds what they do; both are pure functions on arrays, compiled by Numba
 (`compiled`). `recipe` is how a control declares that a block of some shape in some modal state is plain, `shapes` keeps
-what was declared in the kernels' tables; `channel.scanner` leads a channel through all that. Whatever is not plain goes
+what was declared in the kernels' tables; `scanner` leads a channel through all that. Whatever is not plain goes
 to the interpreter, block by block. Both ways give the same table, bit for bit.
 """
 

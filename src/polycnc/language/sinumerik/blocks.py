@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
-    from polycnc.channel.stack import Step
+    from polycnc.channel.steps import Step
     from polycnc.language.sinumerik.executable import SinumerikProgram
     from polycnc.language.sinumerik.places import Place
     from polycnc.language.sinumerik.scope import Scope

@@ -18,7 +18,7 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.stack import Step
+    from polycnc.channel.steps import Step
     from polycnc.language.sinumerik.lexer import Token
 
     Factory = Callable[[tuple[int | float, ...], tuple[Any, ...]], Step]

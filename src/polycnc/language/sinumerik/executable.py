@@ -11,6 +11,7 @@ from array import array
 from bisect import bisect_left
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.steps import forget_steps, kept_steps
 from polycnc.language.sinumerik import rights
 from polycnc.language.sinumerik.blocks import CompiledBlock, compile_block, compile_text, expanded
 from polycnc.language.sinumerik.definition_files import load_definitions
@@ -25,12 +26,11 @@ from polycnc.language.sinumerik.place import fail
 from polycnc.language.sinumerik.scope import Scope
 from polycnc.language.sinumerik.shapes import Shapes
 from polycnc.language.sinumerik.structures import Structure, structures_of
-from polycnc.language.steps import forget_steps, kept_steps
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.channel.stack import Step
+    from polycnc.channel.steps import Step
     from polycnc.language.sinumerik.interface import LanguageControl, LanguageMemory
     from polycnc.program import Program
 

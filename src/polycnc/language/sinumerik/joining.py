@@ -18,7 +18,7 @@ from polycnc.language.sinumerik.errors import NcSyntaxError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.stack import Step
+    from polycnc.channel.steps import Step
     from polycnc.language.sinumerik.emitter import Emitter
     from polycnc.language.sinumerik.structures import Structure
 

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Set as AbstractSet
 
     from polycnc.channel.channel import Channel
-    from polycnc.channel.stack import Step
+    from polycnc.channel.steps import Step
     from polycnc.language.sinumerik.executable import SinumerikProgram
 
 #: Subprogram levels below the main program; interrupts have two more (1.25.1.3).

@@ -11,7 +11,7 @@ import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
-    from polycnc.channel.stack import Step
+    from polycnc.channel.steps import Step
     from polycnc.language.sinumerik.emitter import Emitter, Factory
 
 #: An axis or path address with its number, or a number by itself; never a part of a name, R, G, M or `X1=`.

@@ -18,12 +18,11 @@ from polycnc.language.word_address.words import WordBlock, code_key, word_key
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from polycnc.channel.channel import Channel
+    from polycnc.channel.steps import Step
     from polycnc.language.syntec.expressions import Evaluate
-
-    Step = Callable[[Channel], None]
 
 WRONG_SUFFIX = "COR-034"
 #: Letters that may follow a comma: chamfer, rounding, angle.

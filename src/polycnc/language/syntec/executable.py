@@ -6,7 +6,7 @@ import re
 from bisect import bisect_left
 from typing import TYPE_CHECKING
 
-from polycnc.language.steps import several
+from polycnc.channel.steps import several
 from polycnc.language.syntec.layout import NO_SEQUENCE
 from polycnc.language.syntec.statements import StatementReader
 from polycnc.language.syntec.tokens import tokenize
@@ -14,12 +14,10 @@ from polycnc.language.word_address.executable import Grammar, WordAddressProgram
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
-    from polycnc.channel.channel import Channel
+    from polycnc.channel.steps import Step
     from polycnc.program import Program
-
-    Step = Callable[[Channel], None]
 
 NO_LINE = "COR-018"
 _BLANKS = str.maketrans("", "", " \t")

@@ -13,10 +13,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
+    from polycnc.channel.steps import Step
     from polycnc.language.syntec.expressions import Evaluate
     from polycnc.language.syntec.tokens import Token
-
-    Step = Callable[[Channel], None]
 
 NO_SEQUENCE = "COR-017"
 WRONG_TYPE = "COR-023"

@@ -43,10 +43,8 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from polycnc.channel.channel import Channel
+    from polycnc.channel.steps import Step
     from polycnc.language.syntec.expressions import Evaluate
-
-    Step = Callable[[Channel], None]
 
 TOO_COMPLEX, TOO_DEEP = "COM-005", "COM-007"
 CASE_COLON = "COM-025"

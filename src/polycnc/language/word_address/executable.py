@@ -7,7 +7,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.language.steps import kept_steps, several
+from polycnc.channel.steps import kept_steps, several
 from polycnc.language.word_address.joining import JOINABLE, MAX_JOINED, join, join_loop
 from polycnc.language.word_address.macro_b import Reader, compile_source
 from polycnc.language.word_address.statements import KEYWORD, LoopEnd, parse_statement
@@ -15,12 +15,11 @@ from polycnc.language.word_address.words import ExpressionBlock, WordBlock, code
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.channel.steps import Step
     from polycnc.program import Program
-
-    Step = Callable[[Channel], None]
 
 #: Longer blocks are refused: no control stores one, and a damaged file must not fill the memory.
 MAX_BLOCK_LENGTH = 4096

@@ -17,11 +17,7 @@ from polycnc.language.word_address.statements import Assignment, ConditionalJump
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from polycnc.channel.channel import Channel
-
-    Step = Callable[[Channel], None]
+    from polycnc.channel.steps import Step
 
 JOINABLE = (Assignment, ConditionalJump, WordBlock, ExpressionBlock)
 #: How many steps are joined at the most.

@@ -17,11 +17,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
+    from polycnc.channel.steps import Step
     from polycnc.language.word_address.executable import WordAddressProgram
     from polycnc.language.word_address.macro_b import Evaluate, Reader
     from polycnc.messages import AlarmError
-
-    Step = Callable[[Channel], None]
 
 KEYWORD = re.compile(r"IF|WHILE|WH(?=\s*\[)|GOTO|GO(?=\s*[\d#\[])|DO|END|POPEN|PCLOS|DPRNT|BPRNT|SETVN|#")
 _INTEGER = re.compile(r"\d+")

@@ -52,8 +52,11 @@ class Bulk:
 
         return NATIVE.ready or lines >= COMPILE_LINES
 
-    def scanner(self, dialect: Dialect, axes: int) -> Scanner | None:
-        """A scanner; None where its kernel cannot be compiled."""
+    def scanner(self, channel: Channel) -> Scanner | None:
+        """What scans for a channel; None where its control has no plain blocks, or the kernel cannot be compiled."""
+        dialect: Dialect | None = channel.control.plain_blocks(channel)
+        if dialect is None:
+            return None
         scan = self.scan
         if scan is None:
             from polycnc.language.bulk.compiled import NATIVE, compiled_scan
@@ -61,7 +64,7 @@ class Bulk:
             if NATIVE.function is None:
                 return None
             scan = compiled_scan
-        return Scanner(dialect, scan, axes, self)
+        return Scanner(dialect, scan, len(channel.axes), self)
 
 
 class Scannable(Protocol):
@@ -75,7 +78,7 @@ class Scannable(Protocol):
 
 
 class Dialect(Protocol):
-    """What a control tells of its plain blocks.
+    """What a control tells of its plain blocks; its `plain_blocks(channel)` gives one, or None.
 
     Attributes:
         spelling: How its text looks.
