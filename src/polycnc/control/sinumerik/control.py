@@ -32,10 +32,11 @@ from polycnc.control.sinumerik.machine_data import MachineData
 from polycnc.control.sinumerik.memory import Memory
 from polycnc.control.sinumerik.plain import SinumerikPlainBlocks
 from polycnc.control.sinumerik.plan import make_plan
-from polycnc.control.sinumerik.reset import reset
+from polycnc.control.sinumerik.reset import reset, start_codes
 from polycnc.control.sinumerik.spindles import Spindle, Spindles
 from polycnc.control.sinumerik.system_variables import SystemVariables
 from polycnc.control.sinumerik.tools import tools_of_setup
+from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.executable import SinumerikProgram
 from polycnc.language.sinumerik.initialisation import RESET, initialise
 from polycnc.language.sinumerik.interface import LanguageMemory
@@ -83,7 +84,7 @@ class Sinumerik:
     def catalogue(self) -> Catalogue:
         """Texts of the control's alarms."""
         folder = resources.files("polycnc.control.sinumerik")
-        return Catalogue(folder.joinpath("alarms.toml"), folder.joinpath("cycle_alarms.toml"))
+        return Catalogue(folder.joinpath("alarms.toml"), folder.joinpath("cycles", "alarms.toml"))
 
     @cached_property
     def system_variables(self) -> SystemVariables:
@@ -100,7 +101,7 @@ class Sinumerik:
         """Power-on: modal state, machine data, tools and frames as machine and setup say."""
         memory = self._memory(channel)
         channel.memory = memory
-        channel.mode = channel.modes.mode(_start_codes(channel, memory.data))
+        channel.mode = channel.modes.mode(start_codes(channel, memory.data))
         memory.feed_mode = tables.FEED_TYPES[channel.mode["feed"]].mode
         memory.frames.select(gcodes.number_of(channel.mode["zero_offset"]) - 1)
         if channel.number == 1:
@@ -122,7 +123,7 @@ class Sinumerik:
     def reset(self, channel: Channel) -> None:
         """The state after reset, and after the end of a program."""
         memory: Memory = channel.memory
-        reset(channel, _start_codes(channel, memory.data))
+        reset(channel)
         initialise(channel, RESET, keep_values=memory.data.keeps_first_values)
 
     def give_up(self, channel: Channel, modal: Mapping[str, str], context: Context) -> None:  # noqa: ARG002
@@ -132,7 +133,7 @@ class Sinumerik:
     def _memory(self, channel: Channel) -> Memory:
         names = axis_names(channel)
         data = _machine_data(channel)
-        definition = next(c for c in channel.machine.channels if c.number == channel.number)
+        definition = channel.machine.channel(channel.number)
         master = data.integer("$MC_SPIND_DEF_MASTER_SPIND")
         numbers = definition.spindles
         if numbers and master not in numbers:
@@ -225,8 +226,19 @@ class Sinumerik:
         return plan
 
     def procedure(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> None:
-        """Run a predefined procedure."""
-        procedures.run(channel, name, args, column)
+        """Run a predefined procedure or a machining cycle; alarms have the column of the call."""
+        try:
+            if name in keywords.CYCLES:
+                from polycnc.control.sinumerik.cycles import (
+                    calls,  # programs without cycles do not pay for them
+                )
+
+                calls.start(channel, name, args, column)
+            else:
+                procedures.run(channel, name, args)
+        except AlarmError as alarm:
+            alarm.column = alarm.column or column
+            raise
 
     def function(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> Any:
         """The value of a predefined function that depends on the control's state."""
@@ -383,20 +395,6 @@ def _speed(spindle: Spindle | None, surface_speed: bool) -> float:
     if spindle is None:
         return 0.0
     return spindle.cutting_speed if surface_speed else spindle.speed
-
-
-def _start_codes(channel: Channel, data: MachineData) -> dict[str, str]:
-    """Modal state at program start: delivered values, MD20150, and G18 where the channel has no Y axis."""
-    codes = {**gcodes.START_CODES, **gcodes.INTERNAL_CODES}
-    definition = next(c for c in channel.machine.channels if c.number == channel.number)
-    if "X" in definition.geometry and not {"Y"} & {*definition.geometry, *definition.virtual}:
-        codes["plane"] = "G18"
-    for group in gcodes.GROUPS:
-        if group.is_modal and data.is_set("$MC_GCODE_RESET_VALUES", group.number - 1):
-            number = data.integer("$MC_GCODE_RESET_VALUES", group.number - 1)
-            if 1 <= number <= len(group.words):
-                codes[group.name] = group.words[number - 1]
-    return codes
 
 
 def axis_names(channel: Channel) -> dict[str, Axis]:

@@ -21,7 +21,6 @@ from polycnc.control.sinumerik import (
     splines,
 )
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.initialisation import NEW_CONFIGURATION, initialise
 from polycnc.language.sinumerik.nc_frame import NEUTRAL
 from polycnc.messages import Alarm, AlarmError
@@ -38,22 +37,12 @@ Arguments = tuple[Any, ...]
 SHOWN_ONLY = frozenset((62, 67, 68, 69))
 
 
-def run(channel: Channel, name: str, args: Arguments, column: int) -> None:
-    """Run a procedure; PC0001 for one that is not executed, with the column of the call."""
+def run(channel: Channel, name: str, args: Arguments) -> None:
+    """Run a procedure; PC0001 for one that is not executed."""
     procedure = PROCEDURES.get(name)
-    try:
-        if procedure is None and name in keywords.CYCLES:
-            from polycnc.control.sinumerik import cycles  # programs without cycles do not pay for them
-
-            if name in cycles.CYCLES:
-                cycles.start(channel, name, args, column)
-                return
-        if procedure is None:
-            raise not_supported(name)
-        procedure(channel, args)
-    except AlarmError as alarm:
-        alarm.column = alarm.column or column
-        raise
+    if procedure is None:
+        raise not_supported(name)
+    procedure(channel, args)
 
 
 def message(channel: Channel, args: Arguments) -> None:

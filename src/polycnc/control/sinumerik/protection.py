@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.path import PassingStage, Recorder
 from polycnc.channel.way import Way
 from polycnc.control.sinumerik import arguments, limits, stages, tables
-from polycnc.control.sinumerik.cycles_contour import COUNTER_CLOCKWISE, sent_away, without_away
+from polycnc.control.sinumerik.cycles.contour import COUNTER_CLOCKWISE, sent_away, without_away
 from polycnc.geometry import arcs, zones
 from polycnc.language.sinumerik.nc_frame import NcFrame
 from polycnc.messages import AlarmError

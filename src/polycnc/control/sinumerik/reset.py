@@ -1,4 +1,4 @@
-"""The state after reset: by the RESET key, and at M2 and M30 (MD20110, MD20150)."""
+"""The state at program start and after reset: by the RESET key, and at M2 and M30 (MD20110, MD20150)."""
 
 from __future__ import annotations
 
@@ -10,20 +10,39 @@ from polycnc.language.sinumerik.nc_frame import NEUTRAL
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.machine_data import MachineData
     from polycnc.control.sinumerik.memory import Memory
 
 
-def reset(channel: Channel, codes: dict[str, str]) -> None:
-    """Modal functions as given, programmed frames and compensations off; the axes stay where they are.
+def start_codes(channel: Channel, data: MachineData) -> dict[str, str]:
+    """Modal state at program start: delivered values, MD20150, and G18 where the channel has no Y axis."""
+    codes = {**gcodes.START_CODES, **gcodes.INTERNAL_CODES}
+    definition = channel.machine.channel(channel.number)
+    if "X" in definition.geometry and not {"Y"} & {*definition.geometry, *definition.virtual}:
+        codes["plane"] = "G18"
+    return codes | {group.name: code for group in gcodes.GROUPS if (code := _reset_value(group, data))}
 
-    Args:
-        channel: The channel.
-        codes: The function of every G group.
-    """
+
+def start_code(group: gcodes.Group, data: MachineData) -> str:
+    """The function of a modal group at program start: MD20150, or the delivered one."""
+    return _reset_value(group, data) or group.start
+
+
+def _reset_value(group: gcodes.Group, data: MachineData) -> str:
+    """The function of a modal group that MD20150 names; empty where it is not set."""
+    if group.is_modal and data.is_set("$MC_GCODE_RESET_VALUES", group.number - 1):
+        number = data.integer("$MC_GCODE_RESET_VALUES", group.number - 1)
+        if 1 <= number <= len(group.words):
+            return group.words[number - 1]
+    return ""
+
+
+def reset(channel: Channel) -> None:
+    """Modal functions as at program start, programmed frames and compensations off; the axes stay where they are."""
     memory: Memory = channel.memory
     protection.leave(channel)
     machine = channel.coordinates.machine
-    channel.mode = channel.modes.mode(codes)
+    channel.mode = channel.modes.mode(start_codes(channel, memory.data))
     memory.previous = memory.recorder = None
     stages.clear(channel)
     memory.polar = Polar()

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.cycles_arguments import Arguments
+    from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.memory import Memory
 
 #: _TC that takes the swivel away.

@@ -10,8 +10,7 @@ from polycnc.geometry.frames import Frame, rotation
 from polycnc.machine import load_machine
 from polycnc.machine.kinematics import Kinematics
 from polycnc.session import Result
-
-from .support import codes, run
+from tests.control.sinumerik.support import codes, run
 
 LENGTH = 80.0
 MACHINES = ("mill5-ac-table", "mill5-bc-head", "mill5-ca-head", "mill5-ab-head")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.cycles_contour import read
-from polycnc.control.sinumerik.cycles_drilling import levels
-from polycnc.control.sinumerik.cycles_milling import (
+from polycnc.control.sinumerik.cycles.contour import read
+from polycnc.control.sinumerik.cycles.drilling import levels
+from polycnc.control.sinumerik.cycles.milling import (
     FINISHING,
     ROUGHING,
     cutter,
@@ -17,7 +17,7 @@ from polycnc.control.sinumerik.cycles_milling import (
     reference_point,
     variant,
 )
-from polycnc.control.sinumerik.cycles_moves import Moves, require_tool
+from polycnc.control.sinumerik.cycles.moves import Moves, require_tool
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles import facing, path_milling, spigots, thread_milling
 from polycnc.cycles.contour import parallel, turned_round
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.cycles_arguments import Arguments
-    from polycnc.control.sinumerik.cycles_drilling import Levels
+    from polycnc.control.sinumerik.cycles.arguments import Arguments
+    from polycnc.control.sinumerik.cycles.drilling import Levels
 
 
 def levels_below(found: Levels, total: float, infeed: float) -> list[float]:

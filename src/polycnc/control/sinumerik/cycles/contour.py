@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.path import Move, PathStage
-    from polycnc.control.sinumerik.cycles_arguments import Arguments
-    from polycnc.control.sinumerik.cycles_moves import Moves
+    from polycnc.control.sinumerik.cycles.arguments import Arguments
+    from polycnc.control.sinumerik.cycles.moves import Moves
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.control.sinumerik.stages import Stages
     from polycnc.geometry.arcs import Point

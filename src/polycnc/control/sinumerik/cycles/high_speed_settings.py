@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import gcodes, procedures, sections
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.reset import start_code
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.cycles_arguments import Arguments
+    from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.memory import Memory
 
 #: Kind of machining (units of S_TOLM): dynamics, and the tolerance where S_TOL is 0, mm.
@@ -41,7 +42,7 @@ def high_speed(channel: Channel, a: Arguments) -> Iterator[None]:
     if kind > LARGEST_KIND:
         _older(channel, a)
     elif kind % 10 == 0:
-        _switch(channel, start_codes(channel), sections.NO_TOLERANCE, sections.NO_TOLERANCE)
+        _switch(channel, _start_codes(channel), sections.NO_TOLERANCE, sections.NO_TOLERANCE)
     elif kind % 10 in KINDS:
         dynamics, delivered = KINDS[kind % 10]
         orientation = a["S_OTOL"] if kind // 10 == 1 else sections.NO_TOLERANCE
@@ -63,25 +64,17 @@ def _switch(channel: Channel, codes: dict[str, str], tolerance: float, orientati
     channel.context_changed()
 
 
-def start_codes(channel: Channel) -> dict[str, str]:
+def _start_codes(channel: Channel) -> dict[str, str]:
     """The functions of the cycle's groups as machine data 20150 and the delivered state have them."""
     memory: Memory = channel.memory
-    codes = {}
-    for name in SET:
-        group = gcodes.BY_NAME[name]
-        codes[name] = gcodes.START_CODES[name]
-        if memory.data.is_set("$MC_GCODE_RESET_VALUES", group.number - 1):
-            number = memory.data.integer("$MC_GCODE_RESET_VALUES", group.number - 1)
-            if 1 <= number <= len(group.words):
-                codes[name] = group.words[number - 1]
-    return codes
+    return {name: start_code(gcodes.BY_NAME[name], memory.data) for name in SET}
 
 
 def _older(channel: Channel, a: Arguments) -> None:
     """The code of six digits: kind, -, transformation, path mode, feedforward and acceleration, compressor."""
     digit = [a.digit("S_TOLM", place) for place in range(6)]
     if digit[0] == 0:
-        _switch(channel, start_codes(channel), sections.NO_TOLERANCE, sections.NO_TOLERANCE)
+        _switch(channel, _start_codes(channel), sections.NO_TOLERANCE, sections.NO_TOLERANCE)
         return
     if (
         digit[0] not in KINDS
@@ -102,4 +95,4 @@ def _older(channel: Channel, a: Arguments) -> None:
     }
     _switch(channel, codes, a["S_TOL"] or delivered, sections.NO_TOLERANCE)
     name, values = ("TRAORI", (digit[2],)) if digit[2] else ("TRAFOOF", ())
-    procedures.run(channel, name, values, 0)
+    procedures.run(channel, name, values)

@@ -7,7 +7,7 @@ from math import radians, tan
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.control.sinumerik import tables
-from polycnc.control.sinumerik.cycles_moves import Moves
+from polycnc.control.sinumerik.cycles.moves import Moves
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles import deep_hole as deep
 from polycnc.cycles import drilling
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.cycles_arguments import Arguments
+    from polycnc.control.sinumerik.cycles.arguments import Arguments
 
 #: Pitch of coarse metric threads by nominal diameter, mm (DIN 13; MPIT 3 to 48).
 METRIC_PITCHES = {

@@ -6,8 +6,8 @@ from dataclasses import replace
 from math import radians, sin
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.cycles_drilling import levels
-from polycnc.control.sinumerik.cycles_moves import Moves, require_tool
+from polycnc.control.sinumerik.cycles.drilling import levels
+from polycnc.control.sinumerik.cycles.moves import Moves, require_tool
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles import pockets, slots
 from polycnc.cycles.mill_stroke import SAME_MM, MillStroke, Place
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.cycles_arguments import Arguments
-    from polycnc.control.sinumerik.cycles_drilling import Levels
+    from polycnc.control.sinumerik.cycles.arguments import Arguments
+    from polycnc.control.sinumerik.cycles.drilling import Levels
     from polycnc.geometry.arcs import Point
 
 #: Width of a cut where the call gives none, as part of the tool's diameter.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.cycles_moves import Moves
+from polycnc.control.sinumerik.cycles.moves import Moves
 from polycnc.cycles import hole_patterns
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.language.sinumerik.calls import call_modal
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.cycles_arguments import Arguments
+    from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.geometry.arcs import Point
 
 TURN = 360.0

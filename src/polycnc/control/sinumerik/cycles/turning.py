@@ -8,10 +8,10 @@ from math import ceil, copysign
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import stages
-from polycnc.control.sinumerik.cycles_contour import read
-from polycnc.control.sinumerik.cycles_drilling import METRIC_PITCHES, pitch
-from polycnc.control.sinumerik.cycles_milling import feed_of
-from polycnc.control.sinumerik.cycles_moves import Moves, require_tool
+from polycnc.control.sinumerik.cycles.contour import read
+from polycnc.control.sinumerik.cycles.drilling import METRIC_PITCHES, pitch
+from polycnc.control.sinumerik.cycles.milling import feed_of
+from polycnc.control.sinumerik.cycles.moves import Moves, require_tool
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import DP_TIP
 from polycnc.cycles import thread_turning
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.cycles_arguments import Arguments
+    from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.geometry.arcs import Point
 
 #: Ways off the work where the call gives none.

@@ -1,0 +1,16 @@
+"""The machining cycles of SINUMERIK: from the call in a program to the generators of `polycnc.cycles`.
+
+`table` has the signature of every cycle and names its function; `calls` runs it as a program level; `arguments` gives
+it the values of its parameters, `moves` the tool. The cycles themselves:
+
+    drilling             CYCLE81 to CYCLE89, CYCLE840
+    patterns             HOLES1, HOLES2, CYCLE801, CYCLE802
+    milling              POCKET1 to POCKET4, SLOT1, SLOT2, LONGHOLE
+    surfaces             CYCLE61, CYCLE71, CYCLE72, CYCLE76, CYCLE77, CYCLE79, CYCLE90
+    contour              CYCLE62, and how contours are read
+    turning              CYCLE93 to CYCLE98
+    swivel               CYCLE800
+    high_speed_settings  CYCLE832
+
+A program without cycles loads none of this.
+"""

@@ -1,0 +1,112 @@
+"""How the call of a cycle runs: as a program level of its own, whose blocks come from a generator.
+
+On the control a cycle is a subprogram with SAVE, SBLOF and DISPLOF. Here its blocks come from a generator: it moves
+the tool and yields where one of its blocks ends. So a cycle may stop with M0, call what MCALL has set, or run a
+contour program, and goes on behind it; what it shows is the block of its caller.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from polycnc.channel.stack import Level
+from polycnc.control.sinumerik import auxiliary, stages
+from polycnc.control.sinumerik.cycles.arguments import Arguments
+from polycnc.control.sinumerik.cycles.table import CYCLES
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.language.sinumerik.sections import count_levels, end_of_subprogram
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.steps import Step
+    from polycnc.control.sinumerik.cycles.table import Cycle
+    from polycnc.control.sinumerik.memory import Memory
+
+#: The plane of a cycle by the units of _DMODE; 0 and others: that of the caller.
+PLANES = {1: "G17", 2: "G18", 3: "G19"}
+
+
+class CycleProgram:
+    """A running cycle as the program of its level; line and name are those of the calling block.
+
+    Args:
+        channel: The channel, with the caller as its running level.
+        blocks: The cycle.
+        column: Column of the call.
+    """
+
+    def __init__(self, channel: Channel, blocks: Iterator[None], column: int) -> None:
+        caller = channel.level
+        self.program = caller.code.program
+        self.steps: Sequence[Step | None] = ()
+        self._line = channel.line
+        self._column = column
+        self._blocks = blocks
+        self._acted = False
+
+    def step(self, index: int) -> Step | None:  # noqa: ARG002 - every block of a cycle is the next one
+        """The next block."""
+        return self._advance
+
+    def line(self, index: int) -> int:  # noqa: ARG002 - DISPLOF: the calling block stands for all
+        """The line of the call."""
+        return self._line
+
+    def column(self, index: int, address: str) -> int:  # noqa: ARG002 - there is no text
+        """The column of the call."""
+        return self._column
+
+    def text(self, index: int) -> str:  # noqa: ARG002 - there is no text
+        """Nothing: the blocks of a cycle have no text of their own."""
+        return ""
+
+    def _advance(self, channel: Channel) -> None:
+        """One block; for single block operation the end acts if any block of the cycle did."""
+        memory: Memory = channel.memory
+        mark = channel.toolpath.mark()
+        try:
+            next(self._blocks)
+            memory.acted = channel.toolpath.mark() != mark
+            self._acted = self._acted or memory.acted
+        except StopIteration:
+            memory.acted = self._acted or channel.toolpath.mark() != mark
+            end_of_subprogram(channel)
+        except AlarmError as alarm:
+            alarm.column = alarm.column or self._column
+            raise
+
+
+def start(channel: Channel, name: str, values: tuple[Any, ...], column: int) -> None:
+    """Begin a cycle on a level of its own; 14012 if there is none left, PC0001 for one that is not executed."""
+    cycle = CYCLES.get(name)
+    if cycle is None:
+        raise not_supported(name)
+    arguments = Arguments(channel, name, tuple(cycle.signature.split()), values)
+    count_levels(channel)
+    channel.flush()
+    caller = channel.level
+    code = CycleProgram(channel, _in_plane(channel, cycle, arguments), column)
+    level = Level(code, program_number=caller.program_number, kind="cycle", locals=caller.locals)
+    level.data["single_block"] = False
+    level.data["sblof_in_proc"] = caller.data.get("single_block", True)
+    if cycle.saves:
+        level.data["saved"] = channel.control.save(channel)
+    channel.stack.append(level)
+    channel.level = level
+
+
+def _in_plane(channel: Channel, cycle: Cycle, arguments: Arguments) -> Iterator[None]:
+    """The blocks of a cycle in the plane that _DMODE asks for."""
+    memory: Memory = channel.memory
+    plane = PLANES.get(arguments.digit("_DMODE", 0))
+    if plane is not None and plane != channel.mode["plane"] and cycle.saves:
+        channel.mode = channel.mode.with_code("plane", plane)
+        stages.change_plane(channel)
+        auxiliary.tool_changed(channel)
+    if cycle.saves and channel.mode["side"] != "G40":
+        raise AlarmError("61815", text=arguments.cycle)
+    memory.previous = None
+    yield from cycle.blocks(channel, arguments)

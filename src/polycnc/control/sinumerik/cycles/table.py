@@ -1,0 +1,147 @@
+"""The table of the machining cycles: the signature of each, and the generator of its blocks.
+
+Source: SINUMERIK standard cycles, manual of the cycles (signatures, sequences, alarms 61000 to 62999).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.control.sinumerik.cycles import (
+    contour,
+    drilling,
+    high_speed_settings,
+    milling,
+    patterns,
+    surfaces,
+    swivel,
+    turning,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.cycles.arguments import Arguments
+
+
+class Cycle(NamedTuple):
+    """A row of the table.
+
+    Attributes:
+        signature: Names of the parameters in their order.
+        blocks: What the cycle does.
+        saves: G functions and programmable frame of the caller are in force again afterwards.
+    """
+
+    signature: str
+    blocks: Callable[[Channel, Arguments], Iterator[None]]
+    saves: bool = True
+
+
+_SL = "_GMODE _DMODE _AMODE"
+_HOLE = "RTP RFP SDIS DP DPR"
+#: Milling cycles of the second generation: the depth is _DP alone.
+_MILL = "RTP RFP SDIS DP"
+_SL_MILL = f"_UMODE _FS _ZFS {_SL}"
+_PITCHES = "_PITM _PTAB _PTABA"
+CYCLES: dict[str, Cycle] = {
+    "CYCLE81": Cycle(f"{_HOLE} DTB {_SL}", drilling.drill),
+    "CYCLE82": Cycle(f"{_HOLE} DTB {_SL} _VARI S_ZA S_FA S_ZD S_FD", drilling.drill),
+    "CYCLE83": Cycle(
+        f"{_HOLE} FDEP FDPR DAM DTB DTS FRF VARI _AXN _MDEP _VRT _DTD _DIS1 {_SL}", drilling.deep_hole
+    ),
+    "CYCLE84": Cycle(
+        f"{_HOLE} DTB SDAC MPIT PIT POSS SST SST1 _AXN _PITA _TECHNO _VARI _DAM _VRT {_PITCHES} {_SL}",
+        drilling.rigid_tapping,
+    ),
+    "CYCLE840": Cycle(
+        f"{_HOLE} DTB SDR SDAC ENC MPIT PIT _AXN _PITA _TECHNO {_PITCHES} {_SL}",
+        drilling.tapping_with_chuck,
+    ),
+    "CYCLE85": Cycle(f"{_HOLE} DTB FFR RFF {_SL}", drilling.ream),
+    "CYCLE86": Cycle(f"{_HOLE} DTB SDIR RPA RPO RPAP POSS {_SL}", drilling.bore_and_lift),
+    "CYCLE87": Cycle(f"{_HOLE} SDIR", drilling.bore_and_halt),
+    "CYCLE88": Cycle(f"{_HOLE} DTB SDIR", drilling.bore_and_halt),
+    "CYCLE89": Cycle(f"{_HOLE} DTB", drilling.bore),
+    "HOLES1": Cycle("SPCA SPCO STA1 FDIS DBH NUM _VARI _UMODE _HIDE _NSP _DMODE", patterns.row),
+    "HOLES2": Cycle("CPA CPO RAD STA1 INDA NUM _VARI _UMODE _HIDE _NSP _DMODE", patterns.circle),
+    "CYCLE801": Cycle(
+        "_SPCA _SPCO _STA _DIS1 _DIS2 _NUM1 _NUM2 _VARI _UMODE _ANG1 _ANG2 _HIDE _NSP _DMODE",
+        patterns.grid,
+    ),
+    "POCKET1": Cycle(
+        f"{_HOLE} LENG WID CRAD CPA CPO STA1 FFD FFP1 MID CDIR FAL VARI MIDF FFP2 SSF",
+        milling.older_pocket,
+    ),
+    "POCKET2": Cycle(f"{_HOLE} PRAD CPA CPO FFD FFP1 MID CDIR FAL VARI MIDF FFP2 SSF", milling.older_pocket),
+    "POCKET3": Cycle(
+        f"{_MILL} _LENG _WID _CRAD _PA _PO _STA _MID _FAL _FALD _FFP1 _FFD _CDIR _VARI _MIDA _AP1 _AP2 _AD"
+        f" _RAD1 _DP1 {_SL_MILL}",
+        milling.pocket3,
+    ),
+    "POCKET4": Cycle(
+        f"{_MILL} _PRAD _PA _PO _MID _FAL _FALD _FFP1 _FFD _CDIR _VARI _MIDA _AP1 _AD _RAD1 _DP1 {_SL_MILL}",
+        milling.pocket4,
+    ),
+    "SLOT1": Cycle(
+        f"{_HOLE} NUM LENG WID CPA CPO RAD STA1 INDA FFD FFP1 MID CDIR FAL VARI MIDF FFP2 SSF _FALD _STA2"
+        f" _DP1 {_SL_MILL}",
+        milling.slot1,
+    ),
+    "SLOT2": Cycle(
+        f"{_HOLE} NUM AFSL WID CPA CPO RAD STA1 INDA FFD FFP1 MID CDIR FAL VARI MIDF FFP2 SSF _FFCP"
+        f" {_SL_MILL}",
+        milling.slot2,
+    ),
+    "LONGHOLE": Cycle(f"{_HOLE} NUM LENG CPA CPO RAD STA1 INDA FFD FFP1 MID {_SL_MILL}", milling.long_hole),
+    "CYCLE61": Cycle(
+        f"{_MILL} _PA _PO _LENG _WID _MID _MIDA _FALD _FFP1 _VARI _LIM _DMODE _AMODE", surfaces.face
+    ),
+    "CYCLE62": Cycle("_KNAME _TYPE _LAB1 _LAB2", contour.choose),
+    "CYCLE71": Cycle(
+        f"{_MILL} _PA _PO _LENG _WID _STA _MID _MIDA _FDP _FALD _FFP1 _VARI _FDP1", surfaces.face
+    ),
+    "CYCLE72": Cycle(
+        f"_KNAME {_MILL} _MID _FAL _FALD _FFP1 _FFD _VARI _RL _AS1 _LP1 _FF3 _AS2 _LP2 {_SL_MILL}",
+        surfaces.path,
+    ),
+    "CYCLE76": Cycle(
+        f"{_HOLE} _LENG _WID _CRAD _PA _PO _STA _MID _FAL _FALD _FFP1 _FFD _CDIR _VARI _AP1 _AP2"
+        f" _FS _ZFS {_SL}",
+        surfaces.spigot,
+    ),
+    "CYCLE77": Cycle(
+        f"{_HOLE} _PRAD _PA _PO _MID _FAL _FALD _FFP1 _FFD _CDIR _VARI _AP1 _FS _ZFS {_SL}",
+        surfaces.spigot,
+    ),
+    "CYCLE79": Cycle(
+        f"{_MILL} _NUM _SWL _PA _PO _STA _RC _AP1 _MIDA _MID _FAL _FALD _FFP1 _CDIR _VARI _FS _ZFS {_SL}",
+        surfaces.polygon,
+    ),
+    "CYCLE90": Cycle(f"{_HOLE} DIATH KDIAM PIT FFR CDIR TYPTH CPA CPO", surfaces.thread),
+    "CYCLE93": Cycle(
+        "SPD SPL WIDG DIAG STA1 ANG1 ANG2 RCO1 RCO2 RCI1 RCI2 FAL1 FAL2 IDEP DTB VARI _VRT _DN",
+        turning.groove,
+    ),
+    "CYCLE94": Cycle("SPD SPL FORM _VARI", turning.undercut),
+    "CYCLE96": Cycle("DIATH SPL FORM _VARI", turning.undercut),
+    "CYCLE95": Cycle("NPP MID FALZ FALX FAL FF1 FF2 FF3 VARI DT DAM _VRT", turning.stock_removal),
+    "CYCLE97": Cycle(
+        "PIT MPIT SPL FPL DM1 DM2 APP ROP TDEP FAL IANG NSP NRC NID VARI NUMT _VRT", turning.thread
+    ),
+    "CYCLE98": Cycle(
+        "PO1 DM1 PO2 DM2 PO3 DM3 PO4 DM4 APP ROP TDEP FAL IANG NSP NRC NID PP1 PP2 PP3 VARI NUMT _VRT",
+        turning.thread_chain,
+    ),
+    "CYCLE800": Cycle(
+        "_FR _TC _ST _MODE _X0 _Y0 _Z0 _A _B _C _X1 _Y1 _Z1 _DIR _FR_I _DMODE",
+        swivel.swivel,
+        saves=False,
+    ),
+    "CYCLE832": Cycle("S_TOL S_TOLM S_OTOL", high_speed_settings.high_speed, saves=False),
+    "CYCLE802": Cycle(
+        "_XA _YA " + " ".join(f"_X{i} _Y{i}" for i in range(9)) + " _VARI _UMODE _DMODE",
+        patterns.points,
+    ),
+}
