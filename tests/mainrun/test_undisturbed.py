@@ -97,3 +97,34 @@ def test_the_end_position_is_that_of_the_plain_run() -> None:
     final = polycnc.run(MILL, control="fanuc-m").final
     assert virtual.positions.work == pytest.approx(final["work"])
     assert virtual.positions.machine == pytest.approx(final["machine"])
+
+
+SLOW_TO_SETTLE = 'base = "mill3"\nsettle_fine_s = 0.5\n'
+
+
+@pytest.mark.parametrize("end", ["", "M30\n"])
+def test_the_axes_settle_behind_the_last_row_with_and_without_a_program_end(tmp_path: Path, end: str) -> None:
+    file = tmp_path / "machine.toml"
+    file.write_text(SLOW_TO_SETTLE, encoding="utf-8")
+    text = f"G90 G60 G1 X10 F6000\nG1 X20\n{end}"
+    planned = polycnc.run(text.encode(), control="sinumerik-840d", machine=file).plan
+    virtual = power_on(text, "sinumerik-840d", machine=file)
+    records = recorded(virtual)
+    assert run_through(virtual) is State.READY
+    assert next(r.time for r in reversed(records) if r.what == "state") == pytest.approx(planned.total_s)
+    assert planned.total_s > 1.0
+
+
+def test_what_a_given_up_program_waited_for_is_no_wait_of_the_next(tmp_path: Path) -> None:
+    file = tmp_path / "machine.toml"
+    file.write_text(SLOW_TO_SETTLE, encoding="utf-8")
+    virtual = power_on("G90 G60 G1 X10 F6000\nSTOPRE\nX20\nM30\n", "sinumerik-840d", machine=file)
+    virtual.cycle_start()
+    virtual.step(0.004)
+    virtual.reset()
+    virtual.run()
+    virtual.load("M5\nM30\n")
+    started = virtual.time
+    records = recorded(virtual)
+    assert run_through(virtual) is State.READY
+    assert next(r.time for r in reversed(records) if r.what == "state") < started + 0.4

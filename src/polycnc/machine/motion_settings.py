@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from enum import StrEnum
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,38 @@ EXACT_STOP_MODES = frozenset({"G9", "G09", "G60", "G61", "G61.1"})
 WITHOUT_DEVIATION_MODES = frozenset({"G62", "G63", "G64"})
 #: Words for acceleration without and with limited jerk, and with less acceleration at high speed.
 BRISK, SOFT, DRIVE = "BRISK", "SOFT", "DRIVE"
+
+
+class DryFeed(StrEnum):
+    """How the feed of a dry run stands to the programmed one."""
+
+    REPLACES = "replaces"
+    LARGER = "larger"
+    """The larger of both is taken."""
+    SMALLER = "smaller"
+
+
+@dataclass(frozen=True, slots=True)
+class DryRun:
+    """What a dry run does with programmed speeds.
+
+    Attributes:
+        speed: Feed of the dry run at a feed override of 100 %, mm/s; delivered, the jog rate of the Hartford manual.
+        feed: How it stands to the programmed feed.
+        with_spindle: It acts on threads and taps as well, which then do not keep to their lead.
+        rapids: It acts on rapids as well.
+    """
+
+    speed: float = 1000.0 / 60.0
+    feed: DryFeed = DryFeed.REPLACES
+    with_spindle: bool = False
+    rapids: bool = False
+
+    def speed_for(self, asked: float) -> float:
+        """Speed in place of what the program asks for; infinite where it asks for none."""
+        if self.feed is DryFeed.REPLACES or asked == inf:
+            return self.speed
+        return max(asked, self.speed) if self.feed is DryFeed.LARGER else min(asked, self.speed)
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,8 +74,7 @@ class MotionSettings:
         drive_reduction: `DRIVE`: by this part of its acceleration (MD35230).
         taps_overridden: The feed override acts on rigid taps (FANUC 5203#4 OVS).
         taps_held: Feed hold stops a rigid tap at once (FANUC 5200#6 FHD).
-        dry_run_speed: Speed of feed moves in dry run at a feed override of 100 %, mm/s (FANUC 1410; else the jog rate
-            of the Hartford manual).
+        dry_run: What a dry run does.
         returns_to_path: Axes that were moved by hand go back to where the program waits before it goes on (SINUMERIK
             REPOSA, FANUC 7001#0 MIT); else it goes on from where they are.
     """
@@ -61,7 +93,7 @@ class MotionSettings:
     drive_reduction: float = 0.0
     taps_overridden: bool = False
     taps_held: bool = False
-    dry_run_speed: float = 1000.0 / 60.0
+    dry_run: DryRun = DryRun()
     returns_to_path: bool = True
 
 

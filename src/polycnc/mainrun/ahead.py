@@ -147,6 +147,7 @@ class Ahead:
         """Forget everything prepared."""
         self.items.clear()
         self._laid.clear()
+        self._waits.settle(0)
         self._blocks.clear()
         self._open = None
         self._last_context = Context()
@@ -200,10 +201,9 @@ class Ahead:
         """Whether cycle start leads axes back that were moved by hand."""
         return self._settings.returns_to_path
 
-    @property
-    def dry_run_speed(self) -> float:
-        """Speed of feed moves in dry run, mm/s."""
-        return self._settings.dry_run_speed
+    def free_threads(self, *, free: bool) -> None:
+        """Whether a dry run, not the spindle, says how fast the threads to come are."""
+        self._laid.free_threads(free=free)
 
     @property
     def position(self) -> list[float]:
@@ -235,6 +235,7 @@ class Ahead:
         self._stopped = self._skips = self.has_caught_up = False
         self.toolpath.block_boundary()
         if wait is None:
+            self._settle()
             self._close_blocks()
             self.finished = True
         elif channel.head is None:
@@ -316,6 +317,13 @@ class Ahead:
         """An axis that another channel has moved since is where that one has left it."""
         for column, position in self._left.taken(self._number, self.channel.group):
             self._laid.move_axis(column, position)
+
+    def _settle(self) -> None:
+        """The program is at its end: an exact stop in its last row waits for its window."""
+        self._delays.clear()
+        self._waits.settle(0)
+        context = self._last_context
+        self.items.extend(Standing(why, seconds, context) for why, seconds in self._delays.get(0, []))
 
     def _delay(self, row: int, why: str, _context: int, seconds: float) -> None:
         if seconds > 0.0:

@@ -387,7 +387,7 @@ class Automatic:
             follower.begin(self.time, record[RAMP], record[BLEND])
         follower.enter(piece, record[LENGTH], self._behind)
         if piece.by_axis:
-            self.motion = AxesMotion(piece, ahead.limits, self.time, self.rates.rapid_on(piece), record[RAMP])
+            self.motion = AxesMotion(piece, ahead.limits, self.time, self.rates, record[RAMP])
         else:
             self.motion = PathMotion(
                 piece, record, ahead.limits, self.time, self._x2, ahead.reach2, cap2, follower.window
@@ -417,9 +417,7 @@ class Automatic:
         piece = motion.piece
         self._cap2 = self.rates.cap2(piece, piece.cap2, piece.asked)
         self._look_ahead()
-        held = self.rates.gives_up or (self.rates.hold and motion.piece.context.feed_hold)
-        rapid = 0.0 if held else self.rates.rapid_on(motion.piece)
-        motion.revise(self.time, self.ahead.reach2, self._cap2, rapid)
+        motion.revise(self.time, self.ahead.reach2, self._cap2, self.rates)
         self._lead()
 
     # ---- beside the path -----------------------------------------------------------------------------------

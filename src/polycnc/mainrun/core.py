@@ -437,7 +437,9 @@ class Core(ABC):
         rates.feed = 1.0 if rates.feed_cancelled else dials.feed
         rates.rapid, rates.spindle = dials.rapid, dials.spindle
         in_dry_run = self._switches.dry_run and self._program_mode is not Mode.TAPE
-        rates.dry_run = self._ahead.dry_run_speed if in_dry_run else 0.0
+        dry = rates.dry_run = self.control.motion_settings(self.channel).dry_run if in_dry_run else None
+        for lane in self._lanes.values():
+            lane.ahead.free_threads(free=dry is not None and dry.with_spindle)
         self._revise()
 
     def _machine_alarm(self, code: str) -> None:

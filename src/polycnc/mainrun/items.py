@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.intervention import NOTHING_BACK
@@ -11,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.intervention import TakesBack
+    from polycnc.machine.motion_settings import DryRun
     from polycnc.mainrun.geometry import Way
     from polycnc.toolpath import Context, Event
 
@@ -149,7 +151,7 @@ class Rates:
         feed: Feed override.
         rapid: Rapid override.
         spindle: Spindle override.
-        dry_run: Speed of feed moves in dry run at 100 %, mm/s; 0 for off.
+        dry_run: What a dry run does; None while none is on.
         hold: Feed hold: the axes come to rest.
         feed_cancelled: The feed override is switched off.
         gives_up: Reset or emergency stop: so they do in threads and taps.
@@ -158,7 +160,7 @@ class Rates:
     feed: float = 1.0
     rapid: float = 1.0
     spindle: float = 1.0
-    dry_run: float = 0.0
+    dry_run: DryRun | None = None
     hold: bool = False
     feed_cancelled: bool = False
     gives_up: bool = False
@@ -167,12 +169,26 @@ class Rates:
         """Rapid override that acts on a move."""
         return self.rapid if move.context.rapid_override else 1.0
 
+    def axis_speed(self, move: Row, top: float) -> float:
+        """Speed of an axis that runs a rapid alone and could go as fast as `top`."""
+        if self.gives_up or (self.hold and move.context.feed_hold):
+            return 0.0
+        return min(top * self.rapid_on(move), self._dry_rapid)
+
+    @property
+    def _dry_rapid(self) -> float:
+        """Largest speed of a rapid in dry run."""
+        dry = self.dry_run
+        return dry.speed * self.feed if dry is not None and dry.rapids else inf
+
     def cap2(self, move: Row, cap2: float, asked: float) -> float:
         """Largest squared speed on a piece of a move, where the axes allow `cap2` and the program asks for `asked`."""
         context = move.context
         if self.gives_up:
             return 0.0
+        dry = self.dry_run
         if move.fixed:
+            asked = dry.speed_for(asked) if dry is not None and dry.with_spindle else asked
             overridden = move.overridden and not self.feed_cancelled
             feed = min(self.feed, move.largest_override) / move.faster if overridden else 1.0
             if feed == 0.0 or (self.hold and move.held):
@@ -181,11 +197,11 @@ class Rates:
         if self.hold and context.feed_hold:
             return 0.0
         if move.by_axis:
-            return self.rapid_on(move) ** 2
+            return self.axis_speed(move, 1.0) ** 2
         if move.rapid:
-            return cap2 * self.rapid_on(move) ** 2
-        if self.dry_run:
-            speed = self.dry_run * self.feed
+            return min(cap2 * self.rapid_on(move) ** 2, self._dry_rapid**2)
+        if dry is not None:
+            speed = dry.speed_for(asked) * self.feed
             return min(cap2, speed * speed)
         feed = self.feed if context.feed_override else 1.0
         speed = asked * feed if feed > 0.0 else 0.0

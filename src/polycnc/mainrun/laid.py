@@ -84,6 +84,10 @@ class Laid:
         self._way = 0.0
         del self._planned[:]
 
+    def free_threads(self, *, free: bool) -> None:
+        """Whether rows that come bound threads by the spindle, or a dry run will say how fast they are."""
+        self.state[FREE] = 2.0 if free else 1.0
+
     # ---- rows ----------------------------------------------------------------------------------------------
 
     @property

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from polycnc.mainrun.follower import Follower
-    from polycnc.mainrun.items import Piece
+    from polycnc.mainrun.items import Piece, Rates
 
 
 class Motion(Protocol):
@@ -41,7 +41,7 @@ class Motion(Protocol):
     def speed(self, time: float) -> float:
         """Path speed."""
 
-    def revise(self, time: float, aim2: float, cap2: float, rapid: float) -> None:
+    def revise(self, time: float, aim2: float, cap2: float, rates: Rates) -> None:
         """The limits of the speed have changed."""
 
     def lead(self, follower: Follower) -> None:
@@ -143,7 +143,7 @@ class PathMotion:
         record[LENGTH] = brakes
         return PathMotion(rest, record, self._limits, time, speed * speed, 0.0, speed * speed, self._window)
 
-    def revise(self, time: float, aim2: float, cap2: float, rapid: float) -> None:  # noqa: ARG002 - is in cap2
+    def revise(self, time: float, aim2: float, cap2: float, rates: Rates) -> None:  # noqa: ARG002 - are in cap2
         """The limits of the speed have changed."""
         done, speed = self._after(time)
         self._run(time, done, speed * speed, aim2, cap2)
@@ -156,12 +156,12 @@ class AxesMotion:
         piece: The piece.
         limits: The machine, as the planner's kernels take it.
         since: When it begins.
-        rapid: Rapid override.
+        rates: What the operator has set.
         ramp: Seconds over which the axes' motion is averaged.
     """
 
     def __init__(
-        self, piece: Piece, limits: Sequence[float], since: float, rapid: float, ramp: float = 0.0
+        self, piece: Piece, limits: Sequence[float], since: float, rates: Rates, ramp: float = 0.0
     ) -> None:
         self.piece = piece
         self.end2 = 0.0
@@ -171,7 +171,7 @@ class AxesMotion:
         bounds = list(limits)
         self._pull = tuple(axis_pull(ramp, n, bounds, i) for i in range(n))
         self._moves = tuple(AxisMove(start, (), since, start) for start in piece.way.start)
-        self.revise(since, 0.0, 0.0, rapid)
+        self.revise(since, 0.0, 0.0, rates)
 
     def machine(self, time: float) -> list[float]:
         """Machine position."""
@@ -185,13 +185,14 @@ class AxesMotion:
         """Speed of the fastest axis."""
         return max(abs(move.after(time)[1]) for move in self._moves)
 
-    def revise(self, time: float, aim2: float, cap2: float, rapid: float) -> None:  # noqa: ARG002 - it ends in rest
-        """Another override; 0 brakes every axis."""
+    def revise(self, time: float, aim2: float, cap2: float, rates: Rates) -> None:  # noqa: ARG002 - it ends in rest
+        """Another override; a speed of 0 brakes every axis."""
+        speeds = [rates.axis_speed(self.piece, top) for top in self._top]
         self._moves = tuple(
-            axis_move(*move.after(time), end, top * rapid, pull, time)
-            for move, end, top, pull in zip(
-                self._moves, self.piece.way.end, self._top, self._pull, strict=True
+            axis_move(*move.after(time), end, speed, pull, time)
+            for move, end, speed, pull in zip(
+                self._moves, self.piece.way.end, speeds, self._pull, strict=True
             )
         )
         over = max(move.end for move in self._moves)
-        self.end, self.rest = (over, inf) if rapid > 0.0 else (inf, over)
+        self.end, self.rest = (over, inf) if all(speeds) else (inf, over)

@@ -12,6 +12,7 @@ from polycnc.control.fanuc.code_calls import registered_codes
 from polycnc.control.fanuc.milling_codes import ADDRESSES, G_CODES, POWER_ON
 from polycnc.control.fanuc.milling_cycles import MILLING_DRILLING
 from polycnc.control.fanuc.milling_variables import MILLING_VARIABLES
+from polycnc.control.fanuc.operation import dry_run
 from polycnc.control.word_address import interruption
 from polycnc.control.word_address.milling import MillingControl
 from polycnc.control.word_address.variables import MacroMemory
@@ -76,13 +77,13 @@ class FanucMilling(MillingControl):
         )
 
     def motion_settings(self, channel: Channel) -> MotionSettings:
-        """1401#1 LRP: rapids on a line, else every axis by itself; 7001#0 MIT: manual intervention and return; 1410."""
+        """1401#1 LRP: rapids on a line, else every axis by itself; 7001#0 MIT: manual intervention and return."""
         bit = channel.setup.parameters.bit
         return replace(
             super().motion_settings(channel),
             rapid_by_axis=not bit(1401, 1),
             returns_to_path=bool(bit(7001, 0)),
-            dry_run_speed=(abs(channel.setup.parameters.number(1410)) or 1000.0) / 60.0,
+            dry_run=dry_run(channel.setup.parameters),
         )
 
     def make_memory(self, channel: Channel) -> MacroMemory:

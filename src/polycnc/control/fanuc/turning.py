@@ -24,6 +24,7 @@ from polycnc.control.fanuc import (
     turning_tools,
 )
 from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
+from polycnc.control.fanuc.operation import dry_run
 from polycnc.control.fanuc.turning_codes import (
     ADDRESSES,
     M_CODES,
@@ -117,7 +118,7 @@ class FanucTurning(CustomMacroControl):
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """1401#1 LRP: rapids run on a line, else every axis by itself; what acts on a rigid tap (5203#4, 5200#6).
 
-        7001#0 MIT: manual intervention and return. 1410: dry run.
+        7001#0 MIT: manual intervention and return.
         """
         bit = channel.setup.parameters.bit
         return replace(
@@ -126,7 +127,7 @@ class FanucTurning(CustomMacroControl):
             taps_overridden=bool(bit(5203, 4)),
             taps_held=bool(bit(5200, 6)),
             returns_to_path=bool(bit(7001, 0)),
-            dry_run_speed=(abs(channel.setup.parameters.number(1410)) or 1000.0) / 60.0,
+            dry_run=dry_run(channel.setup.parameters),
         )
 
     def stays_at_end(self, channel: Channel, code: int) -> bool:

@@ -27,6 +27,7 @@ from polycnc.control.sinumerik import (
     tables,
     variables_by_name,
 )
+from polycnc.control.sinumerik.dry_run import dry_run
 from polycnc.control.sinumerik.frames import Frames, chain, stored_frames
 from polycnc.control.sinumerik.machine_data import MachineData
 from polycnc.control.sinumerik.memory import Memory
@@ -353,12 +354,14 @@ class Sinumerik:
 
         DRIVE: MD35220 and MD35230 of the axis that asks for most caution.
         """
-        data = _machine_data(channel)
+        memory: Memory | None = channel.memory
+        data = memory.data if memory is not None else _machine_data(channel)
         return MotionSettings(
             rapid_stops=False,
             rotary_in_feed=False,
             drive_speed=min(data.number("$MA_ACCEL_REDUCTION_SPEED_POINT", name) for name in channel.axes),
             drive_reduction=max(data.number("$MA_ACCEL_REDUCTION_FACTOR", name) for name in channel.axes),
+            dry_run=dry_run(data),
         )
 
     # ---- variables by name

@@ -121,6 +121,8 @@ DELIVERED: dict[str, Datum] = {
     "$MA_POS_LIMIT_PLUS": Datum(36110, 1e8),
     "$MA_POS_LIMIT_MINUS2": Datum(36120, -1e8),
     "$MA_POS_LIMIT_PLUS2": Datum(36130, 1e8),
+    "$SC_DRY_RUN_FEED": Datum(42100, 5000.0),
+    "$SC_DRY_RUN_FEED_MODE": Datum(42101, 0),
     "$SC_DEFAULT_FEED": Datum(42110, 0.0),
     "$SC_FRAME_OFFSET_INCR_PROG": Datum(42440, True),
     "$SC_TOOL_OFFSET_INCR_PROG": Datum(42442, True),

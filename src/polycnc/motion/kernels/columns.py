@@ -93,7 +93,8 @@ STRAIGHT, BENT, CURVED, TIMED = 0, 1, 2, 3
 STOP, EXIT2, ROW_LENGTH, METRIC, AT_STATION, SMOOTH, PIECES, WITHOUT_FEED = range(8)
 # for limited jerk: pull of the last row around its end; highest cap and pull since the axes last stood, lowest
 # holds within reach, way for which holds reach ahead; seconds that a change of speed is spread over; the last row
-# is a line (1), and one from rest (2); speed that it asks for; whether overrides will act on feeds (not the planner's),
+# is a line (1), and one from rest (2); speed that it asks for; whether overrides will act on feeds (not the planner's):
+# 1, or 2 if a dry run will act on threads,
 EXIT_PULL, TOP2, TOP_PULL, LOW2, LOW_PULL, AHEAD, WINDOW, ALONE, WANTED, FREE = range(8, 18)
 # the joint at hand: pull around it, seconds of rest, averages of a run that begins there, OVERLAP of the row before,
 JOINT_PULL, REST, RUN_RAMP, RUN_BLEND, OVERLAP_BEFORE = range(18, 23)

@@ -194,9 +194,10 @@ def bounded(asked: float, state: Floats) -> float:
 def bound(asked: float, state: Floats) -> float:
     """The speed asked for, or no bound where none is.
 
-    Where the feed is FREE, because overrides will act on it, it bounds threads and rapids alone.
+    Where the feed is FREE, because overrides will act on it, it bounds threads and rapids alone; where it is 2, a dry
+    run will act on threads too.
     """
-    is_free = state[FREE] != 0.0 and state[KIND] != THREAD and not is_rapid(state)
+    is_free = state[FREE] > (1.0 if state[KIND] == THREAD else 0.0) and not is_rapid(state)
     return inf if is_free or not asked > 0.0 else asked
 
 
