@@ -176,15 +176,6 @@ def test_channels_of_a_setup_deal_the_axes_out_anew() -> None:
         machine.with_channels({1: ("X", "Q")})
 
 
-def test_tool_change_is_blocked_by_the_axis_that_stands_elsewhere() -> None:
-    machine = load_machine("mill3")
-    z = replace(machine.axis["Z"], reference_points=(0.0, -50.0, 0.0, 0.0))
-    magazine = replace(machine.magazine, change_at={"Z": (1, 2)})
-    axes = {**machine.axis, "Z": z}
-    assert magazine.blocking_axis(axes, {"X": 7.0, "Z": -50.0}) == ""
-    assert magazine.blocking_axis(axes, {"X": 7.0, "Z": -49.0}) == "Z"
-
-
 def test_shown_texts_keep_quotes_and_limits(tmp_path: Path) -> None:
     machine = load_machine("mill3")
     x = replace(

@@ -1,14 +1,21 @@
-"""The text of an alarm."""
+"""The texts of alarms: the catalogue of a control, and what one alarm says."""
 
 from __future__ import annotations
 
+from importlib import resources
 from typing import TYPE_CHECKING
 
-from polycnc.messages import text
+from polycnc.messages import Catalogue, text
 
 if TYPE_CHECKING:
     from polycnc.control.interface import Control
     from polycnc.messages import Alarm
+
+
+def alarm_catalogue(*files: str) -> Catalogue:
+    """The alarms of a control, as `folder/file`, and those of polycnc itself; of two texts the later one counts."""
+    folder = resources.files("polycnc.control")
+    return Catalogue(*map(folder.joinpath, ("alarms.toml", *files)))
 
 
 def alarm_text(control: Control, alarm: Alarm, lang: str | None = None) -> str:

@@ -47,6 +47,9 @@ class Control(ChannelControl, Protocol):
         What the channel has prepared behind it does not count.
         """
 
+    def reference_point(self, channel: Channel, axis: int, number: int) -> float:
+        """Machine position of a reference point (1 to 4) of an axis, given by its column."""
+
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """How the control leads the axes, by its machine parameters."""
 

@@ -129,22 +129,15 @@ class Spindle:
 
 @dataclass(frozen=True, slots=True)
 class Magazine:
-    """The tool store. `change_at`: at which of its reference points (1 to 4) an axis stands for a change."""
+    """The tool store. `change_at`: at which of its reference points (1 to 4) an axis stands for a change.
+
+    Controls refuse a change elsewhere (`control/tool_change.py`).
+    """
 
     kind: Literal["magazine", "turret"]
     places: int
     change_time_s: float
     change_at: Mapping[str, tuple[int, ...]]
-
-    def blocking_axis(
-        self, axes: Mapping[str, Axis], machine: Mapping[str, float], window: float = 1e-3
-    ) -> str:
-        """The first axis that does not stand where a tool change is allowed, or an empty text."""
-        for name, points in self.change_at.items():
-            stops = axes[name].reference_points
-            if all(abs(machine[name] - stops[number - 1]) > window for number in points):
-                return name
-        return ""
 
 
 @dataclass(frozen=True, slots=True)

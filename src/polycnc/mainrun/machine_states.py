@@ -6,6 +6,8 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.control.tool_change import WINDOW, change_points
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
@@ -19,8 +21,6 @@ if TYPE_CHECKING:
 SWITCHES = (
     "single_block", "optional_stop", "block_skip", "dry_run", "machine_lock", "z_lock", "mst_lock",
 )  # fmt: skip
-#: How close to a reference point an axis counts as standing there, mm or degrees.
-WINDOW = 0.01
 #: The pocket at the change point, counted from 1, and what turns the magazine.
 POCKET = "MAGAZINE_POCKET"
 STEPS = {"MAGAZINE_STEP_CW": 1, "MAGAZINE_STEP_CCW": -1}
@@ -42,7 +42,9 @@ def machine_states(core: Core) -> States:
     names = core.machine.channels[0].axes
     z = names.index("Z") if "Z" in names else None
     return {
-        "Z_AT_CHANGE_POINT": lambda: z is None or stands_at(core, z, 1) or stands_at(core, z, 2),
+        "Z_AT_CHANGE_POINT": lambda: (
+            z is None or any(stands_at(core, z, n) for n in change_points(core.channel, z))
+        ),
         "SPINDLE_COMMANDED": lambda: core.program_spindle != 0,
         "T_NOT_IN_MAGAZINE": lambda: _is_not_in_magazine(core.machine, core.waiting_tool),
         "HAS_AXIS_A": lambda: "A" in names,
@@ -66,10 +68,7 @@ def _stands_beyond(core: Core, axis: int) -> bool:
 
 
 def _reference(core: Core, axis: int, number: int) -> float:
-    of_control: Callable[..., float] | None = getattr(core.control, "reference_point", None)
-    if of_control is not None:
-        return of_control(core.channel, axis, number)
-    return core.channel.axis_data[axis].reference_points[number - 1]
+    return core.control.reference_point(core.channel, axis, number)
 
 
 def _is_not_in_magazine(machine: Machine, tool: int | str) -> bool:

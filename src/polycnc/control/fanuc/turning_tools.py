@@ -9,6 +9,7 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.tool_change import check_change_points
 from polycnc.control.word_address.coordinates import refresh_zero
 from polycnc.control.word_address.path import PLANES
 from polycnc.control.word_address.plan import NOT_YET
@@ -59,6 +60,8 @@ def plan_tool(builder: Builder) -> Step:
         if memory.reading_shape:
             return
         tool, number = split_tool_word(channel, values[slot])
+        if tool != memory.tool:
+            check_change_points(channel)
         memory.tool = memory.next_tool = tool
         memory.tool_word = int(values[slot])
         channel.context_changed()

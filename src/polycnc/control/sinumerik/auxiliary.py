@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import frames, stages
+from polycnc.control.tool_change import check_change_points
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -52,6 +53,7 @@ def after_motion(channel: Channel, code: int) -> None:
 
 def load_tool(channel: Channel) -> None:
     """The selected tool comes into the spindle."""
+    check_change_points(channel)
     memory: Memory = channel.memory
     memory.tools.load(memory.tools.selected, memory.data)
     tool_changed(channel)

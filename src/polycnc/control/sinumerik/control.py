@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from functools import cached_property
-from importlib import resources
 from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.sinumerik import (
     access,
     axis_exchange,
@@ -47,7 +47,7 @@ from polycnc.language.sinumerik.values import Axis, Type
 from polycnc.language.sinumerik.variables import Variable
 from polycnc.machine.motion_settings import MotionSettings
 from polycnc.machine.plc import Plc
-from polycnc.messages import AlarmError, Catalogue
+from polycnc.messages import AlarmError
 from polycnc.program import Form
 from polycnc.toolpath import Context
 
@@ -61,6 +61,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.plan import Plan
     from polycnc.control.sinumerik.system_variables import SystemVariable
     from polycnc.language.sinumerik.words import Block
+    from polycnc.messages import Catalogue
     from polycnc.program import Program
 
 #: R parameters of a channel whose machine data say nothing.
@@ -84,8 +85,7 @@ class Sinumerik:
     @cached_property
     def catalogue(self) -> Catalogue:
         """Texts of the control's alarms."""
-        folder = resources.files("polycnc.control.sinumerik")
-        return Catalogue(folder.joinpath("alarms.toml"), folder.joinpath("cycles", "alarms.toml"))
+        return alarm_catalogue("sinumerik/alarms.toml", "sinumerik/cycles/alarms.toml")
 
     @cached_property
     def system_variables(self) -> SystemVariables:
@@ -344,6 +344,10 @@ class Sinumerik:
     def over_travel(self, axis: str, direction: int) -> AlarmError:
         """10720: the target lies beyond a software limit switch."""
         return AlarmError("10720", axis=axis, side="+" if direction > 0 else "-")
+
+    def reference_point(self, channel: Channel, axis: int, number: int) -> float:
+        """Machine position of a reference point of an axis (1 to 4)."""
+        return channel.axis_data[axis].reference_points[number - 1]
 
     def block_limit(self) -> AlarmError:
         """The program has run more blocks than allowed."""

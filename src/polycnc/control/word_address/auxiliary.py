@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.tool_change import check_change_points
 from polycnc.control.word_address.memory import RigidTapping
 from polycnc.control.word_address.path import FEED_MODES
 from polycnc.geometry.units import INCH_MM
@@ -76,6 +77,7 @@ def _number(value: float) -> float | int:
 
 def change_tool(channel: Channel, _words: Words) -> None:
     """M06: the selected tool comes into the spindle."""
+    check_change_points(channel)
     channel.memory.tool = channel.memory.next_tool
     channel.context_changed()
 

@@ -7,6 +7,7 @@ from importlib import resources
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.intervention import TakesBack
+from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.word_address import coordinates, frames, path
 from polycnc.control.word_address.codes import GCode, MCode
 from polycnc.control.word_address.drilling import Drilling, give_way, plan_drilling
@@ -27,7 +28,6 @@ from polycnc.toolpath import Context
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
-    from importlib.resources.abc import Traversable
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
@@ -96,12 +96,12 @@ class WordAddressControl:
     @cached_property
     def catalogue(self) -> Catalogue:
         """Texts of the control's alarms."""
-        return Catalogue(*_data(self.alarm_files))
+        return alarm_catalogue(*self.alarm_files)
 
     @cached_property
     def plc(self) -> Plc:
         """The machine's own controller."""
-        return read_plc(*_data(self.plc_files))
+        return read_plc(*map(resources.files("polycnc.control").joinpath, self.plc_files))
 
     def fail(self, mistake: str, **where: Any) -> AlarmError:
         """The control's alarm for a named mistake."""
@@ -400,9 +400,3 @@ class WordAddressControl:
     def write_variable(self, channel: Channel, name: str, value: object) -> None:
         """Set a variable as a user names it."""
         channel.memory.write_text(name, value)
-
-
-def _data(files: tuple[str, ...]) -> list[Traversable]:
-    """Data files of the controls, named as `folder/file`."""
-    named = [file.split("/") for file in files]
-    return [resources.files(f"polycnc.control.{folder}").joinpath(name) for folder, name in named]

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.tool_change import change_points, stands_at
 from polycnc.language.bulk import Note, declare, declared
 from polycnc.messages import AlarmError
 
@@ -22,27 +23,26 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.words import Words
     from polycnc.machine.plc import Plc, PlcAlarm
 
-#: How close to its change point an axis must stand, mm.
-WINDOW_MM = 0.01
 #: What the rules call an M code that is in no list.
 UNKNOWN_M = "UNKNOWN_M"
 #: Brakes of rotary axes.
 BRAKES = ("FOURTH_AXIS_CLAMPED", "FIFTH_AXIS_CLAMPED")
 
 
-def _z_stands_at(channel: Channel, *points: int) -> bool:
-    c = channel.coordinates
-    z = c.geometry[2]
-    if z < 0:
-        return True
-    reference = channel.control.reference_point
-    return any(abs(c.machine[z] - reference(channel, z, number)) <= WINDOW_MM for number in points)
+def _z_is_referenced(channel: Channel) -> bool:
+    z = channel.coordinates.geometry[2]
+    return z < 0 or stands_at(channel, z, (1,))
+
+
+def _z_is_at_change_point(channel: Channel) -> bool:
+    z = channel.coordinates.geometry[2]
+    return z < 0 or stands_at(channel, z, change_points(channel, z))
 
 
 #: Signals that follow from the state of the program.
 STATES: Mapping[str, Callable[[Channel], bool]] = {
-    "Z_AT_REFERENCE": lambda channel: _z_stands_at(channel, 1),
-    "Z_AT_CHANGE_POINT": lambda channel: _z_stands_at(channel, 1, 2),
+    "Z_AT_REFERENCE": _z_is_referenced,
+    "Z_AT_CHANGE_POINT": _z_is_at_change_point,
     "AUTO": lambda channel: channel.setup.switches.mode.lower() != "mdi",
     "MDI": lambda channel: channel.setup.switches.mode.lower() == "mdi",
 }
