@@ -349,8 +349,9 @@ class Ahead:
         start, limits = tuple(laid.position), self._real.limits(context.transformation)
         own, shares = slice(row, row + 1), slice(row * SHARES, (row + 1) * SHARES)
         rows = Rows(
-            chunk.kind[own], chunk.context[own], chunk.feed[own], chunk.end[row * n : (row + 1) * n],
-            chunk.curve[own], NO_STOPS, *(column[shares] for column in bounds.shares),
+            chunk.kind[own], chunk.context[own], bounds.paced(chunk.feed[own], own),
+            chunk.end[row * n : (row + 1) * n], chunk.curve[own], NO_STOPS,
+            *(column[shares] for column in bounds.shares),
         )  # fmt: skip
         found = laid.lay(rows, chunk.curves, chunk.first + row, limits)
         if not found:

@@ -166,8 +166,8 @@ class AxesMotion:
         self.piece = piece
         self.end2 = 0.0
         n = len(piece.way.start)
-        own = piece.context.rapid_speed or inf
-        self._top = tuple(min(top, own) for top in limits[TOP_RAPID * n : (TOP_RAPID + 1) * n])
+        own = piece.context.rapid_top
+        self._top = tuple(own(top) for top in limits[TOP_RAPID * n : (TOP_RAPID + 1) * n])
         bounds = list(limits)
         self._pull = tuple(axis_pull(ramp, n, bounds, i) for i in range(n))
         self._moves = tuple(AxisMove(start, (), since, start) for start in piece.way.start)

@@ -127,6 +127,7 @@ def context_fields(
         context.overlap,
         context.lag_s,
         context.lag_from,
+        context.pace.rapid if context.pace is not None else 1.0,
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),

@@ -146,13 +146,13 @@ class Planner:
         """Spindle speed of a context at a turning radius."""
         return self._waits.rpm(context, radius_mm)
 
-    def rapids(self, ramp: float, speed: float) -> list[tuple[float, float]]:
-        """Velocity and acceleration of each axis that runs a rapid by itself; `speed` is that of the context, or 0."""
+    def rapids(self, ramp: float, context: Context) -> list[tuple[float, float]]:
+        """Velocity and acceleration of each axis that runs a rapid by itself."""
         n, limits = self._axes, self._limits
         pulls = [limits[ACCELERATION * n + i] for i in range(n)]
         if ramp > 0.0:
             pulls = [min(pull, 0.5 * limits[JERK * n + i] * ramp) for i, pull in enumerate(pulls)]
-        tops = [min(top, speed or inf) for top in limits[TOP_RAPID * n : TOP_RAPID * n + n]]
+        tops = [context.rapid_top(top) for top in limits[TOP_RAPID * n : TOP_RAPID * n + n]]
         return list(zip(tops, pulls, strict=True))
 
     def take(self, chunk: Chunk) -> bool:
@@ -168,6 +168,7 @@ class Planner:
         see = self._kernels.see
         feed = chunk.feed if self._feed_profile is None else self._feed_profile(chunk)
         bounds = self._real.bounds(chunk, self._toolpath.contexts)
+        feed = bounds.paced(feed)
         columns = (chunk.kind, chunk.context, feed, chunk.end, chunk.curve, stops, *bounds.shares)
         kind, *others = (see(column) for column in columns)
         fixed = see(chunk.curves), chunk.first, see(self._contexts)

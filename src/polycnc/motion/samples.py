@@ -155,8 +155,7 @@ class Sampler:
         first = int(pieces[0, ROW])
         limits: list[tuple[float, float]] = []
         if pieces[0, FORM] == TIMED:
-            own = self._facts[first].context.rapid_speed
-            limits = self._planner.rapids(float(pieces[0, RAMP]), own)
+            limits = self._planner.rapids(float(pieces[0, RAMP]), self._facts[first].context)
         run = Run(pieces, self._n, limits)
         self._stand(first, run)
         seconds = run.seconds - early

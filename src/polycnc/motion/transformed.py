@@ -17,27 +17,28 @@ point next to the centre of polar interpolation.
 from __future__ import annotations
 
 from array import array
+from collections.abc import Callable
 from math import atan2, cos, hypot, inf, pi, sin, sqrt
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.motion.frames import carried, machine_of, real_of, work_of
 from polycnc.motion.kernels.columns import ACCELERATION, JERK, SHARES
 from polycnc.motion.limits import axis_limits, channel_axes, rotary_weight
+from polycnc.motion.pace import Way, pace_of
 from polycnc.motion.settings import SOFT
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS
 from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from polycnc.machine import Machine
     from polycnc.motion.settings import Settings
     from polycnc.toolpath.context import Transformation
     from polycnc.toolpath.table import Chunk
 
-    Path = Callable[[float], list[float]]
-
+Path = Callable[[float], list[float]]
 #: Part of the acceleration that is for the bend of the real axes' way; the rest is for changes of speed.
 BEND = 0.5
 #: Parts of the jerk: for the third derivative of the way; for bend and acceleration together.
@@ -54,6 +55,9 @@ LOOKS, UNEVEN = 4, 1.3
 SHORTER, SEARCH = 0.4, 30
 #: No share is shorter, mm.
 SHORTEST = 1e-3
+#: An axis along which an arc's unit normal has more than this does not take part in the arc.
+ACROSS = 0.999
+RAPIDS = (Kind.RAPID, Kind.REF)
 
 
 class Shares(NamedTuple):
@@ -69,11 +73,19 @@ class Bounds(NamedTuple):
 
     Attributes:
         shares: Bounds along the rows.
+        feed: Factor on the feed of every row; empty where all are 1.
         enters: Rows at which the columns get another meaning, with the position of the path there: the axes stand.
     """
 
     shares: Shares
+    feed: array[float]
     enters: dict[int, list[float]]
+
+    def paced(self, feed: array[float], rows: slice = slice(None)) -> array[float]:
+        """The feeds of some rows as the program's overrides and rules leave them."""
+        if not self.feed:
+            return feed
+        return array("d", (value * factor for value, factor in zip(feed, self.feed[rows], strict=True)))
 
 
 class Demand(NamedTuple):
@@ -91,6 +103,16 @@ class Demand(NamedTuple):
     pull: float
     jerk: float
     turn: float
+
+
+class ArcPath(NamedTuple):
+    """An arc: points by the share of its angle, length in its plane, lift along its normal, radius and unit normal."""
+
+    path: Path
+    planar: float
+    lift: float
+    radius: float
+    normal: tuple[float, float, float]
 
 
 class RealAxes:
@@ -132,14 +154,17 @@ class RealAxes:
 
     def bounds(self, chunk: Chunk, contexts: Sequence[Context]) -> Bounds:
         """Look at the rows of a chunk."""
-        n, bounds = len(self._axes), Bounds(Shares(array("d"), array("d"), array("d")), {})
+        n, bounds = len(self._axes), Bounds(Shares(array("d"), array("d"), array("d")), array("d"), {})
         moves = [row for row in range(len(chunk)) if chunk.kind[row] < Kind.DWELL]
-        transformed = (contexts[number].transformation is not None for number in set(chunk.context))
-        if self._context.transformation is None and not any(transformed):
+        used = [contexts[number] for number in set(chunk.context)]
+        paced = any(context.pace is not None for context in used)
+        transformed = any(context.transformation is not None for context in used)
+        if self._context.transformation is None and not transformed and not paced:
             moves = moves[-1:]
         else:
             for column, free in zip(bounds.shares, (1.0, inf, 1.0), strict=True):
                 column.extend([free] * SHARES * len(chunk))
+            bounds.feed.extend([1.0] * len(chunk))
         for row in moves:
             context = contexts[chunk.context[row]]
             end = list(chunk.end[row * n : (row + 1) * n])
@@ -151,8 +176,38 @@ class RealAxes:
                 for k, share in enumerate(self._shares(chunk, row, start, end, context)):
                     for column, number in zip(bounds.shares, share, strict=True):
                         column[row * SHARES + k] = number
-            self._laid, self._context = machine_of(end, context, self._geometry), context
+            goal = machine_of(end, context, self._geometry)
+            if context.pace is not None:
+                self._pace(chunk, row, goal, context, bounds)
+            self._laid, self._context = goal, context
         return bounds
+
+    def _pace(self, chunk: Chunk, row: int, goal: list[float], context: Context, bounds: Bounds) -> None:
+        """What the program says about the speed of a row beside its feed is added to its bounds."""
+        weight = rotary_weight(context, self._settings)
+        weights = [weight if self._rotary(i) else 1.0 for i in range(len(goal))]
+        way, limits = self._way_of(chunk, row, goal, context), self.limits(context.transformation)
+        bounds.feed[row], top, ease = pace_of(context, way, weights, limits, rapid=chunk.kind[row] in RAPIDS)
+        for k in range(row * SHARES, (row + 1) * SHARES):
+            bounds.shares.top[k] = min(bounds.shares.top[k], top)
+            bounds.shares.ease[k] *= ease
+
+    def _way_of(self, chunk: Chunk, row: int, goal: list[float], context: Context) -> Way:
+        """The way of a row in the columns' machine coordinates."""
+        kind, at = chunk.kind[row], chunk.curve[row] * CURVE_WIDTH
+        moved = [abs(b - a) for a, b in zip(self._laid, goal, strict=True)]
+        if kind not in ARC_KINDS or at < 0:
+            return Way(moved)
+        curve, ccw = chunk.curves[at : at + CURVE_WIDTH], kind in (Kind.CCW, Kind.HELIX_CCW)
+        start, end = (work_of(place, context, self._geometry) for place in (self._laid, goal))
+        arc = _arc(start, end, curve, self._geometry, ccw=ccw)
+        plane = []
+        for i, part in zip(self._geometry, arc.normal, strict=True):
+            if i >= 0 and abs(part) < ACROSS:
+                plane.append(i)
+            elif i >= 0:
+                moved[i] = abs(part * arc.lift)
+        return Way(moved, tuple(plane), arc.planar, arc.radius, ccw)
 
     def motion(self, moved: tuple[Any, Any, Any], context: Context) -> tuple[Any, Any, Any]:
         """Position, velocity and acceleration of the real axes, (k, axes), for those of the columns."""
@@ -181,7 +236,8 @@ class RealAxes:
         length = self._length(context, start, end)
         if kind in ARC_KINDS and at >= 0:
             curve = chunk.curves[at : at + CURVE_WIDTH]
-            path, length = _arc(start, end, curve, made, ccw=kind in (Kind.CCW, Kind.HELIX_CCW))
+            arc = _arc(start, end, curve, made, ccw=kind in (Kind.CCW, Kind.HELIX_CCW))
+            path, length = arc.path, hypot(arc.planar, arc.lift)
         if length == 0.0:
             return []
         looks = [self._demand(context, path, length, k / LOOKS, kind) for k in range(LOOKS + 1)]
@@ -313,8 +369,8 @@ def _sum(slopes: list[float], limits: Sequence[float], columns: list[int]) -> fl
 
 def _arc(
     start: list[float], end: list[float], curve: Sequence[float], geometry: tuple[int, int, int], *, ccw: bool
-) -> tuple[Path, float]:
-    """Points of an arc by their share of its angle, and its length. `curve` is centre, normal, and further turns."""
+) -> ArcPath:
+    """An arc; `curve` is its centre, its normal, and further turns."""
     place = [start[i] - c if i >= 0 else 0.0 for i, c in zip(geometry, curve[:3], strict=True)]
     goal = [end[i] - c if i >= 0 else 0.0 for i, c in zip(geometry, curve[:3], strict=True)]
     size = hypot(*curve[3:6]) or 1.0
@@ -341,7 +397,8 @@ def _arc(
                 point[i] = start[i] + c * out[j] + s * forth[j] + f * lift * (nx, ny, nz)[j]
         return point
 
-    return path, hypot(angle * hypot(*out), lift)
+    radius = hypot(*out)
+    return ArcPath(path, angle * radius, lift, radius, (nx, ny, nz))
 
 
 def _dot(a: Sequence[float], b: Sequence[float]) -> float:

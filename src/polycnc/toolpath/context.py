@@ -26,6 +26,31 @@ NO_OVERLAP, STROKE, OVERLAPS = 0, 1, 2
 
 
 @dataclass(frozen=True, slots=True)
+class Pace:
+    """What a program says about speeds and limits of axes beside F (SINUMERIK). Tuples have a number for every column.
+
+    Attributes:
+        feed: Factor on the path feed (`OVR`); `rapid` on rapids (`OVRRAP`).
+        edge: On arcs under radius compensation F is the speed of the cutting edge on the contour: `always` (`CFC`), on
+            `inside` curves only (`CFIN`), or `never`: it is that of the tool's centre (`CFTCP`).
+        weights: Millimetres that a millimetre or degree of each column counts in the length that F is for (`FGROUP`,
+            `FGREF`), 0 for a synchronous axis; empty for the control's own rule.
+        top: Highest velocity in cuts, mm/s or degrees/s (`FL`); infinite for none. Empty for no such limits.
+        velocity: Factors on the highest velocity (`VELOLIM`); `acceleration` (`ACC`) and `jerk` (`JERKLIM`) likewise.
+            Empty for none.
+    """
+
+    feed: float = 1.0
+    rapid: float = 1.0
+    edge: str = "never"
+    weights: tuple[float, ...] = ()
+    top: tuple[float, ...] = ()
+    velocity: tuple[float, ...] = ()
+    acceleration: tuple[float, ...] = ()
+    jerk: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class Context:
     """The state under which a run of moves was made. Immutable; equal contexts share one number.
 
@@ -59,6 +84,7 @@ class Context:
         transformation: From the positions of the toolpath to those of the real axes, where they differ.
         machine_diameters: As `diameter_axes`, of the machine display where that differs: an axis of the plane of polar
             interpolation may be a radius. None where it does not.
+        pace: What the program says about speeds beside the feed; None for nothing.
         unrolled: A rotary axis whose positions are lengths on a surface (FANUC G07.1), by its column, and the degrees
             of a millimetre, by which it is shown.
     """
@@ -96,3 +122,9 @@ class Context:
     transformation: Transformation | None = None
     machine_diameters: int | None = None
     unrolled: tuple[int, float] | None = None
+    pace: Pace | None = None
+
+    def rapid_top(self, limit: float) -> float:
+        """Highest speed of an axis that runs a rapid alone; `limit` is what the machine allows."""
+        limit *= self.pace.rapid if self.pace is not None else 1.0
+        return min(limit, self.rapid_speed) if self.rapid_speed else limit

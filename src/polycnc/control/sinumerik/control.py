@@ -18,6 +18,7 @@ from polycnc.control.sinumerik import (
     interrupts,
     limits,
     measuring,
+    pace,
     positions,
     procedures,
     protection,
@@ -335,6 +336,7 @@ class Sinumerik:
             diameter_axes=diameters,
             wcs=mode["zero_offset"],
             part=chain(memory.frames.inner()).frame,
+            pace=pace.pace(channel, side),
         )
 
     def halts(self, channel: Channel, level: Level, step: ProgramStep) -> bool:  # noqa: ARG002 - levels decide

@@ -110,6 +110,7 @@ DELIVERED: dict[str, Datum] = {
     "$MA_MAX_AX_VELO": Datum(32000, 10000.0),
     "$MA_POSTCTRL_GAIN": Datum(32200, 1.0),
     "$MA_MAX_AX_ACCEL": Datum(32300, 1.0),
+    "$MA_MAX_AX_JERK": Datum(32431, 1e6),
     "$MA_COMPRESS_POS_TOL": Datum(33100, 0.1),
     "$MA_REFP_SET_POS": Datum(34100, 0.0),
     "$MA_SPIND_VELO_LIMIT": Datum(35100, 10000.0),

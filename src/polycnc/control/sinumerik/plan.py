@@ -415,5 +415,6 @@ IN_CONTEXT = frozenset(
         "dynamics",
         "acceleration",
         "rapid",
+        "curve_feed",
     )
 )

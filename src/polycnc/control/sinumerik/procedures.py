@@ -137,6 +137,7 @@ def path_group(channel: Channel, args: Arguments) -> None:
     """FGROUP(axis, …): the axes whose way the path feed is for; none for those of the machine data."""
     memory: Memory = channel.memory
     memory.values["FGROUP", ()] = tuple(arguments.column(channel, axis) for axis in args)
+    channel.context_changed()
 
 
 def renumber(channel: Channel, args: Arguments) -> None:

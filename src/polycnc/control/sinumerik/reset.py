@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik import frames, gcodes, limits, protection, stages, tables
+from polycnc.control.sinumerik import frames, gcodes, limits, pace, protection, stages, tables
 from polycnc.control.sinumerik.memory import Polar
 from polycnc.language.sinumerik.nc_frame import NEUTRAL
 
@@ -48,7 +48,7 @@ def reset(channel: Channel) -> None:
     memory.polar = Polar()
     memory.sections.clear()
     memory.open_corners.clear()
-    memory.percent.clear()
+    pace.forget(memory)
     memory.language.modal_call = None
     memory.feed_mode = tables.FEED_TYPES[channel.mode["feed"]].mode
     memory.frames.programmable = NEUTRAL

@@ -327,7 +327,7 @@ def rounding_distance(draft: Draft, position: int, shape: WordShape) -> Step:
 
 
 def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
-    """OVR, OVRRAP, OVRA[axis], ACC[axis], VELOLIM[axis] …: per cent, kept for the motion planner."""
+    """OVR, OVRRAP, OVRA[axis], ACC[axis], VELOLIM[axis] …: per cent, for the motion planner (`pace.py`)."""
     name = str(shape.index) if shape.index is not None else ""
 
     def run(channel: Channel, values: Values) -> None:
@@ -335,6 +335,7 @@ def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
         if not 0.0 < value <= 200.0:
             raise WordAlarm("12560", position, text=shape.address)
         channel.memory.percent[shape.address, name] = value
+        channel.context_changed()
 
     return run
 
@@ -364,15 +365,17 @@ def kept(_draft: Draft, position: int, shape: WordShape) -> Step:
     return run
 
 
-def kept_of_axis(draft: Draft, position: int, shape: WordShape) -> Step:
-    """FGREF, FL: reference radius of a rotary axis, limit of a synchronous axis; for the motion planner."""
+def path_feed_of_axis(draft: Draft, position: int, shape: WordShape) -> Step:
+    """FGREF, FL: reference radius of a rotary axis, limit of a synchronous axis; for the motion planner (`pace.py`)."""
     column = sections.axis_column(draft, position, shape)
+    factor = length_factor(draft.mode) if shape.address == "FGREF" else motion.feed_factor(draft)
 
     def run(channel: Channel, values: Values) -> None:
-        value = number(values, position)
+        value = number(values, position) * factor
         if value <= 0.0:
             raise WordAlarm("12560", position, text=shape.address)
         channel.memory.values[shape.address, (column,)] = value
+        channel.context_changed()
 
     return run
 
@@ -441,8 +444,8 @@ WORDS: dict[str, Maker] = {
     "ADISPOS": rounding_distance,
     "TCARR": tool_carrier,
     "SVC": cutting_rate,
-    "FGREF": kept_of_axis,
-    "FL": kept_of_axis,
+    "FGREF": path_feed_of_axis,
+    "FL": path_feed_of_axis,
     "DL": additive_offset,
     "SCPARA": sections.parameter_set,
     "ADISPOSA": sections.end_window,

@@ -68,7 +68,9 @@ RAPID_BY_AXIS, RAMP_S, BLEND_S, DRIVE_SPEED, DRIVE_REDUCTION, RAPID_SPEED = 12, 
 OVERLAP, OVERLAPS = 18, 2
 #: Acceleration after interpolation: seconds by which the axes are behind at speed, and the speed from which on it acts.
 LAG_S, LAG_FROM = 19, 20
-FRAME, OFFSETS = 21, 33
+#: Factor on the highest rapid of every axis.
+RAPID_SHARE = 21
+FRAME, OFFSETS = 22, 34
 
 # `pieces`: one record a piece. CAP2 bounds x inside the piece, ENTRY2 at its start; REACH2 is what `backward`
 # finds there, SPEED2 what `forward` chooses, END2 the x that it leaves the piece with, TIME the seconds. PULL

@@ -61,6 +61,7 @@ from polycnc.motion.kernels.columns import (
     RAMP,
     RAMP_S,
     RAPID_BY_AXIS,
+    RAPID_SHARE,
     RAPID_SPEED,
     RAPID_STOPS,
     REST,
@@ -259,14 +260,14 @@ def lay_rapid_by_axis(
     settle_alone(pieces, n, limits, state)
     state[ALONE] = 0.0
     seconds, ramp, own = 0.0, 0.0, contexts[record + RAPID_SPEED]
-    own = own if own > 0.0 else inf
+    own, faster = own if own > 0.0 else inf, contexts[record + RAPID_SHARE]
     for i in range(n):
         way = abs(state[delta + i])
         if way > 0.0 and contexts[record + RAMP_S] > 0.0:
-            top, jerk = min(limits[TOP_RAPID * n + i], own), limits[JERK * n + i]
+            top, jerk = min(faster * limits[TOP_RAPID * n + i], own), limits[JERK * n + i]
             ramp = max(ramp, best_ramp(way, top, limits[ACCELERATION * n + i], jerk))
     for i in range(n):
-        way, top = abs(state[delta + i]), min(limits[TOP_RAPID * n + i], own)
+        way, top = abs(state[delta + i]), min(faster * limits[TOP_RAPID * n + i], own)
         if way > 0.0:
             pull = axis_pull(ramp, n, limits, i)
             seconds = max(seconds, straight_time(0.0, 0.0, top * top, pull, way))
@@ -373,6 +374,7 @@ def line_limits(
     """Speed and acceleration along the row at hand that its axes allow; sets UNIT to its direction."""
     delta, unit = STATE_BLOCKS + DELTA * n, STATE_BLOCKS + UNIT * n
     top_block = (TOP_RAPID if is_rapid(state) else TOP_FEED) * n
+    faster = contexts[record + RAPID_SHARE] if is_rapid(state) else 1.0
     top = state[ROW_TOP] if is_rapid(state) else min(limits[LIMIT_BLOCKS * n + PATH_FEED], state[ROW_TOP])
     pull = inf
     for i in range(n):
@@ -380,7 +382,7 @@ def line_limits(
         state[STATE_BLOCKS + BEND * n + i] = 0.0
         share = abs(state[unit + i])
         if share > 0.0:
-            top = min(top, limits[top_block + i] / share)
+            top = min(top, faster * limits[top_block + i] / share)
             pull = min(pull, limits[ACCELERATION * n + i] / share)
     if contexts[record + RAMP_S] > 0.0:
         alone = is_rapid(state) and limits[LIMIT_BLOCKS * n + RAPID_STOPS] != 0.0

@@ -1,0 +1,98 @@
+"""What a program says about speeds beside F: OVR, OVRRAP, ACC, VELOLIM, JERKLIM, FGROUP, FGREF, FL, CFC, DYN….
+
+Source: Fundamentals; job planning 16.1 (statement list).
+"""
+
+from __future__ import annotations
+
+from math import inf, pi
+from typing import TYPE_CHECKING
+
+from polycnc.control.sinumerik import gcodes, tables
+from polycnc.toolpath.context import Pace
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.memory import Memory
+
+#: What F is the speed of on arcs under radius compensation.
+EDGES = {"CFC": "always", "CFIN": "inside", "CFTCP": "never"}
+#: Axis data in m/s² and m/s³ (MD32300, MD32431).
+MM_PER_M = tables.MM_PER_M
+#: FGREF that nobody has named: the radius at which a degree is 1 mm.
+DEGREE_MM = 180.0 / pi
+NOTHING = Pace()
+
+
+def pace(channel: Channel, side: int) -> Pace | None:
+    """The pace that holds now; `side` is that of the radius compensation. None where F says everything."""
+    memory: Memory = channel.memory
+    own = Pace(
+        feed=memory.percent.get(("OVR", ""), 100.0) / 100.0,
+        rapid=memory.percent.get(("OVRRAP", ""), 100.0) / 100.0,
+        edge=EDGES[channel.mode["curve_feed"]] if side else "never",
+        weights=_weights(channel),
+        top=_tops(channel),
+        velocity=_factors(channel, "VELOLIM"),
+        acceleration=_with_technology(channel, "ACC", "$MA_MAX_AX_ACCEL", "acceleration"),
+        jerk=_with_technology(channel, "JERKLIM", "$MA_MAX_AX_JERK", "jerk"),
+    )
+    return own if own != NOTHING else None
+
+
+def group(memory: Memory) -> tuple[int, ...]:
+    """Columns of the axes that FGROUP names; none for those of the machine data."""
+    found: tuple[int, ...] = memory.values.get(("FGROUP", ()), ())
+    return found
+
+
+def forget(memory: Memory) -> None:
+    """A reset: overrides and limits are 100 %, the path feed is that of the axes of the machine data."""
+    memory.percent.clear()
+    for key in [key for key in memory.values if key[0] in ("FGROUP", "FGREF", "FL")]:
+        del memory.values[key]
+
+
+def _weights(channel: Channel) -> tuple[float, ...]:
+    """FGROUP: what a millimetre or degree of each axis counts; a degree of a rotary axis an arc of FGREF, else 1 mm."""
+    memory: Memory = channel.memory
+    named = group(memory)
+    if not named:
+        return ()
+    weights = [0.0] * len(channel.axes)
+    for column in named:
+        radius = memory.values.get(("FGREF", (column,)), DEGREE_MM)
+        weights[column] = radius * pi / 180.0 if channel.axis_data[column].rotary else 1.0
+    return tuple(weights)
+
+
+def _tops(channel: Channel) -> tuple[float, ...]:
+    """FL: limits of synchronous axes, those outside FGROUP."""
+    memory: Memory = channel.memory
+    named = group(memory)
+    tops = [
+        memory.values.get(("FL", (column,)), inf) if named and column not in named else inf
+        for column in range(len(channel.axes))
+    ]
+    return tuple(tops) if min(tops, default=inf) < inf else ()
+
+
+def _factors(channel: Channel, address: str) -> tuple[float, ...]:
+    memory: Memory = channel.memory
+    factors = [1.0] * len(channel.axes)
+    for (name, axis), percent in memory.percent.items():
+        if name == address and (axis in memory.columns or axis in memory.machine_columns):
+            factors[memory.column(axis)] = percent / 100.0
+    return tuple(factors) if any(factor != 1.0 for factor in factors) else ()
+
+
+def _with_technology(channel: Channel, address: str, datum: str, limit: str) -> tuple[float, ...]:
+    """The programmed factors times those of the technology's dynamics (DYNNORM …), where machine data name them."""
+    memory: Memory = channel.memory
+    factors = list(_factors(channel, address)) or [1.0] * len(channel.axes)
+    mode = gcodes.number_of(channel.mode["dynamics"]) - 1
+    for column, axis in enumerate(channel.axis_data):
+        machine = getattr(axis, limit)
+        if machine and memory.data.is_set(datum, mode, channel.axes[column]):
+            factors[column] *= memory.data.number(datum, mode, channel.axes[column]) * MM_PER_M / machine
+    return tuple(factors) if any(factor != 1.0 for factor in factors) else ()

@@ -1,0 +1,127 @@
+"""What a program says about speeds beside F: its overrides, the length that F is for, the edge or centre of the tool.
+
+A row's feed is multiplied by a factor, its speed bounded, and the accelerations that its axes may use shrink or grow by
+another factor: the same that rows under a transformation have (`transformed.py`).
+"""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.motion.kernels.columns import ACCELERATION, JERK, TOP_FEED, TOP_RAPID
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.toolpath import Context
+    from polycnc.toolpath.context import Pace
+
+#: A contour radius below this part of the tool's is a corner, about which the tool turns at F.
+CORNER = 1e-6
+
+
+class Way(NamedTuple):
+    """How far the columns of a toolpath go in a row.
+
+    Attributes:
+        moved: By column, mm or degrees; of an arc those outside its plane count.
+        plane: Columns that an arc is made of; none for lines.
+        planar: Length of the arc in its plane, mm.
+        radius: Of the arc, mm.
+        ccw: The arc is counter-clockwise.
+    """
+
+    moved: list[float]
+    plane: tuple[int, ...] = ()
+    planar: float = 0.0
+    radius: float = 0.0
+    ccw: bool = False
+
+    def length(self, weights: Sequence[float]) -> float:
+        """Length of the way where each column counts with a weight."""
+        square = sum(
+            (w * way) ** 2
+            for i, (w, way) in enumerate(zip(weights, self.moved, strict=True))
+            if i not in self.plane
+        )
+        return sqrt(square + (self.planar * max((weights[i] for i in self.plane), default=0.0)) ** 2)
+
+    def share(self, column: int, length: float) -> float:
+        """The largest part of the path speed that a column takes."""
+        return (self.planar if column in self.plane else self.moved[column]) / length
+
+
+def pace_of(
+    context: Context, way: Way, weights: Sequence[float], limits: Sequence[float], *, rapid: bool
+) -> tuple[float, float, float]:
+    """What a row's pace makes of it.
+
+    Args:
+        context: Context of the row, with a pace.
+        way: How far its columns go.
+        weights: What each column counts in the length that the planner's path speed is of.
+        limits: The machine, as the kernels take it.
+        rapid: The row is a rapid.
+
+    Returns:
+        Factor on its feed; highest path speed, mm/s; factor on what the axes may accelerate.
+    """
+    pace, n = context.pace, len(way.moved)
+    assert pace is not None
+    length = way.length(weights) or way.length([1.0] * n)
+    if length == 0.0:
+        return 1.0, inf, 1.0
+    moving = [i for i in range(n) if way.share(i, length) > 0.0]
+    feed = pace.feed * edge_factor(pace, context, way)
+    if pace.weights and context.feed_mode != "G93":
+        feed *= length / (way.length(pace.weights) or length)
+    return (
+        feed,
+        _top(pace, way, length, moving, limits, rapid=rapid),
+        _ease(pace, way, length, moving, limits),
+    )
+
+
+def edge_factor(pace: Pace, context: Context, way: Way) -> float:
+    """How much faster than the edge of the tool its centre moves on an arc, where F is the speed of the edge."""
+    if pace.edge == "never" or not way.plane or context.side == 0:
+        return 1.0
+    inside = (context.side > 0) == way.ccw
+    contour = way.radius + (context.radius_mm if inside else -context.radius_mm)
+    if contour <= CORNER * abs(context.radius_mm):
+        return 1.0
+    factor = way.radius / contour
+    return factor if factor < 1.0 or pace.edge == "always" else 1.0
+
+
+def _top(
+    pace: Pace, way: Way, length: float, moving: Sequence[int], limits: Sequence[float], *, rapid: bool
+) -> float:
+    """The path speed at which no axis passes its velocity, and at which an arc keeps the accelerations."""
+    n, top = len(way.moved), inf
+    block = (TOP_RAPID if rapid else TOP_FEED) * n
+    for i in moving:
+        share = way.share(i, length)
+        if pace.velocity:
+            factor = pace.velocity[i] * (pace.rapid if rapid else 1.0)
+            top = min(top, limits[block + i] * factor / share)
+        if pace.top and not rapid:
+            top = min(top, pace.top[i] / share)
+        if pace.acceleration and i in way.plane:
+            top = min(top, sqrt(pace.acceleration[i] * limits[ACCELERATION * n + i] * way.radius))
+    return top
+
+
+def _ease(pace: Pace, way: Way, length: float, moving: Sequence[int], limits: Sequence[float]) -> float:
+    """The factor on the limits of all columns at which the row keeps those of its axes."""
+    n, ease = len(way.moved), inf
+    for block, factors in ((ACCELERATION, pace.acceleration), (JERK, pace.jerk)):
+        if not factors or not moving:
+            continue
+        if way.plane:
+            ease = min(ease, *(factors[i] for i in moving))
+        else:
+            pulls = [limits[block * n + i] / way.share(i, length) for i in moving]
+            ease = min(ease, min(p * factors[i] for p, i in zip(pulls, moving, strict=True)) / min(pulls))
+    return ease if ease < inf else 1.0
