@@ -12,7 +12,7 @@ from math import inf, nan
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.coordinates import Coordinates
-from polycnc.channel.failure import end_run, take_back
+from polycnc.channel.failure import end_run, stand_at_last_row, take_back
 from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.mode import Mode, ModeTable
 from polycnc.channel.path import Move, PathStage, TableStage, is_way, points_of_arc
@@ -241,8 +241,14 @@ class Channel:
             self.head = None if stage.after is self.table else stage.after
 
     def end(self) -> None:
-        """The program is over (M02, M30): everything held back is written, nothing more runs."""
+        """The program is over (M02, M30): everything held back is written, nothing more runs.
+
+        Where a stage has changed the path (compensation that is still on) the tool stands where that has led it.
+        """
+        is_changed = self._head is not None
         self.flush()
+        if is_changed:
+            stand_at_last_row(self)
         self.finished = True
 
     # ---- running -------------------------------------------------------------------------------------------------
@@ -367,6 +373,7 @@ class Channel:
             try:
                 self._head.flush()
             except AlarmError as error:
+                take_back(self, found_ahead=True)
                 self.fail(error)
 
     def fail(self, error: AlarmError) -> None:

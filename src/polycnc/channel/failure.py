@@ -24,13 +24,14 @@ def take_back(channel: Channel, *, found_ahead: bool = False) -> None:
         if not found_ahead:
             with suppress(AlarmError):
                 head.flush()
-        _stand_at_last_row(channel)
+        stand_at_last_row(channel)
     elif len(channel.toolpath.chunk) > channel.mark:
         channel.toolpath.truncate(channel.mark)
-        _stand_at_last_row(channel)
+        stand_at_last_row(channel)
 
 
-def _stand_at_last_row(channel: Channel) -> None:
+def stand_at_last_row(channel: Channel) -> None:
+    """The channel knows itself where its last row has led it."""
     c, toolpath = channel.coordinates, channel.toolpath
     context, end = toolpath.last_context(), toolpath.last_end() or list(channel.start_position)
     if context is not None and (context.frame != c.zero or context.offsets != tuple(c.offsets)):

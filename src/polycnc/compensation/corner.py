@@ -108,6 +108,8 @@ class CornerStage:
         self._modal: _Request | None = None
         self._wanted: _Request | None = None
         self._held: _Held | None = None
+        #: Where the tool stands behind a shape, while what came between the two moves is passed on.
+        self._behind_shape: Point | None = None
 
     @property
     def active(self) -> bool:
@@ -131,7 +133,7 @@ class CornerStage:
     def move(self, move: Move) -> None:
         """Take the next move; see `PathStage`."""
         if not self.plane.moves(move):
-            self._in_order(lambda: self.after.move(move))
+            self._in_order(lambda: self.after.move(self._displaced(move)))
             return
         held, wanted, self._wanted = self._held, self._wanted, None
         if held is not None:
@@ -187,8 +189,17 @@ class CornerStage:
         self._pass(held.move)
         if inserted is not None:
             self._pass(inserted)
+            self._behind_shape = self.plane.point(inserted.end)
         for deed in held.after:
             deed()
+        self._behind_shape = None
+
+    def _displaced(self, move: Move) -> Move:
+        """A dwell, or a move square to the plane, between the two moves of a corner happens where the shape ends."""
+        point = self._behind_shape
+        if point is None:
+            return move
+        return replace(move, start=self.plane.at(move.start, point), end=self.plane.at(move.end, point))
 
     def _pass(self, move: Move) -> None:
         if move.center is not None or move.start != move.end:

@@ -35,9 +35,10 @@ from polycnc.control.fanuc.turning_codes import (
 )
 from polycnc.control.fanuc.turning_memory import TurningMemory
 from polycnc.control.fanuc.turning_variables import TURNING_VARIABLES
-from polycnc.control.word_address import interruption, path
+from polycnc.control.word_address import interruption, normal_line, path
 from polycnc.control.word_address.codes import MCode
 from polycnc.control.word_address.custom_macro import CustomMacroControl
+from polycnc.control.word_address.normal_line import NormalLineParameters
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -89,6 +90,9 @@ class FanucTurning(CustomMacroControl):
         "G90",
         "G94",
     }
+    NORMAL_LINE_PARAMETERS: ClassVar[NormalLineParameters] = NormalLineParameters(
+        5480, 5481, 5482, 5483, preset="G50"
+    )
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z", "H": "C"}
 
     # ---- state -----------------------------------------------------------------------------------------------
@@ -194,6 +198,17 @@ class FanucTurning(CustomMacroControl):
             return False
         return bool(channel.setup.parameters.bit(1006, 3, channel.axes[axis], delivered)) and not data.rotary
 
+    def feed_factor(self, builder: Builder, form: str, mode: str) -> float:
+        """F without a point: also feeds per minute count 0.01 inch (II.4.5.1, "unit of F")."""
+        if (
+            form == ""
+            and mode == "G94"
+            and builder.inch
+            and not self.number_rules(builder.channel).calculator
+        ):
+            return 0.01
+        return super().feed_factor(builder, form, mode)
+
     def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
         """X/U, Z/W, Y/V, C/H in system A; G90/G91 in B and C."""
         if self.system(channel) != "A":
@@ -223,6 +238,7 @@ class FanucTurning(CustomMacroControl):
 
     def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
         """Parameter blocks of G10 L52; programs called by codes."""
+        normal_line.check_block(builder)
         return turning_data.plan_parameter_block(builder, plan) or super().call_by_code(builder, plan)
 
     def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:

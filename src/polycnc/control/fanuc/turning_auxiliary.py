@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc import turning_grinding
@@ -23,7 +24,18 @@ def output_while_moving(_channel: Channel, _words: Words) -> None:
 
 
 def dwell(channel: Channel, words: Words) -> None:
-    """G04 X, U (seconds) or P (milliseconds); spindle revolutions under G99 with 3405#1 DWL."""
+    """G04 X, U (seconds) or P (milliseconds); spindle revolutions under G99 with 3405#1 DWL.
+
+    Behind a line whose end lies in the next block (II.4.9) it waits for that line.
+    """
+    line = channel.memory.open_line
+    if line is None:
+        _dwell(channel, words)
+    else:
+        line.behind.append((channel.level.current, partial(_dwell, channel, words)))
+
+
+def _dwell(channel: Channel, words: Words) -> None:
     if not (channel.memory.parameters.bit(3405, 1) and channel.mode["feed"] == "G99"):
         auxiliary.dwell(channel, words)
         return

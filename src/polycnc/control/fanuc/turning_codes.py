@@ -34,6 +34,7 @@ from polycnc.control.word_address import (
     extended,
     frames,
     macro_calls,
+    normal_line,
     parameter_input,
     path,
     polar_interpolation,
@@ -121,7 +122,9 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G40", "compensation", turning_comp.cancel, takes="I J K", order=Order.COMPENSATION)),
     *same(GCode("G41", "compensation", turning_comp.left, takes="D", order=Order.COMPENSATION)),
     *same(GCode("G42", "compensation", turning_comp.right, takes="D", order=Order.COMPENSATION)),
-    *same(GCode("G40.1", "normal_direction")),
+    *same(GCode("G40.1", normal_line.GROUP, normal_line.cancel)),
+    *same(GCode("G41.1", normal_line.GROUP, normal_line.start)),
+    *same(GCode("G42.1", normal_line.GROUP, normal_line.start)),
     *same(GCode("G43.7", "atc_offset", turning_tools.select_by_code, takes="D", order=Order.LENGTH), "G44.7"),
     *same(
         GCode("G43", "atc_offset", turning_tools.select_by_length_code, takes="D", order=Order.LENGTH), "G44"
@@ -168,7 +171,7 @@ ROWS: tuple[Row, ...] = (
     *by_system("", "G98", "G98", GCode("G98", "return")),
     *by_system("", "G99", "G99", GCode("G99", "return")),
     *not_yet(
-        "G31.8", "G41.1", "G42.1", "G50.4", "G50.5", "G50.6",
+        "G31.8", "G50.4", "G50.5", "G50.6",
         "G51.2", "G251", "G51.4", "G51.5", "G51.6", "G53.1", "G53.6", "G68.2", "G68.3", "G68.4", "G80.4", "G80.5",
         "G81.1", "G81.4", "G81.5", "G96.1", "G96.2", "G96.3", "G96.4",
     ),
@@ -286,7 +289,7 @@ POWER_ON = {
     "unit": "G21",
     "fluctuation": "G25",
     "compensation": "G40",
-    "normal_direction": "G40.1",
+    normal_line.GROUP: normal_line.OFF,
     "atc_offset": "G49",
     "mirror": "G50.1",
     "polygon": "G50.2",

@@ -98,18 +98,29 @@ def _move_in_machine_system(channel: Channel, words: Words, *, rapid: bool) -> N
         channel.straight(
             Kind.RAPID if rapid else Kind.FEED, c.from_machine(machine), nan if rapid else channel.feed
         )
+    _owe_offset(channel, [axis for axis, _, incremental in words.axes() if not incremental])
+
+
+def _owe_offset(channel: Channel, axes: list[int]) -> None:
+    """At a machine position an offset that moves the point is suspended; the axis' next move has it again (5.1.5)."""
+    c, offset = channel.coordinates, channel.memory.frames.offset
+    for axis in axes:
+        c.pending[axis] = offset[axis]
+    c.owes = any(c.pending)
 
 
 def return_to_reference(channel: Channel, words: Words) -> None:
     """G28: over the intermediate point to the first reference point."""
     _refuse_rotation(channel, words, "G28")
     coordinates.return_to_reference(channel, words)
+    _owe_offset(channel, [axis for axis, _, _ in words.axes()])
 
 
 def return_to_further_reference(channel: Channel, words: Words) -> None:
     """G30 [P2 … P4]: over the intermediate point to another reference point."""
     _refuse_rotation(channel, words, "G30")
     coordinates.return_to_further_reference(channel, words)
+    _owe_offset(channel, [axis for axis, _, _ in words.axes()])
 
 
 def check_reference(channel: Channel, words: Words) -> None:

@@ -6,7 +6,7 @@ angle only is a line whose end lies where it meets the line of the next block; i
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import nan, radians, sin, tan
 from typing import TYPE_CHECKING
 
@@ -45,12 +45,14 @@ class OpenLine:
         step: Number of its block, for the line of its row.
         corner: Shape and size at its end, None for a sharp corner.
         idle: Blocks without motion since then.
+        behind: Dwells that follow the line: number of their block, and what they do.
     """
 
     angle_deg: float
     step: int
     corner: tuple[Shape, float] | None
     idle: int = 0
+    behind: list[tuple[int, Callable[[], None]]] = field(default_factory=list)
 
 
 def is_on(builder: Builder) -> bool:
@@ -200,6 +202,8 @@ def _close(
     level, current = channel.level, channel.level.current
     level.current = line.step
     _move(channel, middle, line.corner)
+    for level.current, dwell in line.behind:
+        dwell()
     level.current = current
     _move(channel, end, corner)
 

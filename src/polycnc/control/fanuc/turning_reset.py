@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc import turning_balance, turning_limits, turning_single, turning_tools
-from polycnc.control.word_address import cylinder, polar_interpolation
+from polycnc.control.word_address import cylinder, normal_line, polar_interpolation
 from polycnc.control.word_address.variables import LOCALS
 from polycnc.geometry.frames import IDENTITY
 
@@ -15,7 +15,9 @@ if TYPE_CHECKING:
 #: Groups that a reset never touches.
 _KEPT = ("unit", "stroke")
 #: Groups that every reset brings back.
-_CLEARED = (polar_interpolation.GROUP, cylinder.GROUP, "shape", "macro", "calls", "data_input")
+_CLEARED = (
+    polar_interpolation.GROUP, cylinder.GROUP, normal_line.GROUP, "shape", "macro", "calls", "data_input"
+)  # fmt: skip
 
 
 def reset(channel: Channel) -> None:
@@ -25,6 +27,7 @@ def reset(channel: Channel) -> None:
     clears = bool(bit(3402, 6))
     polar_interpolation.leave_polar(channel)
     cylinder.end_cylinder(channel)
+    normal_line.end(channel)
     machine = c.machine
     channel.head = None
     before = channel.mode.codes

@@ -43,7 +43,7 @@ BARRIER_POSITIONS = {"CX": "X", "CZ": "Z", "TZ": "Z"}
 #: Modal groups of the display, column by column (III.2.1.6); a code stands for a group that polycnc does not have.
 MODAL_COLUMNS: tuple[tuple[str, ...], ...] = (
     ("motion", "surface_speed", "turret_mirror", "feed", "unit", "compensation", "fluctuation", "stroke"),
-    ("cycle", "macro", "wcs", "path", "plane", "rotation", "normal_direction", "polygon"),
+    ("cycle", "macro", "wcs", "path", "plane", "rotation", "normal_line", "polygon"),
     ("polar_interpolation", "mirror", "atc_offset", "G15", "G5.5", "", "G80.5", "G80.4"),
 )
 

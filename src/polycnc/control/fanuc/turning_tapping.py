@@ -127,8 +127,12 @@ def _wanted_extraction(channel: Channel) -> float:
 
 
 def plan_leaving(builder: Builder) -> Step | None:
-    """The end of a drilling cycle: clamp code and rigid mode are forgotten, and the S of a rigid tap (II.4.5.3)."""
-    if builder.before["cycle"] == "G80" or builder.mode["cycle"] != "G80":
+    """The end of a drilling cycle: clamp code and rigid mode are forgotten, and the S of a rigid tap (II.4.5.3).
+
+    A tapping cycle that a motion code of its own block cancels has ended before it began.
+    """
+    cancelled = any(row.code in TAPS for row in builder.codes)
+    if builder.mode["cycle"] != "G80" or not (cancelled or builder.before["cycle"] != "G80"):
         return None
     forgets_speed = was_rigid(builder) and not builder.has("S")
 

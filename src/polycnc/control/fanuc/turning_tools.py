@@ -141,6 +141,10 @@ def apply_offset(channel: Channel, *, cancels: bool = False) -> None:
     memory.frames.offset = moves
     c = channel.coordinates
     if not memory.parameters.bit(5002, 6):
+        if c.owes:
+            # A suspended offset is not in the position: there is nothing of it to take back.
+            c.programmed = _sum(c.programmed, c.pending)
+            c.pending, c.owes = [0.0] * len(channel.axes), False
         c.set_programming(memory.frames.product(), memory.frames.shift, stays=False)
         return
     before = c.programmed

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 #: Modal groups in the order of #4001 to #4030.
 GROUPS = {1: "motion", 2: "surface_speed", 3: "distance", 4: "turret_mirror", 5: "feed", 6: "unit", 7: "compensation",
           8: "fluctuation", 9: "stroke", 10: "cycle", 11: "return", 12: "macro", 14: "wcs", 15: "path", 16: "plane",
-          17: "rotation", 19: "normal_direction", 20: "polygon", 21: "polar_interpolation", 22: "mirror"}  # fmt: skip
+          17: "rotation", 19: "normal_line", 20: "polygon", 21: "polar_interpolation", 22: "mirror"}  # fmt: skip
 
 
 def _shown(m: MacroMemory, axis: int, value: float) -> float:

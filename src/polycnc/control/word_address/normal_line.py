@@ -37,12 +37,14 @@ class NormalLineParameters:
         turn_feed: Feed of turns in front of cuts, degrees a minute.
         least_turn: Turns that are not greater are left out, degrees.
         shortest: In blocks that are not longer the axis stands, mm.
+        preset: The code that sets positions; it may not name the axis while the control is on.
     """
 
     axis: int
     turn_feed: int = 0
     least_turn: int = 0
     shortest: int = 0
+    preset: str = "G92"
 
 
 def start(channel: Channel, words: Words) -> None:
@@ -72,7 +74,7 @@ def start(channel: Channel, words: Words) -> None:
         turn_feed=turn_feed or None,
         follows=CUTS | {Kind.RAPID},
     )
-    memory.normal_line = NormalStage(direction, channel.rows)
+    memory.normal_line = NormalStage(direction, channel.rows, preset=numbers.preset)
     put_last(channel, memory.normal_line)
 
 
@@ -104,5 +106,6 @@ def check_block(builder: Builder) -> None:
     if PLANES[builder.mode["plane"]][:2] != stage.direction.places:
         raise builder.control.fail("normal_plane", address=builder.mode["plane"])
     name = builder.channel.axes[stage.direction.axis]
-    if builder.has(name) and any(row.code == "G92" for row in builder.codes):
-        raise builder.control.fail("normal_preset", address="G92", code="G92")
+    preset = stage.preset
+    if builder.has(name) and any(row.code == preset for row in builder.codes):
+        raise builder.control.fail("normal_preset", address=preset, code=preset)

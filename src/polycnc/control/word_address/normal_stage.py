@@ -117,8 +117,10 @@ class _Way:
 class NormalStage:
     """Turns the rotary axis; positions that it changes are changed in place, so the channel knows them too."""
 
-    def __init__(self, direction: Direction, after: PathStage) -> None:
+    def __init__(self, direction: Direction, after: PathStage, *, preset: str = "") -> None:
         self.direction = direction
+        #: The code that would set the axis' position, which the control refuses.
+        self.preset = preset
         self.after = after
         self._held: Move | None = None
         self._patience = 0
