@@ -12,7 +12,7 @@ from math import nan
 from typing import TYPE_CHECKING, Any, Protocol
 
 from polycnc.geometry import arcs
-from polycnc.toolpath.kinds import ARC_KINDS, Kind
+from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -179,7 +179,7 @@ def points_of_arc(move: Move, geometry: Sequence[int]) -> Iterator[list[float]]:
         return
     center = (move.center[u], move.center[v])
     start, end = (move.start[first], move.start[second]), (move.end[first], move.end[second])
-    ccw = (move.kind in (Kind.CCW, Kind.HELIX_CCW)) == (move.normal[w] > 0.0)
+    ccw = (move.kind in CCW_KINDS) == (move.normal[w] > 0.0)
     sweep = arcs.sweep_angle(start, end, center, ccw)
     radius = arcs.radius_of(center, start)
     count = min(arcs.parts_for_chord_error(radius, sweep, CHORD_ERROR_MM), _LARGEST_PARTS)

@@ -10,7 +10,7 @@ from math import atan2, cos, hypot, pi, sin
 from typing import TYPE_CHECKING
 
 from polycnc.geometry.vectors import cross, dot
-from polycnc.toolpath.kinds import Kind
+from polycnc.toolpath.kinds import CCW_KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -23,7 +23,6 @@ SAME = 1e-6
 #: Pieces in which crossings and nearest points are looked for before they are narrowed down.
 PIECES = 720
 _NARROWINGS = 60
-_CCW = (Kind.CCW, Kind.HELIX_CCW)
 
 
 class Way:
@@ -50,7 +49,7 @@ class Way:
         height, top = dot(a, normal), dot(b, normal)
         a = [value - height * n for value, n in zip(a, normal, strict=True)]
         b = [value - top * n for value, n in zip(b, normal, strict=True)]
-        sign = 1.0 if move.kind in _CCW else -1.0
+        sign = 1.0 if move.kind in CCW_KINDS else -1.0
         angle = sign * atan2(dot(cross(a, b), normal), dot(a, b))
         if angle < 1e-12:
             angle += 2.0 * pi

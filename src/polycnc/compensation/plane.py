@@ -7,14 +7,12 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.geometry import arcs, offset
-from polycnc.toolpath.kinds import Kind
+from polycnc.toolpath.kinds import CCW_KINDS, Kind, arc_kind
 
 if TYPE_CHECKING:
     from polycnc.channel.path import Move
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.frames import Vector
-
-_CCW_KINDS = frozenset((Kind.CCW, Kind.HELIX_CCW))
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +71,7 @@ class Plane:
 
     def is_ccw(self, move: Move) -> bool:
         """Whether an arc turns from u to v."""
-        return (move.kind in _CCW_KINDS) == (move.normal[self.w] > 0.0)
+        return (move.kind in CCW_KINDS) == (move.normal[self.w] > 0.0)
 
     def moves(self, move: Move) -> bool:
         """Whether a move has a way in the plane: a full circle has, an arc of another plane has not."""
@@ -98,6 +96,4 @@ class Plane:
     def arc_kind(self, ccw: bool, start: list[float], end: list[float]) -> Kind:
         """The row kind of an arc from u to v (or back) between two positions, with this plane's normal."""
         column = self.columns[self.w]
-        if column >= 0 and start[column] != end[column]:
-            return Kind.HELIX_CCW if ccw else Kind.HELIX_CW
-        return Kind.CCW if ccw else Kind.CW
+        return arc_kind(ccw=ccw, helix=column >= 0 and start[column] != end[column])

@@ -27,7 +27,7 @@ from polycnc.motion.limits import axis_limits, channel_axes, rotary_weight
 from polycnc.motion.pace import Way, pace_of
 from polycnc.motion.settings import SOFT
 from polycnc.toolpath import Context, Kind
-from polycnc.toolpath.kinds import ARC_KINDS
+from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS
 from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
@@ -236,7 +236,7 @@ class RealAxes:
         length = self._length(context, start, end)
         if kind in ARC_KINDS and at >= 0:
             curve = chunk.curves[at : at + CURVE_WIDTH]
-            arc = _arc(start, end, curve, made, ccw=kind in (Kind.CCW, Kind.HELIX_CCW))
+            arc = _arc(start, end, curve, made, ccw=kind in CCW_KINDS)
             path, length = arc.path, hypot(arc.planar, arc.lift)
         if length == 0.0:
             return []

@@ -26,3 +26,11 @@ class Kind(IntEnum):
 #: The `type` of each kind in the trace, by its number.
 TYPE_NAMES = tuple(kind.name.lower() for kind in Kind)
 ARC_KINDS = frozenset((Kind.CW, Kind.CCW, Kind.HELIX_CW, Kind.HELIX_CCW))
+CCW_KINDS = frozenset((Kind.CCW, Kind.HELIX_CCW))
+
+
+def arc_kind(*, ccw: bool, helix: bool) -> Kind:
+    """The kind of an arc by its sense, and by whether it climbs along its normal."""
+    if helix:
+        return Kind.HELIX_CCW if ccw else Kind.HELIX_CW
+    return Kind.CCW if ccw else Kind.CW

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.geometry.arcs import SAME_POINT_MM, parts_for_chord_error
 from polycnc.geometry.vectors import cross, dot, minus
-from polycnc.toolpath.kinds import ARC_KINDS, Kind
+from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -95,7 +95,7 @@ def _points(row: Row, start: Vector, end: Vector, chord_error: float) -> list[Ve
         return arc_points(start, end, row.curve[2:5], row.curve[5:8], 0.0, chord_error)
     if row.kind not in ARC_KINDS or not row.curve:
         return [end]
-    sense = 1.0 if row.kind in (Kind.CCW, Kind.HELIX_CCW) else -1.0
+    sense = 1.0 if row.kind in CCW_KINDS else -1.0
     axis = tuple(sense * component for component in row.curve[3:6])
     return arc_points(start, end, row.curve[0:3], axis, row.curve[6], chord_error)
 

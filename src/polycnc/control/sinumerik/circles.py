@@ -17,6 +17,7 @@ from polycnc.language.bulk import declare
 from polycnc.language.sinumerik.values import Axis
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.toolpath.kinds import CCW_KINDS, arc_kind
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -209,12 +210,11 @@ def arc(
     start = channel.coordinates.position
     third = columns[2]
     rises = third >= 0 and abs(end[third] - start[third]) > motion.SAME_MM
-    kinds = (Kind.HELIX_CW, Kind.HELIX_CCW) if rises else (Kind.CW, Kind.CCW)
     space, normal = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
     space[axes[0]], space[axes[1]] = center
     space[axes[2]] = start[third] if third >= 0 else 0.0
     normal[axes[2]] = 1.0
-    curve(channel, kinds[ccw], end, feed, _vector(space), _vector(normal), turns)
+    curve(channel, arc_kind(ccw=ccw, helix=rises), end, feed, _vector(space), _vector(normal), turns)
 
 
 def curve(
@@ -230,7 +230,7 @@ def curve(
     memory: Memory = channel.memory
     if memory.limits:
         limits.check(channel, end)
-    sense = 1.0 if kind in (Kind.CCW, Kind.HELIX_CCW) else -1.0
+    sense = 1.0 if kind in CCW_KINDS else -1.0
     memory.previous = (channel.coordinates.position, (center, normal), sense)
     channel.curve(kind, end, feed, center=center, normal=normal, turns=turns)
 

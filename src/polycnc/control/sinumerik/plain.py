@@ -17,6 +17,7 @@ from polycnc.language.bulk.layout import CR_FORM, FIRST_CODE, FORMS
 from polycnc.language.sinumerik.words import Block
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.toolpath.kinds import CCW_KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Sequence
@@ -143,7 +144,7 @@ class SinumerikPlainBlocks:
             memory.previous = (last.came_from, None, 0.0)
         else:
             x, y, z, i, j, k, *_ = last.curve
-            sense = 1.0 if kind in (Kind.CCW, Kind.HELIX_CCW) else -1.0
+            sense = 1.0 if kind in CCW_KINDS else -1.0
             memory.previous = (last.came_from, ((x, y, z), (i, j, k)), sense)
 
     def recipe(self, channel: Channel, keys: Sequence[int], _line: str) -> Recipe | None:

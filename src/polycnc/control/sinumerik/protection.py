@@ -15,10 +15,11 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.path import PassingStage, Recorder
 from polycnc.channel.way import Way
 from polycnc.control.sinumerik import arguments, limits, stages, tables
-from polycnc.control.sinumerik.cycles.contour import COUNTER_CLOCKWISE, sent_away, without_away
+from polycnc.control.sinumerik.cycles.contour import sent_away, without_away
 from polycnc.geometry import arcs, zones
 from polycnc.language.sinumerik.nc_frame import NcFrame
 from polycnc.messages import AlarmError
+from polycnc.toolpath.kinds import CCW_KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -210,7 +211,7 @@ def _zone(channel: Channel, definition: Definition) -> Zone:
 def _sense(move: Move) -> str:
     if move.center is None:
         return "G1"
-    return "G3" if move.kind in COUNTER_CLOCKWISE else "G2"
+    return "G3" if move.kind in CCW_KINDS else "G2"
 
 
 def _outline(channel: Channel, moves: list[Move], axes: tuple[int, int, int]) -> list[Point]:

@@ -12,7 +12,7 @@ from polycnc.channel.path import PassingStage
 from polycnc.control.word_address.last_stage import put_last, remove_last
 from polycnc.geometry import arcs
 from polycnc.toolpath import Kind
-from polycnc.toolpath.kinds import ARC_KINDS
+from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
 #: How far the chords of a sine curve may leave it, mm.
 CHORD_TOLERANCE_MM = 0.001
-COUNTER_CLOCKWISE = frozenset((Kind.CCW, Kind.HELIX_CCW))
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +105,7 @@ class StandingStage(PassingStage):
         center = (move.center[geometry.index(u)], move.center[geometry.index(v)])
         first, last = (move.start[u], move.start[v]), (move.end[u], move.end[v])
         begin, finish = arcs.radius_of(center, first), arcs.radius_of(center, last)
-        ccw = move.kind in COUNTER_CLOCKWISE
+        ccw = move.kind in CCW_KINDS
         sweep = arcs.sweep_angle(first, last, center, ccw) + move.turns * (arcs.TAU if ccw else -arcs.TAU)
         count = arcs.parts_for_chord_error(max(begin, finish), abs(sweep), CHORD_TOLERANCE_MM)
         angle, at = arcs.angle_at(center, first), move.start

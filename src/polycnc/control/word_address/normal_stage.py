@@ -11,7 +11,7 @@ from math import atan2, degrees, hypot, inf
 from typing import TYPE_CHECKING
 
 from polycnc.geometry import arcs
-from polycnc.toolpath.kinds import Kind
+from polycnc.toolpath.kinds import CCW_KINDS, Kind
 
 if TYPE_CHECKING:
     from polycnc.channel.path import Move, PathStage
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from polycnc.toolpath import Event
 
 CUTS = frozenset((Kind.FEED, Kind.CW, Kind.CCW, Kind.HELIX_CW, Kind.HELIX_CCW))
-COUNTER_CLOCKWISE = frozenset((Kind.CCW, Kind.HELIX_CCW))
 SAME_DEG = 1e-9
 #: A rapid down waits for the cut over its own block and four more.
 PATIENCE = 5
@@ -85,7 +84,7 @@ class _Way:
         """Angle of an arc, radians, counter-clockwise positive."""
         assert self.center is not None
         start, end = self.direction.point(self.move.start), self.direction.point(self.move.end)
-        ccw = self.move.kind in COUNTER_CLOCKWISE
+        ccw = self.move.kind in CCW_KINDS
         return arcs.sweep_angle(start, end, self.center, ccw) + self.move.turns * (
             arcs.TAU if ccw else -arcs.TAU
         )
@@ -95,7 +94,7 @@ class _Way:
         start, end = self.direction.point(self.move.start), self.direction.point(self.move.end)
         if self.center is None:
             return self.direction.angle((end[0] - start[0], end[1] - start[1]), near)
-        tangent = arcs.tangent_at(self.center, start, self.move.kind in COUNTER_CLOCKWISE)
+        tangent = arcs.tangent_at(self.center, start, self.move.kind in CCW_KINDS)
         return self.direction.angle(tangent, near)
 
     def turned_by(self, part: float) -> float:

@@ -16,6 +16,7 @@ from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import axis_vector
 from polycnc.language.bulk import Arc, Straight, declare
 from polycnc.toolpath import Kind
+from polycnc.toolpath.kinds import arc_kind
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -249,5 +250,12 @@ def emit_arc(
     if c.programming is not IDENTITY:
         middle = c.programming.apply(*point)
         ccw = ccw != mirrors_plane(c.programming, plane)
-    kind = (Kind.HELIX_CCW if ccw else Kind.HELIX_CW) if helix else (Kind.CCW if ccw else Kind.CW)
-    channel.curve(kind, position, feed, center=middle, normal=normal, turns=turns, programmed=programmed)
+    channel.curve(
+        arc_kind(ccw=ccw, helix=helix),
+        position,
+        feed,
+        center=middle,
+        normal=normal,
+        turns=turns,
+        programmed=programmed,
+    )

@@ -15,6 +15,7 @@ from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import axis_vector
 from polycnc.toolpath import Kind
+from polycnc.toolpath.kinds import arc_kind
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -97,7 +98,12 @@ def write_with_rest(
     middle[u], middle[v] = center
     third = c.geometry[w]
     helix = third >= 0 and on_circle[third] != c.position[third]
-    kind = (Kind.HELIX_CCW if ccw else Kind.HELIX_CW) if helix else (Kind.CCW if ccw else Kind.CW)
     normal = axis_vector(w)
-    channel.curve(kind, on_circle, feed, center=(middle[0], middle[1], middle[2]), normal=normal)
+    channel.curve(
+        arc_kind(ccw=ccw, helix=helix),
+        on_circle,
+        feed,
+        center=(middle[0], middle[1], middle[2]),
+        normal=normal,
+    )
     channel.straight(Kind.FEED, position, feed, programmed)

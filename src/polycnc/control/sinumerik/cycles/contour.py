@@ -17,6 +17,7 @@ from polycnc.geometry import offset
 from polycnc.language.sinumerik.calls import call_section, call_without_arguments, named_program
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.toolpath.kinds import CCW_KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Container, Generator, Iterator
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
 #: Before a contour is read the tool is thought this far away, mm: so the first block always is a move, and an axis
 #: that it does not name shows that.
 AWAY_MM = 1e6
-COUNTER_CLOCKWISE = (Kind.CCW, Kind.HELIX_CCW)
 
 
 def sent_away(position: list[float], columns: Container[int]) -> list[float]:
@@ -162,7 +162,7 @@ def _piece(moves: Moves, move: Move) -> Piece:
     if move.center is None:
         return Piece(offset.line(start, end), move.kind is Kind.RAPID)
     center = move.center[moves.axes[0]], move.center[moves.axes[1]]
-    ccw = (move.kind in COUNTER_CLOCKWISE) is (move.normal[moves.axes[2]] > 0.0)
+    ccw = (move.kind in CCW_KINDS) is (move.normal[moves.axes[2]] > 0.0)
     return Piece(offset.arc(start, end, center, ccw))
 
 
