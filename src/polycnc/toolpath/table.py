@@ -97,21 +97,28 @@ class Chunk:
     def __len__(self) -> int:
         return len(self.kind)
 
-    def extend(self, rows: range, program: int, context: int, columns: Sequence[array[Any]]) -> None:
+    def extend(self, first: int, end: int, program: int, context: int, columns: Sequence[memoryview]) -> None:
         """Add rows of one program under one context.
 
         Args:
-            rows: Which rows of the columns.
+            first: First row of the columns.
+            end: The row behind the last one.
             program: Number of their program.
             context: Number of their context.
-            columns: `kind`, `line`, `feed`, `end`, `curve`.
+            columns: Bytes of `kind`, `line`, `feed`, `end`, `curve`, with items as here.
         """
         own: tuple[array[Any], ...] = (self.kind, self.line, self.feed, self.end, self.curve)
-        for target, column in zip(own, columns, strict=False):
-            width = column.itemsize * (self.axes if target is self.end else 1)
-            target.frombytes(memoryview(column).cast("B")[rows.start * width : rows.stop * width])
-        self.program.extend(array("H", [program]) * len(rows))
-        self.context.extend(array("I", [context]) * len(rows))
+        widths = (
+            1,
+            self.line.itemsize,
+            self.feed.itemsize,
+            self.end.itemsize * self.axes,
+            self.curve.itemsize,
+        )
+        for target, column, width in zip(own, columns, widths, strict=False):
+            target.frombytes(column[first * width : end * width])
+        self.program.extend(array("H", (program,)) * (end - first))
+        self.context.extend(array("I", (context,)) * (end - first))
 
     def add_curves(self, count: int, curves: array[float]) -> None:
         """Add the first rows of a column of curve parameters."""

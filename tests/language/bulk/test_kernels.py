@@ -54,7 +54,8 @@ def test_zeros_in_front_do_not_count_as_digits() -> None:
         ("X=-0", layout.EQUALS, 23 * layout.FORMS + 1, 0.0),
         ("X=5", 0, NO_KEY, 0.0),
         ("G1.5", 0, NO_KEY, 0.0),
-        ("G999", 0, NO_KEY, 0.0),
+        ("G999", 0, layout.FIRST_CODE + 999, 0.0),
+        ("G1000", 0, NO_KEY, 0.0),
         ("XA", 0, NO_KEY, 0.0),
     ],
 )

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from polycnc.language.bulk import native
+from polycnc.language.bulk import kernels, native
 
 
 def unwritable(_path: object, _mode: int) -> bool:
@@ -40,6 +40,18 @@ def test_a_user_without_a_home_has_no_kernels(monkeypatch: pytest.MonkeyPatch) -
     kernel = native.Native("none", (), lambda _functions: lambda: 0, "")
     assert kernel.function is None
     assert not kernel.ready
+
+
+def test_a_kernel_with_another_constant_is_another_file(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("llvmlite")
+
+    def file() -> Path | None:
+        return native.Native("none", (kernels,), lambda _functions: lambda: 0, "")._file
+
+    before = file()
+    monkeypatch.setattr(kernels, "KEY_COUNT", kernels.KEY_COUNT + 1)
+    assert before is not None
+    assert file() != before
 
 
 def test_a_damaged_file_is_no_kernel(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

@@ -71,16 +71,16 @@ def test_a_spindle_in_step_with_another_tells_its_speed_too() -> None:
 
 #: Codes that are in force from the second block on.
 IN_FORCE = {
-    "fanuc-m": ("G17", "G54", "G90", "G94", "G64", "G40", "G21", "G69", "G50", "G80", "G97", "G98"),
-    "meldas-m": ("G17", "G54", "G90", "G94", "G64", "G40", "G21", "G69", "G50", "G80", "G97", "G98"),
-    "syntec-mill": ("G17", "G54", "G90", "G94", "G64", "G71", "G69", "G50", "G97", "G98"),
-    "sinumerik-840d": ("G17", "G54", "G90", "G94", "G64", "G40", "G71"),
-    "fanuc-0i-tf": ("G18", "G54", "G64", "G21", "G69.1", "G80", "G97", "G98"),
+    "fanuc-m": "G17 G54 G90 G94 G64 G40 G21 G69 G50 G80 G97 G98 G49 G67",
+    "meldas-m": "G17 G54 G90 G94 G64 G40 G21 G69 G50 G80 G97 G98 G49 G67",
+    "syntec-mill": "G17 G54 G90 G94 G64 G71 G69 G50 G97 G98 G49 G67 G96",
+    "sinumerik-840d": "G17 G54 G90 G94 G64 G40 G71 G450 G601 G641 G602 G340",
+    "fanuc-0i-tf": "G18 G54 G64 G21 G69.1 G80 G97 G98 G49 G67 G96",
 }
 
 
 @pytest.mark.parametrize(
-    ("control_id", "code"), [(control, code) for control, codes in IN_FORCE.items() for code in codes]
+    ("control_id", "code"), [(control, code) for control, codes in IN_FORCE.items() for code in codes.split()]
 )
 def test_codes_that_are_in_force_are_scanned(control_id: str, code: str) -> None:
     setup = {"work_offsets": {"G54": {"X": 0.1, "Z": 0.7}}}
@@ -89,6 +89,34 @@ def test_codes_that_are_in_force_are_scanned(control_id: str, code: str) -> None
     text = program(control_id, *blocks)
     assert differences(text, control_id, setup) == []
     assert scanned(text, control_id, setup) >= len(blocks) - 1
+
+
+@pytest.mark.parametrize("code", ["G96", "G961", "G97"])
+def test_constant_cutting_speed_in_force_is_scanned_on_a_lathe(code: str) -> None:
+    setup = {"machine": "lathe2"}
+    blocks = (
+        "X30",
+        f"{code} S90 F0.2",
+        "X20",
+        f"{code} X19",
+        f"{code} S120 X18",
+        "S100",
+        code,
+        f"G0 {code} X9",
+    )
+    text = program("sinumerik-840d", *blocks)
+    assert differences(text, "sinumerik-840d", setup) == []
+    assert scanned(text, "sinumerik-840d", setup) >= len(blocks) - 1
+    kept = text.replace("M3", "G96 S150 M3").replace("M30", "G97\nG97 X7\nM30")
+    assert differences(kept, "sinumerik-840d", setup) == []
+
+
+def test_a_modal_call_that_ends_gives_the_same() -> None:
+    stretch = ("G67 X1.", "X2.", "G67", "X3.")
+    text = program("fanuc-m", *stretch, "G66 P8 A1.", "X4.", "X5.", *stretch)
+    for parameters in ({}, {6000: 0}):
+        setup = {"parameters": parameters}
+        assert differences(text, "fanuc-m", setup, files={"O0008": "O0008\nG91 Y#1\nG90\nM99\n"}) == []
 
 
 @pytest.mark.parametrize("control_id", CONTROLS)
@@ -121,6 +149,8 @@ def test_what_changes_in_front_of_a_code_in_force_counts_both_ways(control_id: s
         "G40 X5.5",
         "G21 X6.6",
         "G69 X7.7",
+        "G49 X8.8",
+        "G91 G49 Z0.1",
         "G90 G54 G17 Y3.",
     )
     text = program(control_id, *stretch, between, *stretch, between, *stretch)

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.fanuc import (
+    turning_auxiliary,
     turning_balance,
     turning_comp,
     turning_coordinates,
@@ -49,7 +50,7 @@ if TYPE_CHECKING:
     from polycnc.channel.steps import Step as ProgramStep
     from polycnc.compensation.policies import Policy
     from polycnc.control.data_files import DataFiles
-    from polycnc.control.word_address.codes import GCode, Planner, Step
+    from polycnc.control.word_address.codes import GCode, Handler, Planner, Step
     from polycnc.control.word_address.drilling import Drilling
     from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.language.bulk import Condition
@@ -68,6 +69,9 @@ class FanucTurning(CustomMacroControl):
     alarm_files: ClassVar[tuple[str, ...]] = ("fanuc/alarms.toml",)
     default_machine: ClassVar[str] = "lathe2"
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
+    only_context: ClassVar[frozenset[Handler]] = CustomMacroControl.only_context | {
+        turning_auxiliary.surface_speed
+    }
     settled_codes: ClassVar[Mapping[str, Condition]] = turning_coordinates.SETTLED
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON

@@ -169,11 +169,18 @@ def _plane_is_settled(channel: Channel) -> bool:
     return channel.head is None and unchanged and settled.plane(channel)
 
 
+def _length_is_settled(channel: Channel) -> bool:
+    """G49: the lathe has no offsets by code (5040#3)."""
+    return not channel.memory.parameters.bit(5040, 3)
+
+
 #: Codes that change nothing where they are in force already; see `word_address.settled`.
 SETTLED = {
     **dict.fromkeys(("G17", "G18", "G19"), _plane_is_settled),
     **dict.fromkeys(("G54", "G55", "G56", "G57", "G58", "G59"), settled.work_offset),
     **dict.fromkeys(("G98", "G99"), _feed_is_settled),
+    "G49": _length_is_settled,
+    "G67": settled.modal_call,
     "G69.1": settled.frame,
 }
 

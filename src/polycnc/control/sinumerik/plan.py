@@ -369,14 +369,11 @@ def _lengths_are_settled(channel: Channel) -> bool:
 
 
 def _feed_is_settled(channel: Channel) -> bool:
-    """The kind of feed is the one in force, and no speed is to be kept from G96."""
+    """The kind of feed is the one in force, its spindle has what it needs and no speed to keep from G96."""
     memory, code = channel.memory, channel.mode["feed"]
     feed = tables.FEED_TYPES[code]
-    return (
-        bool(feed.mode == memory.feed_mode)
-        and not feed.surface_speed
-        and code not in spindle_speed.KEEPS_SPEED
-    )
+    in_force = bool(feed.mode == memory.feed_mode)
+    return in_force and spindle_speed.is_settled(channel, feed.surface_speed, code)
 
 
 def _contour_is_settled(channel: Channel) -> bool:

@@ -28,6 +28,18 @@ def change_of_feed_type(channel: Channel, surface_speed: bool, code: str) -> Non
         spindle.speed = speed_at(channel, spindle.cutting_speed, spindle.limit)
 
 
+def is_settled(channel: Channel, surface_speed: bool, code: str) -> bool:
+    """Whether the kind of feed that is in force would change nothing and not alarm when it is written again.
+
+    S words under G97 do not change a cutting speed, so what holds stays.
+    """
+    memory: Memory = channel.memory
+    if surface_speed:
+        return memory.transverse >= 0
+    spindle = memory.spindles.all.get(memory.spindles.master)
+    return code not in KEEPS_SPEED or spindle is None or not spindle.cutting_speed
+
+
 def speed_at(channel: Channel, cutting_speed: float, limit: float) -> float:
     """Speed (rpm) for a cutting speed (m/min) where the transverse axis stands, at most the limit."""
     diameter = 2.0 * abs(channel.coordinates.position[channel.memory.transverse])

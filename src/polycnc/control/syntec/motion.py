@@ -121,9 +121,27 @@ def _frame_is_settled(channel: Channel) -> bool:
     return channel.coordinates.direct and channel.memory.tilt is IDENTITY
 
 
+def _length_is_settled(channel: Channel) -> bool:
+    """G49: as on every control; no direction is led to the path either."""
+    return channel.memory.normal is None and settled.length(channel)
+
+
+def _has_no_modal_call(channel: Channel) -> bool:
+    """G67: there is no modal call."""
+    return not channel.memory.modal_calls
+
+
+def _surface_axis_is_linear(channel: Channel) -> bool:
+    """G96: a linear axis gives the diameter."""
+    return not channel.axis_data[channel.memory.surface_axis].rotary
+
+
 #: Codes that change nothing where they are in force already; see `word_address.settled`.
 SETTLED = {
     **settled.MILLING,
+    "G49": _length_is_settled,
+    "G67": _has_no_modal_call,
+    "G96": _surface_axis_is_linear,
     "G69": _frame_is_settled,
     **dict.fromkeys(("G17", "G18", "G19"), planes.settled_plane),
     **dict.fromkeys(("G93", "G94", "G95"), _feed_is_settled),

@@ -12,7 +12,9 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.language.bulk.scanner import LastMoves
 
-SPELLING = Spelling(MAX_DIGITS, round_comments=True, slash_comments=True, hexadecimal=True)
+SPELLING = Spelling(
+    MAX_DIGITS, round_comments=True, starred_comments=True, slash_comments=True, hexadecimal=True
+)
 
 
 class SyntecPlainBlocks(PlainBlocks):

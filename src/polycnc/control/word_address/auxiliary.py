@@ -42,10 +42,12 @@ def plan_spindle_speed(builder: Builder) -> Step:
     chosen = builder.control.spindle_slot(builder)
 
     def set_speed(channel: Channel, values: list[float]) -> None:
-        channel.memory.spindle_speed = values[slot]
-        channel.context_changed()
+        memory, speed = channel.memory, values[slot]
+        if memory.spindle_speed != speed:
+            memory.spindle_speed = speed
+            channel.context_changed()
         spindle = 1 if chosen is None else int(values[chosen])
-        channel.event("s", speed=_number(values[slot]), spindle=spindle)
+        channel.event("s", speed=_number(speed), spindle=spindle)
 
     return set_speed if chosen is not None else declare(set_speed, Note(slot))
 

@@ -47,6 +47,20 @@ def frame(channel: Channel) -> bool:
     return channel.coordinates.direct and channel.memory.tilted_plane is None
 
 
+def length(channel: Channel) -> bool:
+    """G49: no length is in force, and neither a shift nor an incremental word is owed any."""
+    c, memory = channel.coordinates, channel.memory
+    none = memory.h == 0 and not any(memory.length_offset) and not c.owes
+    unchanged = c.zero == memory.zero_frame and c.offsets == zero_offsets(channel)
+    return c.direct and c.transformation is None and c.geometry[2] >= 0 and none and unchanged
+
+
+def modal_call(channel: Channel) -> bool:
+    """G67: there is no modal call, and its end without one is allowed (6000#0)."""
+    memory = channel.memory
+    return not memory.modal_calls and bool(memory.parameters.bit(6000, 0, default=True))
+
+
 def stroke_limit(channel: Channel) -> bool:
     """G23: no zone is forbidden."""
     return channel.stroke_zone is None
@@ -57,7 +71,9 @@ MILLING = {
     **dict.fromkeys(("G17", "G18", "G19"), plane),
     **dict.fromkeys(("G54", "G55", "G56", "G57", "G58", "G59"), work_offset),
     "G40": compensation,
+    "G49": length,
     "G50": frame,
+    "G67": modal_call,
     "G69": frame,
     "G23": stroke_limit,
 }

@@ -52,6 +52,7 @@ from polycnc.language.bulk.layout import (
     RULE_WIDTH,
     SEMICOLON_COMMENTS,
     SLASH_COMMENTS,
+    STARRED_COMMENTS,
     STATE,
     UNKNOWN,
     VALUES,
@@ -70,7 +71,7 @@ ZERO, NINE, LETTER_A, LETTER_C, LETTER_G, LETTER_N, LETTER_R, LETTER_X, LETTER_Z
     88,
     90,
 )
-PLUS, MINUS, POINT, EQUALS_SIGN, OPEN, CLOSE, SEMICOLON, SLASH = 43, 45, 46, 61, 40, 41, 59, 47
+PLUS, MINUS, POINT, EQUALS_SIGN, OPEN, CLOSE, SEMICOLON, SLASH, STAR = 43, 45, 46, 61, 40, 41, 59, 47, 42
 #: Longer lines are for the interpreter, which has an alarm for them.
 LONGEST_LINE = 4096
 #: So many digits are exact.
@@ -234,10 +235,11 @@ def read_rest(text: Any, place: int, grammar: int) -> int:
     """What is no word: a comment, or `;` with nothing but comments behind it. Place behind it, -1 for others."""
     char = int(text[place])
     if char == OPEN and grammar & ROUND_COMMENTS:
+        starred = text[place + 1] == STAR and grammar & STARRED_COMMENTS
         while text[place] not in (CLOSE, NEWLINE):
             place += 1
         if text[place] == CLOSE:
-            return place + 1
+            return -1 if starred and text[place - 1] != STAR else place + 1
         return place if grammar & OPEN_COMMENTS else -1
     slashes = char == SLASH and text[place + 1] == SLASH and grammar & SLASH_COMMENTS
     if slashes or (char == SEMICOLON and grammar & SEMICOLON_COMMENTS):

@@ -94,14 +94,16 @@ SEMICOLON_COMMENTS, EQUALS = 8, 16
 FORMS_COUNT, BLANK_LINES_ARE_NONE = 32, 64
 #: `0X1` may be a hexadecimal number; `CR=` is an address.
 HEXADECIMAL, CR_RADIUS = 128, 256
+#: `(* … *)` may be a comment, which no other bracket ends.
+STARRED_COMMENTS = 512
 
 #: Keys of words: letter and form (four each), then G codes below `LAST_CODE`.
 FORMS = 4
 #: `CR=` as a form of C.
 CR_FORM = 2
 FIRST_CODE = 26 * FORMS
-KEY_COUNT = 256
-LAST_CODE = KEY_COUNT - FIRST_CODE
+LAST_CODE = 1000
+KEY_COUNT = FIRST_CODE + LAST_CODE
 
 # ---- outcome of a scan --------------------------------------------------------------------------------------
 

@@ -91,6 +91,8 @@ class Native:
         files = {str(sys.modules[name].__file__) for name in names}
         for path in sorted(files | {str(module.__file__) for module in self._modules}):
             digest.update(Path(path).read_bytes())
+        for module in self._modules:
+            digest.update(repr(_constants(module)).encode())
         features = binding.get_host_cpu_features().flatten()
         for part in (sys.version, llvmlite.__version__, binding.get_host_cpu_name(), features):
             digest.update(part.encode())
@@ -151,6 +153,12 @@ class Native:
 def address(column: array[Any]) -> int:
     """Where the items of an array lie. It must not grow before the kernel has run."""
     return column.buffer_info()[0]
+
+
+def _constants(module: ModuleType) -> list[tuple[str, object]]:
+    """Numbers that a module knows, those of other modules too: compiled code holds their values."""
+    numbers = [item for item in vars(module).items() if isinstance(item[1], (int, float, tuple))]
+    return sorted(numbers, key=lambda item: item[0])
 
 
 def _machine() -> Any:

@@ -127,17 +127,19 @@ class Arc:
 class Note:
     """A step that touches nothing that the scanner works with: an event, another context.
 
-    The scan goes past it; afterwards the step itself is called where its block stood.
+    The scan goes past it; afterwards the step is called where its block stood.
 
     Attributes:
         slot: Index of the value that it needs, or -1.
         lowest: A smaller value is the interpreter's.
         condition: While it does not hold, the step is the interpreter's.
+        step: What is called where the condition holds; the whole step, if None.
     """
 
     slot: int = -1
     lowest: float = -inf
     condition: Condition | None = None
+    step: Step | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,7 +207,7 @@ class Conditions:
                 elif isinstance(part, SetFeed):
                     feed = part
                 elif isinstance(part, Note) and self._holds(channel, part.condition):
-                    notes.append((step, part))
+                    notes.append((part.step or step, part))
                 elif isinstance(part, (Straight, Arc)):
                     motion = part
                 else:
@@ -222,6 +224,7 @@ class Spelling:
     Attributes:
         max_digits: Digits that a number may have, zeros in front not counted.
         round_comments: `( … )`.
+        starred_comments: `(* … *)` in some of its files, which no other bracket ends.
         open_comments: A `(` without its `)` makes the rest of the line a comment.
         slash_comments: `//` to the end of the line.
         semicolon_comments: `;` to the end of the line; else `;` ends the block.
@@ -234,6 +237,7 @@ class Spelling:
 
     max_digits: int
     round_comments: bool = False
+    starred_comments: bool = False
     open_comments: bool = False
     slash_comments: bool = False
     semicolon_comments: bool = False
@@ -248,6 +252,7 @@ class Spelling:
         """As the kernels read it."""
         return (
             self.round_comments * layout.ROUND_COMMENTS
+            | self.starred_comments * layout.STARRED_COMMENTS
             | self.open_comments * layout.OPEN_COMMENTS
             | self.slash_comments * layout.SLASH_COMMENTS
             | self.semicolon_comments * layout.SEMICOLON_COMMENTS

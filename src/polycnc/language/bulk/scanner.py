@@ -76,6 +76,9 @@ class Scannable(Protocol):
     def step_of_line(self, line: int) -> int:
         """The first step at or behind a line of the text."""
 
+    def scannable_to(self, line: int) -> int:
+        """The line behind those that may be read as one block each, from a line of the text on."""
+
 
 class Dialect(Protocol):
     """What a control tells of its plain blocks; its `plain_blocks(channel)` gives one, or None.
@@ -158,6 +161,7 @@ class Scanner:
             array("d", bytes(8 * rooms * axes)), array("i", bytes(4 * rooms)),
             array("d", bytes(8 * rooms * CURVE_WIDTH)),
         )  # fmt: skip
+        self._views = tuple([memoryview(column).cast("B") for column in self._columns])
         self._notes = array("q", bytes(8 * layout.NOTE_WIDTH * MOST_NOTES))
         self._said = array("d", bytes(8 * (axes + 1) * MOST_NOTES))
 
@@ -182,7 +186,8 @@ class Scanner:
         level, window, ints = channel.level, self._window, self._ints
         code: Any = level.code
         lines = code.program.lines
-        if not window.stand_at(lines, code.line_of_step(level.index)):
+        line = code.line_of_step(level.index)
+        if not window.stand_at(lines, line, code.scannable_to(line)):
             return False
         self._put_state(channel)
         outcome = self._scan(
@@ -205,9 +210,7 @@ class Scanner:
         """Ask the control for the rule of a new shape; true if it has one."""
         first, count = layout.FIRST_KEY, self._ints[layout.KEYS]
         keys = tuple(self._ints[first : first + count])
-        recipe = self._dialect.recipe(channel, keys, line)
-        self._shapes.learn(self._ints[layout.STATE], keys, recipe)
-        return recipe is not None
+        return self._shapes.learn(self._ints[layout.STATE], keys, self._dialect.recipe(channel, keys, line))
 
     # ---- state ---------------------------------------------------------------------------------------------
 
@@ -286,7 +289,7 @@ class Scanner:
         if first == end:
             return
         program, context = channel.level.program_number, channel.context_number()
-        channel.toolpath.chunk.extend(range(first, end), program, context, self._columns)
+        channel.toolpath.chunk.extend(first, end, program, context, self._views)
         if channel.head is not None:
             channel.rows.end = position  # the moves have gone past a stage that had nothing to do
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 _NO_WORD = Word(-1, AS_TYPED)
 #: More shapes than this are no longer learnt.
-MOST_NODES = 20_000
+MOST_NODES = 5_000
 
 
 class Shapes:
@@ -47,18 +47,18 @@ class Shapes:
             self.states[node] = state
         return node
 
-    def learn(self, root: int, keys: Sequence[int], recipe: Recipe | None) -> None:
-        """Keep what a shape does; None for one that is not plain."""
+    def learn(self, root: int, keys: Sequence[int], recipe: Recipe | None) -> bool:
+        """Keep what a shape does, None for one that is not plain; true if its blocks can be scanned from now on."""
+        if len(self.leaves) > MOST_NODES:
+            return False
         node = root
         for key in keys:
             place = node * layout.KEY_COUNT + key
             if not self.nexts[place]:
                 self.nexts[place] = self._new_node()
             node = self.nexts[place]
-        if recipe is None or len(self.leaves) > MOST_NODES:
-            self.leaves[node] = layout.LEAF_NOT_PLAIN
-        else:
-            self.leaves[node] = self._add_rule(recipe)
+        self.leaves[node] = layout.LEAF_NOT_PLAIN if recipe is None else self._add_rule(recipe)
+        return recipe is not None
 
     def _new_node(self) -> int:
         self.leaves.append(layout.LEAF_UNKNOWN)

@@ -31,13 +31,13 @@ class Window:
         self.lines: Sequence[str] = ()
         self._size = FEWEST_LINES
 
-    def stand_at(self, lines: Sequence[str], line: int) -> bool:
-        """Let a line be the next one; false where the program has no such line."""
+    def stand_at(self, lines: Sequence[str], line: int, end: int) -> bool:
+        """Let a line be the next one; false where it is not in front of `end`, behind which nothing is read."""
         if lines is not self.lines or not self.line <= line <= self.line + 1 or not self._skip_to(line):
             self._size = (
                 min(2 * self._size, MOST_LINES) if lines is self.lines and line == self.line else FEWEST_LINES
             )
-            self._read(lines, line)
+            self._read(lines, line, end)
         return self.place < len(self.text)
 
     def _skip_to(self, line: int) -> bool:
@@ -49,12 +49,12 @@ class Window:
             self.line = line
         return self.place < len(self.text)
 
-    def _read(self, lines: Sequence[str], line: int) -> None:
+    def _read(self, lines: Sequence[str], line: int, end: int) -> None:
         self.lines, self.line, self.place = lines, line, 0
-        if isinstance(lines, LongText):
-            self.text = array("B", lines.bytes_from(line) if line < len(lines) else b"")
+        if isinstance(lines, LongText) and end == len(lines):
+            self.text = array("B", lines.bytes_from(line) if line < end else b"")
             return
-        found = lines[line : line + self._size]
+        found = lines[line : min(line + self._size, end)]
         self.text = array("B", ("\n".join(found) + "\n").encode("utf-8", "replace") if found else b"")
 
 

@@ -95,6 +95,10 @@ class SinumerikProgram:
         """The first step at or behind a line of the text."""
         return bisect_left(self._lines, line)
 
+    def scannable_to(self, _line: int) -> int:
+        """The line behind those that the scanner may read, from a line of the text on: every line is a block."""
+        return len(self.program.lines)
+
     @property
     def is_open(self) -> bool:
         """Whether a block has been compiled, and with the first one all that must be there before it."""

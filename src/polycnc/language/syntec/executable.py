@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from polycnc.channel.steps import several
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from polycnc.program import Program
 
 NO_LINE = "COR-018"
+_START = attrgetter("start")
 _BLANKS = str.maketrans("", "", " \t")
 _SEQUENCE = re.compile(r"[ \t]*(?:/\d?[ \t]*)*N[ \t]*(\d+)", re.IGNORECASE)
 _HEAD = re.compile(r"[ \t]*[O:][ \t]*\d+", re.IGNORECASE)
@@ -59,6 +61,21 @@ class MacroProgram:
         """Column, from 1, of an address or a code in the line of a step; 0 when it is not there."""
         text = self.program.lines[self.line(index) - self.program.first_line].upper()
         return text.find(address) + 1 if address else 0
+
+    def line_of_step(self, index: int) -> int:
+        """Index of a step's line in the program's text; that behind the last line for no step."""
+        lines = self._layout.lines
+        return lines[index] - self.program.first_line if index < len(lines) else len(self.program.lines)
+
+    def step_of_line(self, line: int) -> int:
+        """The first step at or behind a line of the text."""
+        return bisect_left(self._layout.lines, self.program.first_line + line)
+
+    def scannable_to(self, line: int) -> int:
+        """The line behind those that are blocks and nothing else, from a line of the text on."""
+        runs, number = self._layout.runs, self.program.first_line + line
+        i = bisect_right(runs, number, key=_START) - 1
+        return max(line, runs[i].stop - self.program.first_line) if i >= 0 else line
 
     def find_sequence(self, number: int, _index: int = 0) -> int:
         """The step of `N number`, the first of equal ones in the file."""

@@ -100,9 +100,11 @@ class Layout:
         sequences: Step of every N number, the first of equal ones.
         mistakes: Everything that cannot be read, in the order of the text.
         unclosed: Lines of statements whose semicolon is missing.
+        runs: Lines each of which is a block of numbers and nothing else, as ranges of lines that follow each other.
     """
 
     def __init__(self) -> None:
+        self.runs: list[range] = []
         self.steps: list[Step] = []
         self.lines: list[int] = []
         self.sequences: dict[int, int] = {}
@@ -114,6 +116,13 @@ class Layout:
         """Add a step."""
         self.steps.append(step)
         self.lines.append(line)
+
+    def fills_line(self, line: int) -> None:
+        """The last step is a block of numbers, and a line holds nothing beside it."""
+        if self.runs and self.runs[-1].stop == line:
+            self.runs[-1] = range(self.runs[-1].start, line + 1)
+        else:
+            self.runs.append(range(line, line + 1))
 
     def place(self, label: Label) -> None:
         """A label stands before the next step."""

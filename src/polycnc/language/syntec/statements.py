@@ -71,9 +71,11 @@ class StatementReader(BlockReader):
     def read(self) -> Layout:
         """The layout of the whole text."""
         while self.next.kind != "end":
-            start = self.at
+            start, steps = self.at, len(self.layout.steps)
             try:
                 self._statement()
+                if len(self.layout.steps) == steps + 1 and self._filled_line(start):
+                    self.layout.fills_line(self.tokens[start].line)
             except AlarmError as error:
                 self.take_literals()
                 self.layout.fail(error)
@@ -89,6 +91,12 @@ class StatementReader(BlockReader):
         while not self.at_end() and not self.next.first:
             self.take()
         self.accept(";")
+
+    def _filled_line(self, start: int) -> bool:
+        """Whether the statement from a token on is a block of numbers that has its line for itself."""
+        first, last = self.tokens[start], self.tokens[self.at - 1]
+        closed = last.kind == "plain" or (last.text == ";" and last.line == first.line)
+        return first.first and closed and self.next.first and isinstance(self.layout.steps[-1], WordBlock)
 
     # ---- one statement -----------------------------------------------------------------------------------
 

@@ -120,6 +120,10 @@ class WordAddressProgram:
         """The step of a line of the text."""
         return line
 
+    def scannable_to(self, _line: int) -> int:
+        """The line behind those that the scanner may read, from a line of the text on: every line is a block."""
+        return len(self.program.lines)
+
     def column(self, index: int, address: str) -> int:
         """Column, from 1, of an address (`X`, `,R`) or a code (`G41`) in a line; 0 when it is not there."""
         if index >= len(self.lines):
