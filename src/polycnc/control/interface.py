@@ -50,6 +50,9 @@ class Control(ChannelControl, Protocol):
     def reference_point(self, channel: Channel, axis: int, number: int) -> float:
         """Machine position of a reference point (1 to 4) of an axis, given by its column."""
 
+    def stop_spindles(self, channel: Channel) -> None:
+        """Emergency stop, or the power is off: no spindle of the channel turns any more."""
+
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """How the control leads the axes, by its machine parameters."""
 

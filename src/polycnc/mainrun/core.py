@@ -314,6 +314,8 @@ class Core(ABC):
         here = {number: lane.machine_position for number, lane in self._lanes.items()}
         for number, lane in self._lanes.items():
             lane.give_up()
+            if self.state in LOCKED_STATES:
+                self.control.stop_spindles(lane.channel)
             lane.stand_at(here[number])
             self._prepare(lane)
         if self.state not in LOCKED_STATES:

@@ -130,7 +130,13 @@ class Sinumerik:
 
     def give_up(self, channel: Channel, modal: Mapping[str, str], context: Context) -> None:  # noqa: ARG002
         """A reset in the midst of a program: machine data decide what holds behind it."""
+        channel.mode = channel.modes.mode(modal)
         self.reset(channel)
+
+    def stop_spindles(self, channel: Channel) -> None:
+        """The drives are off."""
+        for spindle in channel.memory.spindles.all.values():
+            spindle.direction = 0
 
     def _memory(self, channel: Channel) -> Memory:
         names = axis_names(channel)

@@ -1,4 +1,4 @@
-"""The state at program start and after reset: by the RESET key, and at M2 and M30 (MD20110, MD20150)."""
+"""The state at program start and after reset: by the RESET key, and at M2 and M30 (MD20110, MD20150, MD20152)."""
 
 from __future__ import annotations
 
@@ -12,6 +12,10 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.machine_data import MachineData
     from polycnc.control.sinumerik.memory import Memory
+
+#: Groups that a bit of MD20110 keeps over a reset.
+KEPT_BY_MASK = {4: "plane", 5: "zero_offset"}
+KEEPS_EDGE = 6
 
 
 def start_codes(channel: Channel, data: MachineData) -> dict[str, str]:
@@ -37,12 +41,44 @@ def _reset_value(group: gcodes.Group, data: MachineData) -> str:
     return ""
 
 
+def _kept_codes(channel: Channel, data: MachineData) -> dict[str, str]:
+    """Modal functions that a reset leaves as they are; without bit 0 of MD20110 the other bits count for nothing."""
+    mask = data.integer("$MC_RESET_MODE_MASK")
+    if not mask & 1:
+        return {}
+    kept = {name for bit, name in KEPT_BY_MASK.items() if mask >> bit & 1}
+    kept.update(
+        group.name
+        for group in gcodes.GROUPS
+        if group.is_modal and data.integer("$MC_GCODE_RESET_MODE", group.number - 1)
+    )
+    return {name: channel.mode[name] for name in kept}
+
+
+def _reset_edge(channel: Channel, data: MachineData) -> None:
+    """The tool stays in the spindle; bit 6 of MD20110 keeps its offsets, else MD20130 says which hold."""
+    tools = channel.memory.tools
+    if data.integer("$MC_RESET_MODE_MASK") & (1 | 1 << KEEPS_EDGE) == 1:
+        edge, tool = data.integer("$MC_CUTTING_EDGE_RESET_VALUE"), tools.tools.get(tools.active)
+        tools.select_edge(edge if tool is not None and edge in tool.edges else 0)
+    tools.assign_lengths(channel.mode["plane"], data)
+
+
+def stop_spindles(memory: Memory) -> None:
+    """Spindles stop, but for those that MD35040 keeps turning."""
+    for number, spindle in memory.spindles.all.items():
+        if not memory.data.integer("$MA_SPIND_ACTIVE_AFTER_RESET", f"S{number}"):
+            spindle.direction = 0
+
+
 def reset(channel: Channel) -> None:
     """Modal functions as at program start, programmed frames and compensations off; the axes stay where they are."""
     memory: Memory = channel.memory
     protection.leave(channel)
     machine = channel.coordinates.machine
-    channel.mode = channel.modes.mode(start_codes(channel, memory.data))
+    channel.mode = channel.modes.mode(start_codes(channel, memory.data) | _kept_codes(channel, memory.data))
+    stop_spindles(memory)
+    _reset_edge(channel, memory.data)
     memory.previous = memory.recorder = None
     stages.clear(channel)
     memory.polar = Polar()

@@ -193,6 +193,10 @@ class WordAddressControl:
         memory.spindle_direction = context.spindle_direction
         self.reset(channel)
 
+    def stop_spindles(self, channel: Channel) -> None:
+        """The drives are off."""
+        channel.memory.spindle_direction = 0
+
     def start_codes(self, channel: Channel) -> dict[str, str]:  # noqa: ARG002 - parameters decide on a lathe
         """Code of every modal group at program start."""
         return dict(self.power_on)
