@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik import frames, stages
+from polycnc.control.sinumerik import frames, stages, tooth_feed
 from polycnc.control.tool_change import check_change_points
 
 if TYPE_CHECKING:
@@ -65,4 +65,5 @@ def tool_changed(channel: Channel) -> None:
     memory.tools.assign_lengths(channel.mode["plane"], memory.data)
     frames.apply(channel, travelled=bool(memory.data.number("$SC_TOOL_OFFSET_INCR_PROG")))
     stages.changed_radius(channel)
+    tooth_feed.follow(channel)
     channel.context_changed()

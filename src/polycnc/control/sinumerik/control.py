@@ -104,7 +104,7 @@ class Sinumerik:
         memory = self._memory(channel)
         channel.memory = memory
         channel.mode = channel.modes.mode(start_codes(channel, memory.data))
-        memory.feed_mode = tables.FEED_TYPES[channel.mode["feed"]].mode
+        memory.feed_mode = tables.feed_type(channel.mode).mode
         memory.frames.select(gcodes.number_of(channel.mode["zero_offset"]) - 1)
         if channel.number == 1:
             memory.tools.stand_in(channel.setup.spindle_tool)
@@ -303,7 +303,7 @@ class Sinumerik:
         if "zero_offset" in changed:
             memory.frames.select(gcodes.number_of(mode["zero_offset"]) - 1)
         if "feed" in changed:
-            memory.feed_mode = tables.FEED_TYPES[mode["feed"]].mode
+            memory.feed_mode = tables.feed_type(mode).mode
         memory.tools.assign_lengths(mode["plane"], memory.data)
         frames.changed(channel)
         channel.context_changed()
@@ -314,8 +314,9 @@ class Sinumerik:
         """The context that holds now."""
         mode, coordinates = channel.mode, channel.coordinates
         memory: Memory = channel.memory
-        feed = tables.FEED_TYPES[mode["feed"]]
-        spindle = memory.spindles.all.get(memory.spindles.master)
+        feed = tables.feed_type(mode)
+        leading = memory.feed_source if feed.mode == "G95" and memory.feed_source else memory.spindles.master
+        spindle = memory.spindles.all.get(leading)
         shown = (positions.diameter_function(mode, i, memory.transverse) for i in range(len(channel.axes)))
         diameters = sum(1 << i for i, function in enumerate(shown) if function in positions.SHOWS_DIAMETERS)
         side = stages.SIDES.get(mode["side"], 0)
@@ -329,7 +330,7 @@ class Sinumerik:
             tool_name=memory.tools.name,
             radius_mm=stages.radius(memory) if side else 0.0,
             side=side,
-            spindle=memory.spindles.master,
+            spindle=leading,
             spindle_rpm=_speed(spindle, feed.surface_speed),
             spindle_direction=spindle.direction if spindle else 0,
             surface_speed=feed.surface_speed,

@@ -138,15 +138,16 @@ GROUP_OF = {word: group for group in GROUPS for word in group.words}
 START_CODES = {group.name: group.start for group in GROUPS if group.is_modal}
 
 #: Further modal state that decides how a block acts, beside the groups: a straight line whose end the next block
-#: tells (ANG), and axes with diameter programming of their own (DIAMONA), as `column:function` joined with blanks.
-INTERNAL_CODES = {"open_line": "", "axis_diameters": ""}
+#: tells (ANG), axes with diameter programming of their own (DIAMONA), as `column:function` joined with blanks; and the
+#: function of group 15 whose feed G962 and G972 keep.
+INTERNAL_CODES = {"open_line": "", "axis_diameters": "", "feed_kept": "G94"}
 
 #: Known functions that polycnc does not execute: the path would differ, so they raise an alarm.
 _NOT_EXECUTED = """
 OEMIPO1 OEMIPO2 INVCW INVCCW G5 G7 CUT3DC CUT3DF CUT3DFS
 CUT3DFF CUT3DCC CUT3DCCD KONTT KONTC FTOCON SON PON SONS PONS
 CUTCONON TCOFR TCOFRZ TCOFRY TCOFRX G291 PTP PTPG0 PAROT TOROT TOROTZ TOROTY TOROTX TOFRAME TOFRAMEZ
-TOFRAMEY TOFRAMEX G962 G972 WALCS1 WALCS2 WALCS3 WALCS4 WALCS5 WALCS6 WALCS7 WALCS8 WALCS9 WALCS10
+TOFRAMEY TOFRAMEX
 """
 NOT_EXECUTED = frozenset(_NOT_EXECUTED.split())
 

@@ -62,6 +62,8 @@ class Memory:
             for counter-clockwise; None before the first.
         feed_mode: How F is meant, as the toolpath's feed modes.
         modal_corner_feed: FRCM in internal units, NaN for the path feed.
+        tooth_feed: FZ, mm, and the feed per revolution that it gave; None before the first.
+        feed_source: Spindle that a feed per revolution follows (FPR); 0 for the master spindle.
         feed_before: Feed before the words of the running block (smooth approach).
         acted: The running block has done something on the machine (for single block).
         sections: Program level that began an open section (DELAYFSTON, IPTRLOCK).
@@ -106,6 +108,8 @@ class Memory:
     modal_corner_feed: float = nan
     exact_stop_block: bool = False
     acted: bool = False
+    tooth_feed: tuple[float, float] | None = None
+    feed_source: int = 0
     feed_before: float = nan
     sections: dict[str, Level] = field(default_factory=dict)
     limits: tuple[Limit, ...] = ()

@@ -120,7 +120,7 @@ def _incremental_linear(terms: list[AxisTerm]) -> Step:
 def feed_factor(draft: Draft) -> float:
     """From a programmed feed to internal units, for the feed type and units of the block."""
     inch = INCH_MM if draft.mode["units"] == "G700" else 1.0
-    return tables.FEED_TYPES[draft.mode["feed"]].factor * inch
+    return tables.feed_type(draft.mode).factor * inch
 
 
 def checked_feed(feed: float) -> float:
@@ -468,17 +468,31 @@ def _to_machine(channel: Channel, kind: Kind, points: dict[int, float]) -> None:
 
 
 def positioning(draft: Draft) -> list[Step]:
-    """POS, POSA: axes that move with their own feed beside the path; they give no row (FA is their feed)."""
+    """POS, POSA, POSP: axes that move with their own feed beside the path; they give no row (FA is their feed)."""
     steps = []
     for position, word in draft.open_words():
-        if word.address not in ("POS", "POSA"):
+        if word.address not in ("POS", "POSA", "POSP"):
             continue
         draft.close(position)
         if not isinstance(word.index, Axis):
             raise WordAlarm("12040", position, text=str(word.index))
         column = draft.memory.column(word.index.name)
-        steps.append(_position_axis(axis_term(draft.channel, draft.mode, position, column, word.modifier)))
+        term = axis_term(draft.channel, draft.mode, position, column, word.modifier)
+        steps.append(_in_parts(term) if word.address == "POSP" else _position_axis(term))
     return steps
+
+
+def _in_parts(term: AxisTerm) -> Step:
+    """POSP[axis]=(end, part, mode): as POS, in parts; 12560 for a mode but 0 and 1, a part without length."""
+    whole = _position_axis(term)
+
+    def run(channel: Channel, values: Values) -> None:
+        listed = values[term.position]
+        if not isinstance(listed, tuple) or len(listed) != 3 or listed[2] not in (0, 1) or listed[1] <= 0:
+            raise WordAlarm("12560", term.position, text="POSP")
+        whole(channel, (*values[: term.position], float(listed[0]), *values[term.position + 1 :]))
+
+    return run
 
 
 def _position_axis(term: AxisTerm) -> Step:

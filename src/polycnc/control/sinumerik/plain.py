@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from math import inf
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.sinumerik.limits import MACHINE
 from polycnc.control.sinumerik.positions import AxisTerm, Way
 from polycnc.language.bulk import Conditions, Conversion, Recipe, SetFeed, Spelling, Straight, Target, Word
 from polycnc.language.bulk import Way as Reading
@@ -128,8 +130,11 @@ class SinumerikPlainBlocks:
         if not memory.limits:
             return channel.limits
         ranges = list(channel.limits) or [(float("-inf"), float("inf"))] * len(channel.axes)
-        for column, low, high, _ in memory.limits:
-            ranges[column] = max(ranges[column][0], low), min(ranges[column][1], high)
+        for limit in memory.limits:
+            if limit.system != MACHINE:
+                return [(inf, -inf)] * len(ranges)  # in another system only the interpreter can look
+            low, high = ranges[limit.column]
+            ranges[limit.column] = max(low, limit.low), min(high, limit.high)
         return ranges
 
     def tolerance(self, channel: Channel) -> float:

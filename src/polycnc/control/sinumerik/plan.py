@@ -102,7 +102,7 @@ def make_plan(channel: Channel, block: Block) -> Plan:
     """
     codes = _codes(block)
     modal = [(name, code) for name, code in codes.items() if gcodes.BY_NAME[name].is_modal]
-    mode = _axis_diameters(channel, block, channel.mode.with_codes(modal), codes)
+    mode = _axis_diameters(channel, block, _kept_feed(channel.mode, channel.mode.with_codes(modal)), codes)
     draft = Draft(channel, block, mode, codes)
     if mode is not channel.mode or any(name in IN_CONTEXT for name, _ in modal):
         draft.steps.append(_enter(mode, modal, changes=mode is not channel.mode))
@@ -157,6 +157,13 @@ AXIS_DIAMETERS = {
     "DIACYCOFA": "DIAMOF",
     "DIAMCHANA": "",
 }
+
+
+def _kept_feed(before: Mode, mode: Mode) -> Mode:
+    """The mode with the feed type that G962 and G972 keep."""
+    if mode["feed"] in tables.KEEP_FEED and before["feed"] not in tables.KEEP_FEED:
+        return mode.with_code("feed_kept", before["feed"])
+    return mode
 
 
 def _axis_diameters(channel: Channel, block: Block, mode: Mode, codes: dict[str, str]) -> Mode:
@@ -330,7 +337,7 @@ def _plane(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps ha
 def _feed_type(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """Group 15: another kind of feed needs a new F; G97 keeps the speed that G96 had."""
     memory: Memory = channel.memory
-    feed = tables.FEED_TYPES[channel.mode["feed"]]
+    feed = tables.feed_type(channel.mode)
     spindle_speed.change_of_feed_type(channel, feed.surface_speed, channel.mode["feed"])
     if feed.mode != memory.feed_mode:
         channel.feed = nan
@@ -371,7 +378,7 @@ def _lengths_are_settled(channel: Channel) -> bool:
 def _feed_is_settled(channel: Channel) -> bool:
     """The kind of feed is the one in force, its spindle has what it needs and no speed to keep from G96."""
     memory, code = channel.memory, channel.mode["feed"]
-    feed = tables.FEED_TYPES[code]
+    feed = tables.feed_type(channel.mode)
     in_force = bool(feed.mode == memory.feed_mode)
     return in_force and spindle_speed.is_settled(channel, feed.surface_speed, code)
 
@@ -395,6 +402,7 @@ EFFECTS: dict[str, Step] = {
     "feed": _feed_type,
     "diameter": _diameter,
     "working_area": _working_area,
+    "working_area_wcs": _working_area,
 }
 #: After the words of the block: the tool is that of the block's own T and D.
 LATE_EFFECTS: dict[str, Step] = {"approach": _rules, "corner": _rules, "side": _side}

@@ -18,6 +18,7 @@ from polycnc.control.sinumerik import (
     protection,
     retraction,
     sections,
+    spindle_speed,
     splines,
 )
 from polycnc.control.sinumerik.errors import not_supported
@@ -202,6 +203,11 @@ PROCEDURES: dict[str, Callable[[Channel, Arguments], None]] = {
     "DRIVEA": dynamics("DRIVE"),
     "JERKA": dynamics("JERK"),
     "FGROUP": path_group,
+    "FPR": spindle_speed.feed_source,
+    "FPRAON": spindle_speed.axis_feed_source,
+    "FPRAOF": spindle_speed.axis_feed_source_off,
+    "GWPSON": spindle_speed.wheel_speed(on=True),
+    "GWPSOF": spindle_speed.wheel_speed(on=False),
     "DELAYFSTON": sections.begin(sections.STOP_DELAY),
     "DELAYFSTOF": sections.end(sections.STOP_DELAY),
     "IPTRLOCK": sections.begin(sections.POINTER_LOCK),

@@ -86,7 +86,8 @@ def reset(channel: Channel) -> None:
     memory.open_corners.clear()
     pace.forget(memory)
     memory.language.modal_call = None
-    memory.feed_mode = tables.FEED_TYPES[channel.mode["feed"]].mode
+    memory.tooth_feed, memory.feed_source = None, 0
+    memory.feed_mode = tables.feed_type(channel.mode).mode
     memory.frames.programmable = NEUTRAL
     memory.frames.select(gcodes.number_of(channel.mode["zero_offset"]) - 1)
     frames.apply(channel)

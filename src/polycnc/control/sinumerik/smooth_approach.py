@@ -55,7 +55,7 @@ class Words:
         height = draft.take_shape("DISCL", "AC")
         infeed = draft.take_shape("FAD", "PM", "PR")
         if infeed is not None:
-            mode = tables.FEED_TYPES[draft.mode["feed"]].mode
+            mode = tables.feed_type(draft.mode).mode
             if infeed[1].modifier not in ("", {"G94": "PM", "G95": "PR"}.get(mode, "")):
                 raise not_supported(f"FAD={infeed[1].modifier}")
         clearance = (height[0], height[1].modifier == "AC") if height is not None else None

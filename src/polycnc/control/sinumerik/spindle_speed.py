@@ -1,21 +1,31 @@
-"""Constant cutting speed: what G96 needs, and the speed that G97 keeps.
+"""Constant cutting speed: what G96 needs, and the speed that G97 keeps. Constant speed of a grinding wheel.
 
-Source: Fundamentals (G96, G961, G97, G971, LIMS).
+Source: Fundamentals (G96, G961, G962, G97, G971, G972, LIMS; GWPSON, GWPSOF; FPR, FPRAON, FPRAOF).
 """
 
 from __future__ import annotations
 
-from math import pi
-from typing import TYPE_CHECKING
+import re
+from math import inf, pi
+from typing import TYPE_CHECKING, Any
 
+from polycnc.control.sinumerik import arguments
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.language.sinumerik.values import Axis
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.spindles import Spindle
 
+Arguments = tuple[Any, ...]
 MM_PER_M = 1000.0
-KEEPS_SPEED = frozenset(("G97", "G971", "G973"))
+MINUTE = 60.0
+_SPINDLE = re.compile(r"S\d+")
+KEEPS_SPEED = frozenset(("G97", "G971", "G972", "G973"))
 
 
 def change_of_feed_type(channel: Channel, surface_speed: bool, code: str) -> None:
@@ -44,3 +54,73 @@ def speed_at(channel: Channel, cutting_speed: float, limit: float) -> float:
     """Speed (rpm) for a cutting speed (m/min) where the transverse axis stands, at most the limit."""
     diameter = 2.0 * abs(channel.coordinates.position[channel.memory.transverse])
     return min(limit, MM_PER_M * cutting_speed / (pi * diameter)) if diameter > 0.0 else limit
+
+
+# ---- grinding wheels
+
+
+def wheel_speed(on: bool) -> Callable[[Channel, Arguments], None]:
+    """GWPSON(T), GWPSOF(T): S is the speed of the wheel's circumference; of the active tool without a number."""
+
+    def switch(channel: Channel, args: Arguments) -> None:
+        memory: Memory = channel.memory
+        tools = memory.tools
+        number = arguments.whole(args[0]) if args and args[0] is not None else tools.active
+        if on and number != tools.active:
+            raise not_supported(f"GWPSON({number})")
+        if on and tools.radius <= 0.0:
+            raise AlarmError("10750")
+        memory.spindles.get().has_wheel_speed = on
+
+    return switch
+
+
+def set_wheel_speed(channel: Channel, spindle: Spindle, speed: float) -> None:
+    """S in m/s: the revolutions that it takes, at most $TC_TPG6 rpm and $TC_TPG7 m/s where the tool names them."""
+    tools = channel.memory.tools
+    if tools.radius <= 0.0:
+        raise AlarmError("10750")
+    data = tools.tools[tools.active].values
+    fastest = min(speed, data.get("$TC_TPG7", 0.0) or inf)
+    revolutions = MINUTE * MM_PER_M * fastest / (2.0 * pi * tools.radius)
+    spindle.speed = min(revolutions, data.get("$TC_TPG6", 0.0) or inf)
+
+
+# ---- feed per revolution
+
+
+def feed_source(channel: Channel, args: Arguments) -> None:
+    """FPR(spindle): the spindle that a feed per revolution follows; FPR() for the master spindle again.
+
+    PC0001 for an axis.
+    """
+    memory: Memory = channel.memory
+    memory.feed_source = 0
+    if args:
+        memory.feed_source = memory.spindles.get(_source(args[0])).number
+    channel.context_changed()
+
+
+def axis_feed_source(channel: Channel, args: Arguments) -> None:
+    """FPRAON(axis, spindle, …): feeds of positioning axes per revolution of a spindle (SD43300)."""
+    for axis, source in zip(args[::2], args[1::2], strict=len(args) % 2 == 0):
+        number = channel.memory.spindles.get(_source(source)).number
+        name = channel.axes[arguments.column(channel, axis)]
+        channel.memory.data.write("$SA_ASSIGN_FEED_PER_REV_SOURCE", (name,), number)
+
+
+def axis_feed_source_off(channel: Channel, args: Arguments) -> None:
+    """FPRAOF(axis, …): their feeds are per minute again."""
+    for axis in args:
+        name = channel.axes[arguments.column(channel, axis)]
+        channel.memory.data.write("$SA_ASSIGN_FEED_PER_REV_SOURCE", (name,), 0)
+
+
+def _source(value: Any) -> int:
+    """The spindle that an argument names; PC0001 for an axis."""
+    number = (
+        arguments.spindle(value) if not isinstance(value, Axis) or _SPINDLE.fullmatch(value.name) else None
+    )
+    if number is None:
+        raise not_supported(f"FPR({getattr(value, 'name', '')})")
+    return number

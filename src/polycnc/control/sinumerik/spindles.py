@@ -24,6 +24,7 @@ class Spindle:
         lowest: G25 S, rpm.
         highest: G26 S, rpm.
         limit: LIMS, rpm.
+        has_wheel_speed: S is the speed of the grinding wheel's circumference, m/s (GWPSON).
     """
 
     number: int
@@ -35,6 +36,7 @@ class Spindle:
     lowest: float = 0.0
     highest: float = inf
     limit: float = inf
+    has_wheel_speed: bool = False
 
 
 @dataclass(slots=True)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from polycnc.channel.mode import Mode
 
 TURN = 360.0
 MINUTE = 60.0
@@ -43,6 +46,17 @@ FEED_TYPES = {
     "G952": _PER_REVOLUTION,
     "G973": _PER_REVOLUTION,
 }
+#: They keep the linear or revolutional feed that held before: with cutting speed, and with the speed that this gave.
+KEEP_FEED = frozenset(("G962", "G972"))
+
+
+def feed_type(mode: Mode) -> FeedType:
+    """How F is meant in a modal state."""
+    code = mode["feed"]
+    if code in KEEP_FEED:
+        return FEED_TYPES[mode["feed_kept"]]._replace(surface_speed=code == "G962")
+    return FEED_TYPES[code]
+
 
 #: Names that the cycles define for all programs (CYCLE832).
 CYCLE_SYMBOLS = {

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.sinumerik import tooth_feed
 from polycnc.control.sinumerik.tools import DP_TYPE, PARAMETERS
 from polycnc.language.sinumerik.values import Axis, Type
 from polycnc.messages import AlarmError
@@ -55,6 +56,17 @@ def _parameter(number: int) -> Row:
         channel.memory.tools.new_edge(tool, edge).values[number] = float(value)
 
     return (Type.INT if number == DP_TYPE else Type.REAL), read, write
+
+
+def _teeth(channel: Channel, indices: Indices) -> float:
+    tool, edge = _numbers(indices, "$TC_DPNT", 2)
+    return _edge(channel, tool, edge).teeth
+
+
+def _set_teeth(channel: Channel, indices: Indices, value: float) -> None:
+    tool, edge = _numbers(indices, "$TC_DPNT", 2)
+    channel.memory.tools.new_edge(tool, edge).teeth = float(value)
+    tooth_feed.follow(channel)
 
 
 def _additive(kind: str, number: int) -> Row:
@@ -171,6 +183,8 @@ TOOL_VARIABLES: dict[str, Row] = {
     "$TC_DPCE": (Type.INT, _cutting_edge, _set_cutting_edge),
     **{f"$TC_DP{n}": _parameter(n) for n in range(1, PARAMETERS + 1)},
     **{f"$TC_TP{n}": _tool_value(f"$TC_TP{n}") for n in (1, 3, 4, 5, 6, 7, 8, 9, 10, 11)},
+    "$TC_DPNT": (Type.REAL, _teeth, _set_teeth),
+    **{f"$TC_TPG{n}": _tool_value(f"$TC_TPG{n}") for n in range(1, 10)},
     "$TC_TP2": (Type.STRING, _name, _set_name),
     "$P_TOOLNO": (Type.INT, _of_tools("active"), None),
     "$P_TOOLP": (Type.INT, _of_tools("selected"), None),

@@ -44,12 +44,14 @@ class Edge:
 
     Attributes:
         values: `values[n]` is `$TC_DPn`.
+        teeth: Number of teeth, `$TC_DPNT`.
         cutting_edge: `$TC_DPCE`, 0 while it equals the D number.
         is_valid: False after DZERO.
         additive: Additive offsets, wear (`$TC_SCPn`) and setup (`$TC_ECPn`) added up, by kind and number n.
     """
 
     values: list[float] = field(default_factory=lambda: [0.0] * (PARAMETERS + 1))
+    teeth: float = 0.0
     cutting_edge: int = 0
     is_valid: bool = True
     additive: dict[tuple[str, int], float] = field(default_factory=dict)

@@ -10,7 +10,17 @@ from math import inf, nan, pi
 from typing import TYPE_CHECKING
 
 from polycnc.compensation.corner import Shape
-from polycnc.control.sinumerik import auxiliary, motion, plain, retraction, sections, stages, tables
+from polycnc.control.sinumerik import (
+    auxiliary,
+    motion,
+    plain,
+    retraction,
+    sections,
+    spindle_speed,
+    stages,
+    tables,
+    tooth_feed,
+)
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.positions import length_factor, number
 from polycnc.geometry.units import INCH_MM
@@ -90,14 +100,16 @@ def spindle_number(shape: WordShape, position: int) -> int | None:
 def speed(draft: Draft, position: int, shape: WordShape) -> Step:
     """S: rpm, or m/min under constant cutting speed; alarm 16763 below zero."""
     wanted = spindle_number(shape, position)
-    surface = tables.FEED_TYPES[draft.mode["feed"]].surface_speed
+    surface = tables.feed_type(draft.mode).surface_speed
 
     def run(channel: Channel, values: Values) -> None:
         spindle = channel.memory.spindles.get(wanted)
         value = number(values, position)
         if value < 0.0:
             raise WordAlarm("16763", position, axis=f"S{spindle.number}")
-        if surface and spindle.number == channel.memory.spindles.master:
+        if spindle.has_wheel_speed:
+            spindle_speed.set_wheel_speed(channel, spindle, value)
+        elif surface and spindle.number == channel.memory.spindles.master:
             spindle.cutting_speed = value
         else:
             spindle.speed = value
@@ -421,6 +433,7 @@ def tool_carrier(_draft: Draft, position: int, _shape: WordShape) -> Step:
 _PERCENT = ("OVR", "OVRRAP", "OVRA", "ACC", "ACCLIMA", "VELOLIM", "VELOLIMA", "JERKLIM", "JERKLIMA")
 WORDS: dict[str, Maker] = {
     "F": feed,
+    "FZ": tooth_feed.tooth_feed,
     "FA": axis_feed,
     "S": speed,
     "LIMS": speed_limit,
