@@ -61,6 +61,8 @@ ALARMS: dict[str, str] = {
     "parameter_words": "PS0231",
     "zone_plus": "OT0502",
     "zone_minus": "OT0503",
+    "zone_3_plus": "OT0504",
+    "zone_3_minus": "OT0505",
     "spindle_choice": "PS5305",
     "comp_in_mdi": "PS5257",
     # turning

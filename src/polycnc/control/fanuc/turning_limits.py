@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from polycnc.channel.interface import Zone
     from polycnc.control.word_address.words import Words
 
-#: Parameters of stored stroke checks 1 and 2: upper and lower limits.
-TRAVEL, ZONE = (1320, 1321), (1322, 1323)
+#: Parameters of stored stroke checks 1, 2 and 3: upper and lower limits.
+TRAVEL, ZONE, INNER_ZONE = (1320, 1321), (1322, 1323), (1324, 1325)
 
 
 def at_power_on(channel: Channel) -> None:
@@ -28,10 +28,14 @@ def at_power_on(channel: Channel) -> None:
 
 
 def stroke_check_on(channel: Channel, words: Words) -> None:
-    """G22 X Z I K: stored stroke check 2 in machine coordinates; values of a diameter axis are diameters."""
+    """G22 X Z I K: stored stroke check 2 in machine coordinates; values of a diameter axis are diameters.
+
+    The zone stays stored: a G22 without words brings back the one of the last words.
+    """
     memory = channel.memory
+    memory.programmed_zone = _zone_of_words(channel, words) or memory.programmed_zone
     # The barrier takes the place of stored stroke checks 2 and 3 (III.2.2).
-    memory.zone = barrier(channel) or _zone_of_words(channel, words) or _zone_of_parameters(channel)
+    memory.zone = barrier(channel) or memory.programmed_zone or _zone_of_parameters(channel)
     renew_zones(channel)
 
 
@@ -62,6 +66,9 @@ def renew_zones(channel: Channel) -> None:
         zones.append(TravelCheck(travel))
     if memory.zone is not None:
         zones.append(memory.zone)
+    inner = None if barrier(channel) else _zone_3(channel)
+    if inner is not None:
+        zones.append(inner)
     channel.stroke_zone = Zones(tuple(zones)) if zones else None
 
 
@@ -79,13 +86,22 @@ def _zone_of_words(channel: Channel, words: Words) -> StrokeZone | None:
 
 def _zone_of_parameters(channel: Channel) -> StrokeZone | None:
     """Stored stroke check 2 of the axes that 1310#0 names, with the limits of 1322 and 1323."""
+    return _zone(channel, _limits(channel, ZONE, bit=0))
+
+
+def _zone_3(channel: Channel) -> StrokeZone | None:
+    """Stored stroke check 3, always on: the inside of 1324 and 1325, of the axes that 1310#1 names."""
+    zone = _zone(channel, _limits(channel, INNER_ZONE, bit=1))
+    return None if zone is None else replace(zone, inside=True, number=3)
+
+
+def _limits(channel: Channel, numbers: tuple[int, int], bit: int) -> list[tuple[int, float, float]]:
     parameters = channel.memory.parameters
-    named = [
-        (i, *(channel.memory.radius_of(i, parameters.number(number, axis)) for number in reversed(ZONE)))
+    return [
+        (i, *(channel.memory.radius_of(i, parameters.number(number, axis)) for number in reversed(numbers)))
         for i, axis in enumerate(channel.axes)
-        if parameters.bit(1310, 0, axis)
+        if parameters.bit(1310, bit, axis)
     ]
-    return _zone(channel, named)
 
 
 def _zone(channel: Channel, named: list[tuple[int, float, float]]) -> StrokeZone | None:

@@ -60,12 +60,13 @@ def _measure(channel: Channel, words: Words, name: str) -> None:
     end = c.position[:]
     end[axis] = target_position - towards * before
     channel.straight(Kind.RAPID, end, nan)
-    measured = _signal(channel, axis)
-    if measured is None or abs(measured - target_position) > window + 1e-9:
-        raise words.fail("measure_signal", name)
+    measured, comes = _stop(channel, axis, end[axis], target_position + towards * window)
     end = c.position[:]
     end[axis] = measured
     channel.straight(Kind.SKIP, end, parameters.number(6241, name) / _seconds(channel))
+    if not comes or abs(measured - target_position) > window + 1e-9:
+        channel.keep_rows()
+        raise words.fail("measure_signal", name)
     values = memory.turning_offset(memory.offset_active).wear
     values[name] = values.get(name, 0.0) + measured + towards * _nose_reach(channel, axis) - target_position
     offset_changed(channel)
@@ -87,6 +88,13 @@ def _seconds(channel: Channel) -> float:
     return 60.0 if channel.mode["feed"] == "G98" else 1.0
 
 
-def _signal(channel: Channel, axis: int) -> float | None:
+def _stop(channel: Channel, axis: int, begin: float, furthest: float) -> tuple[float, bool]:
+    """Where the stroke at measuring speed ends, and whether the signal ends it: one that is on before acts at once."""
     at = channel.setup.switches.measure_signal_at.get(channel.axes[axis])
-    return None if at is None else channel.memory.radius_of(axis, at)
+    if at is None:
+        return furthest, False
+    signal = channel.memory.radius_of(axis, at)
+    if abs(signal - furthest) > abs(furthest - begin):
+        signal = begin
+    comes = (furthest - signal) * (furthest - begin) >= -1e-9
+    return (signal, True) if comes else (furthest, False)

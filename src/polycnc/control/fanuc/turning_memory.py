@@ -99,6 +99,7 @@ class TurningMemory(MacroMemory):
         increment_limits: Largest increment of axes (G91.1).
         balanced: Paths that cut together (G68 on a machine of several paths).
         zone: Forbidden zone of G22, or the barrier.
+        programmed_zone: The zone that the words of the last G22 have stored.
         reading_shape: Blocks are read for their shape only: T, S, M do nothing.
         shape: What has been read of it.
     """
@@ -133,6 +134,7 @@ class TurningMemory(MacroMemory):
         self.increment_limits: dict[int, float] = {}
         self.balanced: frozenset[int] = frozenset()
         self.zone: Zone | None = None
+        self.programmed_zone: Zone | None = None
         self.reading_shape = False
         self.shape: Shape | None = None
         for name in self.work_offsets:

@@ -117,7 +117,7 @@ class WordAddressControl:
             "over_travel_plus" if direction > 0 else "over_travel_minus", address=axis, axis=axis
         )
 
-    def forbidden_zone(self, axis: str, direction: int) -> AlarmError:
+    def forbidden_zone(self, axis: str, direction: int, _number: int = 2) -> AlarmError:
         """The alarm for a way into a zone that the program has forbidden."""
         return self.over_travel(axis, direction)
 

@@ -94,9 +94,10 @@ class CustomMacroControl(WordAddressControl):
         delivered = _BASIC_ROLES.get(name, parallel)
         return int(channel.setup.parameters.number(1022, name, delivered))
 
-    def forbidden_zone(self, axis: str, direction: int) -> AlarmError:
-        """The alarm for a way into the zone of G22 (stored stroke check 2) or into a barrier."""
-        return self.fail("zone_plus" if direction > 0 else "zone_minus", address=axis, axis=axis)
+    def forbidden_zone(self, axis: str, direction: int, number: int = 2) -> AlarmError:
+        """The alarm for a way into the zone of G22 (stored stroke check 2), of check 3, or into a barrier."""
+        zone = "zone" if number == 2 else f"zone_{number}"
+        return self.fail(f"{zone}_plus" if direction > 0 else f"{zone}_minus", address=axis, axis=axis)
 
     def macro_alarm(self, channel: Channel, number: int, told: str) -> AlarmError:
         """The alarm of #3000 = n (TEXT): 3000 + n, or n itself by 6008#6."""

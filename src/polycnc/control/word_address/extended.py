@@ -92,12 +92,13 @@ def advance_preview(channel: Channel, words: Words) -> None:
 
 @dataclass(frozen=True, slots=True)
 class StrokeZone:
-    """A box in machine coordinates that the tool must not enter (`inside`) or not leave."""
+    """A box in machine coordinates that the tool must not enter (`inside`) or not leave: stored stroke check 2 or 3."""
 
     low: tuple[float, ...]
     high: tuple[float, ...]
     axes: tuple[int, ...]
     inside: bool
+    number: int = 2
 
     def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:
         """The control's alarm for a way into the zone, or out of it; of a curve the end and points on it."""
@@ -105,7 +106,7 @@ class StrokeZone:
         axis = self._entered(start, machine) if self.inside else self._left(machine)
         if axis >= 0:
             direction = 1 if machine[axis] >= channel.coordinates.machine[axis] else -1
-            raise channel.control.forbidden_zone(channel.axes[axis], direction)
+            raise channel.control.forbidden_zone(channel.axes[axis], direction, self.number)
 
     def check_point(self, channel: Channel, machine: list[float]) -> None:
         """The control's alarm for a point of a curve."""
