@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 #: G codes and M codes that no parameter can register.
 NEVER_G = frozenset({0, 5, 65, 66, 67})
 NEVER_M = frozenset({0, 1, 2, 30, 98, 99})
+#: M codes that end, call or leave a program.
+PROGRAM_M = frozenset({2, 30, 98, 99, 198})
 
 
 def registered_codes(channel: Channel) -> CodeCalls:

@@ -25,6 +25,7 @@ from polycnc.control.fanuc import (
     turning_tools,
 )
 from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
+from polycnc.control.fanuc.code_calls import PROGRAM_M, registered_codes
 from polycnc.control.fanuc.operation import dry_run
 from polycnc.control.fanuc.turning_codes import (
     ADDRESSES,
@@ -36,7 +37,7 @@ from polycnc.control.fanuc.turning_codes import (
 )
 from polycnc.control.fanuc.turning_memory import TurningMemory
 from polycnc.control.fanuc.turning_variables import TURNING_VARIABLES
-from polycnc.control.word_address import interruption, normal_line, path
+from polycnc.control.word_address import code_calls, interruption, normal_line, path
 from polycnc.control.word_address.codes import MCode
 from polycnc.control.word_address.custom_macro import CustomMacroControl
 from polycnc.control.word_address.normal_line import NormalLineParameters
@@ -50,6 +51,7 @@ if TYPE_CHECKING:
     from polycnc.channel.steps import Step as ProgramStep
     from polycnc.compensation.policies import Policy
     from polycnc.control.data_files import DataFiles
+    from polycnc.control.word_address.code_calls import CodeCalls
     from polycnc.control.word_address.codes import GCode, Handler, Planner, Step
     from polycnc.control.word_address.drilling import Drilling
     from polycnc.control.word_address.plan import Builder, Plan
@@ -57,9 +59,6 @@ if TYPE_CHECKING:
     from polycnc.machine.motion_settings import MotionSettings
     from polycnc.messages import AlarmError
     from polycnc.toolpath import Context
-
-#: M codes that cannot be passed over in a shape.
-_CALLS = frozenset({2, 30, 98, 99, 198})
 
 
 class FanucTurning(CustomMacroControl):
@@ -98,6 +97,7 @@ class FanucTurning(CustomMacroControl):
         5480, 5481, 5482, 5483, preset="G50"
     )
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z", "H": "C"}
+    LATER_AXIS_WORD_COUNTS: ClassVar[bool] = True
 
     # ---- state -----------------------------------------------------------------------------------------------
 
@@ -109,7 +109,7 @@ class FanucTurning(CustomMacroControl):
     def g_table(self, channel: Channel) -> Mapping[str, GCode]:
         """The G codes as programs of this channel write them."""
         bit = channel.setup.parameters.bit
-        return g_table(
+        table = g_table(
             self.system(channel),
             circular_thread=bool(bit(3405, 3)),
             grinding=bool(bit(5106, 0)),
@@ -117,6 +117,11 @@ class FanucTurning(CustomMacroControl):
             balance=turning_balance.is_available(channel),
             missing=missing_codes(channel.setup.parameters),
         )
+        return self.with_calls(channel, table)
+
+    def code_calls(self, channel: Channel) -> CodeCalls:
+        """Codes registered by 6050 to 6089 and 6001#5."""
+        return registered_codes(channel)
 
     def written_code(self, channel: Channel, group: str) -> str:
         """The active code of a modal group as the program writes it."""
@@ -245,6 +250,12 @@ class FanucTurning(CustomMacroControl):
         normal_line.check_block(builder)
         return turning_data.plan_parameter_block(builder, plan) or super().call_by_code(builder, plan)
 
+    def check_nesting(self, channel: Channel, kind: str) -> None:
+        """As everywhere; the shape that G70 runs calls no program at all (II.4.2.8)."""
+        if channel.level.kind == turning_comp.SHAPE_KIND:
+            raise self.fail("shape_command", address="P")
+        super().check_nesting(channel, kind)
+
     def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
         """The step of the active motion code, or of the active drilling cycle; balanced paths start it together.
 
@@ -283,7 +294,7 @@ class FanucTurning(CustomMacroControl):
 
     def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
         """Modal macro calls; words of single cycles that a one-shot code clears."""
-        turning_repetitive.refuse_calls(builder)
+        turning_repetitive.check_block(builder, plan)
         further = (
             turning_shape.plan_note(builder, plan),
             turning_single.plan_clearing(builder),
@@ -346,7 +357,10 @@ class FanucTurning(CustomMacroControl):
         """The row of an M code in a block; clamp codes of drilling blocks belong to the cycle."""
         if builder.mode["cycle"] != "G80" and turning_drilling.is_clamp(builder.channel, number):
             return MCode(number, handler=turning_drilling.note_clamp(number), silent=True)
-        if builder.mode.codes.get(turning_shape.GROUP) == turning_shape.READING and number not in _CALLS:
+        called = code_calls.m_row(builder, number)
+        if called is not None:
+            return called
+        if builder.mode.codes.get(turning_shape.GROUP) == turning_shape.READING and number not in PROGRAM_M:
             return MCode(number, silent=True)
         return interruption.m_code(builder.channel, number) or self.m_code(number)
 

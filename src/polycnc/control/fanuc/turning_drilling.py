@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.words import Words
     from polycnc.cycles.drilling import Cycle, Hole, Stroke
 
+#: K, or L in the Series 15 format, is a whole number up to this one (II.4.3).
+MOST_REPEATS = 9999
 BORE = partial(drilling.bore, out=2.0)
 #: Cycles with their axis: the face is drilled along Z, the side along X (II.4.3).
 NORMAL_CYCLES = ("G83", "G83.5", "G83.6", "G84", "G85", "G87", "G87.5", "G87.6", "G88", "G89")
@@ -86,6 +88,7 @@ def _rules(choice: _Choice) -> Drilling:
         r_as_axis=choice.diameter_r,
         by_r=True,
         repeats="L" if choice.repeats_by_l else "K",
+        most_repeats=MOST_REPEATS,
         triggers="R",
         least_increments="Q",
         axis=_axis,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.fanuc.code_calls import PROGRAM_M
 from polycnc.control.fanuc.turning_coordinates import plane_axes
 from polycnc.control.word_address.numbers import length_converter
 from polycnc.control.word_address.skip import signal_position
@@ -31,8 +32,6 @@ _GAUGED = frozenset({TRAVERSE_GAUGED, OSCILLATE_GAUGED})
 _OSCILLATING = frozenset({OSCILLATE, OSCILLATE_GAUGED})
 #: P of a gauged cycle; another number switches the skip off.
 _GAUGES = frozenset({1.0, 2.0, 3.0, 4.0})
-#: M codes of the control itself: blocks with them do not repeat a cycle.
-_PROGRAM_CODES = frozenset({2, 30, 98, 99, 198})
 #: Words that live on; H always, and B of the oscillating cycles, hold in their block only.
 _WORDS = "ABWUIKHP"
 
@@ -51,7 +50,7 @@ def plan_grinding(builder: Builder, plan: Plan) -> Step | None:
             raise control.fail("grinding_axis", address=word.address)
         # The grinding axis may be named instead of W; it is an increment all the same.
         slots["W"] = (word.slot, builder.slots[word.address][1])
-    if not slots and _PROGRAM_CODES.intersection(builder.m_codes):
+    if not slots and PROGRAM_M.intersection(builder.m_codes):
         return None
     once = ("H", "P", "B") if code in _OSCILLATING else ("H", "P")
 

@@ -14,7 +14,15 @@ from polycnc.channel.stack import Level
 from polycnc.control.fanuc.turning_comp import SHAPE_KIND
 from polycnc.control.fanuc.turning_coordinates import plane_axes, set_rotation, without_rotation
 from polycnc.control.fanuc.turning_drilling import is_series_15
-from polycnc.control.fanuc.turning_shape import Section, contour_of, read_shape, section_steps
+from polycnc.control.fanuc.turning_shape import (
+    FINISHING,
+    GROUP,
+    Section,
+    contour_of,
+    end_finishing,
+    read_shape,
+    section_steps,
+)
 from polycnc.control.fanuc.turning_single import cut_pass, runout
 from polycnc.control.fanuc.turning_strokes import (
     emit,
@@ -23,7 +31,7 @@ from polycnc.control.fanuc.turning_strokes import (
     leave_compensation,
     uncompensated_cycle,
 )
-from polycnc.control.fanuc.turning_threads import lead_in_force, start_angle
+from polycnc.control.fanuc.turning_threads import CHAMFERS, lead_in_force, refuse_corners, start_angle
 from polycnc.cycles.contour import points, reversal, swapped, swapped_stroke
 from polycnc.cycles.threading import ThreadCuts, thread_passes
 from polycnc.cycles.turning_pattern import repeat_pattern as pattern_strokes
@@ -39,7 +47,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.fanuc.turning_shape import Shape
-    from polycnc.control.word_address.plan import Builder
+    from polycnc.control.word_address.plan import Builder, Plan
     from polycnc.control.word_address.words import Words
     from polycnc.cycles.contour import Contour
     from polycnc.cycles.plane_stroke import PlaneStroke
@@ -68,9 +76,11 @@ CALL_CODES, CALL_M_CODES = frozenset({"G65", "G66", "G66.1"}), frozenset({98, 19
 # ---- shape cycles ----------------------------------------------------------------------------------------------
 
 
-def refuse_calls(builder: Builder) -> None:
-    """G70 to G73 share their block with no call of a program (II.4.2.8)."""
+def check_block(builder: Builder, plan: Plan) -> None:
+    """G70 to G73 share their block with no call of a program (II.4.2.8), G76 as a thread with no corner (II.4.2.7)."""
     codes = {row.code for row in builder.codes}
+    if "G76" in codes:
+        refuse_corners(builder, plan, CHAMFERS)
     if codes & SHAPE_CYCLES and (codes & CALL_CODES or CALL_M_CODES.intersection(builder.m_codes)):
         raise builder.control.fail("cycle_block", address=builder.order[0])
 
@@ -84,7 +94,7 @@ def finish(channel: Channel, words: Words) -> None:
     begin, end = section_steps(channel, code, first, last)
     level = channel.level
     section = Level(
-        Section(code, end), begin, begin, level.program_number, 0, begin, SHAPE_KIND, level.locals
+        Section(code, begin, end), begin, begin, level.program_number, 0, begin, SHAPE_KIND, level.locals
     )
     section.data["rotation"] = set_rotation(channel, IDENTITY)
     section.data["start"] = channel.coordinates.position
@@ -94,11 +104,13 @@ def finish(channel: Channel, words: Words) -> None:
         enter_compensation(channel)
     channel.stack.append(section)
     channel.level = section
+    channel.mode = channel.mode.with_code(GROUP, FINISHING)
 
 
 def end_of_shape(channel: Channel) -> None:
     """The shape of G70 is cut: back to the start in rapid, on with the block behind G70."""
     section = channel.pop()
+    end_finishing(channel)
     set_rotation(channel, section.data["rotation"])
     start: list[float] = section.data["start"]
     if channel.memory.side and not section.data["compensated"]:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.path import Recorder
 from polycnc.compensation import CutterCompensation, Plane
+from polycnc.control.fanuc.code_calls import PROGRAM_M
 from polycnc.control.fanuc.turning_comp import SHAPE_KIND
 from polycnc.control.fanuc.turning_coordinates import plane_axes
 from polycnc.control.fanuc.turning_corners import TurningCorner
@@ -31,12 +32,15 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.plan import Builder, Plan
 
-GROUP, READING = "shape", "reading"
+#: Group and codes of the modal state in which the blocks of a shape are read for a cycle, or run by G70.
+GROUP, READING, FINISHING = "shape", "reading", "finishing"
 MAX_SHAPE_BLOCKS = 10_000
 #: Ways below this are none.
 SAME_MM = 1e-9
 _INFEED_CODES = ("G0", "G1")
 _ALLOWED = frozenset({"G0", "G1", "G2", "G3"})
+#: One-shot codes and macro calls.
+_REFUSED_GROUPS = frozenset({"", "macro"})
 
 
 @dataclass(slots=True)
@@ -59,15 +63,27 @@ class Shape:
     end: int = 0
 
 
+def is_within(builder: Builder) -> bool:
+    """Whether a block belongs to a shape that is being read, or that G70 runs."""
+    return builder.mode.codes.get(GROUP) in (READING, FINISHING)
+
+
 def plan_note(builder: Builder, plan: Plan) -> Step | None:
-    """A step that tells the reader about a block; only in the plans of shapes that are being read."""
-    if builder.mode.codes.get(GROUP) != READING:
+    """A step that tells the reader about a block; only in the plans of shapes that are being read.
+
+    A block of a shape, read or run by G70, holds nothing but lines, arcs, dwells and macro statements (II.4.2.8).
+    """
+    if not is_within(builder):
         return None
-    codes = [row.code for row in builder.codes if row.group == "motion"]
     if builder.mode["motion"] not in _ALLOWED:
         raise builder.control.fail("shape_command", address=builder.mode["motion"])
-    if any(row.group == "" and row.code != "G4" for row in builder.codes):
+    if any(row.group in _REFUSED_GROUPS and row.code != "G4" for row in builder.codes):
         raise builder.control.fail("shape_command", address=builder.codes[0].code)
+    if PROGRAM_M.intersection(builder.m_codes):
+        raise builder.control.fail("shape_command", address="M")
+    if builder.mode.codes[GROUP] != READING:
+        return None
+    codes = [row.code for row in builder.codes if row.group == "motion"]
     axes = frozenset(word.axis for word in plan.axis_words)
     code = codes[-1] if codes and codes[-1] in _INFEED_CODES else ""
 
@@ -215,21 +231,34 @@ def _compensated(channel: Channel, moves: list[Move], plane: Plane) -> list[Move
 class Section:
     """The blocks of a shape as a program of its own: G70 runs them once, as they are written."""
 
-    def __init__(self, code: Any, end: int) -> None:
+    def __init__(self, code: Any, begin: int, end: int) -> None:
         self.code = code
         self.program = code.program
-        self.end = end
+        self.begin, self.end = begin, end
         self.steps: tuple[BlockStep | None, ...] = ()
 
     def step(self, index: int) -> BlockStep | None:
-        """The step of a block; None behind the last one of the shape."""
-        if index > self.end:
+        """The step of a block; None behind the last one of the shape, an alarm where a jump has left it."""
+        if index == self.end + 1:
             return None
+        if not self.begin <= index <= self.end:
+            return _outside
         step: BlockStep = self.code.compile(self.code.lines[index], index)
         return step
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self.code, name)
+
+
+def _outside(channel: Channel) -> None:
+    raise channel.control.fail("shape_command", address="P")
+
+
+def end_finishing(channel: Channel) -> None:
+    """Behind the last block of the shape that G70 runs any command is allowed again."""
+    codes = dict(channel.mode.codes)
+    del codes[GROUP]
+    channel.mode = channel.modes.mode(codes)
 
 
 def interruptible(builder: Builder, motion: Step) -> Step:

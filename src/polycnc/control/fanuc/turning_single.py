@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc import turning_grinding
+from polycnc.control.fanuc.code_calls import PROGRAM_M
 from polycnc.control.fanuc.turning_coordinates import feed_number, plane_axes
 from polycnc.control.fanuc.turning_drilling import is_series_15
 from polycnc.control.fanuc.turning_strokes import compensated_cycle, uncompensated_cycle
@@ -29,8 +30,8 @@ if TYPE_CHECKING:
 #: Name of the feed hold input.
 FEED_HOLD = "*SP"
 CYCLES = frozenset({"G90", "G92", "G94"})
-#: M codes of the control itself: blocks with nothing else do not repeat a cycle.
-_PROGRAM_CODES = frozenset({2, 30, 98, 99, 198})
+#: Codes of group 00 that leave a cycle its words: the dwell, and the two that are not one-shot (II.2, 4.1.6).
+_KEEPING = frozenset({"G4", "G10", "G11"})
 #: Groups of codes that do not repeat a cycle where they stand without its words: one-shot codes, macro calls, G80.
 _IDLE_GROUPS = frozenset({"", "macro", "cycle"})
 
@@ -48,7 +49,7 @@ def plan_single_cycle(builder: Builder, plan: Plan) -> Step | None:
     inch_thread = _plan_inch_thread(builder) if code == "G92" else None
     names_corner = bool(plan.axis_words) or taper is not None
     idle = any(row.group in _IDLE_GROUPS for row in builder.codes)
-    if not names_corner and (idle or _PROGRAM_CODES.intersection(builder.m_codes)):
+    if not names_corner and (idle or PROGRAM_M.intersection(builder.m_codes)):
         return None
     taper_slot = builder.slot(taper) if taper is not None else None
     taper_of = builder.length(taper) if taper is not None else None
@@ -174,11 +175,11 @@ def _taper_letters(builder: Builder, code: str) -> tuple[str, ...]:
 
 
 def plan_clearing(builder: Builder) -> Step | None:
-    """Another one-shot code than G04, or another motion code, makes the control forget the cycle's words."""
+    """A one-shot code, but for G04, or another motion code, makes the control forget the cycle's words."""
     for codes, field in ((CYCLES, "single_cycle"), (turning_grinding.CODES, "grinding")):
         if builder.before["motion"] not in codes:
             continue
         leaves = builder.mode["motion"] not in codes
-        if leaves or any(not row.group and row.code != "G4" for row in builder.codes):
+        if leaves or any(not row.group and row.code not in _KEEPING for row in builder.codes):
             return lambda channel, _values: getattr(channel.memory, field).clear()
     return None

@@ -32,9 +32,9 @@ MAX_START_ANGLE = 360_000
 ON_THREAD, ON_CYCLE_THREAD, OFF_THREAD, RETRACT = "thread", "cycle", "off", "retract"
 #: Least and largest lead (II.3.1, table 3.1(a)).
 LEADS_MM, LEADS_INCH = (0.0001, 500.0), (0.000001, 9.999999)
-_CHAMFERS = (",C", ",R", ",A")
+CHAMFERS = (",C", ",R", ",A")
 #: What makes a chamfer or a corner R, or a line of drawing dimensions.
-CORNER_WORDS = (*_CHAMFERS, "R", "C", "I", "J", "K")
+CORNER_WORDS = (*CHAMFERS, "R", "C", "I", "J", "K")
 
 
 # ---- straight ----------------------------------------------------------------------------------------------------
@@ -92,7 +92,7 @@ def plan_circular_thread_ccw(builder: Builder, plan: Plan) -> Step | None:
 
 def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
     control, words = builder.control, plan.axis_words
-    refuse_corners(builder, plan, _CHAMFERS)
+    refuse_corners(builder, plan, CHAMFERS)
     angle_of = plan_start_angle(builder)
     u, v, w = PLANES[builder.mode["plane"]]
     letters = (CENTER_WORDS[u], CENTER_WORDS[v])

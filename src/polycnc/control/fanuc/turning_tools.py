@@ -10,6 +10,7 @@ from math import nan
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.tool_change import check_change_points
+from polycnc.control.word_address.code_calls import calls_by_tool
 from polycnc.control.word_address.coordinates import refresh_zero
 from polycnc.control.word_address.path import PLANES
 from polycnc.control.word_address.plan import NOT_YET
@@ -33,8 +34,13 @@ _MEASURING = frozenset({"G36", "G37", "G37.1", "G37.2"})
 MAX_OFFSETS = 999
 
 
-def plan_tool(builder: Builder) -> Step:
-    """T: turret position and offset number in one word; the offset acts with the block's motion."""
+def plan_tool(builder: Builder) -> Step | None:
+    """T: turret position and offset number in one word; the offset acts with the block's motion.
+
+    None where T calls a program instead (6001#5).
+    """
+    if calls_by_tool(builder):
+        return None
     control, mode = builder.control, builder.mode
     slot, form = builder.slots["T"]
     if form not in ("", "#"):

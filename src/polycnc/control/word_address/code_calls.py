@@ -127,12 +127,12 @@ def plan_m_macro(builder: Builder, plan: Plan) -> Step | None:
 
 def plan_tool_or_call(builder: Builder) -> Step | None:
     """T: selects the next tool, or calls a program behind the motion of its block."""
-    return None if _calls_by_tool(builder) else auxiliary.plan_tool(builder)
+    return None if calls_by_tool(builder) else auxiliary.plan_tool(builder)
 
 
 def plan_tool_call(builder: Builder) -> Step | None:
     """The call of the program registered for T."""
-    if not builder.has("T") or not _calls_by_tool(builder):
+    if not builder.has("T") or not calls_by_tool(builder):
         return None
     slot = builder.slots["T"][0]
     call = _calls(builder).t
@@ -147,5 +147,6 @@ def plan_tool_call(builder: Builder) -> Step | None:
     return act
 
 
-def _calls_by_tool(builder: Builder) -> bool:
+def calls_by_tool(builder: Builder) -> bool:
+    """Whether T calls a program here."""
     return _calls(builder).t is not None and may_call(builder, "T")

@@ -66,6 +66,7 @@ class WordAddressControl:
         DIAMETER_PROGRAMMING: Axes marked as transverse are programmed in diameters.
         CURVE_BEGINS_AT_TOOL: The first pole of a G06.2 curve must be where the tool stands.
         INCREMENTAL_ADDRESSES: Addresses that are increments of an axis whatever the mode (U is X …).
+        LATER_AXIS_WORD_COUNTS: Of an absolute and an incremental word of one axis the later one counts alone.
         POINT_IN_WHOLE_NUMBERS: A decimal point behind a whole number is read over where no point belongs.
     """
 
@@ -85,6 +86,7 @@ class WordAddressControl:
     DIAMETER_PROGRAMMING: ClassVar[bool] = False
     CURVE_BEGINS_AT_TOOL: ClassVar[bool] = False
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {}
+    LATER_AXIS_WORD_COUNTS: ClassVar[bool] = False
     INCH_CODE: ClassVar[str] = "G20"
     POINT_IN_WHOLE_NUMBERS: ClassVar[bool] = True
     form: ClassVar[Form] = Form.WORD_ADDRESS

@@ -205,7 +205,10 @@ class CustomMacroControl(WordAddressControl):
 
     def g_table(self, channel: Channel) -> Mapping[str, GCode]:
         """The G table with the codes that call programs here."""
-        table = super().g_table(channel)
+        return self.with_calls(channel, super().g_table(channel))
+
+    def with_calls(self, channel: Channel, table: Mapping[str, GCode]) -> Mapping[str, GCode]:
+        """A G table with the codes that call programs here."""
         calls = self.code_calls(channel)
         if not calls.g or "G" not in channel.mode.codes.get("calls", ""):
             return table

@@ -19,6 +19,7 @@ from polycnc.control.word_address.path import FEED_MODES, PLANES, target
 from polycnc.control.word_address.radius import suspended
 from polycnc.cycles import drilling_lathe
 from polycnc.cycles.drilling import Action, Cycle, Hole, Stroke, tap
+from polycnc.language.word_address.functions import round_half_away
 from polycnc.toolpath import Kind
 from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS, STROKE
 
@@ -138,6 +139,7 @@ class Drilling:
         kept: Words that live until the cycle ends; the bottom level always does.
         once: Words that hold in their block only.
         repeats: Words for the number of repeats; 0 only stores the data.
+        most_repeats: The largest such number, and only whole numbers from 0 are any; 0 to take any number.
         triggers: Words beside axis words that make a block drill.
         r_is_increment: R counts from the initial level even under G90 (FANUC lathes).
         r_as_axis: R is a diameter where words of the drilling axis are diameters; else a radius value.
@@ -162,6 +164,7 @@ class Drilling:
     kept: Sequence[str] = "RQPIJK"
     once: Sequence[str] = ""
     repeats: Sequence[str] = "L"
+    most_repeats: int = 0
     triggers: Sequence[str] = ""
     r_is_increment: bool = False
     r_as_axis: bool = False
@@ -206,6 +209,14 @@ class CycleData:
         """Value of a word, of this block or kept; 0 where there is none."""
         return (self.now.get(address) or self.kept.get(address) or (0.0, False))[0]
 
+    def amounts(self) -> dict[str, Datum]:
+        """The kept words that hold for another drilling axis too: all but the levels of this one."""
+        return {
+            address: datum
+            for address, datum in self.kept.items()
+            if address != BOTTOM and (address != "R" or datum[1])
+        }
+
     def __contains__(self, address: str) -> bool:
         return address in self.now or address in self.kept
 
@@ -237,10 +248,11 @@ def plan_drilling(builder: Builder, plan: Plan) -> Step:
 
     def run(channel: Channel, values: list[float]) -> None:
         memory, c = channel.memory, channel.coordinates
-        if entering or memory.cycle_data is None or memory.cycle_data.axis != words.axis:
+        before: CycleData | None = None if entering else memory.cycle_data
+        if before is None or before.axis != words.axis:
             # An offset that waits for the next move is not in the programmed point yet; the level counts with it.
             initial = c.programmed[words.axis] + c.pending[words.axis]
-            memory.cycle_data = CycleData(words.axis, initial)
+            memory.cycle_data = CycleData(words.axis, initial, before.amounts() if before else {})
         if not words.drills:
             return
         data: CycleData = memory.cycle_data
@@ -282,7 +294,8 @@ class _Words:
         self.positions: tuple[AxisWord, ...] = tuple(w for w in plan.axis_words if w.axis != self.axis)
         named = [a for a in self.rules.words if builder.has(a) and builder.is_free(a)]
         builder.take(*named)
-        self.repeat_slot = next((builder.slot(a) for a in self.rules.repeats if a in named), None)
+        self.repeats = next((a for a in self.rules.repeats if a in named), "")
+        self.repeat_slot, self.repeat_form = builder.slots.get(self.repeats, (-1, ""))
         self.drills = bool(plan.axis_words) or any(a in named for a in self.rules.triggers)
         self.incremental = builder.mode["distance"] == "G91" or self.rules.r_is_increment
         self.polar = builder.mode.codes.get("polar") == "G16"
@@ -317,7 +330,18 @@ class _Words:
 
     def count(self, values: list[float]) -> int:
         """How often the block drills."""
-        return 1 if self.repeat_slot is None else max(int(values[self.repeat_slot]), 0)
+        if not self.repeats:
+            return 1
+        value, most = values[self.repeat_slot], self.rules.most_repeats
+        if not most:
+            return max(int(value), 0)
+        if self.repeat_form == "#":
+            value = round_half_away(value)
+        elif self.repeat_form:
+            raise self.control.fail("point", address=self.repeats)
+        if not 0 <= value <= most:
+            raise self.control.fail("minus" if value < 0 else "too_many_digits", address=self.repeats)
+        return int(value)
 
     def position(self, channel: Channel, values: list[float]) -> None:
         """Rapid over the hole, at the level where the tool stands."""

@@ -203,6 +203,8 @@ class Builder:
             convert = control.axis_converter(self, index, form)
             words.append(AxisWord(address, index, position, convert, incremental))
             self.take(address)
+        if control.LATER_AXIS_WORD_COUNTS:
+            words = list({word.axis: word for word in words}.values())
         return tuple(words)
 
     # ---- the plan ---------------------------------------------------------------------------------------------------
