@@ -24,14 +24,23 @@ Polygon = tuple["Point", ...]
 
 def barrier(channel: Channel) -> Barrier | None:
     """The barrier that the parameters describe; None where there is none (8134#1, or all dimensions zero)."""
-    parameters = channel.setup.parameters
-    if not parameters.bit(8134, 1, default=1) or not {"X", "Z"} <= set(channel.axes):
-        return None
-    chuck, tailstock = _chuck(channel, parameters), _tailstock(parameters)
-    if channel.memory.signals.get("*TSB"):
+    chuck, tailstock = _described(channel)
+    if tailstock and channel.memory.signals.get("*TSB"):
         tailstock = ()
     bodies = (*chuck, *tailstock)
     return Barrier(channel.axis_index["Z"], channel.axis_index["X"], bodies) if bodies else None
+
+
+def is_described(channel: Channel) -> bool:
+    """Whether the parameters describe a barrier, whatever the machine's signals say of it now."""
+    return any(_described(channel))
+
+
+def _described(channel: Channel) -> tuple[tuple[Polygon, ...], tuple[Polygon, ...]]:
+    parameters = channel.setup.parameters
+    if not parameters.bit(8134, 1, default=1) or not {"X", "Z"} <= set(channel.axes):
+        return (), ()
+    return _chuck(channel, parameters), _tailstock(parameters)
 
 
 def _chuck(channel: Channel, parameters: Parameters) -> tuple[Polygon, ...]:

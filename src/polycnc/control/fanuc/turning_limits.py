@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from math import inf
 from typing import TYPE_CHECKING
 
-from polycnc.control.fanuc.turning_barrier import barrier
+from polycnc.control.fanuc.turning_barrier import barrier, is_described
 from polycnc.control.word_address.extended import StrokeZone
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ def renew_zones(channel: Channel) -> None:
         zones.append(TravelCheck(travel))
     if memory.zone is not None:
         zones.append(memory.zone)
-    inner = None if barrier(channel) else _zone_3(channel)
+    inner = None if is_described(channel) else _zone_3(channel)
     if inner is not None:
         zones.append(inner)
     channel.stroke_zone = Zones(tuple(zones)) if zones else None
