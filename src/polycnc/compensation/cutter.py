@@ -55,6 +55,10 @@ class CutterCompensation:
         violations: The control's alarm code for each violation that it checks; one without a code is let
             pass.
         after: The next stage.
+
+    Attributes:
+        suspended: Contour blocks keep the vector that stands square at the end of the last compensated one
+            (CUTCONON); the first one behind them begins square on itself, with a line to there.
     """
 
     def __init__(
@@ -76,6 +80,7 @@ class CutterCompensation:
         self._forced: Point | None = None
         self._holds = False
         self._starts_square = False
+        self.suspended = False
 
     @property
     def after(self) -> PathStage:
@@ -220,11 +225,15 @@ class CutterCompensation:
         distance = self._side * self._radius
         shift = (abs(distance) * self._tip[0], abs(distance) * self._tip[1])
         step = Step(move, edge, edge, self._role, distance, shift, self.policy, self._read, self._rows.vector)
-        step.forced, step.holds, step.starts_square = self._forced, self._holds, self._starts_square
+        step.suspended = self.suspended and self._role is Role.CONTOUR
+        step.forced, step.holds = self._forced, self._holds or step.suspended
+        step.starts_square = self._starts_square
         self._forced, self._holds, self._starts_square = None, False, False
         step.edge = self._checked(step)
         if self._window:
             self._close(self._window[-1], step)
+            if step.suspended or self._window[-1].suspended:
+                self._release_all()  # no way round leads past such a stretch
         self._window.append(step)
         if self._role is Role.START:
             self._role = Role.CONTOUR
@@ -236,7 +245,7 @@ class CutterCompensation:
     def _checked(self, step: Step) -> offset.Edge:
         """The edge to be offset, once it is sure that it may be."""
         edge = step.edge
-        if edge.center is None:
+        if edge.center is None or step.suspended:
             return edge
         if step.role is not Role.CONTOUR:
             start = step.role is Role.START

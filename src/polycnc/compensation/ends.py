@@ -26,7 +26,9 @@ def end_before(step: Step, following: Step, wall: Point | None) -> Corner | None
     if step.forced is not None:
         return _forced_end(step, step.forced)
     if step.holds:
-        return Corner([step.first])
+        resumes = step.suspended and following.role is Role.CONTOUR and not following.holds
+        own = [vectors.square(following.edge.departing, following.distance).vectors[0]] if resumes else []
+        return Corner([step.first, *own])
     if step.corner_arc is not None:
         direction = step.corner_arc[1]
         end = following.edge.departing if direction is None else offset.ray(edge.end, direction).arriving

@@ -71,7 +71,8 @@ class RowWriter:
             if edge.center is None or step.straight or way <= arcs.SAME_POINT_MM:
                 row = replace(row, kind=Kind.FEED, center=None, turns=0.0)
             else:
-                row = replace(row, center=plane.moved_center(move, step.shift))
+                along = arcs.plus(step.shift, step.first) if step.suspended else step.shift
+                row = replace(row, center=plane.moved_center(move, along))
         if row.center is not None or way > arcs.SAME_POINT_MM or plane.moves_elsewhere(move):
             self.after.move(row)
         template = replace(step.corner_arc[0] if step.corner_arc else move, start=row.end, end=row.end)

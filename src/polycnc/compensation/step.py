@@ -48,6 +48,7 @@ class Step:
         corner: Vectors at its end, once known.
         forced: Direction on which the vector at its end stands square (I, J, K in the block).
         holds: It keeps the vector of its start (G38).
+        suspended: It belongs to a stretch that keeps one vector (CUTCONON); arcs are moved by it as they are.
         starts_square: The block in front ends square on itself.
         straight: Its vectors were left out, so it is a straight move.
         altered: A detour round an interference changed it.
@@ -67,6 +68,7 @@ class Step:
     corner: Corner | None = None
     forced: Point | None = None
     holds: bool = False
+    suspended: bool = False
     starts_square: bool = False
     straight: bool = False
     altered: bool = False

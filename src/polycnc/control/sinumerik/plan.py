@@ -362,6 +362,10 @@ def _working_area(channel: Channel, values: Values) -> None:  # noqa: ARG001 - s
     limits.refresh(channel)
 
 
+def _constant_side(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    stages.suspend(channel, channel.memory.stages)
+
+
 def _rules(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     stages.changed_rules(channel)
 
@@ -405,7 +409,12 @@ EFFECTS: dict[str, Step] = {
     "working_area_wcs": _working_area,
 }
 #: After the words of the block: the tool is that of the block's own T and D.
-LATE_EFFECTS: dict[str, Step] = {"approach": _rules, "corner": _rules, "side": _side}
+LATE_EFFECTS: dict[str, Step] = {
+    "approach": _rules,
+    "corner": _rules,
+    "side": _side,
+    "constant_side": _constant_side,
+}
 #: Groups that a context of the toolpath tells of.
 IN_CONTEXT = frozenset(
     (

@@ -73,6 +73,7 @@ class Stages:
         self.approach = SmoothApproach(self.plane, self.corner)
         self.spline = SplineStage(self.approach)
         self.side = 0
+        suspend(channel, self)
 
     @property
     def active(self) -> bool:
@@ -208,6 +209,12 @@ def changed_rules(channel: Channel) -> None:
     memory: Memory = channel.memory
     if memory.stages is not None and memory.stages.cutter.active:
         memory.stages.cutter.policy = policy(channel)
+
+
+def suspend(channel: Channel, chain: Stages | None) -> None:
+    """CUTCONON, CUTCONOF: blocks keep the vector of the last one, or are compensated themselves again."""
+    if chain is not None:
+        chain.cutter.suspended = channel.mode["constant_side"] == "CUTCONON"
 
 
 def radius(memory: Memory) -> float:
