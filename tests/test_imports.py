@@ -69,6 +69,26 @@ def test_imports_run_downwards(path: Path) -> None:
         assert LAYERS.index(layer) <= LAYERS.index(own), f"{own} imports upwards: {module}"
 
 
+def imported_at_once(path: Path) -> set[str]:
+    """Full names of the modules of polycnc that a module needs to be there before it is."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    found: set[str] = set()
+    for node in tree.body:
+        if isinstance(node, ast.ImportFrom) and node.module:
+            found |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+    return found
+
+
+def test_no_module_waits_for_itself() -> None:
+    """What only type checkers read may go in circles: the memory of a control knows the parts that write into it."""
+    names = {".".join(("polycnc", *path.relative_to(SOURCE).with_suffix("").parts)): path for path in MODULES}
+    open_imports = {name: imported_at_once(path) & names.keys() - {name} for name, path in names.items()}
+    while free := [name for name, needed in open_imports.items() if not needed & open_imports.keys()]:
+        for name in free:
+            del open_imports[name]
+    assert open_imports == {}
+
+
 def loaded_by(code: str, folder: Path) -> set[str]:
     """Top-level names of all modules that a fresh interpreter has loaded after running some code."""
     probe = f"import sys\n{code}\nprint(' '.join({{name.partition('.')[0] for name in sys.modules}}))"

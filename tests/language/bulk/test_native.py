@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from polycnc.language.bulk import kernels, native
+from polycnc.language.bulk import kernels, layout, native
 
 
 def unwritable(_path: object, _mode: int) -> bool:
@@ -49,7 +49,7 @@ def test_a_kernel_with_another_constant_is_another_file(monkeypatch: pytest.Monk
         return native.Native("none", (kernels,), lambda _functions: lambda: 0, "")._file
 
     before = file()
-    monkeypatch.setattr(kernels, "KEY_COUNT", kernels.KEY_COUNT + 1)
+    monkeypatch.setattr(kernels, "KEY_COUNT", layout.KEY_COUNT + 1)
     assert before is not None
     assert file() != before
 

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from polycnc.control.fanuc import turning_drawing
 from polycnc.control.fanuc.turning_coordinates import feed_number, plane_axes
 from polycnc.control.fanuc.turning_tools import THREADS
-from polycnc.control.word_address.path import CENTER_WORDS, PLANES, center_by_radius, target
+from polycnc.control.word_address.arcs import center_by_radius
+from polycnc.control.word_address.path import CENTER_WORDS, PLANES, target
 from polycnc.geometry import arcs
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind

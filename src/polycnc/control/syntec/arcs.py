@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.syntec.parameters import has_option
 from polycnc.control.syntec.tip_control import TIP_CODES
 from polycnc.control.word_address import path
+from polycnc.control.word_address.arcs import emit_arc
 from polycnc.control.word_address.path import CENTER_WORDS, PLANES
 from polycnc.control.word_address.words_as_data import targets_as_data, word_as_data
 from polycnc.geometry import arcs
@@ -112,7 +113,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
         vector[u], vector[v] = center[0] - begin[0], center[1] - begin[1]
         channel.memory.last_center = (vector[0], vector[1], vector[2])
         center = _scaled_center(channel, words, begin, end, center, ccw=ccw)
-        path.emit_arc(
+        emit_arc(
             channel, programmed, center, (u, v, w), ccw=ccw, feed=channel.feed, turns=float((turns or 1) - 1)
         )
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec import planes
 from polycnc.control.word_address import auxiliary, path, radius, settled, skip
+from polycnc.control.word_address.arcs import emit_arc
 from polycnc.control.word_address.path import CENTER_WORDS, PLANES
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
@@ -296,7 +297,7 @@ def _lengthened_arc(channel: Channel, words: Words, growth: float, *, ccw: bool)
     programmed[first] = begin[0] + (end[0] - begin[0]) * ratio
     programmed[second] = begin[1] + (end[1] - begin[1]) * ratio
     middle = (begin[0] + shift[0] * ratio, begin[1] + shift[1] * ratio)
-    path.emit_arc(channel, programmed, middle, (u, v, w), ccw=ccw, feed=channel.feed)
+    emit_arc(channel, programmed, middle, (u, v, w), ccw=ccw, feed=channel.feed)
 
 
 lengthened: Handler = partial(_lengthened_move, 1.0)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.path import CENTER_WORDS, PLANES, emit_arc, target
+from polycnc.control.word_address.arcs import emit_arc
+from polycnc.control.word_address.path import CENTER_WORDS, PLANES, target
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

@@ -6,17 +6,14 @@ step turns them into a target of the absolute display and hands the move to the 
 
 from __future__ import annotations
 
-from math import hypot, nan
+from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address import stretched_arcs
+from polycnc.control.word_address.arcs import center_by_radius, emit_arc, emit_stretched, is_stretched
 from polycnc.control.word_address.words_as_data import targets_as_data, word_as_data
 from polycnc.geometry import arcs
-from polycnc.geometry.frames import IDENTITY
-from polycnc.geometry.vectors import axis_vector
 from polycnc.language.bulk import Arc, Straight, declare
 from polycnc.toolpath import Kind
-from polycnc.toolpath.kinds import arc_kind
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,7 +22,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.numbers import Convert
     from polycnc.control.word_address.plan import AxisWord, Builder, Plan
-    from polycnc.geometry.frames import Frame, Vector
 
 #: Feed codes of all word-address families to the meaning that the toolpath uses.
 FEED_MODES = {"G93": "G93", "G94": "G94", "G95": "G95", "G98": "G94", "G99": "G95"}
@@ -158,8 +154,8 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
             corner(channel, values)
         if center is None:
             channel.straight(Kind.FEED, c.to_position(programmed), feed, programmed)
-        elif ends_beside or stretched_arcs.is_stretched(c.programming, plane):
-            stretched_arcs.emit_stretched(channel, programmed, plane, told_by, ccw=ccw, feed=feed)
+        elif ends_beside or is_stretched(c.programming, plane):
+            emit_stretched(channel, programmed, plane, told_by, ccw=ccw, feed=feed)
         else:
             emit_arc(channel, programmed, center, plane, ccw=ccw, feed=feed)
 
@@ -202,60 +198,3 @@ def _center_words(
         return (shift[0], shift[1])
 
     return tell
-
-
-def center_by_radius(
-    channel: Channel, begin: arcs.Point, end: arcs.Point, radius: float, ccw: bool
-) -> arcs.Point | None:
-    """The centre for an R word; None where start and end coincide (an arc of 0 degrees: no motion in the plane)."""
-    control = channel.control
-    if radius == 0.0:
-        raise control.fail("radius_zero", address="R")
-    if hypot(end[0] - begin[0], end[1] - begin[1]) < 1e-9:
-        return None
-    try:
-        return arcs.center_from_radius(begin, end, radius, ccw, control.arc_tolerance(channel))
-    except ValueError as error:
-        raise control.fail("radius_too_small", address="R") from error
-
-
-def mirrors_plane(frame: Frame, plane: tuple[int, int, int]) -> bool:
-    """Whether a frame that keeps a plane turns left and right round in it."""
-    u, v, _ = plane
-    return frame.m[u][u] * frame.m[v][v] - frame.m[u][v] * frame.m[v][u] < 0.0
-
-
-def emit_arc(
-    channel: Channel,
-    programmed: list[float],
-    center: arcs.Point,
-    plane: tuple[int, int, int],
-    *,
-    ccw: bool,
-    feed: float,
-    turns: float = 0.0,
-) -> None:
-    """Write an arc from programmed coordinates: the programming frame maps it, a mirror swaps its sense."""
-    u, v, w = plane
-    c = channel.coordinates
-    point = [0.0, 0.0, 0.0]
-    for i, axis in enumerate(c.geometry):
-        point[i] = c.programmed[axis] if axis >= 0 else 0.0
-    point[u], point[v] = center
-    normal = axis_vector(w)
-    third = c.geometry[w]
-    helix = third >= 0 and programmed[third] != c.programmed[third]
-    position = c.to_position(programmed)
-    middle: Vector = (point[0], point[1], point[2])
-    if c.programming is not IDENTITY:
-        middle = c.programming.apply(*point)
-        ccw = ccw != mirrors_plane(c.programming, plane)
-    channel.curve(
-        arc_kind(ccw=ccw, helix=helix),
-        position,
-        feed,
-        center=middle,
-        normal=normal,
-        turns=turns,
-        programmed=programmed,
-    )

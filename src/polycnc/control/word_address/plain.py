@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address import path, stretched_arcs
+from polycnc.control.word_address import arcs, path
 from polycnc.control.word_address.interlocks import holds_an_axis
 from polycnc.language.bulk import Arc, Conditions, Recipe, Spelling
 from polycnc.language.bulk.layout import FIRST_CODE, FORMS
@@ -98,8 +98,8 @@ class PlainBlocks:
 def _keeps_circles(channel: Channel) -> bool:
     """Whether the programming frame leaves circles of the plane circles, mirrored as a whole or not at all."""
     frame, plane = channel.coordinates.programming, path.PLANES[channel.mode["plane"]]
-    mirrored = path.mirrors_plane(frame, plane) == frame.mirrors
-    return mirrored and not stretched_arcs.is_stretched(frame, plane)
+    mirrored = arcs.mirrors_plane(frame, plane) == frame.mirrors
+    return mirrored and not arcs.is_stretched(frame, plane)
 
 
 def _key(key: int) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import copysign, nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address import path
+from polycnc.control.word_address.arcs import center_by_radius, emit_arc
 from polycnc.control.word_address.path import CENTER_WORDS, PLANES, target
 from polycnc.toolpath import Kind
 
@@ -59,7 +59,7 @@ def _offset_arc(channel: Channel, words: Words, end: list[float], amount: float)
     begin, goal = ((point[columns[0]], point[columns[1]]) for point in (c.programmed, end))
     radius = words.length("R")
     if radius is not None:
-        center = path.center_by_radius(channel, begin, goal, copysign(abs(radius) + amount, radius), ccw)
+        center = center_by_radius(channel, begin, goal, copysign(abs(radius) + amount, radius), ccw)
         if center is None:
             raise words.fail("radius_zero", "R")
     else:
@@ -69,7 +69,7 @@ def _offset_arc(channel: Channel, words: Words, end: list[float], amount: float)
         longer = [part + copysign(1.0, part) * amount if part else 0.0 for part in way]
         center = (begin[0] + longer[0], begin[1] + longer[1])
         control.check_arc(channel, begin, goal, center)
-    path.emit_arc(channel, end, center, plane, ccw=ccw, feed=channel.feed)
+    emit_arc(channel, end, center, plane, ccw=ccw, feed=channel.feed)
 
 
 def _direction(words: Words, word: AxisWord, way: float) -> float:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from polycnc.channel.path import Move
 from polycnc.compensation import CutterCompensation, Plane, Violation
 from polycnc.control.word_address import corners
-from polycnc.control.word_address.path import PLANES, mirrors_plane
+from polycnc.control.word_address.arcs import mirrors_plane
+from polycnc.control.word_address.path import PLANES
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -1,6 +1,6 @@
 """Where the scanner's numbers stand: its kernels know arrays only, so every number has a fixed place in one.
 
-Python's side (`shapes`, `channel.scanner`) and the kernels share these names. Compiled code takes them as constants.
+Python's side (`shapes`, `scanner`) and the kernels share these names. Compiled code takes them as constants.
 """
 
 from __future__ import annotations

@@ -9,21 +9,21 @@ from polycnc.messages import AlarmError
 from polycnc.program.names import DEF_DIR
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.channel.channel import Channel
     from polycnc.language.sinumerik.executable import SinumerikProgram
     from polycnc.language.sinumerik.interface import LanguageMemory
+    from polycnc.program import Program
 
 _ENDS = frozenset({"M30", "M17", "M2", "M02", "RET"})
 
 
-def load_definitions(channel: Channel) -> None:
-    """Run the blocks of every definition file; an alarm in one stands at the program's start."""
-    from polycnc.language.sinumerik.executable import SinumerikProgram
-
+def load_definitions(channel: Channel, compiled: Callable[[Program], SinumerikProgram]) -> None:
+    """Run the blocks of every definition file, once compiled; an alarm in one stands at the program's start."""
     for program in channel.store.programs_in(DEF_DIR):
-        code = SinumerikProgram(program, channel.control, definitions=True)
         try:
-            _run(code, channel)
+            _run(compiled(program), channel)
         except AlarmError as error:
             error.column = 0
             raise

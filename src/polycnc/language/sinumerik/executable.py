@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from array import array
 from bisect import bisect_left
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.steps import forget_steps, kept_steps
@@ -231,7 +232,9 @@ class SinumerikProgram:
             memory.programs.append(self)
             if not memory.definitions_loaded:
                 memory.definitions_loaded = True
-                load_definitions(channel)
+                load_definitions(
+                    channel, partial(SinumerikProgram, control=channel.control, definitions=True)
+                )
             self.header(channel)
         return self._scope
 

@@ -1,8 +1,9 @@
-"""Arcs that no circle through both points describes: end points beside it, and scales that differ in the plane.
+"""Arcs of the word-address controls: the centre of an arc told by R, and how an arc is written.
 
-The tool goes round the circle until one coordinate of the end point is reached, then straight (Hartford manual 3.2.5,
-note 5). Under different scales the tool traces no ellipse: a radius takes the larger scale, centre words each take that
-of their own axis (FANUC macro B reference 10.5).
+Where no circle goes through both points, because the end lies beside it or scales differ in the plane: the tool goes
+round the circle until one coordinate of the end point is reached, then straight (Hartford manual 3.2.5, note 5). Under
+different scales the tool traces no ellipse: a radius takes the larger scale, centre words each take that of their own
+axis (FANUC macro B reference 10.5).
 """
 
 from __future__ import annotations
@@ -10,7 +11,6 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address import path
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import axis_vector
@@ -20,10 +20,70 @@ from polycnc.toolpath.kinds import arc_kind
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.geometry.arcs import Point
-    from polycnc.geometry.frames import Frame
+    from polycnc.geometry.frames import Frame, Vector
 
 #: Scales that differ by less than this are equal.
 SAME_SCALE = 1e-9
+
+
+def center_by_radius(
+    channel: Channel, begin: arcs.Point, end: arcs.Point, radius: float, ccw: bool
+) -> arcs.Point | None:
+    """The centre for an R word; None where start and end coincide (an arc of 0 degrees: no motion in the plane)."""
+    control = channel.control
+    if radius == 0.0:
+        raise control.fail("radius_zero", address="R")
+    if hypot(end[0] - begin[0], end[1] - begin[1]) < 1e-9:
+        return None
+    try:
+        return arcs.center_from_radius(begin, end, radius, ccw, control.arc_tolerance(channel))
+    except ValueError as error:
+        raise control.fail("radius_too_small", address="R") from error
+
+
+def mirrors_plane(frame: Frame, plane: tuple[int, int, int]) -> bool:
+    """Whether a frame that keeps a plane turns left and right round in it."""
+    u, v, _ = plane
+    return frame.m[u][u] * frame.m[v][v] - frame.m[u][v] * frame.m[v][u] < 0.0
+
+
+def emit_arc(
+    channel: Channel,
+    programmed: list[float],
+    center: arcs.Point,
+    plane: tuple[int, int, int],
+    *,
+    ccw: bool,
+    feed: float,
+    turns: float = 0.0,
+) -> None:
+    """Write an arc from programmed coordinates: the programming frame maps it, a mirror swaps its sense."""
+    u, v, w = plane
+    c = channel.coordinates
+    point = [0.0, 0.0, 0.0]
+    for i, axis in enumerate(c.geometry):
+        point[i] = c.programmed[axis] if axis >= 0 else 0.0
+    point[u], point[v] = center
+    normal = axis_vector(w)
+    third = c.geometry[w]
+    helix = third >= 0 and programmed[third] != c.programmed[third]
+    position = c.to_position(programmed)
+    middle: Vector = (point[0], point[1], point[2])
+    if c.programming is not IDENTITY:
+        middle = c.programming.apply(*point)
+        ccw = ccw != mirrors_plane(c.programming, plane)
+    channel.curve(
+        arc_kind(ccw=ccw, helix=helix),
+        position,
+        feed,
+        center=middle,
+        normal=normal,
+        turns=turns,
+        programmed=programmed,
+    )
+
+
+# ---- arcs that are no circle: other scales in the plane, end points beside it
 
 
 def scales(frame: Frame, plane: tuple[int, int, int]) -> tuple[float, float]:
@@ -57,13 +117,13 @@ def emit_stretched(
     """Write an arc told by its radius or by the way from its start to its centre."""
     u, v, _ = plane
     c, frame = channel.coordinates, channel.coordinates.programming
-    ccw = ccw != path.mirrors_plane(frame, plane)
+    ccw = ccw != mirrors_plane(frame, plane)
     position = c.to_position(programmed)
     columns = (c.geometry[u], c.geometry[v])
     begin = (c.position[columns[0]], c.position[columns[1]])
     end = (position[columns[0]], position[columns[1]])
     if isinstance(told_by, float):
-        found = path.center_by_radius(channel, begin, end, told_by * max(scales(frame, plane)), ccw)
+        found = center_by_radius(channel, begin, end, told_by * max(scales(frame, plane)), ccw)
         if found is None:
             channel.straight(Kind.FEED, position, feed, programmed)
             return
