@@ -19,13 +19,19 @@ SCRIPTS = 1000
 
 
 def joints_of(virtual: VirtualControl) -> list[tuple[float, ...]]:
-    """The ends of all pieces that the axes will have run along, in order."""
+    """The ends of all rows that the axes will have run along, in order.
+
+    Where a row is cut into pieces depends on what is prepared behind it: in single block nothing is.
+    """
     joints: list[tuple[float, ...]] = []
     arrive = virtual._automatic._arrive
 
     def noted() -> None:
+        motion = virtual._automatic.motion
+        is_last = motion is not None and motion.piece.first + motion.piece.share >= 1.0 - 1e-9
         arrive()
-        joints.append(tuple(virtual._automatic.position))
+        if is_last:
+            joints.append(tuple(virtual._automatic.position))
 
     virtual._automatic._arrive = noted  # type: ignore[method-assign]
     return joints

@@ -478,3 +478,76 @@ def test_3404_keeps_a_lathe_from_rewinding(end: str, bit: int) -> None:
             virtual.load(text)
         virtual.cycle_start()
         assert virtual.run() is State.READY
+
+
+# ---- blocks typed in while a program waits -------------------------------------------------------------------
+
+
+def waiting_in_mdi(virtual: VirtualControl) -> VirtualControl:
+    virtual.set_switches(single_block=True)
+    if virtual.state is State.READY:
+        virtual.cycle_start()
+    virtual.run()
+    virtual.select_mode("mdi")
+    return virtual
+
+
+def test_in_single_block_nothing_is_prepared_behind_the_block_that_runs() -> None:
+    virtual = power_on("O1\n#100=1\nG1 X10. F600\n#100=2\nG1 X20.\nM30\n", "fanuc-m")
+    virtual.set_switches(single_block=True)
+    virtual.cycle_start()
+    virtual.run()
+    assert (virtual.machine_position[0], virtual.read_variable("#100")) == (10.0, 1.0)
+
+
+@pytest.mark.parametrize("control", ["syntec-mill", "sinumerik-840d"])
+def test_not_every_control_takes_blocks_while_a_program_waits(control: str) -> None:
+    virtual = waiting_in_mdi(power_on("G90 G1 X10. F600\nX20.\nM30\n", control))
+    with pytest.raises(CommandRefused, match="auto"):
+        virtual.mdi("G1 X5.\n")
+
+
+def test_no_blocks_are_taken_while_others_are_read_ahead_for_compensation() -> None:
+    text = "O1\nG41 D1 G1 X10. F600\nX20.\nX30.\nX40.\nG40 Y9.\nM30\n"
+    virtual = power_on(text, "fanuc-m", setup={"tools": {1: {"radius": 2.0}}})
+    with pytest.raises(CommandRefused, match="compensation"):
+        waiting_in_mdi(virtual).mdi("G1 Z5.\n")
+    virtual.select_mode("auto")
+    virtual.set_switches(single_block="")
+    assert run_through(virtual) is State.READY
+    assert virtual.machine_position == [40.0, 9.0, 0.0]
+
+
+def test_no_blocks_are_taken_while_those_behind_are_prepared() -> None:
+    virtual = power_on("O1\nG91 G1 X10. F600\nX10.\nX10.\nM30\n", "fanuc-m")
+    virtual.cycle_start()
+    virtual.step(0.1)
+    with pytest.raises(CommandRefused, match="prepared"):
+        waiting_in_mdi(virtual).mdi("G1 Z5.\n")
+
+
+def test_axes_moved_by_hand_before_an_intervention_count_in_it() -> None:
+    virtual = waiting_in_mdi(power_on("O1\nG91 G1 X10. F600\nX10.\nM30\n", "meldas-m"))
+    virtual.select_mode("increment")
+    virtual.increment("X", 5, 1.0)
+    virtual.run()
+    virtual.select_mode("mdi")
+    virtual.set_switches(single_block="")
+    virtual.mdi("G91 X1.\n")
+    virtual.run()
+    assert virtual.machine_position[0] == 16.0
+    virtual.select_mode("auto")
+    assert run_through(virtual) is State.READY
+    assert virtual.machine_position[0] == 26.0
+
+
+def test_an_alarm_of_typed_blocks_ends_the_program_too() -> None:
+    virtual = waiting_in_mdi(power_on("O1\nG1 X10. F600\nX20.\nM30\n", "fanuc-m"))
+    virtual.mdi("G999\n")
+    assert virtual.run() is State.ALARM
+    virtual.reset()
+    virtual.run()
+    virtual.select_mode("auto")
+    virtual.set_switches(single_block="")
+    assert run_through(virtual) is State.READY
+    assert virtual.machine_position[0] == 20.0

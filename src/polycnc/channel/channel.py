@@ -13,11 +13,18 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.coordinates import Coordinates
 from polycnc.channel.failure import end_run, stand_at_last_row, take_back
-from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
+from polycnc.channel.intervention import NOTHING_BACK, TYPED_IN, MovedByHand
 from polycnc.channel.mode import Mode, ModeTable
 from polycnc.channel.path import Move, PathStage, TableStage, is_way, points_of_arc
 from polycnc.channel.stack import Executable, Level
-from polycnc.channel.waits import BLOCK, CHUNK, PREPROCESSING, PreprocessingStop, Wait
+from polycnc.channel.waits import (
+    BLOCK,
+    CHUNK,
+    PREPROCESSING,
+    TYPED_BLOCKS_DONE,
+    PreprocessingStop,
+    Wait,
+)
 from polycnc.messages import AlarmError
 from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
 from polycnc.toolpath.table import CHUNK_ROWS
@@ -208,6 +215,8 @@ class Channel:
     def pop(self) -> Level:
         """End the running level; the level below becomes the running one."""
         ended = self.stack.pop()
+        if ended.kind == TYPED_IN:
+            self.wait = TYPED_BLOCKS_DONE
         if self.stack:
             self.level = self.stack[-1]
         else:

@@ -1,8 +1,11 @@
-"""What a block does with what an operator has moved by hand while its program waited."""
+"""What an operator does while a program waits: axes moved by hand, blocks typed in."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
+
+#: Kind of the level of blocks that are typed in while a program waits (MDI intervention).
+TYPED_IN = "mdi"
 
 
 class TakesBack(NamedTuple):

@@ -54,7 +54,7 @@ class Level:
         program_number: Number of the program in the toolpath.
         repeats: How often the program is still to be run after this pass.
         entry: Step at which each pass begins.
-        kind: `main`, or how the level came about: `sub`, `macro`, `modal`, `interrupt`.
+        kind: `main`, or how the level came about: `sub`, `macro`, `modal`, `interrupt`, `mdi`.
         locals: Local variables, shared with the caller or its own, as the kind of call has it.
         data: What the control's language keeps for this level.
         counts: Whether a step is a block for stages that look ahead (a macro statement is none).

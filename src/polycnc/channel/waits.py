@@ -15,7 +15,8 @@ class Wait:
 
     `reason` is `stop` (M00 and the like: `code` says which), `chunk`, `preprocessing`, `single-block` behind a
     block at which that halts (`code` is the block), `block` behind any other one, or `channel` for another
-    channel: then `until` is asked again and again, and true once the channel may go on.
+    channel: then `until` is asked again and again, and true once the channel may go on. Behind blocks that were typed
+    in while the program waited it is `mdi`.
     """
 
     reason: str
@@ -26,6 +27,7 @@ class Wait:
 CHUNK = Wait("chunk")
 BLOCK = Wait("block")
 PREPROCESSING = Wait("preprocessing")
+TYPED_BLOCKS_DONE = Wait("mdi")
 
 
 class PreprocessingStop(Exception):  # noqa: N818 - no mistake: the block waits, and comes again

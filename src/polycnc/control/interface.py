@@ -24,11 +24,13 @@ class Control(ChannelControl, Protocol):
         form: How program files are marked off.
         default_machine: Built-in machine of a run that names none.
         tools_have_names: Programs may call a tool by its name; else by number alone.
+        mdi_intervenes: Blocks can be typed in and run while a program waits, which then goes on behind them.
     """
 
     form: Form
     default_machine: str
     tools_have_names: bool
+    mdi_intervenes: bool
 
     @property
     def plc(self) -> Plc:

@@ -12,8 +12,8 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
-from polycnc.channel.waits import PREPROCESSING, Wait
+from polycnc.channel.intervention import NOTHING_BACK, TYPED_IN, MovedByHand
+from polycnc.channel.waits import PREPROCESSING, TYPED_BLOCKS_DONE, Wait
 from polycnc.mainrun.anew import line_anew
 from polycnc.mainrun.geometry import arc_laid, line_laid, way_along
 from polycnc.mainrun.items import Block, BlockEnd, Happening, Item, Move, Piece, Rates, Standing
@@ -138,7 +138,7 @@ class Ahead:
     def begin(self, run: Iterator[Wait], position: Sequence[float]) -> None:
         """Begin with a run of the channel; the axes stand at a machine position."""
         self.clear(position)
-        self.finished = False
+        self.finished = self.has_caught_up = False
         self._run = run
         if self.channel.group is not None:
             self.channel.group.begin(self._number, run)
@@ -154,28 +154,47 @@ class Ahead:
         self._real.stand(position)
         self.stand_at(position)
         self._run = iter(())
-        self.waiting, self.finished = None, True
+        self.waiting, self.finished, self.has_caught_up = None, True, True
 
-    def fill(self) -> bool:
-        """Let the channel run ahead; false if it made nothing although it may go on."""
-        if self._rests() or self._suffices(LOW):
+    def fill(self, *, one_block: bool = False) -> bool:
+        """Let the channel run ahead, in single block by one block; false if it made nothing although it may go on."""
+        if self._rests() or self._suffices(LOW, one_block=one_block):
             return True
         before = len(self.items)
         for _ in range(BLOCKS_A_CYCLE):
             self._step()
-            if self._rests() or self._suffices(FULL):
+            if self._rests() or self._suffices(FULL, one_block=one_block):
                 break
         made = len(self.items) > before
         self.revised = self.revised or made
         return made or self._rests()
 
-    def _suffices(self, items: int) -> bool:
-        """Whether so much is prepared, and enough for bounds that reach back."""
+    def _suffices(self, items: int, *, one_block: bool) -> bool:
+        """Whether so much is prepared, and enough for bounds that reach back; or where single block will halt."""
+        typed_in = self.channel.stack and self.channel.level.kind == TYPED_IN
+        if one_block and not typed_in and any(isinstance(item, BlockEnd) for item in self.items):
+            return True
         return len(self.items) > items and (len(self.items) > MOST or self._laid.reaches)
 
     def _rests(self) -> bool:
         """Whether the channel does not go on by itself."""
         return self.finished or self.waiting is not None
+
+    @property
+    def is_bare(self) -> bool:
+        """Whether nothing of what a waiting program does next is prepared, nor read ahead for compensation."""
+        done = all(isinstance(item, BlockEnd) for item in self.items)
+        return done and not self.finished and self.channel.head is None
+
+    def intervene(self, program: Program) -> None:
+        """Blocks that were typed in come before what the waiting program does next, of which nothing is prepared."""
+        self.items.clear()
+        self.channel.push(program, kind=TYPED_IN, local=self.channel.level.locals)
+
+    @property
+    def typed_blocks_end(self) -> bool:
+        """Whether nothing comes any more of the blocks that were typed in."""
+        return not self.items and self.waiting is TYPED_BLOCKS_DONE
 
     def end_in_rest(self) -> None:
         """The axes come to rest behind what is prepared."""

@@ -10,6 +10,7 @@ from math import inf
 from typing import TYPE_CHECKING, Protocol
 
 from polycnc.channel.intervention import NOTHING_BACK
+from polycnc.channel.waits import TYPED_BLOCKS_DONE
 from polycnc.mainrun.anew import can_begin_elsewhere
 from polycnc.mainrun.follower import Follower
 from polycnc.mainrun.geometry import Line
@@ -274,7 +275,7 @@ class Automatic:
         self._waiting = False
         if not self.running:
             return False
-        filled = self.ahead.fill()
+        filled = self.ahead.fill(one_block=self.single_block)
         if self.ahead.revised:
             self._look_ahead()
         if not self.ahead.items:
@@ -301,21 +302,28 @@ class Automatic:
         waiting = self.ahead.waiting
         self._count_stray()
         if self.ahead.finished or waiting is None:
-            self._waiting = self._machinery.busy
-            if not self._waiting:
-                self._stop("end")
-            return self._waiting
+            return self._end("end")
         if waiting.until is not None and not waiting.until():
             return False
         if self._moved_on:
             self._moved_on = False
             self.ahead.arrived(self.position, self._by_hand)
             self._by_hand = ()
+        if waiting is TYPED_BLOCKS_DONE:
+            return self._end(waiting.reason)
         if waiting.reason == "preprocessing":
             self._machinery.synchronise()
             self._until = self.time + self._cycle_s
         self.ahead.proceed()
         return True
+
+    def _end(self, reason: str) -> bool:
+        """What runs is over once the machine has done its functions; whether that is still to come."""
+        self._waiting = self._machinery.busy
+        if not self._waiting:
+            self.ahead.proceed()
+            self._stop(reason)
+        return self._waiting
 
     @property
     def waits_for_channel(self) -> bool:
@@ -341,7 +349,7 @@ class Automatic:
         if isinstance(item, Block):
             self._enter(item)
         elif isinstance(item, BlockEnd):
-            if self.single_block and self._x2 == 0.0:
+            if self.single_block and self._x2 == 0.0 and not self.ahead.typed_blocks_end:
                 self._stop("single-block")
         elif isinstance(item, Standing):
             self.context = item.context

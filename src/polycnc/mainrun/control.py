@@ -79,7 +79,15 @@ class VirtualControl(ByHand):
         self._tape = self._programs.from_outside(source)
 
     def mdi(self, text: str) -> None:
-        """Type blocks in and start them; allowed in MDI mode. What they change stays."""
+        """Type blocks in and start them; allowed in MDI mode. What they change stays.
+
+        While a program waits at a stop or in single block, they are run in its midst (MDI intervention; not on
+        SINUMERIK and SYNTEC): it goes on behind them, from where the axes then are, with the codes that then hold.
+
+        Raises:
+            CommandRefused: Out of place; or blocks of a waiting program are prepared already, or read ahead for
+                compensation.
+        """
         self._ask(Command.MDI)
         self._typed = self._programs.typed(text)
         self.cycle_start()
@@ -157,6 +165,8 @@ class VirtualControl(ByHand):
             self._machinery.reset()
             self._ahead.start(program, self._automatic.position)
             self._resume()
+        elif self.mode is Mode.MDI and self._program_mode is not Mode.MDI and self._may_intervene:
+            self._intervene()
         elif self.mode is not self._program_mode:
             raise CommandRefused("mainrun.other-mode", mode=self._program_mode)
         else:
@@ -164,10 +174,29 @@ class VirtualControl(ByHand):
             if self._left_path and (self._searched or self._ahead.returns_to_path):
                 self._lead_back()
                 return
-            absolute = bool(self._signals[MANUAL_ABSOLUTE])
-            for lane in self._lanes.values():
-                lane.intervene(absolute=absolute)
-            self._resume()
+            self._go_on_from_here()
+
+    def _go_on_from_here(self) -> None:
+        """The program goes on from where an operator has left the axes."""
+        for lane in self._lanes.values():
+            lane.intervene(absolute=bool(self._signals[MANUAL_ABSOLUTE]))
+        self._resume()
+
+    @property
+    def _may_intervene(self) -> bool:
+        """Whether blocks that are typed in can be run in the midst of a program."""
+        return self.control.mdi_intervenes and self.state is State.STOPPED
+
+    def _intervene(self) -> None:
+        """Run what was typed in while a program waits (FANUC 0i-TF Plus II.5.4.7, MDI intervention)."""
+        others = any(lane.runs for lane in self._lanes.values() if lane is not self._lane)
+        if self._typed is None or self._searched or others or not self._ahead.is_bare:
+            raise CommandRefused("mainrun.prepared", mode=self._program_mode)
+        self._ask_machine("CYCLE_START")
+        self._waiting_mode, self._program_mode = self._program_mode, Mode.MDI
+        self._apply_switches(self.channel)
+        self._ahead.intervene(self._typed)
+        self._go_on_from_here()
 
     def _lead_back(self) -> None:
         """Axes that were moved by hand go to where the program waits, which then goes on."""

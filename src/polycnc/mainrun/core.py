@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.channel import Channel
 from polycnc.channel.group import ChannelGroup
+from polycnc.channel.waits import TYPED_BLOCKS_DONE
 from polycnc.mainrun.ahead import Ahead
 from polycnc.mainrun.automatic import Automatic
 from polycnc.mainrun.display import MainRunDisplay
@@ -93,7 +94,7 @@ class Core(ABC):
         self._rates, self._dials = Rates(), Rates()
         self._cycles = 0
         self._programs = Programs(self.control.form, search, files or {})
-        self._program_mode = Mode.AUTO
+        self._program_mode = self._waiting_mode = Mode.AUTO
         self._typed: Program | None = None
         self._giving_up = False
         self._returning = self._searched = False
@@ -414,6 +415,9 @@ class Core(ABC):
                 )
             else:
                 self._report("halt", number, halt=reason)
+        if reason == TYPED_BLOCKS_DONE.reason:
+            self._program_mode = self._waiting_mode
+            self._apply_switches(lane.channel)
         if reason == "alarm" and others:
             self._rates.hold = True
             self._revise()

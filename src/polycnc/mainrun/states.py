@@ -71,7 +71,7 @@ ALLOWED: dict[Command, tuple[frozenset[Mode], frozenset[State]]] = {
     Command.LOAD: (EVERY_MODE, frozenset((State.READY,))),
     Command.CYCLE_START: (PROGRAM_MODES, AT_REST),
     Command.FEED_HOLD: (PROGRAM_MODES, frozenset((State.RUNNING, State.HOLD, State.STOPPED))),
-    Command.MDI: (frozenset((Mode.MDI,)), frozenset((State.READY,))),
+    Command.MDI: (frozenset((Mode.MDI,)), frozenset((State.READY, State.STOPPED))),
     Command.JOG: (frozenset((Mode.JOG, Mode.TEACH)), AT_REST),
     Command.INCREMENT: (frozenset((Mode.INCREMENT, Mode.TEACH)), AT_REST),
     Command.HANDLE: (frozenset((Mode.HANDLE, Mode.TEACH)), AT_REST),

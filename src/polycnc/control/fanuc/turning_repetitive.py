@@ -10,6 +10,7 @@ from itertools import groupby
 from math import copysign, nan
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.intervention import TYPED_IN
 from polycnc.channel.stack import Level
 from polycnc.control.fanuc.turning_comp import SHAPE_KIND
 from polycnc.control.fanuc.turning_coordinates import plane_axes, set_rotation, without_rotation
@@ -254,7 +255,7 @@ def _shape_numbers(channel: Channel, words: Words) -> tuple[int, int]:
     first, last = words.integer("P"), words.integer("Q")
     if first is None or last is None:
         raise words.fail("no_shape_numbers", "P" if first is None else "Q")
-    if channel.setup.switches.mode == "mdi" and channel.level.kind == "main":
+    if channel.setup.switches.mode == "mdi" and channel.level.kind in ("main", TYPED_IN):
         raise words.fail("cycle_in_mdi", "P")
     return first, last
 

@@ -77,6 +77,7 @@ class Sinumerik:
     id: ClassVar[str] = "sinumerik-840d"
     default_machine: ClassVar[str] = "mill3"
     tools_have_names: ClassVar[bool] = True
+    mdi_intervenes: ClassVar[bool] = False
     form: ClassVar[Form] = Form.SINUMERIK
     plc: ClassVar[Plc] = Plc()
 

@@ -74,6 +74,7 @@ class SyntecMill(WordAddressControl):
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z"}
     INCH_CODE: ClassVar[str] = "G70"
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = False
+    mdi_intervenes: ClassVar[bool] = False
     only_context: ClassVar[frozenset[Handler]] = WordAddressControl.only_context | {coordinates.cutting_mode}
     settled_codes: ClassVar[Mapping[str, Condition]] = motion.SETTLED
 

@@ -6,7 +6,7 @@ from functools import cached_property
 from importlib import resources
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from polycnc.channel.intervention import TakesBack
+from polycnc.channel.intervention import TYPED_IN, TakesBack
 from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.word_address import coordinates, frames, path
 from polycnc.control.word_address.codes import GCode, MCode
@@ -92,6 +92,7 @@ class WordAddressControl:
     form: ClassVar[Form] = Form.WORD_ADDRESS
     default_machine: ClassVar[str] = "mill3"
     tools_have_names: ClassVar[bool] = False
+    mdi_intervenes: ClassVar[bool] = True
 
     # ---- texts and alarms ---------------------------------------------------------------------------------------
 
@@ -205,7 +206,7 @@ class WordAddressControl:
 
     def end_of_program(self, channel: Channel) -> None:
         """The text ends: at level 0 the run ends, a subprogram without M99 is an alarm."""
-        if len(channel.stack) > 1:
+        if len(channel.stack) > 1 and channel.level.kind != TYPED_IN:
             raise self.fail("end_of_record")
         channel.pop()
 
