@@ -397,7 +397,7 @@ def _machine_and_setup(
 ) -> tuple[Machine, Setup]:
     """The machine of the call, else that of the setup, else the default; and the setup itself."""
     from polycnc.machine import load_machine
-    from polycnc.machine.setup_file import load_setup, parse_setup
+    from polycnc.machine.setup_file import check_axes, load_setup, parse_setup
 
     if setup is None or isinstance(setup, Mapping):
         start = parse_setup(setup)
@@ -406,12 +406,13 @@ def _machine_and_setup(
         folder = Path(setup).parent
     chosen = machine or _beside(folder, start.machine) or default
     built = load_machine(chosen)
-    if not start.channels:
-        return built, start
-    try:
-        return built.with_channels(start.channels), start
-    except KeyError as error:
-        raise SessionError("session.channel-axis", axis=error.args[0], machine=built.id) from None
+    if start.channels:
+        try:
+            built = built.with_channels(start.channels)
+        except KeyError as error:
+            raise SessionError("session.channel-axis", axis=error.args[0], machine=built.id) from None
+    check_axes(start, built, "" if setup is None or isinstance(setup, Mapping) else setup)
+    return built, start
 
 
 def _beside(folder: Path | None, machine: str) -> str:

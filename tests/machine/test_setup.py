@@ -1,5 +1,6 @@
 """The setup of a run."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,7 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
+from polycnc.machine import load_machine
 from polycnc.machine.errors import SetupError
 from polycnc.machine.setup import (
     Interrupt,
@@ -19,7 +21,7 @@ from polycnc.machine.setup import (
     Tool,
     parameter_key,
 )
-from polycnc.machine.setup_file import load_setup, parse_setup
+from polycnc.machine.setup_file import check_axes, load_setup, parse_setup
 
 FULL = """
 machine: lathe2
@@ -304,3 +306,63 @@ def test_the_tool_in_the_spindle_is_a_number_or_a_name(value: object) -> None:
     assert parse_setup({"spindle_tool": "FACE"}).tool_name == "FACE"
     with pytest.raises(SetupError):
         parse_setup({"spindle_tool": value})
+
+
+@pytest.mark.parametrize(
+    ("data", "where"),
+    [
+        ({"start": {"Q": 1}}, "start.Q"),
+        ({"work_offsets": {"G54": {"X": 1, "W": 2}}}, "work_offsets.G54.W"),
+        ({"tools": {1: {"axes": {"U": 2}}}}, "tools.1.axes.U"),
+        ({"tools": {1: {"edges": {2: {"wear": {"axes": {"U": 2}}}}}}}, "tools.1.edges.2.wear.axes.U"),
+        ({"switches": {"skip_signal_at": {"A": 2}}}, "switches.skip_signal_at.A"),
+    ],
+)
+def test_an_axis_that_the_machine_does_not_have_is_a_mistake(data: dict[str, object], where: str) -> None:
+    with pytest.raises(
+        SetupError, match=re.escape(f"{where}: machine mill3 has no such axis; it has X, Y, Z")
+    ):
+        check_axes(parse_setup(data), load_machine("mill3"))
+
+
+def test_an_axis_that_the_machine_does_not_have_is_found_in_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "setup.yaml"
+    path.write_text("work_offsets:\n  G54: {X: 1}\nstart:\n  X: 5\n  B: 3\n", encoding="utf-8")
+    with pytest.raises(SetupError) as error:
+        check_axes(load_setup(path), load_machine("mill3"), path)
+    assert (error.value.line, error.value.column) == (5, 3)
+
+
+def test_axes_are_known_by_the_names_of_the_channel_too() -> None:
+    setup = parse_setup({"start": {"x": 1}, "work_offsets": {"G54": {"Z": 1}}})
+    check_axes(setup, load_machine("lathe-c-transmit"))
+
+
+@pytest.mark.parametrize("name", ["G99", "54", "G54P", "G60", "EXTERN", "G5"])
+def test_what_is_no_work_offset_is_a_mistake(name: str) -> None:
+    with pytest.raises(SetupError, match="is no work offset"):
+        parse_setup({"work_offsets": {name: {"X": 1}}})
+
+
+def test_a_work_offset_is_found_however_its_number_is_written() -> None:
+    assert list(parse_setup({"work_offsets": {"g54.1p2": {}, "G54  P3": {}}}).work_offsets) == [
+        "G54.1 P2",
+        "G54 P3",
+    ]
+
+
+@pytest.mark.parametrize("value", [2, -1, 0.5, "on"])
+def test_a_bit_holds_nothing_but_0_and_1(value: object) -> None:
+    with pytest.raises(SetupError, match="5101#2"):
+        parse_setup({"parameters": {"5101#2": value}})
+
+
+def test_channels_are_dealt_out_from_the_first_on() -> None:
+    with pytest.raises(SetupError, match=r"channels\.1 is missing"):
+        parse_setup({"channels": {7: ["X"]}})
+
+
+def test_an_operating_mode_has_a_name_that_is_known() -> None:
+    assert parse_setup({"switches": {"mode": "MDI"}}).switches.mode == "mdi"
+    with pytest.raises(SetupError, match="it can be memory, auto, mdi"):
+        parse_setup({"switches": {"mode": "mdii"}})

@@ -44,7 +44,7 @@ def test_a_file_that_may_not_be_read_says_why(tmp_path: Path, monkeypatch: pytes
     with pytest.raises(ProgramFileError) as error:
         read_file(str(path))
     assert error.value.message == "program.unreadable"
-    assert error.value.args_by_name == {"path": str(path), "reason": "Permission denied"}
+    assert error.value.args_by_name == {"path": str(path), "reason": "no permission"}
 
 
 def test_a_file_above_the_limit_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

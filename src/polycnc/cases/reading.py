@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from polycnc.messages import UserError
+from polycnc.messages.files import read_utf_8, reason_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -42,10 +43,9 @@ def read_cases(path: Path) -> list[Any]:
         UnreadableError: The file cannot be read, is no YAML, or holds no list.
     """
     try:
-        content = path.read_text(encoding="utf-8-sig")
+        content = read_utf_8(path)
     except (OSError, UnicodeError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise UnreadableError("file.unreadable", file=path, reason=reason) from error
+        raise UnreadableError("file.unreadable", file=path, reason=reason_of(error)) from error
     try:
         data = yaml.load(content, Loader=_CaseLoader)
     except yaml.YAMLError as error:

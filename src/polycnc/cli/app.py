@@ -11,8 +11,10 @@ import typer
 from typer.core import TyperGroup
 
 from polycnc.cli.console import fail, note
+from polycnc.cli.usage import help_in_language, language_of, translated
 from polycnc.messages import text
-from polycnc.messages.catalogue import LANGUAGES, language_of_environment, set_language
+from polycnc.messages.catalogue import LANGUAGES, set_language
+from polycnc.messages.files import reason_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -47,7 +49,12 @@ def _root() -> typer.Typer:
     def root(
         ctx: typer.Context,
         version: Annotated[bool, typer.Option("--version", help=text("help.version"), is_eager=True)] = False,
+        lang: Annotated[
+            str | None, typer.Option(metavar="|".join(LANGUAGES), help=text("help.option.lang"))
+        ] = None,
     ) -> None:
+        if lang is not None and lang not in LANGUAGES:
+            raise typer.BadParameter(f"{lang!r} is not one of {', '.join(map(repr, LANGUAGES))}.")
         if version:
             from polycnc import __version__
 
@@ -84,8 +91,9 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
 
 def _run(words: list[str]) -> int:
     try:
-        set_language(_language_of(words))
-        status = _root()(words, prog_name="polycnc", standalone_mode=False)
+        set_language(language_of(words))
+        with help_in_language(words):
+            status = _root()(words, prog_name="polycnc", standalone_mode=False)
     except typer.Exit as leave:
         return leave.exit_code
     except Exception as error:  # noqa: BLE001 - `_told` raises what is no user's mistake
@@ -97,22 +105,13 @@ def _told(error: Exception) -> str:
     """What the user did wrong, in one line; what is no user's mistake goes on as it is."""
     message = getattr(error, "text", None) or getattr(error, "format_message", None)
     if callable(message):
-        told = " ".join(str(message()).split())
+        told = translated(" ".join(str(message()).split()))
         context = getattr(error, "ctx", None)
         return text("cli.usage", message=told, command=context.command_path) if context is not None else told
     if isinstance(error, OSError) and not isinstance(error, BrokenPipeError):
-        return f"{error.filename or ''}: {error.strerror or error}".removeprefix(": ")
+        return f"{error.filename or ''}: {reason_of(error)}".removeprefix(": ")
     if isinstance(error, ModuleNotFoundError) and error.name in EXTRAS:
         return text("cli.extra", library=error.name, extra=EXTRAS[error.name])
     if isinstance(error, MemoryError):
         return text("cli.memory")
     raise error
-
-
-def _language_of(words: Sequence[str]) -> str:
-    """The language must be known before the first help text is looked up, so `--lang` is read here."""
-    for word, following in zip(words, [*words[1:], ""], strict=False):
-        chosen = following if word == "--lang" else word.removeprefix("--lang=") if "=" in word else ""
-        if word.startswith("--lang") and chosen in LANGUAGES:
-            return chosen
-    return language_of_environment()

@@ -26,6 +26,7 @@ from polycnc.machine.model import (
 )
 from polycnc.machine.places import toml_error_place, toml_place
 from polycnc.machine.rules import Rule
+from polycnc.messages.files import read_utf_8, reason_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -92,9 +93,9 @@ def _find(name: str) -> Path:
 
 def _read(path: Path) -> str:
     try:
-        return path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise MachineFileError(str(path), 0, 0, "unreadable", detail=str(error)) from error
+        return read_utf_8(path)
+    except (OSError, UnicodeError) as error:
+        raise MachineFileError(str(path), 0, 0, "unreadable", detail=reason_of(error)) from error
 
 
 def _builtin_data(path: Path) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from functools import partial
 from math import isfinite
@@ -23,15 +24,25 @@ from polycnc.machine.setup import (
     Value,
     parameter_key,
 )
+from polycnc.messages.files import read_utf_8, reason_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+
+    from polycnc.machine.model import Machine
 
 T = TypeVar("T")
 K = TypeVar("K")
 Where = tuple[Key, ...]
 Reader = Callable[[Where, Any], Any]
 _LAST_SKIP_LEVEL = 9
+#: Names of work offsets on all controls: G54 to G59, G59.1 …, G54.1 P1 (G54 P1), G500, G505 …, and the external one.
+_WORK_OFFSET = re.compile(r"EXT|G5[4-9](\.\d)?( ?P\d+)?|G5\d\d")
+#: Operating modes, as the controls name them.
+MODES = (
+    "memory", "auto", "mdi", "mda", "tape", "dnc", "remote", "edit",
+    "jog", "handle", "increment", "reference", "teach",
+)  # fmt: skip
 
 
 class _BadValueError(Exception):
@@ -70,9 +81,9 @@ def load_setup(path: str | Path) -> Setup:
     """
     path = Path(path)
     try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise SetupError(str(path), 0, 0, "unreadable", detail=str(error)) from error
+        text = read_utf_8(path)
+    except (OSError, UnicodeError) as error:
+        raise SetupError(str(path), 0, 0, "unreadable", detail=reason_of(error)) from error
     is_toml = path.suffix.lower() == ".toml"
     data = _toml_data(path, text) if is_toml else _yaml_data(path, text)
     try:
@@ -80,6 +91,28 @@ def load_setup(path: str | Path) -> Setup:
     except _BadValueError as bad:
         line, column = (toml_place if is_toml else yaml_place)(text, bad.where)
         raise SetupError(str(path), line, column, bad.message, **bad.args_by_name) from None
+
+
+def check_axes(setup: Setup, machine: Machine, path: str | Path = "") -> None:
+    """Raise `SetupError` where a setup names an axis that the machine does not have.
+
+    Args:
+        setup: What has been read.
+        machine: The machine of the run.
+        path: The file that it was read from; empty where there is none.
+    """
+    from polycnc.machine.setup_check import foreign_axes
+
+    where = next(foreign_axes(setup, machine), None)
+    if where is None:
+        return
+    line = column = 0
+    if path:
+        text = read_utf_8(path)
+        line, column = (toml_place if Path(path).suffix.lower() == ".toml" else yaml_place)(text, where)
+    axes = ", ".join(axis.name for axis in machine.axes)
+    named = ".".join(map(str, where))
+    raise SetupError(str(path), line, column, "no-such-axis", where=named, machine=machine.id, axes=axes)
 
 
 def _toml_data(path: Path, text: str) -> object:
@@ -209,7 +242,10 @@ def _text_key(where: Where) -> str:
 
 
 def _offset_key(where: Where) -> str:
-    return " ".join(str(where[-1]).upper().split())
+    key = " ".join(str(where[-1]).upper().split())
+    if not _WORK_OFFSET.fullmatch(key):
+        raise _BadValueError(where, "no-work-offset")
+    return re.sub(r"(?<! )P", " P", key)
 
 
 def _number_key(where: Where) -> int:
@@ -272,6 +308,8 @@ def _parameters(where: Where, value: object) -> Parameters:
         if key in values:
             raise _BadValueError((*where, name), "parameter-twice")
         values[key] = _value((*where, name), element)
+        if key.bit is not None and values[key] not in (0, 1):
+            _bad((*where, name), "out-of-range", element, detail="0, 1")
     return Parameters(values)
 
 
@@ -297,7 +335,14 @@ def _block_skip(where: Where, value: object) -> bool | tuple[int, ...]:
 
 
 def _mode(where: Where, value: object) -> str:
-    return _word(where, value).lower()
+    return str(_one_of(*MODES)(where, _word(where, value).lower()))
+
+
+def _channels(where: Where, value: object) -> dict[int, tuple[str, ...]]:
+    dealt = _map_of(_number_key, partial(_list_of, _axis_name), where, value)
+    if dealt and 1 not in dealt:
+        raise _BadValueError((*where, 1), "missing-key")
+    return dealt
 
 
 _PROBE_EDGE: dict[str, Reader] = {"axis": _axis_name, "at": _number, "edge": _one_of("rising", "falling")}
@@ -389,7 +434,7 @@ _SETUP: dict[str, Reader] = {
     "spindle_tool": _tool_called,
     "variables": _values,
     "parameters": _parameters,
-    "channels": partial(_map_of, _number_key, partial(_list_of, _axis_name)),
+    "channels": _channels,
     "switches": _switches,
 }
 

@@ -8,6 +8,7 @@ import stat
 from functools import cached_property
 from pathlib import Path
 
+from polycnc.messages.files import reason_of
 from polycnc.program.errors import ProgramFileError
 from polycnc.program.names import stored_name
 from polycnc.program.text import TAPE_CONTROLS
@@ -43,8 +44,7 @@ def read_file(path: str) -> bytes:
         raise ProgramFileError("program.missing", path) from error
     except (OSError, ValueError) as error:
         # ValueError: a name that no file system takes, such as one with a zero byte.
-        reason = getattr(error, "strerror", None) or str(error)
-        raise ProgramFileError("program.unreadable", path, reason=reason) from error
+        raise ProgramFileError("program.unreadable", path, reason=reason_of(error)) from error
     if len(data) > MAX_FILE_BYTES:
         raise ProgramFileError("program.too-large", path, limit=MAX_FILE_BYTES)
     return data
@@ -88,8 +88,7 @@ class Folder:
             with os.scandir(self.path) as entries:
                 found = sorted((entry.name, entry.is_dir()) for entry in entries)
         except (OSError, ValueError) as error:
-            reason = getattr(error, "strerror", None) or str(error)
-            raise ProgramFileError("program.unreadable", str(self.path), reason=reason) from error
+            raise ProgramFileError("program.unreadable", str(self.path), reason=reason_of(error)) from error
         files = [self.path / name for name, is_folder in found if not is_folder]
         return files, [self.path / name for name, is_folder in found if is_folder]
 

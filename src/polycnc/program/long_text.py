@@ -7,6 +7,7 @@ hand.
 
 from __future__ import annotations
 
+import errno
 import os
 from array import array
 from bisect import bisect_right
@@ -17,6 +18,7 @@ from pathlib import Path
 from stat import S_ISREG
 from typing import TYPE_CHECKING, overload
 
+from polycnc.messages.files import reason_of
 from polycnc.program.encoding import codec_of, has_byte_order_mark
 from polycnc.program.errors import ProgramFileError
 from polycnc.program.text import MAX_LINE, TAPE_CONTROLS, refuse_long_line
@@ -77,7 +79,9 @@ class TextFile:
         os.lseek(self._handle, place, os.SEEK_SET)
         data = os.read(self._handle, end - place)
         if len(data) != end - place:
-            raise ProgramFileError("program.unreadable", self.path, reason=os.strerror(5))
+            raise ProgramFileError(
+                "program.unreadable", self.path, reason=reason_of(OSError(errno.EIO, os.strerror(errno.EIO)))
+            )
         return data
 
     def _text(self, page: int) -> bytes:

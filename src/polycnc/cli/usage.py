@@ -1,0 +1,59 @@
+"""The language of the command line itself: Typer knows its pages of help and its refusals in English only."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from contextlib import contextmanager, redirect_stdout
+from functools import cache
+from importlib import resources
+from io import StringIO
+from typing import TYPE_CHECKING
+
+from polycnc.cli.console import show
+from polycnc.messages.catalogue import LANGUAGES, language, language_of_environment
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+#: Options that print a page and leave.
+HELP = "--help"
+
+
+def language_of(words: Sequence[str]) -> str:
+    """The language must be known before the first help text is looked up, so `--lang` is read here."""
+    for word, following in zip(words, [*words[1:], ""], strict=False):
+        chosen = following if word == "--lang" else word.removeprefix("--lang=") if "=" in word else ""
+        if word.startswith("--lang") and chosen in LANGUAGES:
+            return chosen
+    return language_of_environment()
+
+
+def translated(told: str) -> str:
+    """What Typer says, in the active language; what the table does not know stays as it is."""
+    if language() != "en":
+        for pattern, phrase in _phrases(language()):
+            told = pattern.sub(phrase, told)
+    return told
+
+
+@contextmanager
+def help_in_language(words: Sequence[str]) -> Iterator[None]:
+    """Translate the page that a call without a command, or with `--help`, prints."""
+    if language() == "en" or not (
+        HELP in words or all("lang" in word or word in LANGUAGES for word in words)
+    ):
+        yield
+        return
+    page = StringIO()
+    try:
+        with redirect_stdout(page):
+            yield
+    finally:
+        show(translated(page.getvalue()))
+
+
+@cache
+def _phrases(lang: str) -> tuple[tuple[re.Pattern[str], str], ...]:
+    table = tomllib.loads(resources.files("polycnc.cli").joinpath("usage.toml").read_text(encoding="utf-8"))
+    return tuple((re.compile(row["pattern"], re.MULTILINE), row[lang]) for row in table["phrase"])

@@ -1,0 +1,59 @@
+"""Why a file cannot be used is told in words of polycnc, in both languages."""
+
+from __future__ import annotations
+
+import errno
+import os
+from typing import TYPE_CHECKING
+
+import pytest
+
+from polycnc.messages.catalogue import messages, set_language
+from polycnc.messages.files import read_utf_8, reason_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+
+@pytest.fixture
+def chinese() -> Iterator[None]:
+    set_language("zh-TW")
+    yield
+    set_language("en")
+
+
+def test_a_byte_order_mark_is_no_text(tmp_path: Path) -> None:
+    path = tmp_path / "setup.yaml"
+    path.write_bytes(b"\xef\xbb\xbfstart: {}\r\n")
+    assert read_utf_8(path) == "start: {}\n"
+
+
+def test_a_device_without_an_end_is_not_read() -> None:
+    with pytest.raises(OSError, match="/dev/zero") as refused:
+        read_utf_8("/dev/zero")
+    assert reason_of(refused.value) == "it is a device, no file"
+
+
+def test_a_directory_is_called_one(tmp_path: Path) -> None:
+    with pytest.raises(OSError, match=tmp_path.name) as refused:
+        read_utf_8(tmp_path)
+    assert reason_of(refused.value) == "it is a directory"
+
+
+@pytest.mark.usefixtures("chinese")
+def test_text_in_another_encoding_says_what_to_do(tmp_path: Path) -> None:
+    path = tmp_path / "setup.yaml"
+    path.write_bytes("刀具".encode("big5"))
+    with pytest.raises(UnicodeError) as refused:
+        read_utf_8(path)
+    assert reason_of(refused.value) == "不是 UTF-8 文字檔；請另存為 UTF-8"
+
+
+def test_a_rare_reason_is_told_in_the_words_of_the_system() -> None:
+    assert reason_of(OSError(errno.EDOM, os.strerror(errno.EDOM))) == os.strerror(errno.EDOM)
+
+
+def test_every_reason_is_named_as_the_system_names_it() -> None:
+    named = {key.removeprefix("reason.") for key in messages() if key.startswith("reason.")}
+    assert named - {"not-utf-8"} <= set(errno.errorcode.values())
