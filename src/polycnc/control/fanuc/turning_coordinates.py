@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from polycnc.control.fanuc.turning_corners import corner_waits
 from polycnc.control.fanuc.turning_tools import refresh
-from polycnc.control.word_address import coordinates, extended, planes, settled
+from polycnc.control.word_address import coordinates, planes, settled
 from polycnc.control.word_address.path import PLANES
 from polycnc.control.word_address.radius import suspended
 from polycnc.geometry.frames import IDENTITY, about, rotation
@@ -212,7 +212,7 @@ def select_work_offset(channel: Channel, words: Words) -> None:
     """G54 to G59, G54 P: the work coordinate system; no motion by itself."""
     if channel.memory.frames.rotates:
         raise words.fail("in_rotation", channel.mode["wcs"])
-    extended.select_work_offset(channel, words)
+    coordinates.select_work_offset(channel, words)
 
 
 def rotate(channel: Channel, words: Words) -> None:

@@ -7,7 +7,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.turning_barrier import barrier, is_described
-from polycnc.control.word_address.extended import StrokeZone
+from polycnc.control.word_address.stroke_check import StrokeZone
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -6,9 +6,9 @@ from polycnc.control.fanuc.milling_codes import ALIASES, ROWS, moves
 from polycnc.control.word_address import (
     circle_cutting,
     coordinates,
-    extended,
     hole_patterns,
     hypothetical_axis,
+    path_modes,
     skip,
     tool_measuring,
 )
@@ -23,7 +23,7 @@ _ROWS = table(
     tuple(row for code, row in ROWS.items() if code not in FOREIGN),
     moves("G2.1", circle_cutting.spiral_cw, "I J K P"),
     moves("G3.1", circle_cutting.spiral_ccw, "I J K P"),
-    GCode("G5", handler=extended.high_speed_mode, takes="P"),
+    GCode("G5", handler=path_modes.high_speed_mode, takes="P"),
     moves("G12", circle_cutting.cut_circle_cw, "I D"),
     moves("G13", circle_cutting.cut_circle_ccw, "I D"),
     moves("G28", coordinates.return_to_reference),

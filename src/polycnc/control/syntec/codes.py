@@ -25,8 +25,7 @@ from polycnc.control.syntec import (
     tool_setting,
 )
 from polycnc.control.syntec import coordinates as frames
-from polycnc.control.word_address import auxiliary, coordinates, nurbs, path, radius
-from polycnc.control.word_address import extended as base_extended
+from polycnc.control.word_address import auxiliary, coordinates, nurbs, path, path_modes, radius, stroke_check
 from polycnc.control.word_address import frames as base_frames
 from polycnc.control.word_address import length as base_length
 from polycnc.control.word_address.codes import MILLING_POWER_ON, GCode, MCode, Order, m_table, not_yet, table
@@ -58,7 +57,7 @@ G_CODES = table(
     GCode("G5", handler=smoothing.high_precision, takes="P E", axis_words=True),
     GCode("G5.1", handler=smoothing.smooth_path, takes="Q E R"),
     GCode("G10.9", handler=frames.switch_diameter, axis_words=True),
-    GCode("G9", handler=base_extended.exact_stop_block),
+    GCode("G9", handler=path_modes.exact_stop_block),
     GCode("G10", handler=frames.input_data, takes="L P R Q I J K", axis_words=True, order=MOTION),
     GCode("G15", "polar"),
     GCode("G16", "polar", base_frames.start_polar),
@@ -68,7 +67,7 @@ G_CODES = table(
     GCode("G18", "plane", planes.select_plane),
     GCode("G19", "plane", planes.select_plane),
     GCode("G22", "stroke", frames.stroke_limit_on, takes="I J K", axis_words=True, order=MOTION),
-    GCode("G23", "stroke", base_extended.stroke_check_off),
+    GCode("G23", "stroke", stroke_check.stroke_check_off),
     GCode("G28", handler=coordinates.return_to_reference, axis_words=True, order=MOTION),
     GCode("G29", handler=coordinates.return_from_reference, axis_words=True, order=MOTION),
     GCode("G30", handler=frames.return_to_further_reference, takes="P", axis_words=True, order=MOTION),

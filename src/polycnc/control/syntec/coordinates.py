@@ -10,10 +10,10 @@ from polycnc.control.syntec.spatial import choose_corners
 from polycnc.control.word_address import frames as base_frames
 from polycnc.control.word_address.coordinates import go_to_reference, refresh_zero
 from polycnc.control.word_address.data_input import TOOL_FIELDS
-from polycnc.control.word_address.extended import StrokeZone
 from polycnc.control.word_address.length import renew_length
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.path import PLANES
+from polycnc.control.word_address.stroke_check import StrokeZone
 from polycnc.geometry.frames import IDENTITY, Frame, about, cos_sin_deg, rotation, scaling
 from polycnc.language.syntec.values import to_long
 

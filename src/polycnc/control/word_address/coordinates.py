@@ -1,4 +1,4 @@
-"""Coordinate systems and reference points: G52 to G59, G92, G53, G27 to G30, planes, units."""
+"""Coordinate systems and reference points: G52 to G59, G54.1, G92, G53, G27 to G30, planes, units."""
 
 from __future__ import annotations
 
@@ -35,9 +35,16 @@ def zero_offsets(channel: Channel) -> list[float]:
     return [sum(values) for values in parts]
 
 
-def select_work_offset(channel: Channel, _words: Words) -> None:
-    """G54 to G59: the work coordinate system of the active code."""
-    channel.memory.wcs = channel.mode["wcs"]
+def select_work_offset(channel: Channel, words: Words) -> None:
+    """G54 to G59, G54.1 P1 … (also `G54 P1`): the work coordinate system; no motion by itself."""
+    code = channel.mode["wcs"]
+    number = words.integer("P") if "P" in words else None
+    if number is not None and not 0 <= number <= channel.control.EXTENDED_WORK_SYSTEMS:
+        raise words.fail("offset_number", "P")
+    if number:
+        channel.memory.wcs = f"G54.1 P{number}"
+    else:
+        channel.memory.wcs = "G54" if code == "G54.1" else code
     refresh_zero(channel)
 
 
@@ -54,6 +61,16 @@ def set_position(channel: Channel, words: Words) -> None:
     for axis, value, _ in words.axes():
         channel.memory.preset_shift[axis] += position[axis] - value
     refresh_zero(channel)
+
+
+def set_position_or_limit(channel: Channel, words: Words) -> None:
+    """G92: sets the position; with S the highest speed under constant surface speed."""
+    if words.axes():
+        set_position(channel, words)
+    limit = words.typed("S")
+    if limit is not None:
+        channel.memory.spindle_limit_rpm = limit
+        channel.context_changed()
 
 
 def preset_system(channel: Channel, words: Words) -> None:

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.intervention import NOTHING_BACK
 from polycnc.control.word_address.codes import GCode, MCode, Order, Step
-from polycnc.control.word_address.extended import end_of_exact_stop, exact_stop_block
 from polycnc.control.word_address.numbers import Convert, NumberRules, length_converter
+from polycnc.control.word_address.path_modes import end_of_exact_stop, exact_stop_block
 from polycnc.control.word_address.words import Words
 from polycnc.language.bulk import Idle, Note, declare
 from polycnc.language.word_address.words import FORMS, is_fixed_code
