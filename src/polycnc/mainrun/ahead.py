@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.intervention import NOTHING_BACK, TYPED_IN, MovedByHand
 from polycnc.channel.waits import PREPROCESSING, TYPED_BLOCKS_DONE, Wait
 from polycnc.mainrun.anew import line_anew
-from polycnc.mainrun.geometry import arc_laid, line_laid, way_along
+from polycnc.mainrun.geometry import arc_laid, line_laid, turn_laid, way_along
 from polycnc.mainrun.items import Block, BlockEnd, Happening, Item, Move, Piece, Rates, Standing
 from polycnc.mainrun.laid import Laid
-from polycnc.motion.frames import carried, real_of
+from polycnc.motion.frames import real_of
 from polycnc.motion.kernels.arcs import facing_radius
 from polycnc.motion.kernels.columns import (
     CAP2,
@@ -38,6 +38,7 @@ from polycnc.motion.kernels.columns import (
     SWEEP,
     TIMED,
     Rows,
+    piece_width,
 )
 from polycnc.motion.kernels.feeds import asked_speed, faster, follows_radius, is_rapid
 from polycnc.motion.limits import averages, context_fields
@@ -56,6 +57,7 @@ if TYPE_CHECKING:
     from polycnc.machine.motion_settings import MotionSettings
     from polycnc.mainrun.shared_axes import SharedAxes
     from polycnc.messages import AlarmError
+    from polycnc.motion.pole import Turn
     from polycnc.program import Program
     from polycnc.toolpath.table import Chunk
 
@@ -307,6 +309,7 @@ class Ahead:
         """Turn the rows of a block into items."""
         self._add_contexts()
         self._take_over()
+        self._real.go_on_from(self._laid.position)
         bounds = self._real.bounds(chunk, self.toolpath.contexts)
         self._delays.clear()
         self._waits.take(chunk, self._facing)
@@ -329,7 +332,7 @@ class Ahead:
             elif kind == Kind.DWELL:
                 self.end_in_rest()
             else:
-                self._lay(chunk, row, bounds)
+                self._move(chunk, row, bounds)
         return True
 
     def _take_over(self) -> None:
@@ -360,19 +363,50 @@ class Ahead:
             )
             self._laid_contexts += 1
 
-    def _lay(self, chunk: Chunk, row: int, bounds: Bounds) -> None:
-        """Lay a move out as pieces. Its feed is FREE, so that the pieces know what the axes allow."""
+    def _move(self, chunk: Chunk, row: int, bounds: Bounds) -> None:
+        """Lay a move out; one through the pole of a transformation in legs, the rotary axis turning between them."""
+        n, number = self._axes, chunk.first + row
+        self._last_context = self.toolpath.contexts[chunk.context[row]]
+        if row in bounds.enters:
+            self.stand_at(bounds.enters[row])
+        own, shares = slice(row, row + 1), slice(row * SHARES, (row + 1) * SHARES)
+        if row not in bounds.legs:
+            rows = Rows(
+                chunk.kind[own], chunk.context[own], bounds.paced(chunk.feed[own], own),
+                chunk.end[row * n : (row + 1) * n], chunk.curve[own], NO_STOPS,
+                *(column[shares] for column in bounds.shares),
+            )  # fmt: skip
+            self._lay(chunk, row, rows, chunk.curves, number)
+            return
+        legs, feed = bounds.legs[row], bounds.paced(chunk.feed[own], own)[0]
+        for k, leg in enumerate(legs):
+            called = number + (k + 1) / (len(legs) + 1)
+            if leg.turn is not None:
+                self._turn(leg.turn, chunk, row, called - 0.5 / (len(legs) + 1))
+            self._lay(chunk, row, leg.at_feed(feed), leg.curves, called)
+            self.end_in_rest()
+
+    def _turn(self, turn: Turn, chunk: Chunk, row: int, called: float) -> None:
+        """The rotary axis turns at the pole."""
+        context, kind = self.toolpath.contexts[chunk.context[row]], chunk.kind[row]
+        records = self._real.turn(turn, context, kind, called, 0)
+        self._laid.add(records)
+        way = turn_laid(turn, records, self._axes)
+        program, line, rapid = self.toolpath.programs[chunk.program[row]], chunk.line[row], kind == Kind.RAPID
+        total = sum(records[LENGTH :: piece_width(self._axes)])
+        self.items.append(
+            Move(
+                way, called, kind, context, program, line, rapid, False, False, 0.0, False, False, False, 1.0,
+                inf, ((1.0, inf),), total,
+            )
+        )  # fmt: skip
+
+    def _lay(self, chunk: Chunk, row: int, rows: Rows, curves: array[float], called: float) -> None:
+        """Lay a row or a leg of it out as pieces. Its feed is FREE, so that the pieces know what the axes allow."""
         n, laid, kind = self._axes, self._laid, chunk.kind[row]
         context = self.toolpath.contexts[chunk.context[row]]
-        self._enter_context(context)
         start, limits = tuple(laid.position), self._real.limits(context.transformation)
-        own, shares = slice(row, row + 1), slice(row * SHARES, (row + 1) * SHARES)
-        rows = Rows(
-            chunk.kind[own], chunk.context[own], bounds.paced(chunk.feed[own], own),
-            chunk.end[row * n : (row + 1) * n], chunk.curve[own], NO_STOPS,
-            *(column[shares] for column in bounds.shares),
-        )  # fmt: skip
-        found = laid.lay(rows, chunk.curves, chunk.first + row, limits)
+        found = laid.lay(rows, curves, chunk.first + row, limits, called)
         if not found:
             return
         self._skips = self._skips or kind == Kind.SKIP
@@ -383,7 +417,7 @@ class Ahead:
         self.items.append(
             Move(
                 way,
-                chunk.first + row,
+                called,
                 kind,
                 context,
                 self.toolpath.programs[chunk.program[row]],
@@ -399,7 +433,7 @@ class Ahead:
                 kind == Kind.TAP and self._settings.taps_held,
                 faster(chunk.curves, laid.state),
                 self._largest_override(chunk, row),
-                self._asks(chunk, record, found, is_arc=is_arc),
+                self._asks(curves, record, found, is_arc=is_arc),
                 sum(laid.field(at, LENGTH) for at in found),
             )
         )
@@ -411,7 +445,7 @@ class Ahead:
         return chunk.curves[chunk.curve[row] * CURVE_WIDTH + LARGEST_OVERRIDE] or inf
 
     def _asks(
-        self, chunk: Chunk, record: int, found: Sequence[int], *, is_arc: bool
+        self, curves: array[float], record: int, found: Sequence[int], *, is_arc: bool
     ) -> tuple[tuple[float, float], ...]:
         """Speeds that the program asks for in the row laid last, by shares of its way; `found` are its pieces."""
         state, contexts = self._laid.state, self._laid.contexts
@@ -421,16 +455,10 @@ class Ahead:
         for length in lengths:
             share = length / total
             radius = self._radius(record, done + 0.5 * share, is_arc=is_arc)
-            speed = asked_speed(chunk.curves, contexts, record, state, state[ROW_LENGTH], radius)
+            speed = asked_speed(curves, contexts, record, state, state[ROW_LENGTH], radius)
             done += share
             asks.append((done, speed if speed > 0.0 else inf))
         return tuple(asks)
-
-    def _enter_context(self, context: Context) -> None:
-        """Where a transformation begins or ends, the path goes on from where the real axes are."""
-        last, self._last_context = self._last_context, context
-        if context.transformation is not last.transformation:
-            self.stand_at(carried(self.position, last, context, self._geometry))
 
     def _radius(self, record: int, middle: float, *, is_arc: bool) -> float:
         """Turning radius at a share of the row laid last, as the planner takes it."""

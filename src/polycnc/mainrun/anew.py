@@ -71,7 +71,7 @@ def line_anew(
     asked = move.asked if isinstance(move, Piece) else move.asked(1.0)
     records = array("d", bytes(8 * width * ROOM))
     rows = Rows([move.kind], [0], [asked if asked < inf else 0.0], end, [-1], [], [], [], [])
-    lay(rows, 0, array("d"), move.row, own, limits, records, state)
+    lay(rows, 0, array("d"), int(move.row), own, limits, records, state)
     settle_alone(records, n, limits, state)
     del records[int(state[PIECES]) * width :]
     if not records:

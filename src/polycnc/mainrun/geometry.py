@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, sin
+from math import cos, hypot, sin
 from typing import TYPE_CHECKING
 
 from polycnc.motion.kernels.columns import (
@@ -12,15 +12,20 @@ from polycnc.motion.kernels.columns import (
     GEOMETRY,
     GROWTH,
     LIMIT_BLOCKS,
+    PLACES,
     POSITION,
     RADIUS,
     RISE,
     STATE_BLOCKS,
     SWEEP,
+    VECTORS,
 )
+from polycnc.motion.pole import RING_MM
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from polycnc.motion.pole import Turn
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,6 +108,25 @@ def arc_laid(start: Sequence[float], state: Sequence[float], limits: Sequence[fl
         state[RADIUS],
         state[GROWTH],
         state[RISE],
+    )
+
+
+def turn_laid(turn: Turn, records: Sequence[float], axes: int) -> Arc:
+    """The way of a turn at the pole along its ring; `records` are the planner's pieces of it."""
+    first, last = VECTORS + PLACES * axes, len(records) - axes
+    forth, inward = (records[VECTORS + k * axes : VECTORS + (k + 1) * axes] for k in (0, 2))
+    i, j = turn.pole.columns
+    return Arc(
+        tuple(records[first : first + axes]),
+        tuple(records[last : last + axes]),
+        (i, j, -1),
+        tuple(-inward[k] / hypot(inward[i], inward[j]) for k in (i, j)),
+        tuple(forth[k] / hypot(forth[i], forth[j]) for k in (i, j)),
+        (0.0, 0.0, 0.0),
+        abs(turn.way),
+        RING_MM,
+        0.0,
+        0.0,
     )
 
 

@@ -64,7 +64,7 @@ class Row:
     """What a row of the path and its pieces share.
 
     Attributes:
-        way: Where it leads; `row` is its number.
+        way: Where it leads; `row` is its number, with a fraction for a leg through the pole (`motion/pole.py`).
         kind: Kind of the row.
         context: What holds in it.
         program: Name of the program; `line` the line in its file.
@@ -79,7 +79,7 @@ class Row:
     """
 
     way: Way
-    row: int
+    row: float
     kind: int
     context: Context
     program: str

@@ -111,7 +111,9 @@ class Laid:
         self.state[STOP] = 1.0
         settle_alone(self._records, self._axes, self.limits, self.state)
 
-    def lay(self, rows: Rows, curves: array[float], number: int, limits: array[float]) -> list[int]:
+    def lay(
+        self, rows: Rows, curves: array[float], number: int, limits: array[float], called: float = -1.0
+    ) -> list[int]:
         """Lay a row out; where the records of its pieces begin.
 
         Args:
@@ -119,8 +121,10 @@ class Laid:
             curves: Parameters of curves.
             number: Number of the row.
             limits: The machine, as a transformation shows it.
+            called: Number that its pieces get, where the row is a leg of another one.
         """
         self._rows += 1
+        called = called if called >= 0.0 else number
         if self._rows in (READY_ROWS, COMPILE_ROWS):
             self._choose_kernels()
         state, see = self.state, self._kernels.see
@@ -135,12 +139,27 @@ class Laid:
         found: list[int] = []
         while at >= self._taken * width and records[at + ROW] == number:
             found.append(at)
+            records[at + ROW] = called
             self._way += records[at + LENGTH]
             at -= width
         found.reverse()
         if found:
             self._rests += records[found[0] + PAUSE] > 0.0
         return found
+
+    def add(self, records: array[float]) -> None:
+        """Pieces that a row does not make: the axes rest before and behind them."""
+        self.end_in_rest()
+        width, count = self._width, int(self.state[PIECES])
+        while (count + len(records) // width) * width > len(self._records):
+            self._make_room()
+            count = int(self.state[PIECES])
+        self._records[count * width : count * width + len(records)] = records
+        self.state[PIECES] += len(records) // width
+        self._way += sum(records[LENGTH::width])
+        self._rests += records[PAUSE] > 0.0
+        last = len(records) - self._axes
+        self.stand_at(records[last:])
 
     def _make_room(self) -> None:
         """Forget records that have been taken, or let the buffer grow."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from array import array
 from math import inf, sqrt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from polycnc.motion.compiled import PLAIN, compiled_kernels
 from polycnc.motion.kernels.alone import settle_alone
@@ -28,6 +28,7 @@ from polycnc.motion.kernels.columns import (
     LOW_PULL,
     PAUSE,
     PIECES,
+    PLACES,
     POSITION,
     REACH2,
     ROW,
@@ -38,6 +39,7 @@ from polycnc.motion.kernels.columns import (
     STRAIGHT_RUN,
     TOP2,
     TOP_RAPID,
+    VECTORS,
     WINDOW,
     WITHOUT_FEED,
     Rows,
@@ -48,11 +50,14 @@ from polycnc.motion.plan import Plan, Times, ToolTimes
 from polycnc.motion.settings import DEFAULT, Settings
 from polycnc.motion.transformed import RealAxes
 from polycnc.motion.waits import Waits
+from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.machine import Machine
+    from polycnc.motion.pole import Turn
+    from polycnc.motion.transformed import LaidLeg
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
 
@@ -147,8 +152,8 @@ class Planner:
         return self._waits.rpm(context, radius_mm)
 
     def rapids(self, ramp: float, context: Context) -> list[tuple[float, float]]:
-        """Velocity and acceleration of each axis that runs a rapid by itself."""
-        n, limits = self._axes, self._limits
+        """Velocity and acceleration of each axis that runs a rapid by itself: none does under a transformation."""
+        n, limits = self._axes, self._real.limits(None)
         pulls = [limits[ACCELERATION * n + i] for i in range(n)]
         if ramp > 0.0:
             pulls = [min(pull, 0.5 * limits[JERK * n + i] * ramp) for i, pull in enumerate(pulls)]
@@ -173,18 +178,55 @@ class Planner:
         kind, *others = (see(column) for column in columns)
         fixed = see(chunk.curves), chunk.first, see(self._contexts)
         row = 0
-        for edge in (*bounds.enters, len(chunk)):
-            rows = Rows(kind[:edge], *others)
-            while row < edge:
-                row = self._kernels.lay(
-                    rows, row, *fixed, see(self._limits), see(self._pieces), see(self._state)
-                )
-                if row < edge:
-                    self._make_room()
+        for edge in (*sorted({*bounds.enters, *bounds.legs}), len(chunk)):
+            self._lay(Rows(kind[:edge], *others), row, *fixed)
+            row = edge
             if edge in bounds.enters:
                 context = self._toolpath.contexts[chunk.context[edge]]
                 self._enter(context, bounds.enters[edge], chunk.first + edge)
+            if edge in bounds.legs:
+                self._through_pole(bounds.legs[edge], chunk, edge, feed[edge])
+                row = edge + 1
         return True
+
+    def _lay(self, rows: Rows, row: int, curves: Any, number: int, contexts: Any) -> None:
+        """Lay rows out from one on."""
+        see = self._kernels.see
+        while row < len(rows.kind):
+            pieces, state = see(self._pieces), see(self._state)
+            row = self._kernels.lay(rows, row, curves, number, contexts, see(self._limits), pieces, state)
+            del pieces  # an array must not grow while it is seen
+            if row < len(rows.kind):
+                self._make_room()
+
+    def _through_pole(self, legs: Sequence[LaidLeg], chunk: Chunk, row: int, feed: float) -> None:
+        """Lay the legs of a row, at rest before each of them; between two of them the rotary axis turns."""
+        see, number, first = self._kernels.see, chunk.first + row, chunk.context[row]
+        for leg in legs:
+            if leg.turn is not None:
+                self._turn(leg.turn, first, chunk.kind[row], number)
+            columns: Any = leg.at_feed(feed)
+            self._lay(Rows(*map(see, columns)), 0, see(leg.curves), number, see(self._contexts))
+            self._state[STOP] = 1.0
+
+    def _turn(self, turn: Turn, context: int, kind: int, number: int) -> None:
+        """The rotary axis turns at rest. Its degrees are no way that the feed counts."""
+        rapid = kind == Kind.RAPID
+        slot = 2 * context + (0 if rapid else 1)
+        records = self._real.turn(turn, self._toolpath.contexts[context], kind, number, slot)
+        settle_alone(self._pieces, self._axes, self._limits, self._state)
+        self._look_ahead(number)
+        while len(self._pieces) < len(records):
+            self._pieces.frombytes(bytes(8 * len(self._pieces)))
+        count = len(records) // self._width
+        self._pieces[: len(records)] = records
+        self._state[PIECES], self._state[STOP] = count, 1.0
+        before = self._slots[2 * slot + 1]
+        self._look_ahead(number)
+        self._slots[2 * slot + 1] = before
+        place, position = (count - 1) * self._width + VECTORS + (PLACES + 1) * self._axes, STATE_BLOCKS
+        position += POSITION * self._axes
+        self._state[position : position + self._axes] = records[place : place + self._axes]
 
     def _enter(self, context: Context, position: list[float], row: int) -> None:
         """Before a row a transformation begins or ends: at rest the path goes on from where the real axes are."""

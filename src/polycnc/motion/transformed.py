@@ -7,8 +7,10 @@ M their derivatives by the columns:
 - `|q'|·v` stays within their velocity, `|q''|·v²` within a part of their acceleration; with limited jerk v³ times the
   third derivative and `3·|dM/ds|·a·v` within parts of their jerk, a being what the columns may accelerate: these bound
   the speed;
-- `|M|·a` stays within the rest of their acceleration, `|M|·j` within the rest of their jerk, whatever the direction,
-  for corners and averages too: the columns' limits a and j shrink by one factor, `ease`.
+- `|M·d|·a` stays within the rest of their acceleration, `|M·d|·j` within the rest of their jerk, d being the direction
+  of the path: the columns' acceleration along it shrinks by one factor, `ease`;
+- at corners, and as far as their averages reach, it is `|M|·a` and `|M|·j`, whatever the direction: the columns' limits
+  shrink there by a factor of their own.
 
 Where all this changes much along a row, it is cut into shares, the shorter the nearer they are to its worst place: the
 point next to the centre of polar interpolation.
@@ -17,44 +19,51 @@ point next to the centre of polar interpolation.
 from __future__ import annotations
 
 from array import array
-from collections.abc import Callable
-from math import atan2, cos, hypot, inf, pi, sin, sqrt
+from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from polycnc.motion.frames import carried, machine_of, real_of, work_of
-from polycnc.motion.kernels.columns import ACCELERATION, JERK, SHARES
-from polycnc.motion.limits import axis_limits, channel_axes, rotary_weight
+from polycnc.motion.frames import carried, laid_of, machine_of, real_of, work_of
+from polycnc.motion.kernels.columns import ACCELERATION, AT_END, AT_START, JERK, SHARES, Rows
+from polycnc.motion.limits import averages, axis_limits, channel_axes, rotary_weight
 from polycnc.motion.pace import Way, pace_of
+from polycnc.motion.pole import RING_MM, Pole, Turn, legs_of, turn_records
+from polycnc.motion.row_path import arc_path, line_path
 from polycnc.motion.settings import SOFT
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS
 from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from polycnc.machine import Machine
+    from polycnc.motion.row_path import Path
     from polycnc.motion.settings import Settings
     from polycnc.toolpath.context import Transformation
     from polycnc.toolpath.table import Chunk
 
-Path = Callable[[float], list[float]]
 #: Part of the acceleration that is for the bend of the real axes' way; the rest is for changes of speed.
 BEND = 0.5
 #: Parts of the jerk: for the third derivative of the way; for bend and acceleration together.
 TWIST, TURN = 0.2, 0.3
-#: Derivatives are differences over so many mm or degrees: by the columns, along the path.
-STEP, PATH_STEP = 1e-3, 5e-3
+#: Derivatives are differences over so many mm or degrees: by the columns; along the path at most.
+STEP, PATH_STEP = 1e-6, 5e-3
 #: Derivatives by time are differences over so many seconds.
 SHORT_S = 1e-4
 #: Derivatives below this count as none.
 NOTHING = 1e-9
 #: Places at which a row is looked at first; a change of the demand by more than UNEVEN is worth shares.
 LOOKS, UNEVEN = 4, 1.3
-#: Shares become shorter by this factor towards the worst place, on both sides of it; steps of the search for it.
-SHORTER, SEARCH = 0.4, 30
-#: No share is shorter, mm.
-SHORTEST = 1e-3
+#: Shares become shorter by this factor towards the worst place, or by a smaller one; steps of the search for it.
+SHORTER, SEARCH = 0.5, 40
+#: Part of the share next to a corner that the corner may reach; no share of a way to the pole is much shorter, mm.
+CORNER_REACH, NEAR_POLE = 0.5, 0.05
+#: A share that bounds nothing.
+FREE_SHARE = (1.0, inf, 1.0)
+#: Kinds of rows that are cut at the pole.
+LEGGED = frozenset((Kind.RAPID, Kind.FEED, *ARC_KINDS))
+#: Nothing within a leg lets the axes stand.
+NO_STOPS = array("B")
 #: An axis along which an arc's unit normal has more than this does not take part in the arc.
 ACROSS = 0.999
 RAPIDS = (Kind.RAPID, Kind.REF)
@@ -68,6 +77,34 @@ class Shares(NamedTuple):
     ease: array[float]
 
 
+class RowShares(NamedTuple):
+    """The shares of one row: end, speed and `ease` of each, and the `ease` of corners at its start and its end."""
+
+    shares: list[tuple[float, float, float]]
+    at_start: float
+    at_end: float
+
+
+class LaidLeg(NamedTuple):
+    """A leg of a row through the pole, as the kernels take a row of its own.
+
+    Attributes:
+        turn: What the rotary axis turns before it, if it does.
+        rows: Its columns; `feed` is a factor on that of the whole row.
+        curves: Its curve parameters.
+        end: Machine position of the path at its end.
+    """
+
+    turn: Turn | None
+    rows: Rows
+    curves: array[float]
+    end: list[float]
+
+    def at_feed(self, feed: float) -> Rows:
+        """Its columns, where the whole row has this feed."""
+        return self.rows._replace(feed=array("d", [feed * self.rows.feed[0]]))
+
+
 class Bounds(NamedTuple):
     """What the kernels must know of the rows of a chunk.
 
@@ -75,11 +112,13 @@ class Bounds(NamedTuple):
         shares: Bounds along the rows.
         feed: Factor on the feed of every row; empty where all are 1.
         enters: Rows at which the columns get another meaning, with the position of the path there: the axes stand.
+        legs: Rows that lead through the pole, or begin or end there: they are laid as these legs instead.
     """
 
     shares: Shares
     feed: array[float]
     enters: dict[int, list[float]]
+    legs: dict[int, list[LaidLeg]]
 
     def paced(self, feed: array[float], rows: slice = slice(None)) -> array[float]:
         """The feeds of some rows as the program's overrides and rules leave them."""
@@ -96,6 +135,7 @@ class Demand(NamedTuple):
         bend: Part of an acceleration for each unit of v².
         pull: Part of an acceleration that the columns can ask for; `jerk` likewise.
         turn: Part of a jerk for each unit of speed, at what the columns can accelerate.
+        along: What they can accelerate along the path.
     """
 
     top: float
@@ -103,6 +143,7 @@ class Demand(NamedTuple):
     pull: float
     jerk: float
     turn: float
+    along: float
 
 
 class ArcPath(NamedTuple):
@@ -152,9 +193,13 @@ class RealAxes:
         """The axes stand elsewhere, without a transformation."""
         self._laid, self._context = list(laid), Context()
 
+    def go_on_from(self, laid: Sequence[float]) -> None:
+        """The path goes on from a position."""
+        self._laid = list(laid)
+
     def bounds(self, chunk: Chunk, contexts: Sequence[Context]) -> Bounds:
         """Look at the rows of a chunk."""
-        n, bounds = len(self._axes), Bounds(Shares(array("d"), array("d"), array("d")), array("d"), {})
+        n, bounds = len(self._axes), Bounds(Shares(array("d"), array("d"), array("d")), array("d"), {}, {})
         moves = [row for row in range(len(chunk)) if chunk.kind[row] < Kind.DWELL]
         used = [contexts[number] for number in set(chunk.context)]
         paced = any(context.pace is not None for context in used)
@@ -162,20 +207,25 @@ class RealAxes:
         if self._context.transformation is None and not transformed and not paced:
             moves = moves[-1:]
         else:
-            for column, free in zip(bounds.shares, (1.0, inf, 1.0), strict=True):
+            for column, free in zip(bounds.shares, FREE_SHARE, strict=True):
                 column.extend([free] * SHARES * len(chunk))
             bounds.feed.extend([1.0] * len(chunk))
         for row in moves:
             context = contexts[chunk.context[row]]
             end = list(chunk.end[row * n : (row + 1) * n])
             if context.transformation is not self._context.transformation:
-                self._laid = carried(self._laid, self._context, context, self._geometry)
+                self._laid = self._carried(context)
                 bounds.enters[row] = self._laid
             if context.transformation is not None and chunk.kind[row] != Kind.REF:
                 start = work_of(self._laid, context, self._geometry)
-                for k, share in enumerate(self._shares(chunk, row, start, end, context)):
-                    for column, number in zip(bounds.shares, share, strict=True):
-                        column[row * SHARES + k] = number
+                legs = self._legs(chunk, row, start, end, context)
+                if legs:
+                    bounds.legs[row] = legs
+                    self._laid, self._context = legs[-1].end, context
+                    continue
+                path, length = self._path(chunk, row, start, end, context)
+                shares = self._shares(context, path, length, chunk.kind[row])
+                _set_shares(bounds.shares, row * SHARES, shares)
             goal = machine_of(end, context, self._geometry)
             if context.pace is not None:
                 self._pace(chunk, row, goal, context, bounds)
@@ -194,13 +244,12 @@ class RealAxes:
 
     def _way_of(self, chunk: Chunk, row: int, goal: list[float], context: Context) -> Way:
         """The way of a row in the columns' machine coordinates."""
-        kind, at = chunk.kind[row], chunk.curve[row] * CURVE_WIDTH
-        moved = [abs(b - a) for a, b in zip(self._laid, goal, strict=True)]
-        if kind not in ARC_KINDS or at < 0:
+        moved, curve = [abs(b - a) for a, b in zip(self._laid, goal, strict=True)], self._curve(chunk, row)
+        if not curve:
             return Way(moved)
-        curve, ccw = chunk.curves[at : at + CURVE_WIDTH], kind in (Kind.CCW, Kind.HELIX_CCW)
+        ccw = chunk.kind[row] in CCW_KINDS
         start, end = (work_of(place, context, self._geometry) for place in (self._laid, goal))
-        arc = _arc(start, end, curve, self._geometry, ccw=ccw)
+        arc = arc_path(start, end, curve, self._geometry, ccw=ccw)
         plane = []
         for i, part in zip(self._geometry, arc.normal, strict=True):
             if i >= 0 and abs(part) < ACROSS:
@@ -208,6 +257,49 @@ class RealAxes:
             elif i >= 0:
                 moved[i] = abs(part * arc.lift)
         return Way(moved, tuple(plane), arc.planar, arc.radius, ccw)
+
+    def _carried(self, context: Context) -> list[float]:
+        """Where the path goes on under another transformation: next to its pole in the direction of the rotary axis."""
+        laid, pole = carried(self._laid, self._context, context, self._geometry), _pole(context)
+        if pole is None or not pole.is_at(work_of(laid, context, self._geometry)):
+            return laid
+        real = real_of(self._laid, self._context, self._geometry)
+        linear, side = pole.columns[0], context.transformation.side  # type: ignore[union-attr]
+        work = work_of(real, context, self._geometry)
+        work[linear] = side * RING_MM
+        return laid_of(machine_of(work, context, self._geometry), context, self._geometry)
+
+    def _legs(
+        self, chunk: Chunk, row: int, start: list[float], end: list[float], context: Context
+    ) -> list[LaidLeg]:
+        """The legs of a row that is at the pole somewhere."""
+        assert context.transformation is not None
+        pole, kind, own = _pole(context), chunk.kind[row], slice(row, row + 1)
+        if pole is None or kind not in LEGGED:
+            return []
+        curve, made = self._curve(chunk, row), context.transformation.geometry
+        legs = legs_of(pole, start, end, curve, made, ccw=kind in CCW_KINDS)
+        found = []
+        total = sum(leg.length for leg in legs)
+        for leg in legs:
+            shares = Shares(*(array("d", [free] * SHARES) for free in FREE_SHARE))
+            _set_shares(shares, 0, self._shares(context, leg.path, leg.length, kind, leg.rests))
+            timed = context.feed_mode == "G93" and leg.length > 0.0
+            feed = array("d", [total / leg.length if timed else 1.0])
+            rows = Rows(
+                chunk.kind[own], chunk.context[own], feed, array("d", leg.end),
+                array(chunk.curve.typecode, [0 if curve else -1]), NO_STOPS, *shares,
+            )  # fmt: skip
+            curves = array("d", [*curve[:6], 0.0, 0.0] if curve else [])
+            found.append(LaidLeg(leg.turn, rows, curves, machine_of(leg.end, context, self._geometry)))
+        return found
+
+    def turn(self, turn: Turn, context: Context, kind: int, row: float, slot: int) -> array[float]:
+        """The planner's pieces of a turn at the pole."""
+        axis = self._axes[turn.pole.rotary]
+        assert axis is not None
+        soft, rapid = self._is_soft(context), kind == Kind.RAPID
+        return turn_records(turn, axis, context, self._geometry, soft=soft, rapid=rapid, row=row, slot=slot)
 
     def motion(self, moved: tuple[Any, Any, Any], context: Context) -> tuple[Any, Any, Any]:
         """Position, velocity and acceleration of the real axes, (k, axes), for those of the columns."""
@@ -226,35 +318,83 @@ class RealAxes:
         )
         return now, (came + goes) / (2.0 * SHORT_S), (goes - came) / SHORT_S**2
 
-    def _shares(
+    def _curve(self, chunk: Chunk, row: int) -> list[float]:
+        """Curve parameters of an arc; empty for other rows."""
+        at = chunk.curve[row] * CURVE_WIDTH
+        return list(chunk.curves[at : at + CURVE_WIDTH]) if chunk.kind[row] in ARC_KINDS and at >= 0 else []
+
+    def _path(
         self, chunk: Chunk, row: int, start: list[float], end: list[float], context: Context
-    ) -> list[tuple[float, float, float]]:
-        """End, speed and `ease` of the shares of a row."""
+    ) -> tuple[Path, float]:
+        """The points of a row, and its length."""
         assert context.transformation is not None
-        kind, at, made = chunk.kind[row], chunk.curve[row] * CURVE_WIDTH, context.transformation.geometry
-        path: Path = lambda f: [a + (b - a) * f for a, b in zip(start, end, strict=True)]  # noqa: E731
-        length = self._length(context, start, end)
-        if kind in ARC_KINDS and at >= 0:
-            curve = chunk.curves[at : at + CURVE_WIDTH]
-            arc = _arc(start, end, curve, made, ccw=kind in CCW_KINDS)
-            path, length = arc.path, hypot(arc.planar, arc.lift)
+        curve = self._curve(chunk, row)
+        if curve:
+            made, ccw = context.transformation.geometry, chunk.kind[row] in CCW_KINDS
+            arc = arc_path(start, end, curve, made, ccw=ccw)
+            return arc.at, arc.length
+        return line_path(start, end), self._length(context, start, end)
+
+    def _shares(
+        self,
+        context: Context,
+        path: Path,
+        length: float,
+        kind: int,
+        rests: tuple[bool, bool] = (False, False),
+    ) -> RowShares:
+        """The shares of a row; `rests`: the path begins or ends at the pole."""
         if length == 0.0:
-            return []
+            return RowShares([], 1.0, 1.0)
         looks = [self._demand(context, path, length, k / LOOKS, kind) for k in range(LOOKS + 1)]
         sizes = [max(look.pull, 1.0 / look.top) for look in looks]
-        if kind in (Kind.SPLINE, Kind.THREAD, Kind.TAP) or max(sizes) < UNEVEN * min(sizes):
-            return [(1.0, *self._within(looks))]
+        uneven = max(sizes) >= UNEVEN * min(sizes) or any(rests)
+        if kind in (Kind.SPLINE, Kind.THREAD, Kind.TAP) or not uneven:
+            top, ease = self._within(looks, length)
+            return RowShares([(1.0, top, ease)], ease, ease)
         worst = self._worst(context, path, sizes.index(max(sizes)) / LOOKS)
-        middle = self._demand(context, path, length, worst, kind)
-        shares, first, begin = [], looks[0], 0.0
-        for f in _ends(worst, SHORTEST / length):
-            last = self._demand(context, path, length, f, kind)
-            inside = [first, last, self._demand(context, path, length, 0.5 * (begin + f), kind)]
-            if begin <= worst <= f:
-                inside.append(middle)
-            shares.append((f, *self._within(inside)))
-            first, begin = last, f
-        return shares
+        extent = self._extent(context, path, worst)
+        if any(rests):
+            worst, extent = (0.0 if rests[0] else 1.0), max(extent, NEAR_POLE / length)
+
+        def demand(place: float, *, lateral: bool) -> Demand:
+            step = 0.1 * hypot(extent, place - worst) * length
+            return self._demand(context, path, length, place, kind, step, lateral=lateral)
+
+        shares, begin = [], 0.0
+        for f in _ends(worst, extent):
+            places = [begin, f, 0.5 * (begin + f), *([worst] if begin <= worst <= f else [])]
+            inside = [demand(place, lateral=False) for place in places]
+            shares.append((f, *self._within(inside, (f - begin) * length)))
+            begin = f
+        return self._corners(context, length, demand, shares, rests)
+
+    def _corners(
+        self,
+        context: Context,
+        length: float,
+        demand: Callable[..., Demand],
+        shares: list[tuple[float, float, float]],
+        rests: tuple[bool, bool],
+    ) -> RowShares:
+        """Where a row meets others its columns may accelerate in any direction, as far as a corner's average reaches.
+
+        `hold.py`: a corner passed at c reaches c·window/2.
+        """
+        window, eases = sum(averages(context, self._machine, self._settings)), [1.0, 1.0]
+        for end, rest in enumerate(rests):
+            if not rest:
+                k = -end
+                begin = shares[-2][0] if end and len(shares) > 1 else 0.0
+                reach = CORNER_REACH * (shares[k][0] - begin)
+                places = [abs(end - reach * part) for part in (0.0, 0.5, 1.0)]
+                top, eases[end] = self._within(
+                    [demand(place, lateral=True) for place in places], reach * length
+                )
+                if window > 0.0:
+                    top = min(top, 2.0 * reach * length / window)
+                shares[k] = (shares[k][0], min(top, shares[k][1]), shares[k][2])
+        return RowShares(shares, *eases)
 
     def _worst(self, context: Context, path: Path, around: float) -> float:
         """Where between two looks the columns ask most of the real axes."""
@@ -266,6 +406,16 @@ class RealAxes:
             else:
                 high = b
         return 0.5 * (low + high)
+
+    def _extent(self, context: Context, path: Path, worst: float) -> float:
+        """How far around its worst place a row asks for at least half as much."""
+        most, extent = self._pull(context, path(worst)), 1.0 / LOOKS
+        sides = [side for side in (-1.0, 1.0) if 0.0 <= worst + side * extent <= 1.0]
+        for _ in range(SEARCH):
+            if max(self._pull(context, path(worst + side * extent)) for side in sides) > 0.5 * most:
+                break
+            extent *= 0.5
+        return extent
 
     def _pull(self, context: Context, point: list[float]) -> float:
         columns = [j for j in context.transformation.geometry if j >= 0]  # type: ignore[union-attr]
@@ -283,38 +433,64 @@ class RealAxes:
         turned = [weight if self._rotary(i) and i not in made else 1.0 for i in range(len(ways))]
         return hypot(*(way * w for way, w in zip(ways, turned, strict=True))) or hypot(*ways)
 
-    def _demand(self, context: Context, path: Path, length: float, share: float, kind: int) -> Demand:
-        """What the real axes allow at a place of a row."""
+    def _demand(
+        self,
+        context: Context,
+        path: Path,
+        length: float,
+        share: float,
+        kind: int,
+        step: float = PATH_STEP,
+        *,
+        lateral: bool = True,
+    ) -> Demand:
+        """What the real axes allow at a place of a row; `lateral`: the columns may accelerate in any direction."""
         assert context.transformation is not None
         soft, limits, n = self._is_soft(context), self.limits(context.transformation), len(self._axes)
         pulls, jerks = (limits[block * n : block * n + n] for block in (ACCELERATION, JERK))
-        nearby = [path(share + (k - 1.5) * PATH_STEP / length) for k in range(4)]
+        step, inside = min(step, PATH_STEP), 4.0 * step < length
+        middle = min(max(share, 1.5 * step / length), 1.0 - 1.5 * step / length) if inside else share
+        nearby = [path(middle + (k - 1.5) * step / length) for k in range(4)]
         real = [context.transformation.real(point) for point in nearby]
-        direction = [b - a for a, b in zip(nearby[1], nearby[2], strict=True)]
+        direction = [(b - a) / step for a, b in zip(nearby[1], nearby[2], strict=True)]
+        along = [
+            min((limit / abs(u) for limit, u in zip(of, direction, strict=True) if u), default=0.0)
+            for of in (pulls, jerks)
+        ]
         columns = [j for j, way in enumerate(direction) if way != 0.0 or j in context.transformation.geometry]
-        here, there = (self._slopes(context, point, columns) for point in nearby[1:3])
+        here, there = (self._slopes(context, point, columns) if lateral else [] for point in nearby[1:3])
         top, bend, pull, jerk, turn = inf, 0.0, NOTHING, 0.0, 0.0
         for i, axis in enumerate(self._axes):
             if axis is None:
                 continue
-            ways = [self._way(i, real[k + 1][i] - real[k][i]) / PATH_STEP for k in range(3)]
-            bends = [(ways[k + 1] - ways[k]) / PATH_STEP for k in range(2)]
+            ways = [self._way(i, real[k + 1][i] - real[k][i]) / step for k in range(3)]
+            bends = [(ways[k + 1] - ways[k]) / step for k in range(2)]
             velocity, fastest = (axis.rapid if kind == Kind.RAPID else axis.max_feed), max(map(abs, ways))
+            steepest = max(map(abs, bends))
             if velocity and fastest > 0.0:
                 top = min(top, velocity / fastest)
             if axis.acceleration:
-                bend = max(bend, max(map(abs, bends)) / axis.acceleration)
-                pull = max(pull, _sum(here[i], pulls, columns) / axis.acceleration)
+                bend = max(bend, steepest / axis.acceleration)
+                asked = _sum(here[i], pulls, columns) if lateral else fastest * along[0]
+                pull = max(pull, asked / axis.acceleration)
             if soft and axis.jerk:
-                twist = abs(bends[1] - bends[0]) / PATH_STEP
+                twist = abs(bends[1] - bends[0]) / step
                 top = min(top, (TWIST * axis.jerk / twist) ** (1.0 / 3.0)) if twist > NOTHING else top
-                jerk = max(jerk, _sum(here[i], jerks, columns) / axis.jerk)
-                change = [abs(b - a) / PATH_STEP for a, b in zip(here[i], there[i], strict=True)]
-                turn = max(turn, _sum(change, pulls, columns) / axis.jerk)
-        return Demand(top, bend, pull, jerk, turn)
+                asked = _sum(here[i], jerks, columns) if lateral else fastest * along[1]
+                jerk = max(jerk, asked / axis.jerk)
+                change = steepest * along[0]
+                if lateral:
+                    changes = [abs(b - a) / step for a, b in zip(here[i], there[i], strict=True)]
+                    change = _sum(changes, pulls, columns)
+                turn = max(turn, change / axis.jerk)
+        return Demand(top, bend, pull, jerk, turn, along[0])
 
-    def _within(self, demands: list[Demand]) -> tuple[float, float]:
-        """Speed and `ease` that meet all of some demands."""
+    def _within(self, demands: list[Demand], length: float) -> tuple[float, float]:
+        """Speed and `ease` that meet all of some demands along a length.
+
+        Where bend and acceleration together need much of the jerk, the acceleration is no more than serves to get up to
+        the speed that it leaves.
+        """
         worst = Demand(
             min(d.top for d in demands), *(max(values) for values in list(zip(*demands, strict=True))[1:])
         )
@@ -325,7 +501,9 @@ class RealAxes:
         if worst.jerk > 0.0:
             ease = min(ease, (1.0 - TWIST - TURN if worst.turn > NOTHING else 1.0) / worst.jerk)
         if worst.turn > NOTHING:
-            top = min(top, TURN / (3.0 * ease * worst.turn))
+            turning = TURN / (3.0 * worst.turn)
+            top = min(top, max(turning / ease, (turning * length * worst.along) ** (1.0 / 3.0)))
+            ease = min(ease, turning / top)
         return top, ease
 
     def _slopes(self, context: Context, point: list[float], columns: list[int]) -> list[list[float]]:
@@ -351,55 +529,33 @@ class RealAxes:
         return (way + 180.0) % 360.0 - 180.0 if self._rotary(column) else way
 
 
-def _ends(worst: float, shortest: float) -> list[float]:
-    """Where shares end that become shorter towards a place, none shorter than that."""
-    before = {worst - worst * SHORTER**k for k in range(1, SHARES // 2)}
-    behind = {worst + (1.0 - worst) * SHORTER**k for k in range(1, SHARES // 2)}
-    ends = [0.0]
-    for f in sorted(before | behind):
-        if ends[-1] + shortest < f < 1.0 - shortest:
-            ends.append(f)
-    return [*ends[1:], 1.0]
+def _ends(worst: float, extent: float) -> list[float]:
+    """Where shares end that become shorter towards a place, down to its extent."""
+    ends, most = {1.0}, AT_START // 2 - 1
+    for span in (-worst, 1.0 - worst):
+        if abs(span) > extent:
+            shorter = min(SHORTER, (extent / abs(span)) ** (1.0 / most))
+            parts = [span * shorter**k for k in range(1, most + 1)]
+            ends.update(worst + part for part in parts if abs(part) >= 0.99 * extent)
+    return sorted(ends)
+
+
+def _set_shares(columns: Shares, first: int, found: RowShares) -> None:
+    for k, share in enumerate(found.shares):
+        for column, number in zip(columns, share, strict=True):
+            column[first + k] = number
+    columns.ease[first + AT_START], columns.ease[first + AT_END] = found.at_start, found.at_end
+
+
+def _pole(context: Context) -> Pole | None:
+    """The pole of the transformation that acts, if it has one."""
+    transformation = context.transformation
+    place = getattr(transformation, "pole", None)
+    if place is None:
+        return None
+    return Pole((transformation.linear, transformation.rotary), place, transformation.rotary)  # type: ignore[union-attr]
 
 
 def _sum(slopes: list[float], limits: Sequence[float], columns: list[int]) -> float:
     """How much of an axis the columns can ask for together."""
     return sum(abs(slope) * limits[j] for slope, j in zip(slopes, columns, strict=True))
-
-
-def _arc(
-    start: list[float], end: list[float], curve: Sequence[float], geometry: tuple[int, int, int], *, ccw: bool
-) -> ArcPath:
-    """An arc; `curve` is its centre, its normal, and further turns."""
-    place = [start[i] - c if i >= 0 else 0.0 for i, c in zip(geometry, curve[:3], strict=True)]
-    goal = [end[i] - c if i >= 0 else 0.0 for i, c in zip(geometry, curve[:3], strict=True)]
-    size = hypot(*curve[3:6]) or 1.0
-    nx, ny, nz = (value / size for value in curve[3:6])
-    x, y, z = place
-    along = x * nx + y * ny + z * nz
-    out = [x - along * nx, y - along * ny, z - along * nz]
-    sense = 1.0 if ccw else -1.0
-    forth = [
-        sense * (ny * out[2] - nz * out[1]),
-        sense * (nz * out[0] - nx * out[2]),
-        sense * (nx * out[1] - ny * out[0]),
-    ]
-    angle = atan2(_dot(goal, forth), _dot(goal, out)) % (2.0 * pi)
-    angle = (angle if angle > 1e-9 else 2.0 * pi) + 2.0 * pi * curve[6]
-    rise = [b - a for a, b in zip(place, goal, strict=True)]
-    lift = _dot(rise, [nx, ny, nz])
-
-    def path(f: float) -> list[float]:
-        point = [a + (b - a) * f for a, b in zip(start, end, strict=True)]
-        c, s = cos(f * angle) - 1.0, sin(f * angle)
-        for j, i in enumerate(geometry):
-            if i >= 0:
-                point[i] = start[i] + c * out[j] + s * forth[j] + f * lift * (nx, ny, nz)[j]
-        return point
-
-    radius = hypot(*out)
-    return ArcPath(path, angle * radius, lift, radius, (nx, ny, nz))
-
-
-def _dot(a: Sequence[float], b: Sequence[float]) -> float:
-    return sum(x * y for x, y in zip(a, b, strict=True))

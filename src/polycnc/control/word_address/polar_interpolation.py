@@ -50,6 +50,11 @@ class PolarPlane:
     side: float = 1.0
     diameter: bool = False
 
+    @property
+    def pole(self) -> tuple[float, float]:
+        """The rotation centre: work coordinates of both axes of the plane, in which the rotary one has no direction."""
+        return -self.eccentricity[0], -self.eccentricity[1]
+
     def real(self, end: list[float]) -> list[float]:
         """Work coordinates of the real axes at a point of the plane: mm (radius) and degrees."""
         first = self.side * (end[self.linear] + self.eccentricity[0])

@@ -84,6 +84,8 @@ from polycnc.motion.kernels.feeds import (
 from polycnc.motion.kernels.jerk import arc_hold
 
 SAME2 = SAME_POINT_MM * SAME_POINT_MM
+#: Parts of an arc are not shorter than this, radians.
+NO_PART = 1e-12
 
 
 def find_arc(curves: Floats, contexts: Floats, record: int, n: int, limits: Floats, state: Floats) -> bool:
@@ -212,7 +214,7 @@ def lay_arc(
     """
     sweep, gentle = state[SWEEP], contexts[record + RAMP_S] > 0.0
     parts = ceil(sweep * PIECES_PER_TURN / (2.0 * pi) - 1e-9)
-    if not has_room(pieces, contexts, record, state, parts, n):
+    if not has_room(pieces, contexts, record, state, parts + int(state[SHARE_COUNT]), n):
         return False
     step = sweep / parts
     margin, weight = 1.0 + 0.625 * step * step, contexts[record + ROTARY_WEIGHT]
@@ -231,19 +233,22 @@ def lay_arc(
         settle_alone(pieces, n, limits, state)
     state[ALONE] = 0.0
     state[JOINT_PULL] = min(state[JOINT_PULL], pull)
-    for part in range(parts):
-        own = share_of_arc(part / parts, (part + 1) / parts, state)
+    part, last = 0, 0.0
+    while part < parts:
+        is_first, first, last = last == 0.0, last, edge_of_arc(last, (part + 1) * step, state)
+        part += 1 if last == (part + 1) * step else 0
+        own = share_of_arc(0.5 * (first + last) / sweep, state)
         if follows_radius(contexts, record):
-            radius = facing_radius((part + 0.5) * step, n, limits, state)
+            radius = facing_radius(0.5 * (first + last), n, limits, state)
             speed = min(bound(asked_speed(curves, contexts, record, state, length, radius), state), highest)
         at = next_piece(pieces, state, BENT if gentle else CURVED, 0.0, n)
-        if part == 0:
+        if is_first:
             open_joint(pieces, at, state, entry2)
         pieces[at + MARGIN] = margin
-        place_arc(pieces, at, part * step, (part + 1) * step, n, limits, state)
+        place_arc(pieces, at, first, last, n, limits, state)
         bend = curvature(n, limits, weight, state)
         store_point(pieces, at + VECTORS, n, state, margin)
-        next_way = arc_point((part + 1) * step, n, limits, weight, state)
+        next_way = arc_point(last, n, limits, weight, state)
         store_point(pieces, at + VECTORS + n, n, state, margin)
         bound_curve(pieces, at, n, limits, min(speed, own))
         if contexts[record + DRIVE_SPEED] < 1.0 or state[EASE] < 1.0:
@@ -254,8 +259,8 @@ def lay_arc(
             cap2, pull = arc_hold(contexts, record, n, limits, state, bend, min(speed, own))
             pieces[at + CAP2], pieces[at + PULL] = min(cap2, pieces[at + CAP2]), pull
             pieces[at + HOLD2] = min(entry2, pieces[at + CAP2])
-            pieces[at + HOLD_PULL] = min(before if part > 0 else state[JOINT_PULL], pull)
-        pieces[at + LENGTH] = 0.5 * (way + next_way) * step
+            pieces[at + HOLD_PULL] = min(state[JOINT_PULL] if is_first else before, pull)
+        pieces[at + LENGTH] = 0.5 * (way + next_way) * (last - first)
         pieces[at + ENTRY2] = min(entry2, pieces[at + CAP2])
         entry2 = min(pieces[at + CAP2], point_cap2(n, limits, state, margin))
         way = next_way
@@ -267,16 +272,25 @@ def lay_arc(
     return True
 
 
-def share_of_arc(first: float, last: float, state: Floats) -> float:
-    """Highest speed on a part of an arc under a transformation; sets EASE to what holds there."""
-    count, start, top = int(state[SHARE_COUNT]), 0.0, inf
-    if count > 1:
-        state[EASE] = 1.0
-        for k in range(count):
-            if start < last and state[SHARE_END + k] > first:
-                top, state[EASE] = min(top, state[SHARE_TOP + k]), min(state[EASE], state[SHARE_EASE + k])
-            start = state[SHARE_END + k]
-    return top
+def edge_of_arc(first: float, last: float, state: Floats) -> float:
+    """Where a part of an arc ends that begins at an angle: at `last`, or before it at the end of a share."""
+    if state[SHARE_COUNT] > 1.0:
+        for k in range(int(state[SHARE_COUNT])):
+            end = state[SHARE_END + k] * state[SWEEP]
+            if first + NO_PART < end < last - NO_PART:
+                return end
+    return last
+
+
+def share_of_arc(middle: float, state: Floats) -> float:
+    """Highest speed around a place (0 to 1) of an arc under a transformation; sets EASE to what holds there."""
+    count, k = int(state[SHARE_COUNT]), 0
+    if count <= 1:
+        return inf
+    while k + 1 < count and state[SHARE_END + k] < middle:
+        k += 1
+    state[EASE] = state[SHARE_EASE + k]
+    return state[SHARE_TOP + k]
 
 
 def slow_down(

@@ -28,16 +28,17 @@ RAPID, CW, CCW, HELIX_CW, HELIX_CCW, SPLINE, THREAD, TAP, REF, SKIP, DWELL, EVEN
     12,
 )
 CURVE_WIDTH = 8
-#: Shares of a row under a transformation.
-SHARES = 16
+#: Numbers kept of a row under a transformation: its shares, and of `ease` what holds at corners at its two ends.
+SHARES, AT_START, AT_END = 32, 30, 31
 
 
 class Rows(NamedTuple):
     """Columns of a chunk as the table has them; `stops` says of each event whether the axes stand for it.
 
     Under a transformation every row has SHARES shares: `share` says where each of them ends (0 to 1 of the row's way; a
-    first one that ends at 1 is alone), `top` bounds the path speed, and `ease` says by which factor the limits of the
-    columns must shrink for the real axes to keep theirs (`motion/transformed.py`). All empty where none acts.
+    first one that ends at 1 is alone), `top` bounds the path speed, and `ease` says by which factor the acceleration
+    along the path must shrink for the real axes to keep their limits; at AT_START and AT_END stand the factors for the
+    columns' limits at corners (`motion/transformed.py`). All empty where none acts.
     """
 
     kind: Ints
@@ -103,12 +104,15 @@ JOINT_PULL, REST, RUN_RAMP, RUN_BLEND, OVERLAP_BEFORE = range(18, 23)
 # the row at hand (CURVE: where its record in `curves` begins, or -1; FACING: its end in X, work coordinates),
 KIND, NUMBER, ROW_SLOT, FEED, CURVE, FACING = range(23, 29)
 # its largest speed, and EASE at its start (1 without transformation); that at the end of the row before; its shares,
-ROW_TOP, EASE, LAST_EASE, SHARE_COUNT, SHARE_END, SHARE_TOP, SHARE_EASE = 29, 30, 31, 32, 33, 49, 65
+# behind which come the factors for corners at its ends,
+ROW_TOP, EASE, LAST_EASE, SHARE_COUNT, SHARE_END, SHARE_TOP, SHARE_EASE = 29, 30, 31, 32, 33, 65, 97
 # pieces of the straight run from rest that the row at hand goes on with; rows that wait for a spindle at rest,
-STRAIGHT_RUN, STANDING_SPINDLE = 81, 82
+STRAIGHT_RUN, STANDING_SPINDLE = 129, 130
 # its arc (unit vectors to the start, along the way there, and of the axis; angle, radius, growth of the
 # radius, rise),
-BASIS, SWEEP, RADIUS, GROWTH, RISE, STATE_BLOCKS = 83, 92, 93, 94, 95, 96
+BASIS, SWEEP, RADIUS, GROWTH, RISE = 131, 140, 141, 142, 143
+# the factor for the corner at hand, and that at the end of the row before,
+CORNER_EASE, LAST_CORNER, STATE_BLOCKS = 144, 145, 146
 # and blocks of n numbers: machine position before the row, q' at the end of the last piece; end of the row,
 # way there, and room for one q' and q''; q'' at the end of the last piece.
 POSITION, TANGENT, TARGET, DELTA, UNIT, BEND, BENT_BEFORE, BLOCKS = range(8)

@@ -8,7 +8,7 @@ from polycnc.motion.kernels.alone import pays_to_rest
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
     BLEND_S,
-    EASE,
+    CORNER_EASE,
     EXIT2,
     EXIT_PULL,
     JOINT_PULL,
@@ -106,8 +106,8 @@ def jump2(n: int, limits: Floats, state: Floats, shorter: float) -> float:
     for i in range(n):
         step = abs(state[unit + i] - state[tangent + i])
         if step > SAME_DIRECTION:
-            jump = state[EASE] * limits[JUMP * n + i] / step
-            x2 = min(x2, jump * jump, state[EASE] * limits[ACCELERATION * n + i] * shorter / step)
+            jump = state[CORNER_EASE] * limits[JUMP * n + i] / step
+            x2 = min(x2, jump * jump, state[CORNER_EASE] * limits[ACCELERATION * n + i] * shorter / step)
     return x2
 
 
@@ -135,12 +135,12 @@ def rounded2(tolerance: float, n: int, limits: Floats, state: Floats, shorter: f
         if limits[ROTARY * n + i] != 0.0:
             step = abs(state[unit + i] - state[tangent + i])
             if step > SAME_DIRECTION:
-                x2 = min(x2, state[EASE] * limits[ACCELERATION * n + i] * 2.0 * touch / step)
+                x2 = min(x2, state[CORNER_EASE] * limits[ACCELERATION * n + i] * 2.0 * touch / step)
         elif radius < inf:
             a, b = state[tangent + i] / before, state[unit + i] / after
             share = largest_share(0.5 * (b - a) / sin_b, 0.5 * (b + a) / cos_b, sin_b, cos_b)
             if share > 0.0:
-                pull = state[EASE] * limits[ACCELERATION * n + i]
+                pull = state[CORNER_EASE] * limits[ACCELERATION * n + i]
                 x2 = min(x2, pull * radius / (share * faster * faster))
     return x2
 

@@ -20,6 +20,7 @@ from polycnc.motion.kernels.columns import (
     BEND,
     BENT_BEFORE,
     BLEND_S,
+    CORNER_EASE,
     EASE,
     GEOMETRY,
     JERK,
@@ -83,7 +84,8 @@ def corner_hold2(
     shorter, mean = min(length, state[ROW_LENGTH]), 0.5 * (length + state[ROW_LENGTH])
     turn, least = 0.0, inf
     for i in range(n):
-        a, j = state[EASE] * limits[ACCELERATION * n + i], state[EASE] * limits[JERK * n + i]
+        a = state[CORNER_EASE] * limits[ACCELERATION * n + i]
+        j = state[CORNER_EASE] * limits[JERK * n + i]
         step = abs(state[unit + i] - state[tangent + i])
         if limits[ROTARY * n + i] == 0.0:
             turn += step * step

@@ -9,12 +9,15 @@ from polycnc.motion.kernels.arcs import find_arc, lay_arc
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
     ALONE,
+    AT_END,
+    AT_START,
     AT_STATION,
     BEND,
     BENT,
     BENT_BEFORE,
     BLEND,
     CAP2,
+    CORNER_EASE,
     CURVE,
     CURVE_WIDTH,
     CURVED,
@@ -43,6 +46,7 @@ from polycnc.motion.kernels.columns import (
     JOINT_PULL,
     KIND,
     LAG_S,
+    LAST_CORNER,
     LAST_EASE,
     LENGTH,
     LIMIT_BLOCKS,
@@ -164,12 +168,14 @@ def lay(
             if not lay_move(curves, contexts, record, n, limits, pieces, state):
                 return row
             state[LAST_EASE] = state[SHARE_EASE + max(int(state[SHARE_COUNT]) - 1, 0)]
+            state[LAST_CORNER] = state[SHARE_EASE + AT_END]
     return len(rows.kind)
 
 
 def take_shares(rows: Rows, row: int, state: Floats) -> None:
-    """Set ROW_TOP, EASE and the shares of the row at hand."""
+    """Set ROW_TOP, EASE, CORNER_EASE and the shares of the row at hand."""
     state[SHARE_COUNT], state[ROW_TOP], state[SHARE_EASE] = 0.0, inf, 1.0
+    state[SHARE_EASE + AT_START] = state[SHARE_EASE + AT_END] = 1.0
     if len(rows.share) > 0:
         first, count = row * SHARES, 1
         while rows.share[first + count - 1] < 1.0:
@@ -179,9 +185,11 @@ def take_shares(rows: Rows, row: int, state: Floats) -> None:
             state[SHARE_TOP + k] = rows.top[first + k]
             state[SHARE_EASE + k] = rows.ease[first + k]
         state[SHARE_COUNT] = count
+        state[SHARE_EASE + AT_START] = rows.ease[first + AT_START]
+        state[SHARE_EASE + AT_END] = rows.ease[first + AT_END]
         state[ROW_TOP] = state[SHARE_TOP] if count == 1 else inf
-    before = state[LAST_EASE]
-    state[EASE] = min(state[SHARE_EASE], before) if before > 0.0 else state[SHARE_EASE]
+    own, before = state[SHARE_EASE + AT_START], state[LAST_CORNER]
+    state[EASE], state[CORNER_EASE] = state[SHARE_EASE], min(own, before) if before > 0.0 else own
 
 
 def aim(end: Floats, at: int, contexts: Floats, record: int, n: int, limits: Floats, state: Floats) -> None:

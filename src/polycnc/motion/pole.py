@@ -1,0 +1,294 @@
+"""Through the pole of polar interpolation: the path rests there, and the rotary axis turns on the spot.
+
+At the rotation centre the rotary axis has no direction: on a line through it, it turns by half a round in no time. A
+row that begins at the pole, ends there or passes it is therefore run in legs, and between two of them the rotary axis
+turns. Legs end and begin on a ring around the pole, too small to be seen: so every position of the path has its
+direction, and a turn is a way along the ring.
+"""
+
+from __future__ import annotations
+
+from array import array
+from itertools import pairwise
+from math import atan2, ceil, cos, degrees, hypot, inf, pi, radians, sin
+from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.motion.frames import machine_of
+from polycnc.motion.kernels.alone import best_ramp
+from polycnc.motion.kernels.columns import (
+    BENT,
+    CAP2,
+    ENTRY2,
+    FORM,
+    HOLD2,
+    HOLD_PULL,
+    LENGTH,
+    MARGIN,
+    PATH_PULL,
+    PAUSE,
+    PLACES,
+    PULL,
+    RAMP,
+    ROW,
+    SLOT,
+    VECTORS,
+    piece_width,
+)
+from polycnc.motion.row_path import arc_path, line_path
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.machine import Axis
+    from polycnc.motion.frames import Geometry
+    from polycnc.motion.row_path import ArcPath, Path
+    from polycnc.toolpath import Context
+
+#: A path that comes so near to the pole (mm) leads through it; radius of the ring.
+POLE_MM, RING_MM = 1e-3, 1e-4
+#: Turns smaller than this (radians) count as none; a turn by half a round, but for this, is one forward.
+NO_TURN, HALF = 1e-9, 1e-6
+#: Degrees of a piece of a turn, and the part of the rotary axis's limits that cubics so long leave.
+PIECE_DEG, PART = 2.0, 0.995
+
+
+class Pole(NamedTuple):
+    """Where a rotary axis has no direction.
+
+    Attributes:
+        columns: The two columns of the plane.
+        place: Their work coordinates there, mm.
+        rotary: Column of the rotary axis.
+    """
+
+    columns: tuple[int, int]
+    place: tuple[float, float]
+    rotary: int
+
+    def away(self, point: Sequence[float]) -> tuple[float, float]:
+        """From the pole to a point of the plane."""
+        (i, j), (x, y) = self.columns, self.place
+        return point[i] - x, point[j] - y
+
+    def distance(self, point: Sequence[float]) -> float:
+        """Of a point of the plane, mm."""
+        return hypot(*self.away(point))
+
+    def is_at(self, point: Sequence[float]) -> bool:
+        """Whether a point counts as the pole."""
+        return self.distance(point) <= POLE_MM
+
+    def beside(self, point: Sequence[float], angle: float, radius: float) -> list[float]:
+        """The point, moved to an angle (radians) and a distance from the pole."""
+        moved = list(point)
+        for column, centre, part in zip(self.columns, self.place, (cos(angle), sin(angle)), strict=True):
+            moved[column] = centre + radius * part
+        return moved
+
+
+class Turn(NamedTuple):
+    """The rotary axis turns at the pole, along the ring.
+
+    Attributes:
+        pole: The pole.
+        start: Work coordinates at the start.
+        angle: Of the start, radians; `way` is how far it turns.
+    """
+
+    pole: Pole
+    start: list[float]
+    angle: float
+    way: float
+
+    def at(self, share: float) -> list[float]:
+        """Work coordinates after a share of the way."""
+        return self.pole.beside(self.start, self.angle + share * self.way, RING_MM)
+
+
+class Leg(NamedTuple):
+    """A part of a row that begins or ends at the pole, in work coordinates.
+
+    Attributes:
+        start: Where it begins.
+        end: Where it ends.
+        path: Its points.
+        length: Its way, mm; `part` is the share of the row's.
+        rests: Whether it begins, and ends, at the pole.
+        turn: What the rotary axis turns before it, if it does.
+    """
+
+    start: list[float]
+    end: list[float]
+    path: Path
+    length: float
+    part: float
+    rests: tuple[bool, bool]
+    turn: Turn | None
+
+
+def legs_of(
+    pole: Pole,
+    start: list[float],
+    end: list[float],
+    curve: Sequence[float],
+    geometry: Geometry,
+    *,
+    ccw: bool,
+) -> list[Leg]:
+    """Legs of a line (`curve` is empty) or an arc; none where it keeps away from the pole.
+
+    Args:
+        pole: The pole.
+        start: Work coordinates of the start; on the ring where the row before has ended at the pole.
+        end: Those of the end.
+        curve: Centre, normal and further turns of an arc.
+        geometry: Columns of X, Y and Z.
+        ccw: Sense of the arc.
+    """
+    first, last = (pole.beside(point, 0.0, 0.0) if pole.is_at(point) else point for point in (start, end))
+    arc = arc_path(first, last, curve, geometry, ccw=ccw) if len(curve) else None
+    path = arc.at if arc is not None else line_path(first, last)
+    knots = _knots(pole, path, arc, first, last)
+    if not knots:
+        return []
+    if arc is None and pole.is_at(start) and pole.is_at(end):
+        still = pole.beside(end, _angle(pole, start), RING_MM)
+        way = hypot(*(b - a for a, b in zip(start, still, strict=True)))
+        return [Leg(start, still, line_path(start, still), way, 1.0, (True, True), None)]
+    legs: list[Leg] = []
+    at, edges = start, [*([] if 0.0 in knots else [0.0]), *knots, *([] if 1.0 in knots else [1.0])]
+    for span in pairwise(edges):
+        leg = _leg(pole, path, span, knots, curve, geometry, ccw=ccw)
+        turn = _turn(pole, at, leg.start) if leg.rests[0] else None
+        legs.append(leg._replace(turn=turn))
+        at = leg.end
+    return legs
+
+
+def _knots(
+    pole: Pole, path: Path, arc: ArcPath | None, start: Sequence[float], end: Sequence[float]
+) -> list[float]:
+    """Shares of the way at which a row is at the pole."""
+    knots = []
+    if arc is not None:
+        turns = (arc.angle_of(pole.beside(start, 0.0, 0.0)), 2.0 * pi)
+        near = min(0.25, 2.0 * POLE_MM / max(arc.length, POLE_MM))
+        knots = [(turns[0] + k * turns[1]) / arc.angle for k in range(ceil(arc.angle / turns[1]) + 1)]
+    else:
+        (a, b), (c, d) = pole.away(start), pole.away(end)
+        square, near = (c - a) ** 2 + (d - b) ** 2, 0.0
+        knots = [(a * (a - c) + b * (b - d)) / square] if square > 0.0 else []
+    ends = [f for f, point in ((0.0, start), (1.0, end)) if pole.is_at(point)]
+    low, high = (near if 0.0 in ends else 0.0), (1.0 - near if 1.0 in ends else 1.0)
+    if arc is None and ends:
+        knots = []
+    return sorted({*ends, *(f for f in knots if low < f < high and pole.is_at(path(f)))})
+
+
+def _leg(
+    pole: Pole,
+    path: Path,
+    edges: tuple[float, float],
+    knots: Sequence[float],
+    curve: Sequence[float],
+    geometry: Geometry,
+    *,
+    ccw: bool,
+) -> Leg:
+    """From one edge of a row to the next, the pole at one of them or at both."""
+    rests = (edges[0] in knots, edges[1] in knots)
+    start, end = (
+        pole.beside(path(f), 0.0, 0.0) if rest else path(f) for f, rest in zip(edges, rests, strict=True)
+    )
+    if len(curve):
+        arc = arc_path(start, end, [*curve[:6], 0.0], geometry, ccw=ccw)
+        whole, way, length = arc.at, arc.planar, arc.length
+    else:
+        whole, way = line_path(start, end), max(pole.distance(start), pole.distance(end))
+        length = hypot(*(b - a for a, b in zip(start, end, strict=True)))
+    short = min(RING_MM / way, 0.25)
+    low, high = (short if rests[0] else 0.0), (1.0 - short if rests[1] else 1.0)
+
+    def inner(f: float) -> list[float]:
+        return whole(low + f * (high - low))
+
+    return Leg(inner(0.0), inner(1.0), inner, length * (high - low), edges[1] - edges[0], rests, None)
+
+
+def _angle(pole: Pole, point: Sequence[float]) -> float:
+    x, y = pole.away(point)
+    return atan2(y, x)
+
+
+def _turn(pole: Pole, start: list[float], end: Sequence[float]) -> Turn | None:
+    """From one point of the ring to another, the shorter way; None where they are one."""
+    angle = _angle(pole, start)
+    way = (_angle(pole, end) - angle + pi) % (2.0 * pi) - pi
+    if way < HALF - pi:
+        way += 2.0 * pi
+    return Turn(pole, start, angle, way) if abs(way) > NO_TURN else None
+
+
+def turn_records(
+    turn: Turn,
+    axis: Axis,
+    context: Context,
+    geometry: Geometry,
+    *,
+    soft: bool,
+    rapid: bool,
+    row: float,
+    slot: int,
+) -> array[float]:
+    """The planner's pieces of a turn, from rest to rest. Their length counts degrees of the rotary axis.
+
+    Args:
+        turn: The turn.
+        axis: The rotary axis.
+        context: What holds in the row.
+        geometry: Columns of X, Y and Z.
+        soft: The jerk is limited.
+        rapid: At rapid traverse.
+        row: Number of the row.
+        slot: Where the row's time counts.
+    """
+    n, way = len(turn.start), abs(degrees(turn.way))
+    width, count = piece_width(n), ceil(way / PIECE_DEG)
+    top, pull = PART * (axis.rapid if rapid else axis.max_feed) or 1e9, PART * axis.acceleration or 1e9
+    jerk, ramp = PART * axis.jerk, 0.0
+    if soft and jerk > 0.0:
+        ramp = best_ramp(way, top, pull, jerk)
+        pull = min(pull, 0.5 * jerk * ramp)
+    records = array("d", bytes(8 * width * count))
+    for k in range(count):
+        at = k * width
+        own = ((FORM, BENT), (ROW, row), (SLOT, slot), (LENGTH, way / count), (CAP2, top * top), (PULL, pull))
+        held = ((HOLD2, inf), (HOLD_PULL, inf), (PATH_PULL, inf), (MARGIN, 1.0), (RAMP, ramp))
+        for field, value in (*own, *held):
+            records[at + field] = value
+        records[at + ENTRY2] = top * top if k else 0.0
+        for end in range(2):
+            share, here = (k + end) / count, at + VECTORS + end * n
+            records[here + PLACES * n : here + PLACES * n + n] = array(
+                "d", machine_of(turn.at(share), context, geometry)
+            )
+            tangent, bend = _along_ring(turn, share, context, geometry)
+            records[here : here + n] = array("d", tangent)
+            records[here + 2 * n : here + 3 * n] = array("d", bend)
+    records[PAUSE] = ramp
+    return records
+
+
+def _along_ring(
+    turn: Turn, share: float, context: Context, geometry: Geometry
+) -> tuple[list[float], list[float]]:
+    """First and second derivative of the machine position by degrees turned."""
+    angle, per_degree = turn.angle + share * turn.way, radians(1.0 if turn.way > 0.0 else -1.0)
+    centre = turn.pole.beside(turn.start, 0.0, 0.0)
+    middle = machine_of(centre, context, geometry)
+
+    def moved(angle: float, size: float) -> list[float]:
+        ahead = machine_of(turn.pole.beside(turn.start, angle, RING_MM), context, geometry)
+        return [size * (a - b) for a, b in zip(ahead, middle, strict=True)]
+
+    return moved(angle + 0.5 * pi, per_degree), moved(angle + pi, per_degree * per_degree)
