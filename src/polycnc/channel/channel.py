@@ -114,6 +114,8 @@ class Channel:
         self.mark = 0
         self.blocks = 0
         self.block_limit = block_limit
+        #: Joined steps run no more of their blocks at once from here on, so that the block limit is exact.
+        self.joined_below = block_limit - 2 * len(BURST)
         self._wait: Wait | None = None
         self.group: ChannelGroup | None = None
         self.skip_levels = 0

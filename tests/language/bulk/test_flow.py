@@ -120,3 +120,51 @@ def test_short_programs_and_no_bulk_are_interpreted() -> None:
     channel = open_session(text, control="fanuc-m", bulk=False).channel
     assert channel.bulk is None
     assert not Bulk().pays(100)
+
+
+ENDLESS = {
+    "while": "WHILE[1EQ1]DO1\n{body}END1\n",
+    "goto": "N1\n{body}GOTO1\n",
+    "if": "N1 #9=#9+1\n{body}IF[#9GT0]GOTO1\n",
+    "calls": "N1 M98 P2 L3\n{body}GOTO1\n",
+    "M99": "{body}M99\n",
+}
+
+
+@pytest.mark.parametrize("shape", ENDLESS)
+@pytest.mark.parametrize("limit", [9_001, 12_345, 30_002])
+def test_the_limit_of_blocks_is_exact_in_endless_loops(shape: str, limit: int) -> None:
+    body = "G91 X1.\nX-1.\n#1=#1+1\nIF[#1LT0]GOTO7\n" + "X1. Y1.\nX-1. Y-1.\n" * 5 + "N7 Y0.5\nY-0.5\n"
+    text = f"O1\nG90 G54 G1 F1000.\n{ENDLESS[shape].format(body=body)}{SUBPROGRAM}"
+    channel = run(text, "fanuc-m", block_limit=limit)
+    assert [alarm.code for alarm in channel.alarms] == ["PC0002"]
+    assert channel.blocks == limit
+    assert differences(text, "fanuc-m", block_limit=limit) == []
+
+
+ENDLESS_SINUMERIK = {
+    "loop": "LOOP\n{body}ENDLOOP\n",
+    "while": "WHILE 1\n{body}ENDWHILE\n",
+    "repeat": "REPEAT\n{body}UNTIL R1<0\n",
+    "for": "FOR R2=0 TO 100000\n{body}ENDFOR\n",
+    "goto": "ANF:\n{body}GOTOB ANF\n",
+    "if": "ANF: R9=R9+1\n{body}IF R9>0 GOTOB ANF\n",
+    "label": "ANF: R9=R9+1\n{body}ENDE: REPEAT ANF ENDE P=100000\n",
+}
+BODIES_SINUMERIK = (
+    "G91 X1\nX-1\nR1=R1+1\nX1 Y1\nX-1 Y-1\n",
+    "G91 X1\nX-1\nR1=R1+1\nIF R1<0\nX5\nENDIF\nIF R1>R3\nR3=R3+2\nX1\nX-1\nELSE\nX-1\nX1\nENDIF\n",
+    "FOR R5=1 TO 3\nG91 X1\nX-1\nENDFOR\nR6=0\nWHILE R6<4\nR6=R6+1\nG91 Y1\nY-1\nENDWHILE\nR1=R1+1\n",
+    "R6=0\nREPEAT\nR6=R6+1\nIF R6>2\nR7=R7+1\nENDIF\nUNTIL R6>5\nG91 X1\nX-1\nX1\nX-1\n",
+)
+
+
+@pytest.mark.parametrize("shape", ENDLESS_SINUMERIK)
+@pytest.mark.parametrize("body", BODIES_SINUMERIK)
+@pytest.mark.parametrize("limit", [9_001, 20_002])
+def test_the_limit_of_blocks_is_exact_in_endless_structures(shape: str, body: str, limit: int) -> None:
+    text = f"G90 G54 G1 F1000\n{ENDLESS_SINUMERIK[shape].format(body=body)}M30\n"
+    channel = run(text, "sinumerik-840d", block_limit=limit)
+    assert [alarm.code for alarm in channel.alarms] == ["PC0002"]
+    assert channel.blocks == limit
+    assert differences(text, "sinumerik-840d", block_limit=limit) == []

@@ -187,7 +187,7 @@ class SinumerikProgram:
                 return None
             return emitter if emitter.joins else None
 
-        joiner = Joiner(source, self.structures, index)
+        joiner = Joiner(source, self.structures, index, self._singles[index])
         step = joiner.step()
         if step is not None:
             self._joins[index] = joiner.exits

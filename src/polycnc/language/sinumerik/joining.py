@@ -5,6 +5,9 @@ jumps, control structures) is joined into one generated function: IF becomes `if
 blocks the function keeps the level's `current` and the channel's `mark`, so that an alarm names its line and takes back
 its block. It hands over as soon as a block asks for attention (a call, a stop, a stage in the path), has jumped, or was
 never run before. The steps of single blocks stay where jumps find them.
+
+Every block is counted, those of ELSE and ENDIF too, and near the block limit (`Channel.joined_below`) only the first
+block runs.
 """
 
 from __future__ import annotations
@@ -39,9 +42,11 @@ class Joiner:
         source: Code of single blocks.
         structures: Structure of every step that belongs to one.
         first: The step.
+        alone: Runs the block of that step alone.
     """
 
-    def __init__(self, source: Source, structures: dict[int, Structure], first: int) -> None:
+    def __init__(self, source: Source, structures: dict[int, Structure], first: int, alone: Step) -> None:
+        self._alone = alone
         self._source = source
         self._structures = structures
         self._first = first
@@ -57,7 +62,18 @@ class Joiner:
 
         `exits` then names the steps at which the function stops because they have not been run yet.
         """
-        self._add(0, "def run(channel):", "    level = channel.level", "    L = level.locals", "    try:")
+        self._add(0, "def run(channel):")
+        self._add(
+            1,
+            "room = channel.joined_below - channel.blocks",
+            "if room < 0:",
+            "    channel.attention = True",
+            "    return alone(channel)",
+            "level = channel.level",
+            "L = level.locals",
+            "blocks = -1",  # the channel counts the step itself
+            "try:",
+        )
         end, looped = self._stretch(self._first, 2, None)
         if self.count < 2:
             return None
@@ -66,11 +82,12 @@ class Joiner:
         self._add(
             1, "except (AlarmError, ZeroDivisionError, OverflowError) as error:", "    fail(error, channel)"
         )
-        head = ["def make(numbers, objects):"]
+        self._add(1, "finally:", "    channel.blocks += blocks")
+        head = ["def make(numbers, objects, alone):"]
         head += [f"    {name}{i} = {values}[{i}]" for i, (name, values) in self._parameters()]
         source = "\n".join([*head, *("    " + line for line in self._lines), "    return run"])
         try:
-            run: Step = compiled(source, "make")(self._numbers, self._objects)
+            run: Step = compiled(source, "make")(self._numbers, self._objects, self._alone)
         except NcSyntaxError:
             return None  # loops nested deeper than Python nests them
         return run
@@ -117,6 +134,7 @@ class Joiner:
             ):
                 return self._outer_loop(index, start, indent, emitter), True
             elif emitter.branch is not None and emitter.branch.kind == "ENDIF":
+                self._add(indent, "blocks += 1")
                 index += 1
             else:
                 break
@@ -133,11 +151,11 @@ class Joiner:
             self._add(indent, f"level.index = {index + 1}")
         if emitter.acts:
             self._add(indent, "channel.mark = len(channel.toolpath.chunk.kind)")
+        self._add(indent, "blocks += 1")
         for line in emitter.lines:
             self._add(indent, self._renamed(line))
         self._keep(emitter)
         if emitter.acts:
-            self._add(indent, "channel.blocks += 1")
             self._add(indent, f"if channel.attention or level.index != {index + 1}: return")
 
     def _renamed(self, code: str) -> str:
@@ -171,15 +189,21 @@ class Joiner:
         emitter = self._source(structure.start)
         assert emitter is not None
         self.count += 1
-        self._add(indent, f"level.current = {structure.start}")
+        self._add(indent, f"level.current = {structure.start}", "blocks += 1")
         self._add(indent, f"if {self._condition(emitter)}:")
         if structure.otherwise <= structure.end:
-            self._stretch(structure.otherwise, indent + 1, structure)
-        self._add(indent + 1, "pass")
+            self._branch(structure.otherwise, indent + 1, structure)
+        else:
+            self._add(indent + 1, "pass")
         self._add(indent, "else:")
-        self._stretch(structure.start + 1, indent + 1, structure)
-        self._add(indent + 1, "pass")
+        self._branch(structure.start + 1, indent + 1, structure)
         return structure.end + 1
+
+    def _branch(self, index: int, indent: int, structure: Structure) -> None:
+        """The blocks of one branch, and its ELSE or ENDIF."""
+        _, has_left = self._stretch(index, indent, structure)
+        if not has_left:
+            self._add(indent, "blocks += 1")
 
     def _loop(self, structure: Structure, indent: int) -> int:
         """LOOP, WHILE, FOR, REPEAT: after a burst of passes the channel has a look."""
@@ -187,21 +211,21 @@ class Joiner:
         if first is None or last is None:
             return -1
         self.count += 1
-        before = self.count
         again = structure.start if structure.kind == "WHILE" else structure.start + 1
         if structure.kind == "FOR":
-            self._add(indent, f"level.current = {structure.start}")
+            self._add(indent, f"level.current = {structure.start}", "blocks += 1")
             self._add(indent, *(self._renamed(line) for line in first.lines))
             self._add(indent, f"if {self._condition(first)}: burst = ()")
             self._add(indent, f"else: burst = range({BURST})")
         else:
+            if structure.kind != "WHILE":
+                self._add(indent, "blocks += 1")
             self._add(indent, f"burst = range({BURST})")
-        self._add(indent, "for _ in burst:")
+        self._passes(indent, "burst", again)
         if structure.kind == "WHILE":
-            self._add(indent + 1, f"level.current = {structure.start}")
+            self._add(indent + 1, f"level.current = {structure.start}", "blocks += 1")
             self._add(indent + 1, f"if {self._condition(first)}: break")
         self._stretch(structure.start + 1, indent + 1, structure)
-        self._add(indent + 1, f"channel.blocks += {self.count - before + 1}")
         self._close(structure, indent + 1, last)
         self._add(indent, "else:")
         if structure.kind == "FOR":
@@ -211,9 +235,15 @@ class Joiner:
             self._leave(indent + 1, again)
         return structure.end + 1
 
+    def _passes(self, indent: int, passes: str, again: int) -> None:
+        """The head of a loop, which the channel takes over at step `again` when the block limit is near."""
+        self._add(indent, f"for _ in {passes}:")
+        self._add(indent + 1, "if blocks > room:")
+        self._leave(indent + 2, again)
+
     def _close(self, structure: Structure, indent: int, last: Emitter) -> None:
         """The end of a loop: what its last block does, and whether there is another pass."""
-        self._add(indent, f"level.current = {structure.end}")
+        self._add(indent, f"level.current = {structure.end}", "blocks += 1")
         for line in last.lines:
             self._add(indent, self._renamed(line))
         assert last.branch is not None
@@ -224,9 +254,8 @@ class Joiner:
         """The blocks so far are the body of a loop that began before them: put them into one."""
         body = ["    " + line for line in self._lines[start:]]
         del self._lines[start:]
-        self._add(indent, f"for _ in range({BURST}):")
+        self._passes(indent, f"range({BURST})", self._first)
         self._lines += body
-        self._add(indent + 1, f"channel.blocks += {self.count + 1}")
         self._close(self._structures[index], indent + 1, last)
         self.count += 1
         self._add(indent, "else:")

@@ -5,6 +5,8 @@ statements, blocks of words) are joined into one generated function that does wh
 whose whole body is such a stretch becomes a loop in Python. Between the steps the function keeps the level's `current`
 and the channel's `mark`, so that an alarm names its line and takes back its block, and it hands over as soon as a block
 asks for attention (a call, a stop, a stage in the path) or has jumped. The steps themselves stay where jumps find them.
+
+Every block is counted, and near the block limit (`Channel.joined_below`) only the first step runs.
 """
 
 from __future__ import annotations
@@ -63,13 +65,15 @@ class _Source:
             indent,
             f"level.index = {index + 1}",
             f"s[{index}](channel)",
-            f"if level.index != {index + 1} or channel.attention: return",
+            f"if level.index != {index + 1} or channel.attention:",
+            f"    channel.blocks += {self.statements - 1}",
+            "    return",
         )
 
     def function(self, **names: Step) -> Step:
         """The step."""
         space: dict[str, Any] = {
-            **NAMESPACE, **names, "k": self.literals, "s": self.steps, "range": range, "len": len,
+            **NAMESPACE, **names, "k": self.literals, "s": self.steps, "range": range, "len": len, "min": min,
         }  # fmt: skip
         exec(compile("\n".join(self.lines), "<macro>", "exec"), space)
         step: Step = space["run"]
@@ -82,12 +86,12 @@ def join(steps: list[tuple[int, Step]]) -> Step:
     for index, step in steps:
         source.step("    ", index, step)
     source.add("    ", f"level.index = {steps[-1][0] + 1}", f"channel.blocks += {source.statements - 1}")
-    return source.function()
+    return source.function(first=steps[0][1])
 
 
 def join_loop(steps: list[tuple[int, Step]], end: int, loop_end: LoopEnd) -> Step:
     """One step for a stretch of steps that is the whole body of a loop; `end` is the step of its END."""
-    first = steps[0][0]
+    first, count = steps[0][0], len(steps) + 1
     source = _start()
     source.add(
         "    ",
@@ -96,24 +100,33 @@ def join_loop(steps: list[tuple[int, Step]], end: int, loop_end: LoopEnd) -> Ste
         "    one_by_one(channel)",
         "    return",
         "condition = loop.condition",
-        f"for _ in range({BURST}):",
+        f"for _ in range(min({BURST}, (channel.joined_below - channel.blocks) // {count} + 1)):",
     )
     for index, step in steps:
         source.step("        ", index, step)
     source.add(
         "        ",
         f"level.current = {end}",
-        f"channel.blocks += {source.statements + 1}",
+        f"channel.blocks += {count}",
         "if condition is not None and not condition(channel):",
         f"    del level.data[{loop_end.number}]",
         f"    level.index = {end + 1}",
+        "    channel.blocks -= 1",
         "    return",
     )
-    source.add("    ", f"level.index = {first}", "channel.attention = True")
-    return source.function(one_by_one=join(steps))
+    source.add("    ", f"level.index = {first}", "channel.attention = True", "channel.blocks -= 1")
+    return source.function(first=steps[0][1], one_by_one=join(steps))
 
 
 def _start() -> _Source:
     source = _Source()
-    source.add("", "def run(channel):", "    m = channel.memory", "    level = channel.level")
+    source.add("", "def run(channel):")
+    source.add(
+        "    ",
+        "if channel.blocks > channel.joined_below:",
+        "    channel.attention = True",
+        "    return first(channel)",
+        "m = channel.memory",
+        "level = channel.level",
+    )
     return source
