@@ -73,7 +73,9 @@ class CutterCompensation:
         self._radius = 0.0
         self._tip = NO_VECTOR
         self._window: list[Step] = []
-        self._interference = InterferenceCheck(self._window, self._rows, self._violations)
+        self._interference = InterferenceCheck(
+            self._window, self._rows, self._violations, self._release_before
+        )
         self._read = 0
         self._wall: Point | None = None
         self._place: Move | None = None
@@ -187,7 +189,7 @@ class CutterCompensation:
             return
         edge = self.plane.edge(move)
         if edge is None:
-            self._violations.object(Violation.INNER_RADIUS_TOO_SMALL, move)
+            self._refuse_radius(move)
             edge = offset.line(self.plane.point(move.start), self.plane.point(move.end))
         self._place = None
         self._take(move, edge)
@@ -256,8 +258,14 @@ class CutterCompensation:
             if step.policy.avoids:
                 step.altered = True
                 return offset.line(edge.start, edge.end)
-            self._violations.object(Violation.INNER_RADIUS_TOO_SMALL, step.move)
+            self._refuse_radius(step.move)
         return edge
+
+    def _refuse_radius(self, move: Move) -> None:
+        """The alarm for an arc that is about to be read: the tool stops at the start of the block in front (5.4.3)."""
+        if Violation.INNER_RADIUS_TOO_SMALL in self._violations and self._window:
+            self._release_before(self._window[-1])
+        self._violations.object(Violation.INNER_RADIUS_TOO_SMALL, move)
 
     def _close(self, step: Step, following: Step) -> None:
         """Decide the end of a step by the one that follows, and check what this makes of it."""
@@ -298,6 +306,10 @@ class CutterCompensation:
         if self._role is Role.CONTOUR:
             self._role = Role.START
         return Corner([NO_VECTOR])
+
+    def _release_before(self, step: Step) -> None:
+        while self._window[0] is not step:
+            self._release()
 
     def _release_all(self) -> None:
         while self._window:

@@ -22,7 +22,7 @@ from polycnc.geometry import offset
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from polycnc.channel.path import Move
     from polycnc.compensation.avoidance import Detour
@@ -57,13 +57,21 @@ class InterferenceCheck:
         window: The steps that are not passed on yet, in order; avoidance leaves steps out of it.
         rows: Where the steps go.
         violations: What the control objects to.
+        release_before: Passes on the steps in front of one, which an alarm does not concern.
     """
 
-    def __init__(self, window: list[Step], rows: RowWriter, violations: Objections) -> None:
+    def __init__(
+        self,
+        window: list[Step],
+        rows: RowWriter,
+        violations: Objections,
+        release_before: Callable[[Step], None],
+    ) -> None:
         self._window = window
         self._rows = rows
         self._passed: deque[Step] = deque(maxlen=_REMEMBERED)
         self.violations = violations
+        self._release_before = release_before
 
     def forget(self) -> None:
         """Compensation is over: what was passed on does not matter any more."""
@@ -86,7 +94,7 @@ class InterferenceCheck:
         ):
             return
         if not leave_out_crossing_vectors(previous, step):
-            self.violations.object(Violation.INTERFERENCE, step.move)
+            self._refuse(step, previous)
 
     def _check_far_pairs(self, step: Step, vector: Point) -> None:
         if not step.policy.checks_direction:
@@ -95,7 +103,13 @@ class InterferenceCheck:
             if earlier.corner is None or earlier.forced is not None:
                 continue
             if crosses(earlier.edge, earlier.corner.vectors[-1], step.edge, vector):
-                self.violations.object(Violation.INTERFERENCE, step.move)
+                self._refuse(step, earlier)
+
+    def _refuse(self, step: Step, other: Step) -> None:
+        """The alarm: the tool stops at the start of the other block (5.4.6.2)."""
+        if Violation.INTERFERENCE in self.violations:
+            self._release_before(other)
+        self.violations.object(Violation.INTERFERENCE, step.move)
 
     # ---- before a block is passed on -----------------------------------------------------------------------
 
