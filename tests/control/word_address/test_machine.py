@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from polycnc.control.word_address.extended import StrokeZone
+from polycnc.control.word_address.stroke_check import StrokeZone
 from polycnc.toolpath import Kind
 from tests.support import codes, ends, moves, run
 
