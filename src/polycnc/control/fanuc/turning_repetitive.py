@@ -22,6 +22,7 @@ from polycnc.control.fanuc.turning_shape import (
     contour_of,
     end_finishing,
     read_shape,
+    refuse_open_end,
     section_steps,
 )
 from polycnc.control.fanuc.turning_single import cut_pass, runout
@@ -112,6 +113,7 @@ def end_of_shape(channel: Channel) -> None:
     """The shape of G70 is cut: back to the start in rapid, on with the block behind G70."""
     section = channel.pop()
     end_finishing(channel)
+    refuse_open_end(channel)
     set_rotation(channel, section.data["rotation"])
     start: list[float] = section.data["start"]
     if channel.memory.side and not section.data["compensated"]:

@@ -147,11 +147,17 @@ def _run_blocks(channel: Channel, level: Level, begin: int, end: int) -> None:
         if channel.level is not level or channel.finished or len(channel.stack) == 0:
             raise channel.control.fail("shape_command", address="P")
         if index == end:
-            head = channel.head
-            if isinstance(head, TurningCorner) and head.waits:
-                raise channel.control.fail("shape_ends_in_corner", address="Q")
+            refuse_open_end(channel)
             return
     raise channel.control.fail("no_shape_end", address="Q")
+
+
+def refuse_open_end(channel: Channel) -> None:
+    """The last block of a shape may not need the next one for its corner or its end (II.4.7, 4.9)."""
+    head, line = channel.head, channel.memory.open_line
+    channel.memory.open_line = None
+    if line is not None or (isinstance(head, TurningCorner) and head.waits):
+        raise channel.control.fail("shape_ends_in_corner", address="Q")
 
 
 class _Kept:
