@@ -10,6 +10,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.positions import AxisTerm, axis_term
+from polycnc.language.sinumerik.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm, WordShape
 
 if TYPE_CHECKING:
@@ -116,6 +117,13 @@ class Draft:
     def close(self, position: int) -> None:
         """Take the word at a place."""
         del self._open[position]
+
+
+def axis_column(draft: Draft, position: int, shape: WordShape) -> int:
+    """Column of the axis in the brackets of a word; alarm 12040 without one."""
+    if not isinstance(shape.index, Axis):
+        raise WordAlarm("12040", position, text=str(shape.index or ""))
+    return draft.memory.column(shape.index.name)
 
 
 def _with_spindle(word: WordShape) -> WordShape:

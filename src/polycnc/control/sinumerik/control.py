@@ -22,10 +22,10 @@ from polycnc.control.sinumerik import (
     positions,
     procedures,
     protection,
-    sections,
     single_block,
     stages,
     tables,
+    tolerances,
     variables_by_name,
 )
 from polycnc.control.sinumerik.dry_run import dry_run
@@ -404,7 +404,7 @@ def _machine_data(channel: Channel) -> MachineData:
 def _tolerance(memory: Memory, path_mode: str) -> float:
     """ADIS for G641, CTOL for the kinds of rounding that keep a tolerance."""
     if path_mode in ("G642", "G643", "G645"):
-        return sections.contour_tolerance(memory)
+        return tolerances.contour_tolerance(memory)
     return memory.rounding_mm if path_mode == "G641" else 0.0
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.control.sinumerik import (
     arguments,
     axis_exchange,
+    axis_settings,
     coordination,
     d_numbers,
     data_archive,
@@ -212,7 +213,7 @@ PROCEDURES: dict[str, Callable[[Channel, Arguments], None]] = {
     "DELAYFSTOF": sections.end(sections.STOP_DELAY),
     "IPTRLOCK": sections.begin(sections.POINTER_LOCK),
     "IPTRUNLOCK": sections.end(sections.POINTER_LOCK),
-    **{name: sections.motion_end(name) for name in sections.MOTION_ENDS},
+    **{name: axis_settings.motion_end(name) for name in axis_settings.MOTION_ENDS},
     "SETDNO": renumber,
     "DZERO": d_numbers.invalidate,
     "DELDL": d_numbers.delete_additive,

@@ -14,8 +14,8 @@ from math import cos, nan, radians, sin
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import arguments, tables
+from polycnc.control.sinumerik.block import axis_column
 from polycnc.control.sinumerik.positions import axis_term, number
-from polycnc.control.sinumerik.sections import axis_column
 from polycnc.geometry.vectors import axis_vector, cross
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError

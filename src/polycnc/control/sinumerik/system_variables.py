@@ -15,6 +15,7 @@ from math import isnan
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import arguments, gcodes, limits, link_memory
+from polycnc.control.sinumerik.axis_settings import AXIS_VARIABLES
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frame_variables import FRAME_VARIABLES
 from polycnc.control.sinumerik.known_variables import is_known
@@ -24,6 +25,7 @@ from polycnc.control.sinumerik.positions import shown
 from polycnc.control.sinumerik.repositioning import REPOS_VARIABLES
 from polycnc.control.sinumerik.sections import SECTION_VARIABLES
 from polycnc.control.sinumerik.tables import MINUTE
+from polycnc.control.sinumerik.tolerances import TOLERANCE_VARIABLES
 from polycnc.control.sinumerik.tool_variables import TOOL_VARIABLES
 from polycnc.language.sinumerik.nc_frame import NcFrame
 from polycnc.language.sinumerik.values import Axis, Type
@@ -321,6 +323,8 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in TOOL_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in limits.AREA_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in SECTION_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in AXIS_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in TOLERANCE_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},
 }

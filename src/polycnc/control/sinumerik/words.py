@@ -12,15 +12,17 @@ from typing import TYPE_CHECKING
 from polycnc.compensation.corner import Shape
 from polycnc.control.sinumerik import (
     auxiliary,
+    axis_settings,
     motion,
     plain,
     retraction,
-    sections,
     spindle_speed,
     stages,
     tables,
+    tolerances,
     tooth_feed,
 )
+from polycnc.control.sinumerik.block import axis_column
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.positions import length_factor, number
 from polycnc.geometry.units import INCH_MM
@@ -72,7 +74,7 @@ def _travel_time(position: int) -> Step:
 
 def axis_feed(draft: Draft, position: int, shape: WordShape) -> Step:
     """FA[axis]: feed of a positioning axis, modal; alarm 10861 for zero, 14810 below."""
-    column = sections.axis_column(draft, position, shape)
+    column = axis_column(draft, position, shape)
     factor = (INCH_MM if draft.mode["units"] == "G700" else 1.0) / tables.MINUTE
 
     def run(channel: Channel, values: Values) -> None:
@@ -224,7 +226,7 @@ def added_length(draft: Draft, position: int, shape: WordShape) -> Step:
 
 def added_on_axis(draft: Draft, position: int, shape: WordShape) -> Step:
     """TOFF[axis]: addition along a geometry axis."""
-    column = sections.axis_column(draft, position, shape)
+    column = axis_column(draft, position, shape)
     geometry = draft.channel.coordinates.geometry
     if column not in geometry:
         raise WordAlarm("16410", position, axis=draft.channel.axes[column])
@@ -379,7 +381,7 @@ def kept(_draft: Draft, position: int, shape: WordShape) -> Step:
 
 def path_feed_of_axis(draft: Draft, position: int, shape: WordShape) -> Step:
     """FGREF, FL: reference radius of a rotary axis, limit of a synchronous axis; for the motion planner (`pace.py`)."""
-    column = sections.axis_column(draft, position, shape)
+    column = axis_column(draft, position, shape)
     factor = length_factor(draft.mode) if shape.address == "FGREF" else motion.feed_factor(draft)
 
     def run(channel: Channel, values: Values) -> None:
@@ -460,11 +462,11 @@ WORDS: dict[str, Maker] = {
     "FGREF": path_feed_of_axis,
     "FL": path_feed_of_axis,
     "DL": additive_offset,
-    "SCPARA": sections.parameter_set,
-    "ADISPOSA": sections.end_window,
-    "CTOL": sections.tolerance,
-    "OTOL": sections.tolerance,
-    "ATOL": sections.tolerance,
+    "SCPARA": axis_settings.parameter_set,
+    "ADISPOSA": axis_settings.end_window,
+    "CTOL": tolerances.tolerance,
+    "OTOL": tolerances.tolerance,
+    "ATOL": tolerances.tolerance,
     "ALF": retraction.direction_code,
     "POLF": retraction.retraction_position,
     **dict.fromkeys(("DITS", "DITE", "DILF"), kept),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik import gcodes, procedures, sections
+from polycnc.control.sinumerik import gcodes, procedures, tolerances
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.reset import start_code
 from polycnc.messages import AlarmError
@@ -42,10 +42,10 @@ def high_speed(channel: Channel, a: Arguments) -> Iterator[None]:
     if kind > LARGEST_KIND:
         _older(channel, a)
     elif kind % 10 == 0:
-        _switch(channel, _start_codes(channel), sections.NO_TOLERANCE, sections.NO_TOLERANCE)
+        _switch(channel, _start_codes(channel), tolerances.NO_TOLERANCE, tolerances.NO_TOLERANCE)
     elif kind % 10 in KINDS:
         dynamics, delivered = KINDS[kind % 10]
-        orientation = a["S_OTOL"] if kind // 10 == 1 else sections.NO_TOLERANCE
+        orientation = a["S_OTOL"] if kind // 10 == 1 else tolerances.NO_TOLERANCE
         _switch(channel, {"dynamics": dynamics, **ON}, a["S_TOL"] or delivered, orientation)
     elif kind % 10 == 4:
         raise not_supported("CYCLE832 _PRECISION")
@@ -56,7 +56,7 @@ def high_speed(channel: Channel, a: Arguments) -> Iterator[None]:
 
 def _switch(channel: Channel, codes: dict[str, str], tolerance: float, orientation: float) -> None:
     memory: Memory = channel.memory
-    if tolerance < 0.0 and tolerance != sections.NO_TOLERANCE:
+    if tolerance < 0.0 and tolerance != tolerances.NO_TOLERANCE:
         raise AlarmError("12560", text="S_TOL")
     channel.mode = channel.mode.with_codes(list(codes.items()))
     memory.values["CTOL", ()] = tolerance
@@ -74,7 +74,7 @@ def _older(channel: Channel, a: Arguments) -> None:
     """The code of six digits: kind, -, transformation, path mode, feedforward and acceleration, compressor."""
     digit = [a.digit("S_TOLM", place) for place in range(6)]
     if digit[0] == 0:
-        _switch(channel, _start_codes(channel), sections.NO_TOLERANCE, sections.NO_TOLERANCE)
+        _switch(channel, _start_codes(channel), tolerances.NO_TOLERANCE, tolerances.NO_TOLERANCE)
         return
     if (
         digit[0] not in KINDS
@@ -93,6 +93,6 @@ def _older(channel: Channel, a: Arguments) -> None:
         "acceleration": acceleration,
         "compressor": OLD_COMPRESSORS[digit[5]],
     }
-    _switch(channel, codes, a["S_TOL"] or delivered, sections.NO_TOLERANCE)
+    _switch(channel, codes, a["S_TOL"] or delivered, tolerances.NO_TOLERANCE)
     name, values = ("TRAORI", (digit[2],)) if digit[2] else ("TRAFOOF", ())
     procedures.run(channel, name, values)
