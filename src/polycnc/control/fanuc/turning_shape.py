@@ -156,7 +156,9 @@ def refuse_open_end(channel: Channel) -> None:
     """The last block of a shape may not need the next one for its corner or its end (II.4.7, 4.9)."""
     head, line = channel.head, channel.memory.open_line
     channel.memory.open_line = None
-    if line is not None or (isinstance(head, TurningCorner) and head.waits):
+    if line is not None:
+        raise channel.control.fail("drawing_increment", address="Q")
+    if isinstance(head, TurningCorner) and head.waits:
         raise channel.control.fail("shape_ends_in_corner", address="Q")
 
 
