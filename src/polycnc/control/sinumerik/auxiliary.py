@@ -18,6 +18,8 @@ STOP, OPTIONAL_STOP = 0, 1
 PROGRAM_ENDS = frozenset({2, 30, 17})
 DIRECTIONS = {3: 1, 4: -1, 5: 0}
 ORIENT, AXIS_MODE = 19, 70
+#: Automatic choice of the gear stage, and stages 1 to 5.
+GEARS = range(40, 46)
 AFTER_MOTION = frozenset({STOP, OPTIONAL_STOP, *PROGRAM_ENDS})
 
 
@@ -26,6 +28,8 @@ def before_motion(channel: Channel, code: int, spindle_number: int | None) -> No
     if code in AFTER_MOTION and spindle_number is None:
         return
     memory: Memory = channel.memory
+    if code in GEARS:
+        memory.spindles.get(spindle_number)  # 16761 for one that the channel does not have
     if code in DIRECTIONS or code in (ORIENT, AXIS_MODE):
         spindle = memory.spindles.get(spindle_number)
         spindle.direction = DIRECTIONS.get(code, 0)

@@ -23,6 +23,7 @@ from polycnc.control.sinumerik import (
     procedures,
     protection,
     single_block,
+    spindle_speed,
     stages,
     tables,
     tolerances,
@@ -65,6 +66,8 @@ if TYPE_CHECKING:
     from polycnc.messages import Catalogue
     from polycnc.program import Program
 
+#: Delivered values of speed limits: none.
+NO_LIMIT_RPM = 1e8
 #: R parameters of a channel whose machine data say nothing.
 R_PARAMETERS = 1000
 #: Number of every settable zero offset in its group.
@@ -332,10 +335,10 @@ class Sinumerik:
             radius_mm=stages.radius(memory) if side else 0.0,
             side=side,
             spindle=leading,
-            spindle_rpm=_speed(spindle, feed.surface_speed),
+            spindle_rpm=_speed(memory, spindle, mode["feed"]),
             spindle_direction=spindle.direction if spindle else 0,
             surface_speed=feed.surface_speed,
-            spindle_limit_rpm=spindle.limit if spindle and spindle.limit < inf else 0.0,
+            spindle_limit_rpm=_limit(memory, spindle, mode["feed"]),
             path_mode="G9" if memory.exact_stop_block else mode["path_mode"],
             stop_window=tables.STOP_WINDOWS[mode["exact_stop"]],
             tolerance_mm=_tolerance(memory, mode["path_mode"]),
@@ -408,10 +411,18 @@ def _tolerance(memory: Memory, path_mode: str) -> float:
     return memory.rounding_mm if path_mode == "G641" else 0.0
 
 
-def _speed(spindle: Spindle | None, surface_speed: bool) -> float:
+def _speed(memory: Memory, spindle: Spindle | None, feed: str) -> float:
     if spindle is None:
         return 0.0
-    return spindle.cutting_speed if surface_speed else spindle.speed
+    if feed in tables.SURFACE_SPEEDS:
+        return spindle.cutting_speed
+    return spindle_speed.turning_speed(memory, spindle, feed)
+
+
+def _limit(memory: Memory, spindle: Spindle | None, feed: str) -> float:
+    """The spindle's highest speed; 0 for none."""
+    limit = spindle_speed.highest(memory, spindle, feed) if spindle is not None else inf
+    return limit if limit < NO_LIMIT_RPM else 0.0
 
 
 def axis_names(channel: Channel) -> dict[str, Axis]:

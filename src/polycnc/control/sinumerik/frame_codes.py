@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import cos, radians, sin
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik import frames, limits
+from polycnc.control.sinumerik import frames, limits, spindle_speed
 from polycnc.control.sinumerik.positions import AxisTerm, length_factor, number
 from polycnc.control.sinumerik.tables import PLANES
 from polycnc.geometry.frames import Frame, Vector
@@ -231,11 +231,8 @@ def _limit(draft: Draft, side: str) -> Step:
         memory: Memory = channel.memory
         for position, shape in speeds:
             spindle = memory.spindles.get(shape.index if isinstance(shape.index, int) else None)
-            speed = number(values, position)
-            if side == "MINUS":
-                spindle.lowest = speed
-            else:
-                spindle.highest = speed
+            datum = spindle_speed.LOWEST if side == "MINUS" else spindle_speed.HIGHEST
+            spindle_speed.set_limit(channel, datum, spindle, number(values, position))
         for term in terms:
             value = number(values, term.position) * term.factor
             memory.data.write(f"$SA_WORKAREA_LIMIT_{side}", (channel.axes[term.column],), value)

@@ -24,6 +24,12 @@ if TYPE_CHECKING:
 Arguments = tuple[Any, ...]
 MM_PER_M = 1000.0
 MINUTE = 60.0
+#: Setting data of spindles: lowest speed (G25 S), highest speed (G26 S), highest under constant cutting speed (LIMS).
+LOWEST, HIGHEST = "$SA_SPIND_MIN_VELO_G25", "$SA_SPIND_MAX_VELO_G26"
+SURFACE_LIMIT = "$SA_SPIND_MAX_VELO_LIMS"
+DATA = frozenset((LOWEST, HIGHEST, SURFACE_LIMIT))
+#: Feed types under which LIMS acts.
+SURFACE_LIMITED = frozenset(("G96", "G961", "G962", "G97", "G971", "G972"))
 _SPINDLE = re.compile(r"S\d+")
 KEEPS_SPEED = frozenset(("G97", "G971", "G972", "G973"))
 
@@ -35,7 +41,29 @@ def change_of_feed_type(channel: Channel, surface_speed: bool, code: str) -> Non
         raise AlarmError("10870")
     spindle = memory.spindles.all.get(memory.spindles.master)
     if spindle is not None and code in KEEPS_SPEED and spindle.cutting_speed:
-        spindle.speed = speed_at(channel, spindle.cutting_speed, spindle.limit)
+        limit = highest(memory, spindle, "G96")
+        spindle.speed = speed_at(channel, spindle.cutting_speed, limit)
+
+
+def set_limit(channel: Channel, datum: str, spindle: Spindle, speed: float) -> None:
+    """G25 S, G26 S, LIMS: write the setting datum of a spindle."""
+    channel.memory.data.write(datum, (f"S{spindle.number}",), speed)
+    channel.context_changed()
+
+
+def highest(memory: Memory, spindle: Spindle, feed: str) -> float:
+    """The highest speed of a spindle under a function of group 15, rpm."""
+    name = f"S{spindle.number}"
+    limit = memory.data.number(HIGHEST, name)
+    if feed in SURFACE_LIMITED:
+        limit = min(limit, memory.data.number(SURFACE_LIMIT, name) or limit)
+    return limit
+
+
+def turning_speed(memory: Memory, spindle: Spindle, feed: str) -> float:
+    """What a spindle turns with: its programmed speed within the limits; 0 stays 0."""
+    lowest = memory.data.number(LOWEST, f"S{spindle.number}")
+    return min(max(spindle.speed, lowest), highest(memory, spindle, feed)) if spindle.speed > 0.0 else 0.0
 
 
 def is_settled(channel: Channel, surface_speed: bool, code: str) -> bool:

@@ -6,7 +6,6 @@ Source: Fundamentals (S, M3, M4, M5, SPOS, SETMS, G96, LIMS, G25/G26 S).
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import inf
 
 from polycnc.messages import AlarmError
 
@@ -21,9 +20,6 @@ class Spindle:
         direction: 1 for M3, -1 for M4, 0 for M5.
         position: Degrees, 0 to 360.
         controlled: In position control (SPCON, SPOS).
-        lowest: G25 S, rpm.
-        highest: G26 S, rpm.
-        limit: LIMS, rpm.
         has_wheel_speed: S is the speed of the grinding wheel's circumference, m/s (GWPSON).
     """
 
@@ -33,9 +29,6 @@ class Spindle:
     direction: int = 0
     position: float = 0.0
     controlled: bool = False
-    lowest: float = 0.0
-    highest: float = inf
-    limit: float = inf
     has_wheel_speed: bool = False
 
 

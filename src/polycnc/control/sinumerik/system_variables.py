@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from math import isnan
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik import arguments, gcodes, limits, link_memory
+from polycnc.control.sinumerik import arguments, gcodes, limits, link_memory, spindle_speed
 from polycnc.control.sinumerik.axis_settings import AXIS_VARIABLES
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frame_variables import FRAME_VARIABLES
@@ -144,6 +144,8 @@ def _machine_datum(name: str) -> SystemVariable:
         channel.memory.data.write(name, indices, new)
         if name in limits.DATA:
             limits.refresh(channel)
+        elif name in spindle_speed.DATA:
+            channel.context_changed()
 
     return SystemVariable(name, kinds.get(type(value), Type.REAL), read, write)
 
@@ -212,6 +214,13 @@ def _spindle_value(attribute: str) -> Reader:
     return read
 
 
+def _turning_speed(channel: Channel, indices: Indices) -> float:
+    """What a spindle turns with, without sign."""
+    memory: Memory = channel.memory
+    spindle = memory.spindles.get(arguments.spindle(indices[0]) if indices else None)
+    return spindle_speed.turning_speed(memory, spindle, channel.mode["feed"])
+
+
 def _direction(channel: Channel, indices: Indices) -> int:
     """3, 4 or 5, as the M function."""
     direction: int = _spindle_value("direction")(channel, indices)
@@ -260,7 +269,7 @@ _STATES = (
         "$AC_MSNUM", Type.INT, lambda channel, _indices: channel.memory.spindles.master, stop=True
     ),
     SystemVariable("$AC_SDIR", Type.INT, _direction, stop=True),
-    SystemVariable("$AA_S", Type.REAL, _spindle_value("speed"), stop=True),
+    SystemVariable("$AA_S", Type.REAL, _turning_speed, stop=True),
     SystemVariable("$AC_STAT", Type.INT, _always(2), stop=True),
     SystemVariable("$AC_OVR", Type.REAL, _always(100.0), stop=True),
     SystemVariable("$PI", Type.REAL, _always(3.141592653589793)),

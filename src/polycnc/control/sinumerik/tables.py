@@ -48,6 +48,8 @@ FEED_TYPES = {
 }
 #: They keep the linear or revolutional feed that held before: with cutting speed, and with the speed that this gave.
 KEEP_FEED = frozenset(("G962", "G972"))
+#: S is a cutting speed.
+SURFACE_SPEEDS = frozenset(("G96", "G961", "G962"))
 
 
 def feed_type(mode: Mode) -> FeedType:

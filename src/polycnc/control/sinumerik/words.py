@@ -6,7 +6,7 @@ A maker takes one word of a draft and gives the step that it is. `WORDS` says wh
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import inf, nan, pi
+from math import nan, pi
 from typing import TYPE_CHECKING
 
 from polycnc.compensation.corner import Shape
@@ -133,8 +133,8 @@ def speed_limit(_draft: Draft, position: int, shape: WordShape) -> Step:
         value = number(values, position)
         if value < 0.0:
             raise WordAlarm("14820", position)
-        channel.memory.spindles.get(wanted).limit = value or inf
-        channel.context_changed()
+        spindle = channel.memory.spindles.get(wanted)
+        spindle_speed.set_limit(channel, spindle_speed.SURFACE_LIMIT, spindle, value)
 
     return run
 
