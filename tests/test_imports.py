@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -33,6 +34,7 @@ LAYERS = (
 )
 HEAVY = {"numpy", "numba", "pyarrow", "pydantic", "rich", "asyncua", "pygls", "nicegui"}
 MODULES = sorted(SOURCE.rglob("*.py"))
+FOLDERS = [path.parent for path in MODULES if path.name == "__init__.py" and path.parent != SOURCE]
 
 
 def layer_of(module: str) -> str | None:
@@ -87,6 +89,13 @@ def test_no_module_waits_for_itself() -> None:
         for name in free:
             del open_imports[name]
     assert open_imports == {}
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.relative_to(SOURCE).as_posix())
+def test_the_head_of_a_folder_says_what_every_module_in_it_is_for(folder: Path) -> None:
+    head = ast.get_docstring(ast.parse((folder / "__init__.py").read_text(encoding="utf-8"))) or ""
+    modules = {path.stem for path in folder.glob("*.py")} - {"__init__"}
+    assert modules <= set(re.findall(r"\w+", head))
 
 
 def loaded_by(code: str, folder: Path) -> set[str]:

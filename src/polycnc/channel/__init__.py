@@ -1,1 +1,7 @@
-"""The interpreter that all controls share: modal state, program stack, flow, frames, and the way of a move."""
+"""The interpreter that all controls share: modal state, program stack, flow, frames, and the way of a move.
+
+`channel` runs steps (`steps`, `stack`) and yields `waits`; `group` runs the channels of one control together.
+`mode` is the modal state, `coordinates` where the channel is, `path` the stages between a handler's move and
+the toolpath, `way` the points on that move. `failure` says what an alarm does, `intervention` what an
+operator's hand does to a waiting program; `interface` is what the channel asks of those around it.
+"""

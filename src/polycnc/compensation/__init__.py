@@ -1,6 +1,9 @@
 """Tool compensation as stages of the path: cutter and nose radius, and corners that are chamfered or rounded.
 
-`CutterCompensation` is the one engine; `policies` says how controls differ, `vectors` holds the corner rules.
+`cutter` is the one engine for all controls (`CutterCompensation`): it holds a window of steps (`step`) until
+`ends` and `vectors` tell where each ends; `rows` writes them. `policies` says how controls differ.
+`interference` finds vectors that have changed places, `avoidance` leads round them. `corner` is the stage of
+chamfers and roundings; `plane` is what both share.
 """
 
 from polycnc.compensation.cutter import CutterCompensation

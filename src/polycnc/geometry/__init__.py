@@ -1,1 +1,5 @@
-"""Vectors, frames, arcs and offsetting: pure functions on numbers, with no idea of a control."""
+"""Vectors, frames, arcs and offsetting: pure functions on numbers, with no idea of a control.
+
+In a plane: `arcs`, `offset` (parallels of contours), `distance`, `zones`. In space: `vectors`, `frames`, `fit`,
+`nurbs`, `surfaces`. `units` has the inch.
+"""

@@ -1,7 +1,11 @@
 """Machines as data: axes with limits, spindles, magazine, kinematics; and the setup a run starts from.
 
-`load` turns a machine file into a `Machine`, `render` turns a machine into a file; `setup` is what a run
-starts from and `setup_file` reads it. `model` and `setup` know nothing about files.
+A machine file: `schema` says what may stand in it, `load` turns it into a `Machine` (`model`), `check` asks
+whether all of it fits together, `render` makes a file again; `places` and `errors` say where a mistake
+stands. `kinematics` leads from axes to the tool, `layout` is what displays must know, `motion_settings` how a
+control leads the axes, `rules` and `plc` are the machine's own controller. A setup: `setup` is what a run
+starts from, `setup_file` reads it, `setup_check` holds it against machine and control, `setup_edit` writes
+into it. `model` and `setup` know nothing about files.
 """
 
 from polycnc.machine.errors import FileError, MachineFileError, SetupError

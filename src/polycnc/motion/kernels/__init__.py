@@ -6,6 +6,9 @@ such squares.
 
     lay       rows to pieces: length, tangents, curvature, caps on x inside      (`lay.py`, `arcs.py`)
     join      the cap on x where two rows meet                                   (`corners.py`)
+    feed      what a row asks for: the length that its feed counts, and the speed (`feeds.py`)
+    jerk      what limited jerk allows: at one place, as far around it as the average reaches, and on a line from
+              rest to rest                                                       (`jerk.py`, `hold.py`, `alone.py`)
     backward  how fast a joint may be passed so that all behind it can be braked for   (`speeds.py`)
     forward   how fast each joint is passed, and how long each piece takes
 
