@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
 from polycnc.channel.group import ChannelGroup
+from polycnc.channel.passes import Passes
 from polycnc.control.alarm_text import alarm_text
 from polycnc.language.bulk.scanner import Bulk
 from polycnc.machine.layout import axis_layout
@@ -100,6 +101,12 @@ class Result:
     def ok(self) -> bool:
         """Whether the program ran to its end without an alarm."""
         return not self.channel.alarms
+
+    @property
+    def repeats(self) -> int:
+        """Passes of a main program after which every further one would be like the last; 0 where it has an end."""
+        passes = self.channel.passes
+        return passes.count if passes is not None and passes.repeat else 0
 
     @property
     def toolpath(self) -> Toolpath:
@@ -243,6 +250,7 @@ class Session:
         )  # fmt: skip
         self._keep = keep
         self.channel.share_after = _share_after
+        self.channel.passes = Passes()
         self.group = ChannelGroup(self.channel)
         display = Display(toolpath, axis_layout(machine, 1), self._event_text)
         lead: dict[str, Any] = {

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.group import ChannelGroup
     from polycnc.channel.interface import Bulk, Control, MainRun, Scanner, Zone
+    from polycnc.channel.passes import Passes
     from polycnc.channel.steps import Step
     from polycnc.geometry.frames import Vector
     from polycnc.machine.model import Axis, Machine
@@ -70,6 +71,7 @@ class Channel:
             None where a clock runs, which knows.
         group: The channels of the control, which the first one belongs to as well; None where it runs alone.
         memory: The control's own state (variables, offsets, tools), set by `Control.start`.
+        passes: What ends a main program that would begin again for ever; None where somebody else ends it.
         bulk: Whether and how plain blocks are scanned in bulk; None interprets every block.
     """
 
@@ -127,6 +129,7 @@ class Channel:
         self.block_by_block = False
         self.main_run: MainRun | None = None
         self.share_after: Callable[[Channel, list[float], float, float], float | None] | None = None
+        self.passes: Passes | None = None
         self.optional_stop = setup.switches.optional_stop
         self._context = 0
         self._context_changed = True
@@ -250,6 +253,11 @@ class Channel:
         """Take a stage that holds nothing back out of the front of the path; where it is not there, nothing happens."""
         if self.head is stage:
             self.head = None if stage.after is self.table else stage.after
+
+    def begin_again(self) -> None:
+        """The main program goes to its top."""
+        if self.passes is not None:
+            self.passes.begin_again(self)
 
     def end(self) -> None:
         """The program is over (M02, M30): everything held back is written, nothing more runs.

@@ -62,6 +62,8 @@ def _lines(result: Result, happenings: Happenings, file: str) -> Iterator[str]:
         yield text(f"run.{record['type']}", line=record["line"], text=told)
     if happenings.more:
         yield text("run.more", count=happenings.more)
+    if result.repeats:
+        yield text("run.repeats", count=result.repeats)
     if not result.timed:
         return
     times = result.plan.times

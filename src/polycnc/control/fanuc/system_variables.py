@@ -71,6 +71,7 @@ def _clock(name: str, unit: float) -> tuple[Read, Write]:
     def read(m: MacroMemory, _i: int) -> float:
         value = round((m.waited - m.clock_zero.get(name, 0.0)) / unit, 9)
         m.waited += 0.001
+        m.clock_is_read = True
         return value
 
     def write(m: MacroMemory, _i: int, value: float | None, _text: str) -> None:

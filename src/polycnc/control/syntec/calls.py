@@ -308,12 +308,15 @@ def return_from_program(channel: Channel, words: Words) -> None:
     """
     sequence = _whole(words, "P", "program_number") if "P" in words else None
     line = _whole(words, "Q", "program_number") if "Q" in words else None
+    is_main = len(channel.stack) == 1
     leave_program(channel, jumps=sequence is not None or line is not None)
     level = channel.level
     if sequence is not None:
         level.index = level.code.find_sequence(sequence)  # type: ignore[attr-defined]
     elif line is not None:
         level.index = level.code.find_line(line)  # type: ignore[attr-defined]
+    if is_main:
+        channel.begin_again()
 
 
 def leave_program(channel: Channel, *, jumps: bool = False) -> None:

@@ -100,6 +100,7 @@ def return_from_subprogram(channel: Channel, words: Words) -> None:
             else sequences_of(level).find_sequence(sequence, level.current, "no_return_sequence")
         )
         level.data.clear()
+        channel.begin_again()
         return
     left = words.integer("L") if "L" in words else None
     if left is not None:

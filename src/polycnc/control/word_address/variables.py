@@ -76,6 +76,7 @@ class MacroMemory(Memory):
         names: Names given by SETVN.
         signals: Interface signals between macro and machine by name (UI000 …, UO000 …).
         control_switches: Settings by #3003 to #3005, #3901, #3902.
+        clock_is_read: Whether a program has looked at a clock.
         clock_zero: Simulated second at which each clock (#3001, #3002) read zero.
         date: Date of the simulated clock, YYYYMMDD; `time` HHMMSS. The clock does not depend on the host's, so that
             the same input gives the same output.
@@ -94,6 +95,7 @@ class MacroMemory(Memory):
             name: int(bool(value)) for name, value in channel.setup.switches.signals.items()
         }
         self.control_switches: dict[str, int] = {}
+        self.clock_is_read = False
         self.clock_zero: dict[str, float] = {}
         self.date = 20000101
         self.time = 0
