@@ -20,6 +20,7 @@ from polycnc.control.alarm_text import alarm_text
 from polycnc.language.bulk.scanner import Bulk
 from polycnc.machine.layout import axis_layout
 from polycnc.messages import UserError
+from polycnc.messages.catalogue import listed
 from polycnc.toolpath import Toolpath
 from polycnc.toolpath.trace import Display
 
@@ -432,7 +433,7 @@ def _control(control_id: str) -> Control:
     from polycnc.control import registry
 
     if control_id not in registry.ids():
-        raise SessionError("session.control-unknown", control=control_id, known=", ".join(registry.ids()))
+        raise SessionError("session.control-unknown", control=control_id, known=listed(registry.ids()))
     return registry.control(control_id)
 
 
@@ -450,7 +451,7 @@ def _guess(content: str | Path, name: str, *, is_text: bool, encoding: str | Non
     guess = guess_control(programs, name)
     if guess.control is not None:
         return _control(guess.control)
-    known = ", ".join(registry.ids())
+    known = listed(registry.ids())
     shown = name or (programs[0].name if is_text else str(content))
     if guess.reasons:
         reasons = "; ".join(reason.text() for reason in guess.reasons)

@@ -128,3 +128,22 @@ def test_an_alarm_is_status_1_and_its_line_can_be_clicked(console: Console) -> N
     assert said.status == 1
     assert "bad.nc:3:" in said.out
     assert "PS0010" in said.out
+
+
+def test_a_run_that_is_told_to_end_leaves_no_half_written_file(tmp_path: Path) -> None:
+    program = tmp_path / "loop.nc"
+    program.write_text("O1\nG91\nN1 G0 X1.\nX-1.\nGOTO 1\n", encoding="utf-8")
+    words = [sys.executable, "-m", "polycnc", "run", str(program), "--control", "fanuc-m", "--trace", "out.jsonl"]
+    with subprocess.Popen(words, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as run:
+        while not list(tmp_path.glob(".out.jsonl.*")):
+            assert run.poll() is None
+        run.terminate()
+        assert run.stderr is not None
+        told = run.stderr.read()
+    assert run.returncode == 130
+    assert told == "polycnc: interrupted\n"
+    assert [path.name for path in tmp_path.iterdir()] == ["loop.nc"]
+
+
+def test_the_list_of_alarms_shows_no_placeholders(console: Console) -> None:
+    assert "{" not in console("alarms", "--control", "fanuc-m").out

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
 from polycnc.messages import text
+from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -26,7 +27,7 @@ CALCULATED = frozenset({"moves", "variables", "events", "stops", "no_stop"})
 def _is_command(step: str | dict[str, Any]) -> str | dict[str, Any]:
     names = [step] if isinstance(step, str) else list(step)
     if len(names) != 1 or names[0] not in COMMANDS:
-        raise ValueError(text("case.unknown-command", known=", ".join(sorted(COMMANDS))))
+        raise ValueError(text("case.unknown-command", known=listed(sorted(COMMANDS))))
     return step
 
 
@@ -158,7 +159,7 @@ def parse_case(data: object) -> Case:
     expected = case.expect.model_fields_set
     wrong = expected & CALCULATED if case.operate else expected & {"panel"}
     if wrong:
-        raise CaseError(text("case.other-run", name=", ".join(sorted(wrong))))
+        raise CaseError(text("case.other-run", name=listed(sorted(wrong))))
     return case
 
 

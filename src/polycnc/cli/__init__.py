@@ -5,6 +5,23 @@
 `formats` and `sarif` how that is written, `report` what `run` tells; `console` and `output` write.
 """
 
-from polycnc.cli.app import main
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NoReturn
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 __all__ = ["main"]
+
+
+def main(arguments: Sequence[str] | None = None) -> NoReturn:
+    """Run the command line and leave the process with its exit status (`polycnc.cli.app.main`).
+
+    Whoever interrupts it while its parts are still being loaded gets the same answer as later.
+    """
+    try:
+        from polycnc.cli.app import main as run
+    except KeyboardInterrupt:
+        raise SystemExit(130) from None
+    run(arguments)

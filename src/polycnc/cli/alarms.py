@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -11,6 +12,7 @@ import typer
 from polycnc.cli import options
 from polycnc.cli.console import fail, say
 from polycnc.messages import text
+from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,6 +21,10 @@ app = typer.Typer(add_completion=False, rich_markup_mode=None)
 
 #: What the catalogue may tell about an alarm beside its text.
 NOTES: tuple[Literal["cause", "remedy"], ...] = ("cause", "remedy")
+
+
+#: What an alarm names in its text when it comes.
+_PLACEHOLDER = re.compile(r"\{\w+\}")
 
 
 class Format(StrEnum):
@@ -39,12 +45,12 @@ def alarms(
     from polycnc.control.registry import ids
 
     if control is not None and control not in ids():
-        return fail(text("session.control-unknown", control=control, known=", ".join(ids())), 2)
+        return fail(text("session.control-unknown", control=control, known=listed(ids())), 2)
     if code is None and control is None:
-        return fail(text("alarms.control-wanted", known=", ".join(ids())), 2)
+        return fail(text("alarms.control-wanted", known=listed(ids())), 2)
     found = [alarm for each in ([control] if control else ids()) for alarm in _alarms(each, code)]
     if not found:
-        return fail(text("alarms.unknown", code=code, control=control or ", ".join(ids())), 2)
+        return fail(text("alarms.unknown", code=code, control=control or listed(ids())), 2)
     if form is Format.JSON:
         say(json.dumps(found, ensure_ascii=False, indent=1))
     else:
@@ -63,7 +69,12 @@ def _alarms(control: str, code: str | None) -> Iterator[dict[str, str]]:
     for known in catalogue:
         if code is None or alarm_key(control, known) == alarm_key(control, code):
             notes: dict[str, str] = {kind: catalogue.note(known, kind) for kind in NOTES}
-            yield {"control": control, "code": known, "text": catalogue.text(known), **notes}
+            yield {
+                "control": control,
+                "code": known,
+                "text": _PLACEHOLDER.sub("…", catalogue.text(known)),
+                **notes,
+            }
 
 
 def _explained(alarm: dict[str, str]) -> Iterator[str]:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
+import threading
+from contextlib import contextmanager
 from importlib import import_module
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
@@ -17,7 +20,7 @@ from polycnc.messages.catalogue import LANGUAGES, set_language
 from polycnc.messages.files import reason_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
 #: Each command is the module of this name in `polycnc.cli`, which has a Typer `app`.
 COMMANDS = ("run", "check", "test", "plot", "features", "machines", "alarms", "data", "parameters")
@@ -74,7 +77,8 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        status = _run(words)
+        with _termination_interrupts():
+            status = _run(words)
         sys.stdout.flush()
     except BrokenPipeError:
         # Whoever read our output has gone; Python would complain once more when it exits.
@@ -87,6 +91,19 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     if status == INTERRUPTED:
         note(f"polycnc: {text('cli.interrupted')}")
     sys.exit(status)
+
+
+@contextmanager
+def _termination_interrupts() -> Iterator[None]:
+    """Who is told to end takes half-written files away first, as where the user interrupts."""
+    if threading.current_thread() is not threading.main_thread():
+        yield  # only the main thread may answer signals
+        return
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _run(words: list[str]) -> int:

@@ -11,6 +11,7 @@ from polycnc.cli import options
 from polycnc.cli.console import fail, say, show
 from polycnc.cli.output import write_whole
 from polycnc.messages import text
+from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -48,7 +49,7 @@ def export(
     if files is None:
         return fail(text("data.no-files", control=channel.control.id), 2)
     if kind not in files.KINDS:
-        return fail(text("data.kind", kind=kind, known=", ".join((*files.KINDS, PROGRAMS))), 2)
+        return fail(text("data.kind", kind=kind, known=listed((*files.KINDS, PROGRAMS))), 2)
     return _give(files.write(channel, kind), output)
 
 

@@ -12,6 +12,7 @@ import typer
 from polycnc.cli import options
 from polycnc.cli.console import fail, show
 from polycnc.messages import text
+from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -45,7 +46,7 @@ def features(
     from polycnc.control.registry import ids
 
     if control is not None and control not in ids():
-        return fail(text("session.control-unknown", control=control, known=", ".join(ids())), 2)
+        return fail(text("session.control-unknown", control=control, known=listed(ids())), 2)
     if cases is not None and not cases.is_dir():
         return fail(text("file.unreadable", file=cases, reason=text("file.no-folder")), 2)
     found = shipped() if cases is None else proved(cases)

@@ -10,6 +10,7 @@ import typer
 from polycnc.cli import options
 from polycnc.cli.console import fail, say
 from polycnc.messages import text
+from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -123,7 +124,7 @@ def _known(control: str | None) -> tuple[KnownParameter, ...] | int:
     from polycnc.control.parameters import known_parameters
 
     if control is None or control not in registry.ids():
-        known = ", ".join(registry.ids())
+        known = listed(registry.ids())
         message = "alarms.control-wanted" if control is None else "session.control-unknown"
         return fail(text(message, control=control, known=known), 2)
     found = known_parameters(registry.control(control))

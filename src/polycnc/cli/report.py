@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.cli.console import coloured
 from polycnc.cli.diagnostics import diagnostics_of
 from polycnc.messages import text
+from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -79,7 +80,7 @@ def _lines(result: Result, happenings: Happenings, file: str) -> Iterator[str]:
 def _shares(times: Times) -> str:
     """What the time went into; what took none is left out."""
     parts = ((name, getattr(times, name)) for name in _SHARES)
-    return ", ".join(f"{text(f'run.{name}')} {clock(seconds)}" for name, seconds in parts if seconds >= 0.05)
+    return listed(f"{text(f'run.{name}')} {clock(seconds)}" for name, seconds in parts if seconds >= 0.05)
 
 
 def _tools(result: Result) -> Iterator[str]:

@@ -14,6 +14,7 @@ import typer
 from polycnc.cli import options
 from polycnc.cli.console import fail, show
 from polycnc.messages import text
+from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -58,12 +59,12 @@ def run(
     from polycnc.cli.report import Happenings, as_text
 
     if trace is not None and trace.suffix.lower() not in TRACES:
-        return fail(text("run.suffix", file=trace, known=", ".join(TRACES)), 2)
+        return fail(text("run.suffix", file=trace, known=listed(TRACES)), 2)
     period = period_s(sample[0]) if sample is not None else 0.0
     if sample is not None and find_spec("pyarrow") is None:
         return fail(text("run.no-samples"), 2)
     if sample is not None and (period is None or sample[1].suffix.lower() not in SAMPLES):
-        return fail(text("run.sample", period=sample[0], file=sample[1], known=", ".join(SAMPLES)), 2)
+        return fail(text("run.sample", period=sample[0], file=sample[1], known=listed(SAMPLES)), 2)
     is_stdin = file == "-"
     source = sys.stdin.buffer.read() if is_stdin else Path(file)
     session = opening.session(source, keep=False, timed=not no_time or sample is not None)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from polycnc.messages.catalogue import listed
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
@@ -73,7 +75,7 @@ def _channels(machine: Machine) -> Iterator[Mistake]:
             )
         for key, names in (("axes", channel.axes), ("names", channel.names)):
             if len(set(names)) < len(names):
-                yield (*path, key), "named-twice", {"names": ", ".join(names)}
+                yield (*path, key), "named-twice", {"names": listed(names)}
         for name, axis in channel.geometry.items():
             if axis not in channel.axes:
                 yield (*path, "geometry", name), "unknown-axis", {"axis": axis}

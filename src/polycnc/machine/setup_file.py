@@ -24,6 +24,7 @@ from polycnc.machine.setup import (
     Value,
     parameter_key,
 )
+from polycnc.messages.catalogue import listed
 from polycnc.messages.files import read_utf_8, reason_of
 
 if TYPE_CHECKING:
@@ -110,7 +111,7 @@ def check_axes(setup: Setup, machine: Machine, path: str | Path = "") -> None:
     if path:
         text = read_utf_8(path)
         line, column = (toml_place if Path(path).suffix.lower() == ".toml" else yaml_place)(text, where)
-    axes = ", ".join(axis.name for axis in machine.axes)
+    axes = listed(axis.name for axis in machine.axes)
     named = ".".join(map(str, where))
     raise SetupError(str(path), line, column, "no-such-axis", where=named, machine=machine.id, axes=axes)
 
@@ -184,7 +185,7 @@ def _value(where: Where, value: object) -> Value:
 def _one_of(*allowed: str) -> Reader:
     def read(where: Where, value: object) -> str:
         if value not in allowed:
-            _bad(where, "not-one-of", value, expected=", ".join(allowed))
+            _bad(where, "not-one-of", value, expected=listed(allowed))
         return str(value)
 
     return read

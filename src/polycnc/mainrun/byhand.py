@@ -9,6 +9,7 @@ from polycnc.mainrun.core import JOG_RATE
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.readings import Readings
 from polycnc.mainrun.states import Command, Mode, is_allowed
+from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
     from polycnc.mainrun.lane import Lane
@@ -111,7 +112,7 @@ class ByHand(Readings):
     def _lane_of(self, number: int) -> Lane:
         """A channel of the machine."""
         if not self._group.has(number):
-            known = ", ".join(str(channel.number) for channel in self.machine.channels)
+            known = listed(str(channel.number) for channel in self.machine.channels)
             raise CommandRefused("mainrun.value", name="channel", allowed=known, value=number)
         self._group.channel(number)
         return self._lanes[number]
@@ -120,7 +121,7 @@ class ByHand(Readings):
         lane = self._lane_of(channel)
         index = lane.channel.axis_index.get(name.upper())
         if index is None:
-            raise CommandRefused("mainrun.axis", axis=name, known=", ".join(lane.channel.axes))
+            raise CommandRefused("mainrun.axis", axis=name, known=listed(lane.channel.axes))
         if (owner := self._group.owner[lane.channel.axis_data[index].name]) not in (0, channel):
             raise CommandRefused("mainrun.value", name="channel", allowed=str(owner), value=channel)
         return lane, index

@@ -23,6 +23,7 @@ from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.programs import forget_skipped
 from polycnc.mainrun.search import search
 from polycnc.mainrun.states import Command, Mode, State, is_allowed
+from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -319,7 +320,7 @@ class VirtualControl(ByHand):
             kind = changes["single_block"]
             changes["single_block"] = "SBL1" if kind is True else kind or ""
             if changes["single_block"] not in SINGLE_BLOCK_KINDS:
-                allowed = ", ".join(SINGLE_BLOCK_KINDS[1:])
+                allowed = listed(SINGLE_BLOCK_KINDS[1:])
                 raise CommandRefused("mainrun.value", name="single_block", allowed=allowed, value=kind)
         if changes.get("block_skip", self._switches.block_skip) != self._switches.block_skip:
             forget_skipped(self.channel)
@@ -412,7 +413,7 @@ def _one_of(kind: Any, name: str, value: object) -> Any:
     try:
         return kind(str(value).lower())
     except ValueError:
-        allowed = ", ".join(kind)
+        allowed = listed(kind)
         raise CommandRefused("mainrun.value", name=name, allowed=allowed, value=value) from None
 
 

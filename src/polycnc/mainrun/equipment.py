@@ -11,6 +11,7 @@ from polycnc.machine import load_machine, load_setup, parse_setup
 from polycnc.machine.model import Machine
 from polycnc.machine.setup import Setup
 from polycnc.mainrun.errors import CommandRefused
+from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
     from polycnc.control.interface import Control
@@ -47,6 +48,6 @@ def equipment(
 
 def _control(control_id: str) -> Control:
     if control_id not in registry.ids():
-        known = ", ".join(registry.ids())
+        known = listed(registry.ids())
         raise CommandRefused("session.control-unknown", control=control_id, known=known)
     return registry.control(control_id)

@@ -9,7 +9,7 @@ from importlib import resources
 from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
     from importlib.resources.abc import Traversable
 
 LANGUAGES = ("en", "zh-TW")
@@ -71,6 +71,11 @@ class Catalogue:
     def text(self, key: str, lang: str | None = None, **args: object) -> str:
         """The text of `key` with its placeholders filled; a placeholder without a value is shown as it stands."""
         return fill(self._load()[key][lang or _active], args)
+
+
+def listed(words: Iterable[str]) -> str:
+    """Words one after the other, as the active language separates them."""
+    return (", " if _active == "en" else "、").join(words)
 
 
 class _KeepMissing(dict[str, object]):

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.mainrun import CommandRefused, State
 from polycnc.messages import AlarmError
+from polycnc.messages.catalogue import listed
 from polycnc.panel.description import Key, Lamp, describe
 
 if TYPE_CHECKING:
@@ -112,7 +113,7 @@ class Panel:
     def _key(self, name: str) -> Key:
         key = self.description.keys.get(name)
         if key is None:
-            raise CommandRefused("panel.unknown", name=name, known=", ".join(self.description.keys))
+            raise CommandRefused("panel.unknown", name=name, known=listed(self.description.keys))
         return key
 
     def _press_key(self, key: Key, together: set[str]) -> None:
@@ -121,7 +122,7 @@ class Panel:
         if key.safety and SAFETY_KEY not in together:
             raise CommandRefused("panel.safety", part=key.id)
         if key.modes and self.positions["mode"] not in key.modes:
-            raise CommandRefused("panel.mode", part=key.id, modes=", ".join(key.modes))
+            raise CommandRefused("panel.mode", part=key.id, modes=listed(key.modes))
         if key.switch:
             now = getattr(self.control.switches, key.switch)
             self.control.set_switches(**{key.switch: not now})
@@ -208,7 +209,7 @@ class Panel:
         else:
             row = self.description.switches.get(switch)
             if row is None:
-                known = ", ".join(("mode", "handle_axis", *self.description.switches))
+                known = listed(("mode", "handle_axis", *self.description.switches))
                 raise CommandRefused("panel.unknown", name=switch, known=known)
             self._check(switch, wanted, row.positions)
             self.positions[switch] = wanted
@@ -216,7 +217,7 @@ class Panel:
 
     def _check(self, switch: str, position: str, known: tuple[str, ...]) -> None:
         if position not in known:
-            raise CommandRefused("mainrun.value", name=switch, allowed=", ".join(known), value=position)
+            raise CommandRefused("mainrun.value", name=switch, allowed=listed(known), value=position)
 
     def _turn_mode(self, position: str) -> None:
         self._check("mode", position, tuple(self.description.modes))

@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from polycnc.messages.catalogue import listed
 from polycnc.program import names
 from polycnc.program.encoding import decode
 from polycnc.program.errors import ProgramFileError
@@ -280,7 +281,7 @@ class ProgramStore:
                 return next((each for each in programs if each.number == number), programs[0])
             holders = folder.headed(number)
             if len(holders) > 1:
-                files = ", ".join(path.name for path in holders)
+                files = listed(path.name for path in holders)
                 raise ProgramFileError(
                     "program.number-twice", str(folder.path), number=f"{number:04d}", files=files
                 )
