@@ -107,8 +107,6 @@ def hold_vector(channel: Channel, _words: Words) -> None:
 def corner_arc(channel: Channel, words: Words) -> None:
     """G39 [I K]: an arc about the corner; no motion in its block."""
     stage = channel.memory.compensation
-    if words.axes():
-        raise words.fail("corner_arc_moves", "G39")
     if stage is None or not stage.active:
         return
     stage.corner_arc(radius.place_of_block(channel), _direction(channel, words))
@@ -122,7 +120,12 @@ def _direction(channel: Channel, words: Words) -> tuple[float, float] | None:
 
 
 def plan_travel(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
-    """A straight block whose axis words give no way: the block in front ends square on itself (II.5.2.5)."""
+    """A straight block whose axis words give no way: the block in front ends square on itself (II.5.2.5).
+
+    A block with G39 may have no axis words at all (II.5.6).
+    """
+    if plan.axis_words and any(row.code == "G39" for row in builder.codes):
+        raise builder.control.fail("corner_arc_moves", address="G39")
     if step is None or not plan.axis_words or builder.mode["motion"] not in LINES:
         return step
     if builder.mode["compensation"] == "G40":
