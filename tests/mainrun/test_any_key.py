@@ -14,9 +14,13 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 LIMITS = (-60.0, 90.0)
-FILE = "".join(
-    f"[axis.{axis}]\nlimit_minus = {LIMITS[0]}\nlimit_plus = {LIMITS[1]}\n" for axis in ("X", "Y", "Z")
-)
+
+
+def limited(base: str, axes: str = "XYZ") -> str:
+    limits = f"limit_minus = {LIMITS[0]}\nlimit_plus = {LIMITS[1]}\n"
+    return f'base = "{base}"\n\n' + "".join(f"[axis.{axis}]\n{limits}" for axis in axes)
+
+
 WORDS = (
     "G90 G54 G0 X10. Y5.\nM3 S1000\nG1 X50. F3000\nG2 X60. Y15. R10.\nM8\nG91 X5.\nX5.\nG90 G1 Y40. Z-5.\n"
     "M0\nG81 X20. Z-10. R2. F500\nX30.\nG80\n/G1 X0\nM1\nG4 P100\nG0 X0 Y0 Z0\nM9\n"
@@ -29,6 +33,40 @@ PROGRAMS = {
         "SOFT G64\nG90 G54 G0 X10 Y5\nM3 S1000\nG1 X50 F3000\nG2 X60 Y15 CR=10\nM8\nG91 X5\nG90 G1 Y40 Z-5\nM0\n"
         "STOPRE\nBRISK\nG641 ADIS=1\nG1 X20\nY20\nX0\n/G1 X10\nG4 F0.1\nSBLOF\nG1 X5\nSBLON\nG0 X0 Y0 Z0\nM9\nM30\n"
     ),
+}
+#: A lathe with its cycles, a thread, a rigid tap and polar interpolation.
+TURNING = """O1
+G98 G97 S300 M3
+G0 X60. Z10.
+M8
+G71 U2. R1.
+G71 P10 Q20 U1. W0.5 F2000.
+N10 G0 X20.
+G1 Z-20.
+N20 X50. Z-30.
+G70 P10 Q20
+M0
+G76 P010060 Q100 R0.1
+G76 X30. Z-20. P600 Q300 F2.
+/G0 X60.
+G90 X40. W-10. F1000.
+G1 X#100 Z5.
+M1
+G0 Z20.
+M29 S200
+G84 X0 Z-10. R2. F200.
+G80
+G0 X60. Z10.
+G1 W-5. F3000.
+G0 X0 Z0
+M9
+M30
+"""
+POLAR = "O1\nG98 G0 X60. Z5. C0\nG12.1\nG1 X20. F1000.\nC10.\nX-20.\nM0\nG3 X20. C10. R20.\nG13.1\nG0 X0 C0\nM30\n"
+#: What a control runs in the end.
+LAST = {
+    "sinumerik-840d": "G90 G1 X10 F1000\nM30\n",
+    "fanuc-0i-tf": "O1\nG98 G1 X10. F1000\nM30\n",
 }
 MAIN = 'INIT(2,"B")\nSTART(2)\nG0 X10\nRELEASE(Y)\nG1 X80 F6000\nWAITM(1,1,2)\nG1 X0\nWAITE(2)\nG0 Y3\nM30\n'
 SIDE = "GET(Y)\nG1 Y50 F3000\nWAITM(1,1,2)\nG4 F0.5\nG1 Y20\nRELEASE(Y)\nM30\n"
@@ -75,8 +113,10 @@ KEYS: tuple[Callable[[VirtualControl, Random], object], ...] = (
 )
 
 
-def press(virtual: VirtualControl, dice: Random, seed: int, keys: int) -> None:
-    """A script of keys, with the axes watched."""
+def press(
+    virtual: VirtualControl, dice: Random, seed: int, keys: int, axes: tuple[int, ...] = (0, 1, 2)
+) -> None:
+    """A script of keys, with the axes watched that have limits."""
     refusals: list[CommandRefused] = []
     for _ in range(keys):
         try:
@@ -86,7 +126,7 @@ def press(virtual: VirtualControl, dice: Random, seed: int, keys: int) -> None:
         for _ in range(dice.randrange(4)):
             virtual.step(dice.choice((0.004, 0.02, 0.1, 0.4)))
             stands = virtual.machine_position
-            assert all(LIMITS[0] - 1e-6 <= value <= LIMITS[1] + 1e-6 for value in stands), (seed, stands)
+            assert all(LIMITS[0] - 1e-6 <= stands[axis] <= LIMITS[1] + 1e-6 for axis in axes), (seed, stands)
         assert virtual.snapshot.state is virtual.state
     assert all(refused.text("en") and refused.text("zh-TW") for refused in refusals)
 
@@ -94,7 +134,7 @@ def press(virtual: VirtualControl, dice: Random, seed: int, keys: int) -> None:
 @pytest.mark.parametrize("control", PROGRAMS)
 def test_no_script_of_keys_leads_out_of_the_limits_or_into_a_traceback(control: str, tmp_path: Path) -> None:
     file = tmp_path / "machine.toml"
-    file.write_text(f'base = "mill3"\n\n{FILE}', encoding="utf-8")
+    file.write_text(limited("mill3"), encoding="utf-8")
     for seed in range(25):
         virtual = VirtualControl(control, machine=file)
         virtual.load(PROGRAMS[control])
@@ -102,9 +142,22 @@ def test_no_script_of_keys_leads_out_of_the_limits_or_into_a_traceback(control: 
         assert _is_ready_after_a_reset(virtual), (seed, virtual.state, virtual.alarms)
 
 
+@pytest.mark.parametrize(
+    ("machine", "text"), [("lathe2", TURNING), ("lathe-c-transmit", POLAR)], ids=["cycles", "polar"]
+)
+def test_nor_does_one_on_a_lathe(machine: str, text: str, tmp_path: Path) -> None:
+    file = tmp_path / "machine.toml"
+    file.write_text(limited(machine, "XZ"), encoding="utf-8")
+    for seed in range(25):
+        virtual = VirtualControl("fanuc-0i-tf", machine=file, setup={"variables": {"#100": 30}})
+        virtual.load(text)
+        press(virtual, Random(seed), seed, 120, axes=(0, 1))
+        assert _is_ready_after_a_reset(virtual), (seed, virtual.state, virtual.alarms)
+
+
 def test_nor_does_one_on_two_channels_that_wait_for_each_other(tmp_path: Path) -> None:
     file = tmp_path / "machine.toml"
-    file.write_text(f'base = "mill3-2ch"\n\n{FILE}', encoding="utf-8")
+    file.write_text(limited("mill3-2ch"), encoding="utf-8")
     for seed in range(25):
         virtual = VirtualControl("sinumerik-840d", machine=file, files={"B.MPF": SIDE})
         virtual.load(MAIN)
@@ -127,10 +180,6 @@ def _is_ready_after_a_reset(virtual: VirtualControl) -> bool:
     virtual.power_on()
     virtual.run()
     virtual.select_mode("auto")
-    virtual.load(
-        "O1\nG90 G1 X10. F1000\nM30\n"
-        if virtual.control.id != "sinumerik-840d"
-        else "G90 G1 X10 F1000\nM30\n"
-    )
+    virtual.load(LAST.get(virtual.control.id, "O1\nG90 G1 X10. F1000\nM30\n"))
     virtual.cycle_start()
     return virtual.run() is State.READY and not virtual.alarms
