@@ -136,16 +136,17 @@ def _strokes(contour: Contour, cuts: Roughing, towards: float, *, to_bottom: boo
 
 
 def _straight_back(away: Point, start: Point, cuts: Roughing) -> Iterator[PlaneStroke]:
-    """RPA: straight back to where the stroke began (II.4.2.9)."""
+    """RPA: straight back to where the stroke began (II.4.2.9); the last part, or all of a short way, at feed."""
+    if cuts.infeed_rapid:
+        yield PlaneStroke(Kind.RAPID, start)
+        return
     way = hypot(start[0] - away[0], start[1] - away[1])
-    if not cuts.infeed_rapid and way > cuts.feeds_last:
+    if way > cuts.feeds_last:
         part = 1.0 - cuts.feeds_last / way
         yield PlaneStroke(
             Kind.RAPID, (away[0] + part * (start[0] - away[0]), away[1] + part * (start[1] - away[1]))
         )
-        yield feed(*start)
-    else:
-        yield PlaneStroke(Kind.RAPID, start)
+    yield feed(*start)
 
 
 def _end_on(contour: Contour, level: float) -> float:

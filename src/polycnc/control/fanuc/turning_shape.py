@@ -265,7 +265,7 @@ def _outside(channel: Channel) -> None:
 def end_finishing(channel: Channel) -> None:
     """Behind the last block of the shape that G70 runs any command is allowed again."""
     codes = dict(channel.mode.codes)
-    del codes[GROUP]
+    codes.pop(GROUP, None)
     channel.mode = channel.modes.mode(codes)
 
 
