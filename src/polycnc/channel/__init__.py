@@ -2,6 +2,7 @@
 
 `channel` runs steps (`steps`, `stack`) and yields `waits`; `group` runs the channels of one control together.
 `mode` is the modal state, `coordinates` where the channel is, `path` the stages between a handler's move and
-the toolpath, `way` the points on that move. `failure` says what an alarm does, `intervention` what an
+the toolpath, `way` the points on that move. `failure` says what an alarm does, `passes`
+when a main program that begins again does nothing new, `intervention` what an
 operator's hand does to a waiting program; `interface` is what the channel asks of those around it.
 """
