@@ -133,7 +133,17 @@ def test_an_alarm_is_status_1_and_its_line_can_be_clicked(console: Console) -> N
 def test_a_run_that_is_told_to_end_leaves_no_half_written_file(tmp_path: Path) -> None:
     program = tmp_path / "loop.nc"
     program.write_text("O1\nG91\nN1 G0 X1.\nX-1.\nGOTO 1\n", encoding="utf-8")
-    words = [sys.executable, "-m", "polycnc", "run", str(program), "--control", "fanuc-m", "--trace", "out.jsonl"]
+    words = [
+        sys.executable,
+        "-m",
+        "polycnc",
+        "run",
+        str(program),
+        "--control",
+        "fanuc-m",
+        "--trace",
+        "out.jsonl",
+    ]
     with subprocess.Popen(words, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as run:
         while not list(tmp_path.glob(".out.jsonl.*")):
             assert run.poll() is None

@@ -133,8 +133,7 @@ class Channel:
         self.optional_stop = setup.switches.optional_stop
         self._context = 0
         self._context_changed = True
-        limits = tuple((axis.limit_minus, axis.limit_plus) for axis in self.axis_data)
-        self._limits = limits if any(low > -inf or high < inf for low, high in limits) else ()
+        self._limits = _travel(self.axis_data)
         self._executables: dict[int, Executable] = {}
         self.bulk = bulk
         self._scanner: Scanner | None = None
@@ -535,3 +534,9 @@ class Channel:
                 raise self._control.over_travel(self.axes[i], 1)
         if self.stroke_zone is not None:
             self.stroke_zone.check(self, machine, straight=straight)
+
+
+def _travel(axes: Sequence[Axis]) -> tuple[tuple[float, float], ...]:
+    """The limits of every axis; nothing where no axis has any."""
+    limits = tuple((axis.limit_minus, axis.limit_plus) for axis in axes)
+    return limits if any(low > -inf or high < inf for low, high in limits) else ()

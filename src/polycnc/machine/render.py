@@ -7,7 +7,6 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from polycnc.machine.load import load_machine
 from polycnc.machine.model import Text
 from polycnc.messages import Catalogue
 
@@ -29,17 +28,8 @@ def fields() -> Catalogue:
     return Catalogue(Path(__file__).with_name("fields.toml"))
 
 
-def builtin_toml(machine_id: str, lang: str | None = None) -> str:
-    """The complete file of a built-in machine, with comments in the language of the user.
-
-    Raises:
-        MachineFileError: There is no such machine.
-    """
-    return machine_toml(load_machine(machine_id), lang)
-
-
 def machine_toml(machine: Machine, lang: str | None = None) -> str:
-    """Any machine as the text of a machine file; reading it gives the same machine."""
+    """A machine as the text of a machine file, with comments in the language of the user; reading it gives the same."""
     return "\n".join(_lines(machine, lang))
 
 

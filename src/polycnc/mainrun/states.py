@@ -61,8 +61,6 @@ class Command(StrEnum):
 
 
 PROGRAM_MODES = frozenset((Mode.AUTO, Mode.MDI, Mode.TAPE))
-#: In teach-in the axes are moved by hand, in every way.
-HAND_MODES = frozenset((Mode.JOG, Mode.INCREMENT, Mode.HANDLE, Mode.TEACH))
 EVERY_MODE = frozenset(Mode)
 AT_REST = frozenset((State.READY, State.HOLD, State.STOPPED))
 #: A command is allowed in these modes while the control is in one of these states. Emergency stop, overrides and
