@@ -6,6 +6,7 @@ from importlib import resources
 from typing import TYPE_CHECKING
 
 from polycnc.messages import Catalogue, text
+from polycnc.messages.catalogue import language
 
 if TYPE_CHECKING:
     from polycnc.control.interface import Control
@@ -23,4 +24,4 @@ def alarm_text(control: Control, alarm: Alarm, lang: str | None = None) -> str:
     catalogue = control.catalogue
     told = alarm.detail or (catalogue.text(alarm.code, lang, **alarm.args) if alarm.code in catalogue else "")
     hint = text(alarm.hint, lang, **alarm.args) if alarm.hint else ""
-    return ": ".join(filter(None, (told, hint)))
+    return (": " if (lang or language()) == "en" else "：").join(filter(None, (told, hint)))

@@ -195,3 +195,11 @@ FOREIGN_CODES = {
     "G143": "hint.haas",
     "G120.1": "hint.syntec",
 }
+
+#: Words that a lathe takes only where a parameter says so: message ids of hints.
+HINTED_WORDS = {
+    ",A": "hint.drawing-dimensions",
+    ",C": "hint.drawing-dimensions",
+    ",R": "hint.drawing-dimensions",
+    "C": "hint.chamfer-by-c",
+}

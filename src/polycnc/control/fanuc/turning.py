@@ -24,7 +24,7 @@ from polycnc.control.fanuc import (
     turning_threads,
     turning_tools,
 )
-from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
+from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES, HINTED_WORDS
 from polycnc.control.fanuc.code_calls import PROGRAM_M, registered_codes
 from polycnc.control.fanuc.operation import dry_run
 from polycnc.control.fanuc.turning_codes import (
@@ -324,7 +324,7 @@ class FanucTurning(CustomMacroControl):
         """The alarm for a word that nothing takes: drawing dimensions beside a code that allows none have their own."""
         if turning_drawing.is_word(address) and turning_drawing.is_on(builder):
             return self.fail("drawing_increment", address=address)
-        return super().untaken(address, builder)
+        return self.fail("address", address=address, word=address, hint=HINTED_WORDS.get(address, ""))
 
     # ---- drilling, spindle, M --------------------------------------------------------------------------------
 

@@ -94,7 +94,8 @@ def _takes(channel: Channel, words: Words, *, starts: bool) -> bool:
         return True
     if bit(5106, 2) or (bit(5106, 3) and not finishing):
         return False
-    raise words.fail("shape_command", channel.mode["compensation"])
+    code = channel.mode["compensation"]
+    raise channel.control.fail("shape_command", address=code, hint="hint.shape-compensation", code=code)
 
 
 def hold_vector(channel: Channel, _words: Words) -> None:

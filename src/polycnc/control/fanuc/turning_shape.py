@@ -77,8 +77,9 @@ def plan_note(builder: Builder, plan: Plan) -> Step | None:
         return None
     if builder.mode["motion"] not in _ALLOWED:
         raise builder.control.fail("shape_command", address=builder.mode["motion"])
-    if any(row.group in _REFUSED_GROUPS and row.code != "G4" for row in builder.codes):
-        raise builder.control.fail("shape_command", address=builder.codes[0].code)
+    refused = next((r for r in builder.codes if r.group in _REFUSED_GROUPS and r.code != "G4"), None)
+    if refused is not None:
+        raise builder.control.fail("shape_command", address=refused.code)
     if PROGRAM_M.intersection(builder.m_codes):
         raise builder.control.fail("shape_command", address="M")
     if builder.mode.codes[GROUP] != READING:

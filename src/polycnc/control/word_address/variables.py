@@ -104,10 +104,10 @@ class MacroMemory(Memory):
 
     # ---- what generated expressions call ------------------------------------------------------------------------
 
-    def fail(self, mistake: str) -> AlarmError:
+    def fail(self, mistake: str, hint: str = "") -> AlarmError:
         """The control's alarm for a mistake in an expression."""
         control = self.channel.control
-        error: AlarmError = control.fail(mistake)
+        error: AlarmError = control.fail(mistake, hint=hint)
         return error
 
     @property
