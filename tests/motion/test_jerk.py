@@ -121,6 +121,29 @@ def test_axes_keep_their_limits_on_splines_of_few_points(
     check(rows, MILL)
 
 
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(st.tuples(st.floats(0.2, 30.0), st.floats(-0.6, 0.6)), min_size=3, max_size=20),
+    st.floats(0.0, 6.2),
+    st.sampled_from(["BRISK", "SOFT"]),
+)
+def test_axes_keep_their_velocity_between_the_points_of_a_coarse_spline(
+    chords: list[tuple[float, float]], heading: float, acceleration: str
+) -> None:
+    """Chords of any lengths that turn to either side, at the velocity of the axes."""
+    swift = replace(MILL, axes=tuple(replace(axis, max_feed=20.0) for axis in MILL.axes))
+    rows = Build(context=Context(acceleration=acceleration))
+    for length, turn in chords:
+        x, y, z = rows.end
+        heading += turn
+        rows.row(Kind.SPLINE, x + length * cos(heading), y + length * sin(heading), z, feed=1e6)
+    _, found = runs(rows, swift)
+    for run in found:
+        velocity = run.at(np.arange(0.0, min(run.seconds, 20.0), PERIOD))[1]
+        for i, axis in enumerate(swift.axes):
+            assert np.abs(velocity[:, i]).max() <= axis.max_feed * SLACK
+
+
 def facets(radius: float, angle: float, noise: float, seed: int, context: Context) -> Build:
     """A circle in short lines, as a CAM system writes it, a little off."""
     off = np.random.default_rng(seed).uniform(-noise, noise, (120, 2))

@@ -167,3 +167,13 @@ def test_the_axes_settle_behind_the_last_row_too() -> None:
     rows = Build(context=Context(path_mode="G61")).feed(10.0, 0.0, 0.0)
     assert rows.plan(SETTLING).total_s == pytest.approx(rows.plan().total_s + 0.05)
     assert sum(rows.plan(SETTLING).row_s) == pytest.approx(rows.plan(SETTLING).total_s)
+
+
+def test_the_spindle_follows_a_cut_under_constant_surface_speed_without_a_wait() -> None:
+    rows = Build(axes=("X", "Z")).rapid(30.0, 0.0)
+    rows.set(surface_speed=True, spindle_rpm=188.49555921538757, spindle_direction=1).feed(30.0, -1.0)
+    # 1000 rpm at 30 mm, 500 at 60 mm: reached on the way; then 500 rpm on, reversed.
+    rows.set(inch=True).feed(60.0, -1.0).set(surface_speed=False, spindle_rpm=500.0).feed(60.0, -2.0)
+    rows.set(spindle_direction=-1).feed(60.0, -3.0)
+    ramp = LATHE.spindles[0].acceleration_rpm_s
+    assert rows.plan(LATHE).times.spindle_s == pytest.approx((1000.0 + 1000.0) / ramp)

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 #: Events that the control puts out between two blocks and waits for: the axes stand still.
 STANDING = frozenset({"m", "s", "t", "h", "stop", "alarm"})
 ORIENT = 19
+RAPIDS = frozenset((Kind.RAPID, Kind.REF))
 #: Moves that lead nowhere where they end at their start.
 STRAIGHT = frozenset((Kind.RAPID, Kind.FEED, Kind.REF))
 
@@ -61,6 +62,7 @@ class Waits:
         self.stand_in(tool)
         self._rpm: dict[int, float] = {}
         self._context = -1
+        self._radius: float | None = None
         self._last_kind: int = Kind.EVENT
         self.rapid_stops = False
         self._windows = {"fine": machine.settle_fine_s, "coarse": machine.settle_coarse_s}
@@ -93,9 +95,14 @@ class Waits:
         row = 0
         for number, run in groupby(chunk.context):
             if number != self._context:
+                here = radius(row - 1) if row else self._radius
+                here = radius(row) if here is None else here
+                ahead = radius(row) if chunk.kind[row] in RAPIDS else here
+                self._new_context(chunk.first + row, number, here, ahead)
                 self._context = number
-                self._new_context(chunk.first + row, number, radius(row))
             row += len(list(run))
+        if row:
+            self._radius = radius(row - 1)
         kinds = chunk.kind.tobytes()
         for row in _places(kinds, Kind.EVENT):
             self._event(chunk, row)
@@ -111,8 +118,13 @@ class Waits:
             self.wait(row, *self._settling)
             self._settling = None
 
-    def _new_context(self, row: int, number: int, radius_mm: float) -> None:
+    def _new_context(self, row: int, number: int, here: float, ahead: float) -> None:
+        """What a change of context waits for: the spindle goes to its speed at the turning radius `ahead`.
+
+        Under constant surface speed it has followed the cuts so far, to the radius `here`, and follows the ones to come.
+        """
         context = self.contexts[number]
+        last = self.contexts[self._context] if self._context >= 0 else None
         tool = (context.tool, context.tool_name)
         if self._at_start and self._at_start in (tool[0], tool[1].upper()):
             self._tool = tool  # contexts know number and name, the start knows one of them
@@ -122,7 +134,9 @@ class Waits:
         self._tool = tool
         spindle = self.spindle(context)
         if spindle is not None:
-            target = context.spindle_direction * self.rpm(context, radius_mm)
+            if last is not None and last.surface_speed and self.spindle(last) is spindle:
+                self._rpm[spindle.number] = last.spindle_direction * self.rpm(last, here)
+            target = context.spindle_direction * self.rpm(context, ahead)
             change = abs(target - self._rpm.get(spindle.number, 0.0))
             if change > 0.0 and spindle.acceleration_rpm_s > 0.0:
                 self.wait(row, "spindle_s", number, change / spindle.acceleration_rpm_s)

@@ -60,6 +60,7 @@ from polycnc.motion.kernels.columns import (
     PATH_PULL,
     PAUSE,
     PIECES,
+    PLACES,
     POSITION,
     PULL,
     RAMP,
@@ -438,20 +439,41 @@ def lay_chord(
     for i in range(n):
         state[bend + i] = state[unit + i] * state[ROW_LENGTH] + state[tangent + i] * length
     size, mean = norm(state, bend, n, limits, weight), 0.5 * (length + state[ROW_LENGTH])
-    cap2, top2, turn2 = pieces[at + ENTRY2], inf, 0.0
+    cap2, turn2 = pieces[at + ENTRY2], 0.0
     for i in range(n):
         turn2 += (state[unit + i] - state[tangent + i]) ** 2
         direction, curvature = state[bend + i] / size, (state[unit + i] - state[tangent + i]) / mean
         pieces[before + n + i] = pieces[here + i] = direction
         pieces[before + 3 * n + i] = pieces[here + 2 * n + i] = curvature
-        if direction != 0.0:
-            top = limits[TOP_FEED * n + i] / direction
-            top2 = min(top2, top * top)
         if curvature != 0.0:
             cap2 = min(cap2, limits[ACCELERATION * n + i] / abs(curvature))
     # In the middle of its chord the curve is longer than the chord by `turn²/16` at most (a cubic, `run.py`).
     for chord in (at - piece_width(n), at):
-        pieces[chord + CAP2] = min(pieces[chord + CAP2], top2) * (1.0 - 0.125 * turn2)
+        top2 = chord_top2(pieces, chord, n, limits)
+        pieces[chord + CAP2] = min(pieces[chord + CAP2] * (1.0 - 0.125 * turn2), top2)
         pieces[chord + ENTRY2] = min(pieces[chord + ENTRY2], pieces[chord + CAP2])
     pieces[at + ENTRY2] = min(cap2, pieces[at + CAP2], pieces[at - piece_width(n) + CAP2])
     state[EXIT2] = pieces[at + CAP2]
+
+
+def chord_top2(pieces: Floats, at: int, n: int, limits: Floats) -> float:
+    """Largest x at which every axis keeps its velocity all along the cubic over a spline's chord (`run.py`).
+
+    Its derivative by the share f of the chord, over the chord's length, is
+    `u + l·(1 - f)·(1 - 3·f) + a·f·(3·f - 2)`, where u is the chord's direction, and l and a are what the tangents at
+    its start and its end differ by: a parabola, largest at an end or at its crest.
+    """
+    here, top2 = at + VECTORS, inf
+    for i in range(n):
+        leave, arrive = pieces[here + i], pieces[here + n + i]
+        place = here + PLACES * n + i
+        unit = (pieces[place + n] - pieces[place]) / pieces[at + LENGTH]
+        most, bow = max(abs(leave), abs(arrive)), leave + arrive - 2.0 * unit
+        if bow != 0.0:
+            f = (2.0 * leave + arrive - 3.0 * unit) / (3.0 * bow)
+            if 0.0 < f < 1.0:
+                most = max(most, abs(leave - 3.0 * bow * f * f))
+        if most > 0.0:
+            top = limits[TOP_FEED * n + i] / most
+            top2 = min(top2, top * top)
+    return top2
