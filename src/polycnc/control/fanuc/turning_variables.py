@@ -151,8 +151,9 @@ def _rows_work_offsets() -> list[SystemRange]:
 
 
 def _end_point(m: MacroMemory, i: int) -> float:
-    """Work coordinates of the block end, before the offset that moves the point."""
-    return _shown(m, axis_at(m, i), m.channel.coordinates.programmed[i])
+    """Work coordinates of the block end, before the offset that moves the point; one still owed is not in it."""
+    c = m.channel.coordinates
+    return _shown(m, axis_at(m, i), c.programmed[i] + c.pending[i])
 
 
 def _machine(m: MacroMemory, i: int) -> float:
