@@ -77,7 +77,7 @@ def axis_limits(
         [float(axis is not None and axis.rotary) for axis in axes],
         numbers("jerk"),
         geometry,
-        (settings.rapid_stops, min(settings.path_feed, 1e9)),
+        (settings.rapid_stops, min(settings.path_feed, 1e9), min(settings.corner_speed, 1e9)),
     )
     return array("d", [number for block in blocks for number in block])
 

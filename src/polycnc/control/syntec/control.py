@@ -33,6 +33,7 @@ from polycnc.control.syntec.plain import SyntecPlainBlocks
 from polycnc.control.word_address import frames, nurbs
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.numbers import Convert, NumberRules, length_converter
+from polycnc.control.word_address.overrides import in_tapping_mode
 from polycnc.control.word_address.polar_interpolation import is_length
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.syntec import executable
@@ -98,7 +99,7 @@ class SyntecMill(WordAddressControl):
     # ---- states ------------------------------------------------------------------------------------------
 
     def motion_settings(self, channel: Channel) -> MotionSettings:
-        """Pr411: each axis runs a rapid by itself; Pr405, Pr461 on and Pr621 on: highest speeds, mm/min; 0 for none."""
+        """Pr411: each axis runs a rapid by itself; Pr405, Pr406, Pr461 on, Pr621 on: speeds in mm/min, 0 for none."""
         given = channel.setup.parameters
 
         def caps(first: int) -> dict[str, float]:
@@ -110,6 +111,7 @@ class SyntecMill(WordAddressControl):
             super().motion_settings(channel),
             rapid_by_axis=parameter(given, 411) == 1,
             path_feed=(parameter(given, 405) or inf) / 60.0,
+            corner_speed=(parameter(given, 406) or inf) / 60.0,
             rapid_caps=caps(461),
             feed_caps=caps(621),
         )
@@ -151,11 +153,13 @@ class SyntecMill(WordAddressControl):
         return codes
 
     def reset(self, channel: Channel) -> None:
-        """The state after reset: polar interpolation ends, and the tilted plane where Pr3014 does not keep it."""
+        """The state after reset: Pr3014 may keep the tilted plane, Pr413 the turn of G92.1."""
         quiet.switch_quiet(channel, on=False)
         normal_direction.end(channel)
         spatial.end(channel)
         polar.leave_plane(channel)
+        if not parameter(channel.setup.parameters, 413):
+            coordinates.forget_preset_turn(channel.memory)
         kept = channel.memory.tilt if parameter(channel.setup.parameters, 3014) else IDENTITY
         super().reset(channel)
         channel.memory.posture_frame = parameter(channel.setup.parameters, 3057) == 1
@@ -342,8 +346,8 @@ class SyntecMill(WordAddressControl):
     # ---- reports -----------------------------------------------------------------------------------------
 
     def context(self, channel: Channel) -> Context:
-        """The context that holds now; under G93 feeds are recorded per minute."""
-        context = super().context(channel)
+        """The context that holds now; under G93 feeds are recorded per minute. G63 takes override and hold away."""
+        context = in_tapping_mode(super().context(channel))
         mode = "G94" if context.feed_mode == "G93" else context.feed_mode
         return replace(context, feed_mode=mode, rapid_speed=channel.memory.rapid_speed)
 

@@ -94,6 +94,12 @@ def preset_system(channel: Channel, words: Words) -> None:
     refresh_zero(channel)
 
 
+def forget_preset_turn(memory: SyntecMemory) -> None:
+    """The turn of G92.1 is the default again: #1930 is 0, #1931 to #1933 the Z axis."""
+    memory.preset_angle, memory.preset_axis = 0.0, [0.0, 0.0, 1.0]
+    renew_preset_frame(memory)
+
+
 def renew_preset_frame(memory: SyntecMemory) -> None:
     """The zero frame follows #1930 to #1933 and the tilted plane."""
     x, y, z = memory.preset_axis

@@ -47,6 +47,15 @@ def _cancel(channel: Channel, name: str, *, cancelled: bool) -> None:
     channel.context_changed()
 
 
+def in_tapping_mode(context: Context) -> Context:
+    """A context as G63 makes it: no feed override, no feed hold."""
+    return (
+        replace(context, feed_override=False, feed_hold=False)
+        if context.path_mode == TAPPING_MODE
+        else context
+    )
+
+
 def overridden(channel: Channel, context: Context) -> Context:
     """A context with what the operator's switches may do in it."""
     memory = channel.memory

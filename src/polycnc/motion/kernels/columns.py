@@ -55,8 +55,8 @@ class Rows(NamedTuple):
 # `limits`: blocks of n numbers (mm or degrees, s), then what is there once.
 TOP_RAPID, TOP_FEED, ACCELERATION, JUMP, ROTARY, JERK, LIMIT_BLOCKS = 0, 1, 2, 3, 4, 5, 6
 #: Behind the blocks: the columns of X, Y, Z (-1 for a missing one); whether the axes stop between rapid and
-#: cutting; highest speed of a cut along the path.
-GEOMETRY, RAPID_STOPS, PATH_FEED, LIMIT_TAIL = 0, 3, 4, 5
+#: cutting; highest speed of a cut along the path; highest step of an axis's velocity at a corner of two cuts.
+GEOMETRY, RAPID_STOPS, PATH_FEED, CORNER_SPEED, LIMIT_TAIL = 0, 3, 4, 5, 6
 
 # `contexts`: one record a context. RAMP_S is the time over which the speed along the path is averaged (0: the
 # jerk has no limit), BLEND_S that over which the axes' positions are, twice; DRIVE_SPEED and DRIVE_REDUCTION

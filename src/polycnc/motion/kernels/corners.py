@@ -9,11 +9,13 @@ from polycnc.motion.kernels.columns import (
     ACCELERATION,
     BLEND_S,
     CORNER_EASE,
+    CORNER_SPEED,
     EXIT2,
     EXIT_PULL,
     JOINT_PULL,
     JUMP,
     KIND,
+    LIMIT_BLOCKS,
     METRIC,
     RAMP_S,
     REST,
@@ -32,6 +34,7 @@ from polycnc.motion.kernels.columns import (
     WINDOW,
     Floats,
 )
+from polycnc.motion.kernels.feeds import is_rapid
 from polycnc.motion.kernels.jerk import corner_hold2
 
 #: Directions that differ by less count as one; a path whose turn has a cosine below this turns back.
@@ -85,13 +88,22 @@ def join(
         own2 = jump2(n, limits, state, shorter)
         if tolerance > 0.0:
             own2 = rounded2(tolerance, n, limits, state, shorter)
-        cap2 = min(cap2, own2)
+        cap2 = min(cap2, own2, stepped2(n, limits, state))
     if ramp > 0.0:
         cap2 = corner_hold2(contexts, record, n, limits, state, length, cap2)
         if wanted > 0.0 and state[SMOOTH] != 2.0 and pays_to_rest(n, limits, state, length, cap2, wanted):
             state[REST], state[JOINT_PULL] = state[WINDOW], inf
             return 0.0
     return cap2
+
+
+def stepped2(n: int, limits: Floats, state: Floats) -> float:
+    """Largest x at a corner of two cuts at which the velocity of no axis steps by more than CORNER_SPEED."""
+    step, speed = 0.0, limits[LIMIT_BLOCKS * n + CORNER_SPEED]
+    for i in range(n):
+        unit, tangent = state[STATE_BLOCKS + UNIT * n + i], state[STATE_BLOCKS + TANGENT * n + i]
+        step = max(step, abs(unit - tangent))
+    return inf if step <= SAME_DIRECTION or is_rapid(state) else (speed / step) ** 2
 
 
 def jump2(n: int, limits: Floats, state: Floats, shorter: float) -> float:
