@@ -35,23 +35,33 @@ class Law:
     """
 
     def __init__(self, time: float, place: float) -> None:
-        self._rows = [(time, place, 0.0, 0.0)]
+        # When a phase begins, where, speed and pull in it, and the area below the places before it.
+        self._rows = [(time, place, 0.0, 0.0, 0.0)]
+        self._origin = place
 
     def run(self, time: float, place: float, phases: Iterable[Phase]) -> None:
         """What happens from a time on, in place of what was said before."""
         rows = self._rows
         while len(rows) > 1 and rows[-1][0] >= time:
             rows.pop()
+        area = self._area(time)
         for phase in phases:
-            rows.append((time, place, phase.speed, phase.pull))
+            rows.append((time, place, phase.speed, phase.pull, area))
+            area += self._below(rows[-1], phase.seconds)
             time, place = time + phase.seconds, place + phase.way
-        rows.append((time, place, 0.0, 0.0))
+        rows.append((time, place, 0.0, 0.0, area))
 
     def forget(self, before: float) -> None:
-        """Nobody will ask for a time before this one."""
+        """Nobody will ask for a time before this one; areas count from there, so that they stay small and exact."""
         last = bisect_right(self._rows, (before, inf)) - 1
         if last > 0:
-            del self._rows[:last]
+            since, origin, _, _, gone = self._rows[last]
+            rise = origin - self._origin
+            self._rows = [
+                (time, place, speed, pull, area - gone - rise * (time - since))
+                for time, place, speed, pull, area in self._rows[last:]
+            ]
+            self._origin = origin
 
     @property
     def phases(self) -> int:
@@ -60,30 +70,25 @@ class Law:
 
     def at(self, time: float) -> float:
         """The place at a time."""
-        start, place, speed, pull = self._rows[max(bisect_right(self._rows, (time, inf)) - 1, 0)]
+        start, place, speed, pull, _ = self._rows[max(bisect_right(self._rows, (time, inf)) - 1, 0)]
         seconds = max(time - start, 0.0)
         return place + (speed + 0.5 * pull * seconds) * seconds
 
     def mean(self, time: float, window: float) -> float:
         """The average place over the time `window` before."""
-        reference = self.at(time)
         if window <= 0.0:
-            return reference
-        rows, first, end, total = self._rows, time - window, time, 0.0
-        k = max(bisect_right(rows, (time, inf)) - 1, 0)
-        while end > first:
-            start, place, speed, pull = rows[k]
-            if k == 0 and first < start:
-                total += (place - reference) * (min(start, end) - first)
-            begin = max(start, first)
-            if end > begin:
-                since, seconds = begin - start, end - begin
-                here = place + (speed + 0.5 * pull * since) * since - reference
-                total += seconds * (here + seconds * (0.5 * (speed + pull * since) + pull * seconds / 6.0))
-            if k == 0:
-                break
-            end, k = min(end, start), k - 1
-        return reference + total / window
+            return self.at(time)
+        return self._origin + (self._area(time) - self._area(time - window)) / window
+
+    def _area(self, time: float) -> float:
+        """The integral of the places, counted from the origin, over the time before."""
+        row = self._rows[max(bisect_right(self._rows, (time, inf)) - 1, 0)]
+        return row[4] + self._below(row, max(time - row[0], 0.0))
+
+    def _below(self, row: tuple[float, ...], seconds: float) -> float:
+        """The area below a phase after some seconds of it."""
+        _, place, speed, pull, _ = row
+        return seconds * (place - self._origin + seconds * (0.5 * speed + pull * seconds / 6.0))
 
 
 class Follower:
