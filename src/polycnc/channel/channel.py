@@ -113,14 +113,12 @@ class Channel:
         self.alarms: list[Alarm] = []
         self._finished = False
         self.attention = False
-        self.mark = 0
-        self.blocks = 0
+        self.mark = self.blocks = self.skip_levels = 0
         self.block_limit = block_limit
         #: Joined steps run no more of their blocks at once from here on, so that the block limit is exact.
         self.joined_below = block_limit - 2 * len(BURST)
         self._wait: Wait | None = None
         self.group: ChannelGroup | None = None
-        self.skip_levels = 0
         self.stroke_zone: Zone | None = None
         self.single_block = bool(setup.switches.single_block)
         self.inner_halts: list[str] = []
@@ -131,8 +129,7 @@ class Channel:
         self.share_after: Callable[[Channel, list[float], float, float], float | None] | None = None
         self.passes: Passes | None = None
         self.optional_stop = setup.switches.optional_stop
-        self._context = 0
-        self._context_changed = True
+        self._context, self._context_changed = 0, True
         self._limits = _travel(self.axis_data)
         self._executables: dict[int, Executable] = {}
         self.bulk = bulk
