@@ -121,7 +121,7 @@ class Waits:
     def _new_context(self, row: int, number: int, here: float, ahead: float) -> None:
         """What a change of context waits for: the spindle goes to its speed at the turning radius `ahead`.
 
-        Under constant surface speed it has followed the cuts so far, to the radius `here`, and follows the ones to come.
+        Under constant surface speed it has followed the cuts so far, to the radius `here`, and follows those to come.
         """
         context = self.contexts[number]
         last = self.contexts[self._context] if self._context >= 0 else None
