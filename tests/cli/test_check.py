@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
 import jsonschema
+import pytest
 
 from tests.cli.console import BAD, GOOD
 from tests.cli.sarif_schema import SARIF
 
 if TYPE_CHECKING:
-    import pytest
-
     from tests.cli.console import Console
 
 MAIN = "O1\nG0 X1.\nM98 P9001\nM30\n"
@@ -157,3 +156,19 @@ def test_a_program_that_no_call_reaches_is_a_warning(console: Console) -> None:
     said = console("check", "twice.nc", *FANUC)
     assert said.status == 0
     assert "twice.nc:8: shadowed" in said.out
+
+
+@pytest.mark.parametrize("content", ["", "%\n%\n", "\n \n"])
+def test_a_file_without_a_block_is_a_warning(content: str, console: Console) -> None:
+    path = console.file("empty.nc", content)
+    said = console("check", path, "--control", "fanuc-m")
+    assert said.status == 0
+    assert said.out == f"{path}: empty there is no block in it\n"
+
+
+def test_a_mistake_in_the_head_of_a_called_program_is_shown_there(console: Console) -> None:
+    main = console.file("MAIN.MPF", "EXTERN UP9(REAL)\nUP9(1)\nM30\n")
+    called = console.file("UP9.SPF", "PROC UP9(REAL A1)\nRET\n")
+    said = console("check", main, "--control", "sinumerik-840d")
+    assert said.status == 1
+    assert said.out.startswith(f"{called}:1:15: 12080 ")

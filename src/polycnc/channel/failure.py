@@ -62,6 +62,7 @@ def _alarm(channel: Channel, error: AlarmError) -> Alarm:
     name = program.name if program else ""
     if error.program is not None:
         name = channel.toolpath.programs[error.program]
+        program = next((each for each in channel.programs if each.name == name), program)
     column = error.column
     if level and error.address and not column and not error.line:
         column = level.code.column(level.current, error.address)

@@ -117,6 +117,8 @@ def _of_texts(result: Result, main: str) -> Iterable[Diagnostic]:
 def _of_files(result: Result, main: str) -> Iterable[Diagnostic]:
     """What is odd about the files: characters that could not be read, programs that no call reaches."""
     program = result.program
+    if not any(line.strip(" \t%") for line in program.lines):
+        yield Diagnostic(Place(main), "empty", text("check.empty"), "polycnc/empty", "warning")
     if program.replaced:
         message = text("check.replaced", count=program.replaced, encoding=program.encoding)
         yield Diagnostic(Place(main), "encoding", message, "polycnc/encoding", "warning")

@@ -254,8 +254,13 @@ class SinumerikProgram:
             line = self.text(index)
             end = prefix_of(line).end
             if line[end : end + 5].strip().upper().startswith("PROC"):
-                reader = ExpressionReader(tokenize(line, end), scope, Emitter())
-                return read_header(reader, channel)
+                try:
+                    return read_header(ExpressionReader(tokenize(line, end), scope, Emitter()), channel)
+                except AlarmError as error:
+                    # It is read where the program is called: the mistake is not in the block that calls.
+                    error.line = error.line or self.line(index)
+                    error.program = channel.toolpath.program_number(self.program.name)
+                    raise
         return NO_HEADER
 
     def is_first_statement(self, index: int) -> bool:
