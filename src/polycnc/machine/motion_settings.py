@@ -65,8 +65,8 @@ class MotionSettings:
         tolerance_mm: Contour tolerance of the modes that round corners, where the program names none.
         overload: At a corner without deviation an axis may change its velocity within one interpolation cycle
             by this many times its acceleration (SINUMERIK MD32310 MAX_ACCEL_OVL_FACTOR).
-        corner_speed: Highest step of an axis's velocity at such a corner, mm/s: the speed at which a right angle between
-            two axes is passed (SYNTEC Pr406).
+        corner_speed: Highest step of an axis's velocity at a corner of two cuts, mm/s: the speed at which a right angle
+            between two axes is passed (SYNTEC Pr406).
         path_feed: Highest speed of a cut along the path, mm/s (SYNTEC Pr405).
         rapid_caps: Highest rapid traverse of axes by their name in programs, mm/s or degrees/s, where it is below that
             of the machine (SYNTEC Pr461 on).
