@@ -80,3 +80,16 @@ def test_a_tape_that_is_cut_off_gives_no_program_at_all(console: Console) -> Non
 def test_a_program_that_comes_twice_is_refused(console: Console) -> None:
     console.file("tape.txt", "%\nO1\nM30\nO0001\nM30\n%\n")
     assert "tape.txt:4:" in console("data", "import", "tape.txt", "--folder", "out").err
+
+
+def test_data_belong_to_a_control_that_has_to_be_named(console: Console) -> None:
+    for words in (("data", "export", "offsets"), ("parameters", "list")):
+        said = console(*words)
+        assert said.status == 2
+        assert said.err.startswith("polycnc: name a control with --control (")
+
+
+def test_a_device_is_no_data_file(console: Console) -> None:
+    said = console("data", "import", "/dev/zero", "--control", "fanuc-0i-tf")
+    assert said.status == 2
+    assert "is a device" in said.err

@@ -65,8 +65,9 @@ def import_file(
 ) -> int:
     """Read a file into a setup, or its programs into a folder; a damaged one changes nothing."""
     from polycnc.program import decode
+    from polycnc.program.folders import read_file
 
-    content = decode(file.read_bytes(), None).text
+    content = decode(read_file(str(file)), None).text
     if _holds_programs(content):
         return _import_programs(file, content, folder, overwrite=overwrite)
     from polycnc.control.data_files import DataFileError, data_files
@@ -91,8 +92,11 @@ def import_file(
 
 def _channel(control: str | None, machine: str | None, setup: Path | None) -> Channel:
     """A channel at power-on, with the data of the setup."""
-    from polycnc.session import open_session
+    from polycnc.control.registry import ids
+    from polycnc.session import SessionError, open_session
 
+    if control is None:
+        raise SessionError("session.control-wanted", known=listed(ids()))
     known = setup if setup is not None and setup.exists() else None
     session = open_session(b"M30\n", name="DATA", control=control, machine=machine, setup=known)
     session.run()

@@ -125,7 +125,7 @@ def _known(control: str | None) -> tuple[KnownParameter, ...] | int:
 
     if control is None or control not in registry.ids():
         known = listed(registry.ids())
-        message = "alarms.control-wanted" if control is None else "session.control-unknown"
+        message = "session.control-wanted" if control is None else "session.control-unknown"
         return fail(text(message, control=control, known=known), 2)
     found = known_parameters(registry.control(control))
     return found or fail(text("parameters.none", control=control), 2)
