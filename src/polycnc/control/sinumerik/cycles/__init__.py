@@ -1,7 +1,7 @@
 """The machining cycles of SINUMERIK: from the call in a program to the generators of `polycnc.cycles`.
 
 `table` has the signature of every cycle and names its function; `calls` runs it as a program level; `arguments` gives
-it the values of its parameters, `moves` the tool. The cycles themselves:
+it the values of its parameters, `levels` what they say of the cycle's axis, `moves` the tool. The cycles themselves:
 
     drilling             CYCLE81 to CYCLE89, CYCLE840
     patterns             HOLES1, HOLES2, CYCLE801, CYCLE802

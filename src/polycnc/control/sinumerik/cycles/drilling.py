@@ -7,11 +7,12 @@ from math import radians, tan
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.control.sinumerik import tables
+from polycnc.control.sinumerik.cycles.levels import Levels, levels, sign
 from polycnc.control.sinumerik.cycles.moves import Moves
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles import deep_hole as deep
 from polycnc.cycles import drilling
-from polycnc.cycles.drilling import Action, Hole, Stroke
+from polycnc.cycles.drilling import Action, Stroke
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -32,59 +33,6 @@ CHIP_BREAKING_MM = 1.0
 SAME_MM = 1e-9
 DP_TIP_ANGLE = 24
 DIRECTIONS = {3: 1, 4: -1, 5: 0}
-
-
-# ---- levels
-
-
-class Levels(NamedTuple):
-    """Levels of a drilling cycle on its axis: retraction plane, reference plane, safety plane, depth; mm."""
-
-    retract: float
-    reference: float
-    safe: float
-    depth: float
-
-    @property
-    def down(self) -> float:
-        """The direction of drilling."""
-        return 1.0 if self.depth > self.reference else -1.0
-
-    def hole(self, dwell: float = 0.0) -> Hole:
-        """The same as the strokes want it."""
-        return Hole(self.retract, self.safe, self.depth, self.retract, dwell_s=dwell)
-
-
-def levels(moves: Moves, a: Arguments) -> Levels | None:
-    """Levels from RTP, RFP, SDIS and a depth; None where the depth is the reference plane: nothing to do.
-
-    The relative depth counts where it is given, else the absolute one; _AMODE can demand either. A cycle that has
-    only DP takes that as either.
-
-    Raises:
-        AlarmError: 61101 for a reference plane that does not lie between retraction plane and depth.
-    """
-    retract, reference = a["RTP"], a["RFP"]
-    mode = a.digit("_AMODE", 0)
-    amount = abs(a["DPR" if a.has("DPR") or mode != 1 else "DP"])
-    if mode == 1 or (mode != 2 and amount):
-        if amount and retract == reference:
-            raise AlarmError("61101")
-        if mode == 0 and a.given("DP") and a["DP"] != reference - _sign(retract - reference) * amount:
-            moves.note("62000")
-        depth = reference - _sign(retract - reference) * amount
-    else:
-        depth = a["DP"]
-    if depth == reference:
-        return None
-    up = _sign(reference - depth)
-    if retract != reference and _sign(retract - reference) != up:
-        raise AlarmError("61101")
-    return Levels(retract, reference, reference + up * abs(a["SDIS"]), depth)
-
-
-def _sign(value: float) -> float:
-    return 1.0 if value > 0.0 else -1.0 if value < 0.0 else 0.0
 
 
 def pause(value: float, mode: int) -> float:
@@ -111,7 +59,7 @@ def levels_of_drill(moves: Moves, a: Arguments) -> Levels | None:
         return levels(moves, a)
     if a.cycle == "CYCLE81":
         retract, reference = a["RTP"], a["RFP"]
-        up = _sign(retract - reference) or 1.0
+        up = sign(retract - reference) or 1.0
         if not _tip_per_radius(moves):
             raise AlarmError("61000")
         depth = reference - up * abs(a["DP"]) / 2.0 * _tip_per_radius(moves)

@@ -6,7 +6,7 @@ from dataclasses import replace
 from math import radians, sin
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.cycles.drilling import levels
+from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.moves import Moves, require_tool
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles import pockets, slots
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.cycles.arguments import Arguments
-    from polycnc.control.sinumerik.cycles.drilling import Levels
+    from polycnc.control.sinumerik.cycles.levels import Levels
     from polycnc.geometry.arcs import Point
 
 #: Width of a cut where the call gives none, as part of the tool's diameter.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.contour import read
-from polycnc.control.sinumerik.cycles.drilling import levels
+from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.milling import (
     FINISHING,
     ROUGHING,
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.cycles.arguments import Arguments
-    from polycnc.control.sinumerik.cycles.drilling import Levels
+    from polycnc.control.sinumerik.cycles.levels import Levels
 
 
 def levels_below(found: Levels, total: float, infeed: float) -> list[float]:
