@@ -116,6 +116,21 @@ def test_a_rounded_corner_is_passed_at_the_speed_of_the_arc_within_the_tolerance
     assert rows.plan(MACHINE).total_s == pytest.approx(2.0 * half, rel=1e-12)
 
 
+def test_rounding_within_a_distance_begins_no_earlier_than_that_before_the_corner() -> None:
+    """G641: at 90° the arc that touches both lines 0.04 mm from the corner has a radius of 0.04 mm."""
+    machine = mill(acceleration=1000.0, top=500.0)
+    rows = Build().set(path_mode="G641", tolerance_mm=0.04).feed(50.0, 0.0, 0.0).feed(50.0, 50.0, 0.0)
+    # The larger of the two shares of an axis in the normals of that arc, at its ends, is 1: v² = a·r.
+    corner = sqrt(1000.0 * 0.04)
+    lost = 2.0 * (100.0 - corner) ** 2 / (2.0 * 1000.0 * 100.0)
+    assert rows.plan(machine).total_s == pytest.approx(1.0 + 100.0 / 1000.0 + lost, rel=1e-4)
+
+
+def test_rounding_within_no_distance_keeps_the_corner() -> None:
+    way = [Build().set(path_mode=mode).feed(50.0, 0.0, 0.0).feed(50.0, 50.0, 0.0) for mode in ("G641", "G64")]
+    assert way[0].plan(mill()).total_s == way[1].plan(mill()).total_s
+
+
 def test_a_slow_circle_takes_its_length_over_the_feed() -> None:
     rows = Build().feed(50.0, 0.0, 0.0, feed=10.0).set(path_mode="G61")
     rows.arc(50.0, 0.0, 0.0, center=(0.0, 0.0), feed=10.0)

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 EXACT_STOP_MODES = frozenset({"G9", "G09", "G60", "G61", "G61.1"})
 #: Words for continuous path that keeps to the contour: a corner costs speed, not accuracy.
 WITHOUT_DEVIATION_MODES = frozenset({"G62", "G63", "G64"})
+#: Words for rounding that begins and ends at a distance from the corner.
+DISTANCE_MODES = frozenset({"G641"})
 #: Words for acceleration without and with limited jerk, and with less acceleration at high speed.
 BRISK, SOFT, DRIVE = "BRISK", "SOFT", "DRIVE"
 

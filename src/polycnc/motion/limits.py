@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.geometry.units import INCH_MM
 from polycnc.motion.kernels.jerk import JERK_CORNER, STRAY_CORNER
-from polycnc.motion.settings import DRIVE, EXACT_STOP_MODES, SOFT, Settings
+from polycnc.motion.settings import DISTANCE_MODES, DRIVE, EXACT_STOP_MODES, SOFT, Settings
 
 if TYPE_CHECKING:
     from polycnc.machine import Axis, Machine, Spindle
@@ -128,6 +128,7 @@ def context_fields(
         context.lag_s,
         context.lag_from,
         context.pace.rapid if context.pace is not None else 1.0,
+        context.tolerance_mm or inf if context.path_mode in DISTANCE_MODES else inf,
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),
@@ -169,4 +170,5 @@ def _tolerance(context: Context, settings: Settings) -> float:
     """Contour tolerance of a context; 0 for corners without deviation."""
     if context.tolerance_mm > 0.0:
         return context.tolerance_mm
-    return 0.0 if context.path_mode in settings.without_deviation else settings.tolerance_mm
+    exact = settings.without_deviation | DISTANCE_MODES
+    return 0.0 if context.path_mode in exact else settings.tolerance_mm

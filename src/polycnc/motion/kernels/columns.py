@@ -71,7 +71,9 @@ OVERLAP, OVERLAPS = 18, 2
 LAG_S, LAG_FROM = 19, 20
 #: Factor on the highest rapid of every axis.
 RAPID_SHARE = 21
-FRAME, OFFSETS = 22, 34
+#: How far before and behind a corner its rounding reaches at most, mm (infinite: the tolerance alone counts).
+ROUNDING = 22
+FRAME, OFFSETS = 23, 35
 
 # `pieces`: one record a piece. CAP2 bounds x inside the piece, ENTRY2 at its start; REACH2 is what `backward`
 # finds there, SPEED2 what `forward` chooses, END2 the x that it leaves the piece with, TIME the seconds. PULL

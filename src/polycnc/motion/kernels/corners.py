@@ -20,6 +20,7 @@ from polycnc.motion.kernels.columns import (
     RAMP_S,
     REST,
     ROTARY,
+    ROUNDING,
     ROW_LENGTH,
     RUN_BLEND,
     RUN_RAMP,
@@ -87,7 +88,7 @@ def join(
     if state[SMOOTH] != 2.0:
         own2 = jump2(n, limits, state, shorter)
         if tolerance > 0.0:
-            own2 = rounded2(tolerance, n, limits, state, shorter)
+            own2 = rounded2(tolerance, contexts[record + ROUNDING], n, limits, state, shorter)
         cap2 = min(cap2, own2, stepped2(n, limits, state))
     if ramp > 0.0:
         cap2 = corner_hold2(contexts, record, n, limits, state, length, cap2)
@@ -123,8 +124,10 @@ def jump2(n: int, limits: Floats, state: Floats, shorter: float) -> float:
     return x2
 
 
-def rounded2(tolerance: float, n: int, limits: Floats, state: Floats, shorter: float) -> float:
-    """Largest x at a corner that is rounded within a contour tolerance.
+def rounded2(
+    tolerance: float, rounding: float, n: int, limits: Floats, state: Floats, shorter: float
+) -> float:
+    """Largest x at a corner that is rounded within a contour tolerance and a distance from the corner.
 
     The corner is taken as if by the arc that touches both lines and comes within the tolerance of their
     corner ("junction deviation", S. K. Jeon, "Improving Grbl: Cornering Algorithm", 2011), with no more than
@@ -137,7 +140,7 @@ def rounded2(tolerance: float, n: int, limits: Floats, state: Floats, shorter: f
     before, after, sin_b, cos_b = half_turn(n, limits, state)
     if cos_b <= SAME_DIRECTION:
         return 0.0
-    touch, radius = 0.5 * shorter, inf
+    touch, radius = min(0.5 * shorter, rounding), inf
     if sin_b > SAME_DIRECTION:
         slower = min(before, after)
         radius = min(tolerance * cos_b * (1.0 + cos_b) / (sin_b * sin_b), touch * slower * cos_b / sin_b)

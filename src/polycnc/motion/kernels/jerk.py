@@ -28,6 +28,7 @@ from polycnc.motion.kernels.columns import (
     LIMIT_BLOCKS,
     RAMP_S,
     ROTARY,
+    ROUNDING,
     ROW_LENGTH,
     SMOOTH,
     STATE_BLOCKS,
@@ -108,7 +109,7 @@ def corner_hold2(
         stray = contexts[record + TOLERANCE] / (blend * turn)
         x2 = min(x2, 12.0 * STRAY_CURVE * stray / blend * (mean if smooth else shorter))
         if not smooth:
-            x2 = min(x2, (6.0 * STRAY_CORNER * stray) ** 2)
+            x2 = min(x2, (6.0 * STRAY_CORNER * stray) ** 2, (contexts[record + ROUNDING] / blend) ** 2)
     if smooth and least < inf and x2 > 0.0:
         state[JOINT_PULL] = min(state[JOINT_PULL], JERK_BOTH * least / (3.0 * sqrt(x2)))
     return x2
