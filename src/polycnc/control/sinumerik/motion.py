@@ -5,7 +5,6 @@ Source: Fundamentals (G0, G1, G4, G33 to G35, G331/G332, G63, G74, G75, POS, POS
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import cos, isnan, nan, radians, sin, tan
 from typing import TYPE_CHECKING, Any
 
@@ -41,7 +40,7 @@ def rapid(draft: Draft) -> Step | None:
     def run(channel: Channel, values: Values) -> None:
         line(channel, Kind.RAPID, goal(channel, values), channel.feed if names_feed else nan)
 
-    return run if straight is None else declare(run, replace(straight, names_feed=names_feed))
+    return run if straight is None else declare(run, straight._replace(names_feed=names_feed))
 
 
 def linear(draft: Draft) -> Step | None:

@@ -7,7 +7,6 @@ does (`language.bulk.declare`): the motion functions and dimensions of its head,
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING, Any
 
@@ -167,7 +166,7 @@ class SinumerikPlainBlocks:
         if plan.shared or plan.ends:
             return None
         recipe = self._conditions.recipe(channel, plan.steps, channel.mode)
-        return None if recipe is None else replace(recipe, next_state=(recipe.next_state, code))
+        return None if recipe is None else recipe._replace(next_state=(recipe.next_state, code))
 
 
 def _block(code: SinumerikProgram, channel: Channel, keys: Sequence[int]) -> Block | None:

@@ -132,7 +132,7 @@ def guarded_speed(step: Step, builder: Builder) -> Step:
     told = declared(step)
     if not isinstance(told, Note) or starts or act is step:
         return act
-    return declare(act, replace(told, condition=_lets_speeds_pass, step=step))
+    return declare(act, told._replace(condition=_lets_speeds_pass, step=step))
 
 
 def _lets_speeds_pass(channel: Channel) -> bool:

@@ -63,8 +63,7 @@ class Target(NamedTuple):
     incremental: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class SetFeed:
+class SetFeed(NamedTuple):
     """A step that sets the channel's feed.
 
     Attributes:
@@ -76,8 +75,7 @@ class SetFeed:
     positive: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Straight:
+class Straight(NamedTuple):
     """A step that moves in a straight line.
 
     Attributes:
@@ -98,8 +96,7 @@ class Straight:
     skips_tiny: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Arc:
+class Arc(NamedTuple):
     """A step that moves along an arc or helix.
 
     Attributes:
@@ -123,8 +120,7 @@ class Arc:
     radius_tolerances: float = 1.0
 
 
-@dataclass(frozen=True, slots=True)
-class Note:
+class Note(NamedTuple):
     """A step that touches nothing that the scanner works with: an event, another context.
 
     The scan goes past it; afterwards the step is called where its block stood.
@@ -142,22 +138,19 @@ class Note:
     step: Step | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Enter:
+class Enter(NamedTuple):
     """A step that changes nothing but the modal state."""
 
     state: Any
 
 
-@dataclass(frozen=True, slots=True)
-class Idle:
+class Idle(NamedTuple):
     """A step that changes nothing as long as a condition holds: a code that is in force already."""
 
     condition: Condition | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Recipe:
+class Recipe(NamedTuple):
     """What a block of some shape does in some modal state.
 
     Attributes:
