@@ -65,7 +65,7 @@ class Arguments:
         self.cycle = cycle
         self._signature = signature
         self._length = length_factor(channel.mode)
-        self._feed = tables.FEED_TYPES[channel.mode["feed"]].factor
+        self._feed = tables.feed_type(channel.mode).factor
         if channel.mode["units"] == "G700":
             self._feed *= INCH_MM
         self._values: dict[str, Any] = {
