@@ -149,7 +149,7 @@ class WordAddressControl:
     @cached_property
     def grammar(self) -> Grammar:
         """How programs are written."""
-        return Grammar(self.alarms)
+        return Grammar(self.alarms, point_in_numbers=self.POINT_IN_WHOLE_NUMBERS)
 
     def compile(self, program: Program) -> Executable:
         """Make a program ready to run."""

@@ -49,12 +49,14 @@ class Grammar:
         max_digits: Digits that a number may have.
         comma_addresses: Letters that may follow a comma (`,R` `,C`); they become addresses `,R`.
         letters: Letters that may be addresses.
+        point_in_numbers: Whether a block number or an M code may have a decimal point (`M3.`), which means nothing.
     """
 
     alarms: Mapping[str, str]
     max_digits: int = 8
     comma_addresses: str = "RCAD"
     letters: str = "ABCDEFGHIJKLMNPQRSTUVWXYZ"
+    point_in_numbers: bool = True
 
 
 def empty_block(_channel: Channel) -> None:
@@ -218,6 +220,8 @@ class WordAddressProgram:
         values: list[float] = []
         max_digits = self.grammar.max_digits
         for letter, sign, number in _WORD.findall(text):
+            if letter in "MN" and "." in number and not self.grammar.point_in_numbers:
+                raise AlarmError(self.grammar.alarms["point"], address=letter)
             if letter in "GM" and not sign:
                 signature.append(code_key(letter, number))
                 continue
@@ -304,6 +308,8 @@ class WordAddressProgram:
         if number:
             sign, digits = number[1], number[2]
             reader.pos = number.end()
+            if address in ("M", "N") and "." in digits and not self.grammar.point_in_numbers:
+                raise reader.fail("point", start)
             if address in ("G", "M") and not sign:
                 words.keys.append(code_key(address, digits))
                 return
