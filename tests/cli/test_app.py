@@ -96,7 +96,13 @@ def test_a_file_that_may_not_be_read_is_told(console: Console) -> None:
 
 def _polycnc(*words: str, cwd: Path, **options: int) -> subprocess.Popen[bytes]:
     command = [sys.executable, "-m", "polycnc", *words]
-    return subprocess.Popen(command, cwd=cwd, stderr=subprocess.PIPE, **options)  # type: ignore[call-overload, no-any-return]
+    before = signal.getsignal(signal.SIGINT)
+    # Who started the tests in the background may have told them, and what they start, to ignore Ctrl-C.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        return subprocess.Popen(command, cwd=cwd, stderr=subprocess.PIPE, **options)  # type: ignore[call-overload, no-any-return]
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_ctrl_c_ends_a_long_run_with_one_line_and_leaves_no_half_written_file(tmp_path: Path) -> None:

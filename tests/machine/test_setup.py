@@ -366,3 +366,7 @@ def test_an_operating_mode_has_a_name_that_is_known() -> None:
     assert parse_setup({"switches": {"mode": "MDI"}}).switches.mode == "mdi"
     with pytest.raises(SetupError, match="it can be memory, auto, mdi"):
         parse_setup({"switches": {"mode": "mdii"}})
+
+
+def test_an_axis_that_the_machine_does_not_have_may_be_zero() -> None:
+    check_axes(parse_setup({"start": {"A": 0}, "work_offsets": {"G54": {"A": 0.0}}}), load_machine("mill3"))

@@ -13,10 +13,10 @@ if TYPE_CHECKING:
 
 
 def foreign_axes(setup: Setup, machine: Machine) -> Iterator[tuple[Key, ...]]:
-    """The key path of every axis that the setup names and the machine does not have."""
+    """The key path of every axis that the setup gives a value and the machine does not have; a zero changes nothing."""
     known = axis_names(machine)
     for where, named in _positions(setup):
-        yield from ((*where, axis) for axis in named if axis not in known)
+        yield from ((*where, axis) for axis, value in named.items() if value != 0.0 and axis not in known)
 
 
 def axis_names(machine: Machine) -> set[str]:

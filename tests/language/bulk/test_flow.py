@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -17,8 +18,9 @@ from tests.language.bulk.both_ways import PLAIN, differences, outcome, run
 from tests.language.bulk.programs import plain, program
 from tests.language.bulk.test_sinumerik import COMMENTS as SINUMERIK_COMMENTS
 from tests.language.bulk.test_sinumerik import SETUP as SINUMERIK_SETUP
-from tests.language.bulk.test_word_address import FANUC, FANUC_COMMENTS, LATHE, SETUP, SYNTEC
+from tests.language.bulk.test_word_address import FANUC, FANUC_COMMENTS, LATHE, LATHE_SETUP, SETUP, SYNTEC
 
+SETUPS: dict[str, dict[str, Any]] = {"sinumerik-840d": SINUMERIK_SETUP, "fanuc-0i-tf": LATHE_SETUP}
 SUBPROGRAM = "M30\nO0002\nG91 X1.\nX2. F300.\nN77 Y1.\nG90\nX3. Z1.\nM99\n"
 JUMPS = st.sampled_from(
     (
@@ -58,8 +60,7 @@ def test_sinumerik_jumps_and_structures_give_the_same(text: str, switches: dict[
 
 
 def from_file(path: Path, control_id: str, bulk: Bulk | None) -> dict[str, object]:
-    setup = SINUMERIK_SETUP if control_id == "sinumerik-840d" else SETUP
-    session = open_session(path, control=control_id, setup=setup)
+    session = open_session(path, control=control_id, setup=SETUPS.get(control_id, SETUP))
     session.channel.bulk = bulk
     return outcome(session.run().channel)
 

@@ -40,6 +40,7 @@ SETUP = {
     "tools": {1: {"length": 50.05, "radius": 3}, 2: {"length": 33.3, "radius": 1.5}, 3: {"length": 1}},
     "start": {"X": 1.5, "Z": 300},
 }
+LATHE_SETUP = {"tools": {1: {"x": 5, "z": 3, "radius": 0.8, "tip": 3}}}
 FANUC = program(
     st.one_of(
         plain("XYZ", FANUC_COMMENTS), plain("XYZ", FANUC_COMMENTS, CODES + REPEATED), arc(FANUC_COMMENTS)
@@ -125,7 +126,7 @@ LATHE = program(
 @settings(max_examples=50, deadline=None)
 @given(LATHE)
 def test_lathe_programs_give_the_same_both_ways(text: str) -> None:
-    assert differences(text, "fanuc-0i-tf", {"tools": {1: {"x": 5, "z": 3, "radius": 0.8, "tip": 3}}}) == []
+    assert differences(text, "fanuc-0i-tf", LATHE_SETUP) == []
 
 
 @pytest.mark.parametrize("digits", ["0.1", "123456.78", "-.0004", "00000000012.5", "99999.999", "1.0050"])
