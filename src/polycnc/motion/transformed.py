@@ -146,16 +146,6 @@ class Demand(NamedTuple):
     along: float
 
 
-class ArcPath(NamedTuple):
-    """An arc: points by the share of its angle, length in its plane, lift along its normal, radius and unit normal."""
-
-    path: Path
-    planar: float
-    lift: float
-    radius: float
-    normal: tuple[float, float, float]
-
-
 class RealAxes:
     """Follows the real axes of a channel through the rows of a toolpath.
 
