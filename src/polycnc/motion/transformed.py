@@ -30,7 +30,7 @@ from polycnc.motion.pole import RING_MM, Pole, Turn, legs_of, turn_records
 from polycnc.motion.row_path import arc_path, line_path
 from polycnc.motion.settings import SOFT
 from polycnc.toolpath import Context, Kind
-from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS
+from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, RAPID_KINDS
 from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
@@ -66,7 +66,6 @@ LEGGED = frozenset((Kind.RAPID, Kind.FEED, *ARC_KINDS))
 NO_STOPS = array("B")
 #: An axis along which an arc's unit normal has more than this does not take part in the arc.
 ACROSS = 0.999
-RAPIDS = (Kind.RAPID, Kind.REF)
 
 
 class Shares(NamedTuple):
@@ -227,7 +226,9 @@ class RealAxes:
         weight = rotary_weight(context, self._settings)
         weights = [weight if self._rotary(i) else 1.0 for i in range(len(goal))]
         way, limits = self._way_of(chunk, row, goal, context), self.limits(context.transformation)
-        bounds.feed[row], top, ease = pace_of(context, way, weights, limits, rapid=chunk.kind[row] in RAPIDS)
+        bounds.feed[row], top, ease = pace_of(
+            context, way, weights, limits, rapid=chunk.kind[row] in RAPID_KINDS
+        )
         for k in range(row * SHARES, (row + 1) * SHARES):
             bounds.shares.top[k] = min(bounds.shares.top[k], top)
             bounds.shares.ease[k] *= ease

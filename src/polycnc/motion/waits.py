@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from polycnc.motion.settings import EXACT_STOP_MODES
 from polycnc.toolpath import Kind
 from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS
+from polycnc.toolpath.kinds import RAPID_KINDS
 from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
 #: Events that the control puts out between two blocks and waits for: the axes stand still.
 STANDING = frozenset({"m", "s", "t", "h", "stop", "alarm"})
 ORIENT = 19
-RAPIDS = frozenset((Kind.RAPID, Kind.REF))
 #: Moves that lead nowhere where they end at their start.
 STRAIGHT = frozenset((Kind.RAPID, Kind.FEED, Kind.REF))
 
@@ -97,7 +97,7 @@ class Waits:
             if number != self._context:
                 here = radius(row - 1) if row else self._radius
                 here = radius(row) if here is None else here
-                ahead = radius(row) if chunk.kind[row] in RAPIDS else here
+                ahead = radius(row) if chunk.kind[row] in RAPID_KINDS else here
                 self._new_context(chunk.first + row, number, here, ahead)
                 self._context = number
             row += len(list(run))
