@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
 #: What F is the speed of on arcs under radius compensation.
 EDGES = {"CFC": "always", "CFIN": "inside", "CFTCP": "never"}
-#: Axis data in m/s² and m/s³ (MD32300, MD32431).
-MM_PER_M = tables.MM_PER_M
 #: FGREF that nobody has named: the radius at which a degree is 1 mm.
 DEGREE_MM = 180.0 / pi
 NOTHING = Pace()
@@ -87,12 +85,17 @@ def _factors(channel: Channel, address: str) -> tuple[float, ...]:
 
 
 def _with_technology(channel: Channel, address: str, datum: str, limit: str) -> tuple[float, ...]:
-    """The programmed factors times those of the technology's dynamics (DYNNORM …), where machine data name them."""
+    """The programmed factors times those of the technology's dynamics (DYNNORM …), where machine data name them.
+
+    MD32300 and MD32431 are in m/s² and m/s³.
+    """
     memory: Memory = channel.memory
     factors = list(_factors(channel, address)) or [1.0] * len(channel.axes)
     mode = gcodes.number_of(channel.mode["dynamics"]) - 1
     for column, axis in enumerate(channel.axis_data):
         machine = getattr(axis, limit)
         if machine and memory.data.is_set(datum, mode, channel.axes[column]):
-            factors[column] *= memory.data.number(datum, mode, channel.axes[column]) * MM_PER_M / machine
+            factors[column] *= (
+                memory.data.number(datum, mode, channel.axes[column]) * tables.MM_PER_M / machine
+            )
     return tuple(factors) if any(factor != 1.0 for factor in factors) else ()

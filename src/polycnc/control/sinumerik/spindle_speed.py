@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import arguments
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.tables import MINUTE, MM_PER_M
 from polycnc.language.sinumerik.values import Axis
 from polycnc.messages import AlarmError
 
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.spindles import Spindle
 
 Arguments = tuple[Any, ...]
-MM_PER_M = 1000.0
-MINUTE = 60.0
 #: Setting data of spindles: lowest speed (G25 S), highest speed (G26 S), highest under constant cutting speed (LIMS).
 LOWEST, HIGHEST = "$SA_SPIND_MIN_VELO_G25", "$SA_SPIND_MAX_VELO_G26"
 SURFACE_LIMIT = "$SA_SPIND_MAX_VELO_LIMS"
@@ -130,8 +129,13 @@ def feed_source(channel: Channel, args: Arguments) -> None:
 
 
 def axis_feed_source(channel: Channel, args: Arguments) -> None:
-    """FPRAON(axis, spindle, …): feeds of positioning axes per revolution of a spindle (SD43300)."""
-    for axis, source in zip(args[::2], args[1::2], strict=len(args) % 2 == 0):
+    """FPRAON(axis, spindle, …): feeds of positioning axes per revolution of a spindle (SD43300).
+
+    12330 for an axis without its spindle.
+    """
+    if len(args) % 2:
+        raise AlarmError("12330", text="FPRAON")
+    for axis, source in zip(args[::2], args[1::2], strict=True):
         number = channel.memory.spindles.get(_source(source)).number
         name = channel.axes[arguments.column(channel, axis)]
         channel.memory.data.write("$SA_ASSIGN_FEED_PER_REV_SOURCE", (name,), number)
