@@ -55,6 +55,9 @@ class Control(ChannelControl, Protocol):
     def stop_spindles(self, channel: Channel) -> None:
         """Emergency stop, or the power is off: no spindle of the channel turns any more."""
 
+    def stays_at_end(self, channel: Channel, code: int) -> bool:
+        """Whether a program that has ended with M02 or M30 (`code`: 2 or 30) stays there instead of at its top."""
+
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """How the control leads the axes, by its machine parameters."""
 

@@ -373,9 +373,9 @@ class Core(ABC):
 
     def _on_event(self, number: int, event: Event) -> None:
         self._report("event", number, type=event.type, **event.data)
-        stays: Callable[..., bool] | None = getattr(self.control, "stays_at_end", None)
-        if stays is not None and event.type == "m" and event.data.get("code") in PROGRAM_ENDS:
-            self._signals[AT_END] = float(stays(self.channel, event.data["code"]))
+        code = event.data.get("code") if event.type == "m" else None
+        if code in PROGRAM_ENDS and self.control.stays_at_end(self.channel, code):
+            self._signals[AT_END] = 1.0
 
     def _on_block(self, number: int, block: Block) -> None:
         self._report("block", number, program=block.program, line=block.line)

@@ -137,6 +137,10 @@ class Sinumerik:
         channel.mode = channel.modes.mode(modal)
         self.reset(channel)
 
+    def stays_at_end(self, channel: Channel, code: int) -> bool:  # noqa: ARG002 - the same on every machine
+        """A program that has ended goes back to its top."""
+        return False
+
     def stop_spindles(self, channel: Channel) -> None:
         """The drives are off."""
         for spindle in channel.memory.spindles.all.values():

@@ -196,6 +196,10 @@ class WordAddressControl:
         memory.spindle_direction = context.spindle_direction
         self.reset(channel)
 
+    def stays_at_end(self, channel: Channel, code: int) -> bool:  # noqa: ARG002 - parameters decide on a lathe
+        """A program that has ended goes back to its top; a machine's own rules may differ."""
+        return False
+
     def stop_spindles(self, channel: Channel) -> None:
         """The drives are off."""
         channel.memory.spindle_direction = 0
