@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from polycnc.language.sinumerik.values import Axis
@@ -9,6 +10,10 @@ from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+
+#: Arguments as the language hands them over, None for one that is left out; and what they are handed to.
+Arguments = tuple[Any, ...]
+Procedure = Callable[["Channel", Arguments], None]
 
 
 def real(value: Any) -> float:

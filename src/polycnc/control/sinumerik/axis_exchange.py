@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.waits import Wait
 from polycnc.control.sinumerik import arguments
+from polycnc.control.sinumerik.arguments import Arguments
 from polycnc.control.sinumerik.coordination import group_of
 from polycnc.language.sinumerik.values import Axis
 from polycnc.messages import AlarmError
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
 
-Arguments = tuple[Any, ...]
 NOBODY = 0
 
 

@@ -6,8 +6,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import arguments
+from polycnc.control.sinumerik.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.block import axis_column
 from polycnc.control.sinumerik.positions import number
+from polycnc.control.sinumerik.sections import Row
 from polycnc.language.sinumerik.values import Axis, Type
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
@@ -18,9 +20,6 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.language.sinumerik.words import WordShape
 
-Arguments = tuple[Any, ...]
-Procedure = Callable[["Channel", Arguments], None]
-Row = tuple[Type, Callable[["Channel", Arguments], Any], None, bool]
 
 #: $AA_MOTEND for each criterion; without one it is that of exact stop fine.
 MOTION_ENDS = {"FINEA": 1, "COARSEA": 2, "IPOENDA": 3, "IPOBRKA": 4}

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.group import ChannelGroup
 from polycnc.control.sinumerik import arguments
+from polycnc.control.sinumerik.arguments import Arguments
 from polycnc.language.sinumerik.calls import named_program
 from polycnc.messages import AlarmError
 from polycnc.program.names import WORKPIECE, stored_directory
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.program import Program
 
-Arguments = tuple[Any, ...]
 #: Third argument of INIT: without, with, and with an awaited acknowledgement.
 ACKNOWLEDGEMENTS = ("N", "S", "A")
 MARKS = range(100)

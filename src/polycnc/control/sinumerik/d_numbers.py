@@ -5,15 +5,15 @@ Source: job planning 7.2 (DL), 7.7 (D numbers).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik.arguments import Arguments
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.tools import Tool, Tools
 
-Arguments = tuple[Any, ...]
 INVALID = 32001
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import tables
+from polycnc.control.sinumerik.arguments import Arguments
 from polycnc.control.sinumerik.tools import DP_TYPE
 from polycnc.language.sinumerik.calls import forget_resolved
 from polycnc.language.sinumerik.nc_frame import COMPONENTS, GEOMETRY_AXES, NEUTRAL, NcFrame
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.language.sinumerik.variables import Variable
 
-Arguments = tuple[Any, ...]
 _NEUTRAL_COMPONENTS = {"SC": 1.0}
 #: Values of a list in one block.
 _LISTED = 10

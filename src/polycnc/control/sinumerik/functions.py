@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import adding_frames, calcposi, d_numbers, frame_codes
+from polycnc.control.sinumerik.arguments import Arguments
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frame_variables import frame_axis
 from polycnc.geometry import fit
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.geometry.frames import Vector
-
-Arguments = tuple[Any, ...]
 
 
 def value(channel: Channel, name: str, args: Arguments, column: int) -> Any:

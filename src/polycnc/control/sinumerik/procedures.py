@@ -5,7 +5,7 @@ Source: Fundamentals (MSG, SETMS, WAITS, FGROUP, BRISKA …), job planning 5.5 (
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import (
     arguments,
@@ -22,6 +22,7 @@ from polycnc.control.sinumerik import (
     spindle_speed,
     splines,
 )
+from polycnc.control.sinumerik.arguments import Arguments
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.language.sinumerik.initialisation import NEW_CONFIGURATION, initialise
 from polycnc.language.sinumerik.nc_frame import NEUTRAL
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.memory import Memory
 
-Arguments = tuple[Any, ...]
 
 #: SETAL: thousands of alarm numbers that are shown without stopping the program (job planning 14.9).
 SHOWN_ONLY = frozenset((62, 67, 68, 69))

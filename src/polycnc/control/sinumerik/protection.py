@@ -10,11 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf, isnan, nan
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from polycnc.channel.path import PassingStage, Recorder
 from polycnc.channel.way import Way
 from polycnc.control.sinumerik import arguments, limits, stages, tables
+from polycnc.control.sinumerik.arguments import Arguments
 from polycnc.control.sinumerik.cycles.contour import sent_away, without_away
 from polycnc.geometry import arcs, zones
 from polycnc.language.sinumerik.nc_frame import NcFrame
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.stages import Stages
     from polycnc.geometry.arcs import Point
 
-Arguments = tuple[Any, ...]
 #: Kinds of zones: of the machine (NPROTDEF) and of the channel (CPROTDEF), with the alarm for running into one.
 MACHINE, CHANNEL = "N", "C"
 ALARMS = {MACHINE: "10700", CHANNEL: "10701"}

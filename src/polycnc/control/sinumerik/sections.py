@@ -9,13 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.sinumerik.arguments import Arguments, Procedure
 from polycnc.language.sinumerik.values import Type
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
 
-Arguments = tuple[Any, ...]
-Procedure = Callable[["Channel", Arguments], None]
 Row = tuple[Type, Callable[["Channel", Arguments], Any], None, bool]
 
 STOP_DELAY, POINTER_LOCK = "DELAYFST", "IPTRLOCK"

@@ -10,6 +10,7 @@ from math import inf, pi
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import arguments
+from polycnc.control.sinumerik.arguments import Arguments
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tables import MINUTE, MM_PER_M
 from polycnc.language.sinumerik.values import Axis
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.control.sinumerik.spindles import Spindle
 
-Arguments = tuple[Any, ...]
 #: Setting data of spindles: lowest speed (G25 S), highest speed (G26 S), highest under constant cutting speed (LIMS).
 LOWEST, HIGHEST = "$SA_SPIND_MIN_VELO_G25", "$SA_SPIND_MAX_VELO_G26"
 SURFACE_LIMIT = "$SA_SPIND_MAX_VELO_LIMS"
@@ -148,11 +148,8 @@ def axis_feed_source_off(channel: Channel, args: Arguments) -> None:
         channel.memory.data.write("$SA_ASSIGN_FEED_PER_REV_SOURCE", (name,), 0)
 
 
-def _source(value: Any) -> int:
+def _source(value: Any) -> int | None:
     """The spindle that an argument names; PC0001 for an axis."""
-    number = (
-        arguments.spindle(value) if not isinstance(value, Axis) or _SPINDLE.fullmatch(value.name) else None
-    )
-    if number is None:
-        raise not_supported(f"FPR({getattr(value, 'name', '')})")
-    return number
+    if isinstance(value, Axis) and not _SPINDLE.fullmatch(value.name):
+        raise not_supported(f"FPR({value.name})")
+    return arguments.spindle(value)

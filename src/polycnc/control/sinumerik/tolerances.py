@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import hypot
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik.arguments import Arguments
 from polycnc.control.sinumerik.axis_settings import of_axis
 from polycnc.control.sinumerik.block import axis_column
 from polycnc.control.sinumerik.positions import number
+from polycnc.control.sinumerik.sections import Row
 from polycnc.language.sinumerik.values import Axis, Type
 from polycnc.messages import AlarmError
 
@@ -18,8 +20,6 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.language.sinumerik.words import WordShape
 
-Arguments = tuple[Any, ...]
-Row = tuple[Type, Callable[["Channel", Arguments], Any], None, bool]
 
 NO_TOLERANCE = -1.0
 
