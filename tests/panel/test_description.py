@@ -6,7 +6,7 @@ import pytest
 
 from polycnc.control.registry import control
 from polycnc.machine.rules import condition_of, signals_in
-from polycnc.mainrun.snapshot import PanelSwitches
+from polycnc.mainrun.reading.snapshot import PanelSwitches
 from polycnc.panel import describe
 from polycnc.panel.description import PANELS
 

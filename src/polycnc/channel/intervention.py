@@ -11,7 +11,8 @@ TYPED_IN = "mdi"
 class TakesBack(NamedTuple):
     """The axes of which a block takes a manual intervention back, as bit masks of channel axes.
 
-    It is taken back in a straight line to the end of a move, where manual absolute was on (`mainrun/stray.py`).
+    It is taken back in a straight line to the end of a move, where manual absolute was on
+    (`mainrun/axes/manual_offset.py`).
 
     Attributes:
         at_once: In the first line of the block, whether that moves the axis or not: axes named absolutely.

@@ -2,19 +2,24 @@
 
 `VirtualControl` is what a panel and a factory interface use.
 
-    commands      control (the operator's), byhand and manual (axes without a program), states (what is allowed when),
-                  errors (refusals), equipment (control, machine, setup)
-    preparation   ahead (the channel runs ahead), items (what it has prepared), search, programs
-    execution     core (time passes), lane (one channel), automatic (from event to event), machinery (M, T, S)
-    motion        laid (rows laid out by the planner), anew, speed, motion, geometry, follower (limited jerk), axis_move
-    in between    stray (moved by hand while a program waits), shared_axes
-    signals       signals, program_signals, machine_states, guard: the machine's own controller
-    what is read  readings, snapshot, display
+    commands/      what an operator may ask for, programs, block search
+    preparation/   the channel runs ahead: look-ahead buffer
+    execution/     what is prepared is carried out in time
+    motion/        the axes between two events
+    axes/          what moves an axis beside its program
+    signals/       the machine's own controller
+    reading/       what is read
+    control        the operator's commands
+    byhand         axes without a program
+    readings       readings of the moment
+    core           the parts of a control and the events between them
+    equipment      control, machine, setup
+    errors         refusals
 """
 
+from polycnc.mainrun.commands.states import Command, Mode, State
 from polycnc.mainrun.control import VirtualControl
 from polycnc.mainrun.errors import CommandRefused
-from polycnc.mainrun.snapshot import Positions, Record, Snapshot
-from polycnc.mainrun.states import Command, Mode, State
+from polycnc.mainrun.reading.snapshot import Positions, Record, Snapshot
 
 __all__ = ["Command", "CommandRefused", "Mode", "Positions", "Record", "Snapshot", "State", "VirtualControl"]

@@ -18,11 +18,11 @@ from math import ceil, inf
 from typing import TYPE_CHECKING, Any
 
 from polycnc.mainrun.byhand import ByHand
+from polycnc.mainrun.commands.programs import forget_skipped
+from polycnc.mainrun.commands.search import search
+from polycnc.mainrun.commands.states import Command, Mode, State, is_allowed
 from polycnc.mainrun.core import AT_END, LOCKED_STATES, MANUAL_ABSOLUTE, SINGLE_BLOCK_KINDS
 from polycnc.mainrun.errors import CommandRefused
-from polycnc.mainrun.programs import forget_skipped
-from polycnc.mainrun.search import search
-from polycnc.mainrun.states import Command, Mode, State, is_allowed
 from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
@@ -66,8 +66,8 @@ class VirtualControl(ByHand):
         self._ask(Command.LOAD)
         self._programs.load(source)
         self._signals[AT_END] = 0.0
-        for lane in self._lanes.values():
-            lane.channel.store = self._programs.store
+        for run in self._runs.values():
+            run.channel.store = self._programs.store
 
     def load_tape(self, source: str | bytes | Path) -> None:
         """Give the program that comes from outside in mode `tape`: tape, DNC, memory card. Sources as for `load`.
@@ -126,17 +126,17 @@ class VirtualControl(ByHand):
             raise CommandRefused("mainrun.no-program")
         here = self.machine_position
         self._program_mode = Mode.AUTO
-        self._prepare(self._lane)
+        self._prepare(self._run)
         self._machinery.reset()
-        self._ahead.start(program, here)
-        found = search(self._ahead, program.name, line)
+        self._preprocessing.start(program, here)
+        found = search(self._preprocessing, program.name, line)
         if found is None:
             self._give_up()
             raise CommandRefused("mainrun.search", target=target)
-        self._lane.manual.begin(here)
-        self._automatic.position = found.position
-        self._automatic.context = self._automatic.place = found.context
-        self._automatic.modal = found.modal
+        self._run.manual.begin(here)
+        self._execution.position = found.position
+        self._execution.context = self._execution.place = found.context
+        self._execution.modal = found.modal
         self._collected, self._searched = found.functions, True
         self._set_state(State.STOPPED, halt="search")
 
@@ -146,7 +146,7 @@ class VirtualControl(ByHand):
         """Start the program, or go on with it after a hold, a stop or a single block.
 
         Axes that were moved by hand meanwhile go back to where the program stands first, or the program goes on from
-        where they are: as the control has it, and the signal `MANUAL_ABSOLUTE` says (`mainrun/stray.py`).
+        where they are: as the control has it, and the signal `MANUAL_ABSOLUTE` says (`mainrun/axes/manual_offset.py`).
         """
         self._ask(Command.CYCLE_START)
         if self._by_hand:
@@ -162,9 +162,9 @@ class VirtualControl(ByHand):
             self._program_mode = self.mode
             self._pulse("STARTED")
             self._set_rates()
-            self._prepare(self._lane)
+            self._prepare(self._run)
             self._machinery.reset()
-            self._ahead.start(program, self._automatic.position)
+            self._preprocessing.start(program, self._execution.position)
             self._resume()
         elif self.mode is Mode.MDI and self._program_mode is not Mode.MDI and self._may_intervene:
             self._intervene()
@@ -172,15 +172,15 @@ class VirtualControl(ByHand):
             raise CommandRefused("mainrun.other-mode", mode=self._program_mode)
         else:
             self._ask_machine("CYCLE_START")
-            if self._left_path and (self._searched or self._ahead.returns_to_path):
+            if self._left_path and (self._searched or self._preprocessing.returns_to_path):
                 self._lead_back()
                 return
             self._go_on_from_here()
 
     def _go_on_from_here(self) -> None:
         """The program goes on from where an operator has left the axes."""
-        for lane in self._lanes.values():
-            lane.intervene(absolute=bool(self._signals[MANUAL_ABSOLUTE]))
+        for run in self._runs.values():
+            run.intervene(absolute=bool(self._signals[MANUAL_ABSOLUTE]))
         self._resume()
 
     @property
@@ -190,13 +190,13 @@ class VirtualControl(ByHand):
 
     def _intervene(self) -> None:
         """Run what was typed in while a program waits (FANUC 0i-TF Plus II.5.4.7, MDI intervention)."""
-        others = any(lane.runs for lane in self._lanes.values() if lane is not self._lane)
-        if self._typed is None or self._searched or others or not self._ahead.is_bare:
+        others = any(run.is_active for run in self._runs.values() if run is not self._run)
+        if self._typed is None or self._searched or others or not self._preprocessing.is_bare:
             raise CommandRefused("mainrun.prepared", mode=self._program_mode)
         self._ask_machine("CYCLE_START")
         self._waiting_mode, self._program_mode = self._program_mode, Mode.MDI
         self._apply_switches(self.channel)
-        self._ahead.intervene(self._typed)
+        self._preprocessing.intervene(self._typed)
         self._go_on_from_here()
 
     def _lead_back(self) -> None:
@@ -206,10 +206,10 @@ class VirtualControl(ByHand):
             self._machinery.perform(happening)
         self._collected = []
         self._returning = True
-        for lane in self._lanes.values():
-            if lane.manual.place is not None:
-                for axis, target in enumerate(lane.real):
-                    lane.manual.towards(axis, target, self._jog_speed(lane, axis), self.time)
+        for run in self._runs.values():
+            if run.manual.place is not None:
+                for axis, target in enumerate(run.real):
+                    run.manual.towards(axis, target, self._jog_speed(run, axis), self.time)
 
     def feed_hold(self) -> None:
         """Bring the axes to rest on the path; a thread is finished first."""
@@ -252,8 +252,8 @@ class VirtualControl(ByHand):
         if self._signals["INCREMENTAL_ENCODERS"]:
             for axis in self.channel.axes:
                 self._signals[f"NOT_REFERENCED_{axis}"] = 1.0
-        for lane in self._lanes.values():
-            lane.forget_shift()
+        for run in self._runs.values():
+            run.forget_shift()
         self._brake(State.BRAKING)
 
     def key(self, name: str, *, pressed: bool = True) -> None:
@@ -332,12 +332,12 @@ class VirtualControl(ByHand):
             self._lock({lock: changes.get(lock, getattr(self._switches, lock)) for lock in LOCKS})
         self._switches = replace(self._switches, **changes)
         self._set_rates()
-        for lane in self._lanes.values():
-            lane.machinery.optional_stop = self._switches.optional_stop
-            lane.machinery.mst_lock = self._switches.mst_lock
-        for lane in self._lanes.values():
-            lane.automatic.single_block = bool(self._switches.single_block)
-            self._apply_switches(lane.channel)
+        for run in self._runs.values():
+            run.machinery.optional_stop = self._switches.optional_stop
+            run.machinery.mst_lock = self._switches.mst_lock
+        for run in self._runs.values():
+            run.execution.single_block = bool(self._switches.single_block)
+            self._apply_switches(run.channel)
         self._revise()
         self._report("switch", **changes)
 
@@ -350,10 +350,10 @@ class VirtualControl(ByHand):
         wanted = set(range(len(position))) if locks["machine_lock"] else {z} if locks["z_lock"] else set()
         released = self._locked_at.keys() - wanted
         if released:
-            self._lane.stand_at(
+            self._run.stand_at(
                 [self._locked_at[i] if i in released else value for i, value in enumerate(position)]
             )
-            self._prepare(self._lane)
+            self._prepare(self._run)
         self._locked_at = {i: self._locked_at.get(i, position[i]) for i in wanted}
 
     # ---- time ----------------------------------------------------------------------------------------------
@@ -371,7 +371,7 @@ class VirtualControl(ByHand):
             limit_s: No longer than this.
             real_time: As fast as time really passes; else as fast as the computer can.
         """
-        self._settle()
+        self._follow_up()
         if real_time:
             return self._run_in_real_time(limit_s)
         cycle = self.machine.interpolation_cycle_s
@@ -379,7 +379,7 @@ class VirtualControl(ByHand):
         while self.is_busy and self._cycles < last and (due := self._due()) < inf:
             if self._runs_freely:
                 until = min(max(due, (self._cycles + FREE_CYCLES) * cycle), last * cycle)
-                self._automatic.advance(until, freely=True)
+                self._execution.advance(until, freely=True)
                 due = self.time
             # Whole pieces in one step: nothing can happen before `due` but by a command.
             self._cycles = min(max(ceil(due / cycle - 1e-9), self._cycles + 1), last)

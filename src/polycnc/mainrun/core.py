@@ -10,22 +10,22 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.channel import Channel
 from polycnc.channel.group import ChannelGroup
 from polycnc.channel.waits import TYPED_BLOCKS_DONE
-from polycnc.mainrun.ahead import Ahead
-from polycnc.mainrun.automatic import Automatic
-from polycnc.mainrun.display import MainRunDisplay
+from polycnc.mainrun.axes.manual import ManualAxes
+from polycnc.mainrun.axes.shared_axes import SharedAxes
+from polycnc.mainrun.commands.programs import Programs
+from polycnc.mainrun.commands.states import Mode, State
 from polycnc.mainrun.equipment import equipment
-from polycnc.mainrun.guard import Guard
-from polycnc.mainrun.items import Happening, Rates
-from polycnc.mainrun.lane import Lane
-from polycnc.mainrun.machine_states import axis_states, machine_states, turn_magazine
-from polycnc.mainrun.machinery import SKIP_SIGNAL, Machinery
-from polycnc.mainrun.manual import ManualAxes
-from polycnc.mainrun.program_signals import connect, give
-from polycnc.mainrun.programs import Programs
-from polycnc.mainrun.shared_axes import SharedAxes
-from polycnc.mainrun.signals import SignalImage
-from polycnc.mainrun.snapshot import PanelSwitches, Record
-from polycnc.mainrun.states import Mode, State
+from polycnc.mainrun.execution.channel_run import ChannelRun
+from polycnc.mainrun.execution.execution import Execution
+from polycnc.mainrun.execution.machinery import SKIP_SIGNAL, Machinery
+from polycnc.mainrun.preparation.items import Happening, Rates
+from polycnc.mainrun.preparation.preprocessing import Preprocessing
+from polycnc.mainrun.reading.display import MainRunDisplay
+from polycnc.mainrun.reading.snapshot import PanelSwitches, Record
+from polycnc.mainrun.signals.guard import Guard
+from polycnc.mainrun.signals.image import SignalImage
+from polycnc.mainrun.signals.machine_states import axis_states, machine_states, turn_magazine
+from polycnc.mainrun.signals.program_signals import connect, give
 from polycnc.messages import Alarm, AlarmError
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from polycnc.control.interface import Control
     from polycnc.machine.model import Machine
     from polycnc.machine.setup import Setup
-    from polycnc.mainrun.items import Block
+    from polycnc.mainrun.preparation.items import Block
     from polycnc.program import Program
     from polycnc.toolpath import Event
 
@@ -116,21 +116,26 @@ class Core(ABC):
         self._signals = SignalImage(signals, rules, self._on_edge, lambda: self.time, cycle, states)
         self._guard = Guard(self.control.plc, self._signals, self._machine_alarm)
         self._shared = SharedAxes(self.machine)
-        self._lanes: dict[int, Lane] = {}
-        self._lane = lane = self._new_lane(self.machine.channels[0].number, setup)
-        self.channel, self._ahead, self._automatic = lane.channel, lane.ahead, lane.automatic
-        self._machinery, self._display = lane.machinery, lane.display
+        self._runs: dict[int, ChannelRun] = {}
+        self._run = run = self._new_run(self.machine.channels[0].number, setup)
+        self.channel, self._preprocessing, self._execution = run.channel, run.preprocessing, run.execution
+        self._machinery, self._display = run.machinery, run.display
         self._group = ChannelGroup(self.channel, self._further_channel, self._on_start)
-        self._power_on(lane)
+        self._power_on(run)
         self._signals[self.mode.upper()] = self._signals[self.state.upper()] = 1.0
         self._signals.scan()
         self._guard.look()
 
-    def _new_lane(self, number: int, setup: Setup) -> Lane:
+    def _new_run(self, number: int, setup: Setup) -> ChannelRun:
         """A channel of the control; `_power_on` starts it."""
-        ahead = Ahead(self.machine, number, self._shared)
+        preprocessing = Preprocessing(self.machine, number, self._shared)
         channel = Channel(
-            self.control, self.machine, setup, self._programs.store, number=number, toolpath=ahead.toolpath
+            self.control,
+            self.machine,
+            setup,
+            self._programs.store,
+            number=number,
+            toolpath=preprocessing.toolpath,
         )
         reports = (
             partial(self._on_event, number),
@@ -140,85 +145,91 @@ class Core(ABC):
             lambda: give(channel, self._signals),
             self._guard,
         )
-        machinery = Machinery(
-            self.machine, self._signals, lambda: self._lanes[number].automatic.time, reports
-        )
+        machinery = Machinery(self.machine, self._signals, lambda: self._runs[number].execution.time, reports)
         position = channel.coordinates.machine
-        automatic = Automatic(
-            ahead, self._rates, machinery, position, self.machine.interpolation_cycle_s,
+        execution = Execution(
+            preprocessing, self._rates, machinery, position, self.machine.interpolation_cycle_s,
             setup.switches.skip_signal_after,
         )  # fmt: skip
-        display = MainRunDisplay(ahead.toolpath, self.machine, number)
+        display = MainRunDisplay(preprocessing.toolpath, self.machine, number)
         manual = ManualAxes(channel.axis_data, self.control.motion_settings(channel))
-        lane = Lane(
-            channel, ahead, automatic, machinery, display, manual, self._rates, self._lanes, self._shared
+        run = ChannelRun(
+            channel,
+            preprocessing,
+            execution,
+            machinery,
+            display,
+            manual,
+            self._rates,
+            self._runs,
+            self._shared,
         )
-        self._lanes[number], self._shared.paths[number] = lane, ahead
-        return lane
+        self._runs[number], self._shared.paths[number] = run, preprocessing
+        return run
 
     def _further_channel(self, number: int) -> Channel:
-        lane = self._new_lane(number, self.channel.setup)
-        lane.channel.group = self._group
-        self._power_on(lane)
-        return lane.channel
+        run = self._new_run(number, self.channel.setup)
+        run.channel.group = self._group
+        self._power_on(run)
+        return run.channel
 
-    def _power_on(self, lane: Lane) -> None:
-        channel = lane.channel
+    def _power_on(self, run: ChannelRun) -> None:
+        channel = run.channel
         channel.push(self._programs.typed("\n"), kind="main")  # a control starts with a level to stand on
         try:
             self.control.start(channel)
         except AlarmError as error:
             self._raise_alarm(error)
         connect(channel, self._signals)
-        lane.ahead.use(channel, self.control.motion_settings(channel))
-        lane.ahead.clear(channel.coordinates.machine)
-        lane.automatic.position = channel.coordinates.machine
-        lane.show_own_state()
+        run.preprocessing.use(channel, self.control.motion_settings(channel))
+        run.preprocessing.clear(channel.coordinates.machine)
+        run.execution.position = channel.coordinates.machine
+        run.show_own_state()
 
-    def _on_start(self, number: int, run: Iterator[Wait]) -> None:
+    def _on_start(self, number: int, waits: Iterator[Wait]) -> None:
         """A channel has started another one."""
-        lane = self._lanes[number]
-        self._prepare(lane)
-        lane.machinery.reset()
-        self._automatic.attention = True
-        lane.ahead.begin(run, lane.automatic.position)
-        lane.automatic.time = max(each.automatic.time for each in self._lanes.values())
-        lane.automatic.single_block = bool(self._switches.single_block)
+        run = self._runs[number]
+        self._prepare(run)
+        run.machinery.reset()
+        self._execution.attention = True
+        run.preprocessing.begin(waits, run.execution.position)
+        run.execution.time = max(each.execution.time for each in self._runs.values())
+        run.execution.single_block = bool(self._switches.single_block)
         if self.state is State.RUNNING:
-            lane.automatic.start()
+            run.execution.start()
 
     # ---- time ----------------------------------------------------------------------------------------------
 
     @property
     def time(self) -> float:
         """Simulated time since power-on, s: a whole number of interpolation cycles, between commands."""
-        return self._automatic.time
+        return self._execution.time
 
     @property
     def machine_position(self) -> list[float]:
         """Commanded position of the real axes of the first channel, mm (radius) and degrees."""
-        return self._lane.machine_position
+        return self._run.machine_position
 
     @property
     def halt(self) -> str:
         """Why the program stands (`M00`, `M01`, `single-block` …), or empty."""
-        return self._automatic.halt or next(
-            (lane.automatic.halt for lane in self._lanes.values() if lane.automatic.halt not in ("", "end")),
+        return self._execution.halt or next(
+            (run.execution.halt for run in self._runs.values() if run.execution.halt not in ("", "end")),
             "",
         )
 
     @property
     def _axes_move(self) -> bool:
         """Whether axes move because of a program."""
-        return any(lane.automatic.moving for lane in self._lanes.values())
+        return any(run.execution.moving for run in self._runs.values())
 
     def _due(self) -> float:
-        return min(min(lane.manual.due, lane.automatic.next_event) for lane in self._lanes.values())
+        return min(min(run.manual.due, run.execution.next_event) for run in self._runs.values())
 
     def _advance(self, until: float) -> None:
         """Go from event to event."""
         if self._runs_freely:
-            self._automatic.advance(until, freely=True)
+            self._execution.advance(until, freely=True)
             self._move_to(self.time)
         while (due := self._due()) < until:
             self._move_to(max(due, self.time))
@@ -227,27 +238,27 @@ class Core(ABC):
     @property
     def _runs_freely(self) -> bool:
         """Whether one channel runs its program, and nothing else happens."""
-        lane, quiet = self._lane, not (self._giving_up or self._returning)
-        return quiet and len(self._lanes) == 1 and lane.manual.place is None and lane.automatic.running
+        run, quiet = self._run, not (self._giving_up or self._returning)
+        return quiet and len(self._runs) == 1 and run.manual.place is None and run.execution.running
 
     def _move_to(self, time: float) -> None:
-        for lane in list(self._lanes.values()):
-            lane.automatic.advance(time)
-        while [lane for lane in self._lanes.values() if lane.automatic.look_up()]:
-            for lane in list(self._lanes.values()):
-                lane.automatic.advance(time)
+        for run in list(self._runs.values()):
+            run.execution.advance(time)
+        while [run for run in self._runs.values() if run.execution.look_up()]:
+            for run in list(self._runs.values()):
+                run.execution.advance(time)
         self._look_for_deadlock()
-        for lane in self._lanes.values():
-            lane.manual.settle(time)
-        self._settle()
+        for run in self._runs.values():
+            run.manual.arrive(time)
+        self._follow_up()
 
-    def _settle(self) -> None:
+    def _follow_up(self) -> None:
         """What follows when keys were pressed by signals, or axes have come to rest."""
         while self._pressed:
             self._press(self._pressed.pop(0))
         if self._by_hand:
             return
-        goals = any(lane.manual.goals for lane in self._lanes.values())
+        goals = any(run.manual.goals for run in self._runs.values())
         if self._giving_up and not self._axes_move:
             self._give_up()
         elif self._returning and not goals:
@@ -260,12 +271,12 @@ class Core(ABC):
     @property
     def _by_hand(self) -> bool:
         """Whether an axis moves because of an operator."""
-        return any(lane.manual.moving for lane in self._lanes.values())
+        return any(run.manual.moving for run in self._runs.values())
 
     @property
     def _left_path(self) -> bool:
         """Whether an axis has been moved by hand since a program led it."""
-        return any(lane.manual.place is not None for lane in self._lanes.values())
+        return any(run.manual.place is not None for run in self._runs.values())
 
     def _note_references(self) -> None:
         """Axes that have come to their reference points know their position."""
@@ -275,26 +286,26 @@ class Core(ABC):
 
     def _resume(self) -> None:
         self._returning = self._searched = self._rates.hold = self._rates.gives_up = False
-        for lane in self._lanes.values():
-            lane.manual.leave()
+        for run in self._runs.values():
+            run.manual.leave()
         self._end_halt()
         self._set_state(State.RUNNING)
-        for lane in list(self._lanes.values()):
-            if lane.runs:
-                lane.automatic.single_block = bool(self._switches.single_block)
-                lane.automatic.start()
+        for run in list(self._runs.values()):
+            if run.is_active:
+                run.execution.single_block = bool(self._switches.single_block)
+                run.execution.start()
 
     def _look_for_deadlock(self) -> None:
         """Every channel that is still there waits for another one: nothing will ever happen again."""
-        here = [lane for lane in self._lanes.values() if lane.runs]
-        if not here or any(not lane.automatic.waits_for_channel for lane in here):
+        here = [run for run in self._runs.values() if run.is_active]
+        if not here or any(not run.execution.waits_for_channel for run in here):
             return
-        if self._lane.runs:
-            self._ahead.fail(AlarmError("PC0005"))
-            self._automatic.start()
+        if self._run.is_active:
+            self._preprocessing.fail(AlarmError("PC0005"))
+            self._execution.start()
             return
-        for lane in here:
-            lane.give_up()  # the run ends with the first channel
+        for run in here:
+            run.give_up()  # the run ends with the first channel
         self._finish()
 
     def _finish(self) -> None:
@@ -312,13 +323,13 @@ class Core(ABC):
         self._end_halt()
         self._pulse("ENDED")
         self._signals[AT_END] = 0.0
-        here = {number: lane.machine_position for number, lane in self._lanes.items()}
-        for number, lane in self._lanes.items():
-            lane.give_up()
+        here = {number: run.machine_position for number, run in self._runs.items()}
+        for number, run in self._runs.items():
+            run.give_up()
             if self.state in LOCKED_STATES:
-                self.control.stop_spindles(lane.channel)
-            lane.stand_at(here[number])
-            self._prepare(lane)
+                self.control.stop_spindles(run.channel)
+            run.stand_at(here[number])
+            self._prepare(run)
         if self.state not in LOCKED_STATES:
             self.alarms = ()
             self._set_state(State.READY)
@@ -326,25 +337,25 @@ class Core(ABC):
 
     def _stand(self) -> None:
         """No program runs: axes that were moved by hand are where one would begin."""
-        for lane in self._lanes.values():
-            if lane.manual.place is not None:
-                lane.stand_at(lane.manual.place)
-                self._prepare(lane)
+        for run in self._runs.values():
+            if run.manual.place is not None:
+                run.stand_at(run.manual.place)
+                self._prepare(run)
 
-    def _prepare(self, lane: Lane) -> None:
+    def _prepare(self, run: ChannelRun) -> None:
         """Before a program of a channel begins: it is where its axes are."""
-        lane.channel.coordinates.arrive_machine(list(lane.automatic.position))
-        self._apply_switches(lane.channel)
+        run.channel.coordinates.arrive_machine(list(run.execution.position))
+        self._apply_switches(run.channel)
 
     def _revise(self) -> None:
         """What bounds the speeds has changed."""
-        for lane in self._lanes.values():
-            lane.automatic.revise()
+        for run in self._runs.values():
+            run.execution.revise()
 
     def _brake_hands(self) -> None:
         """Axes that are moved by hand come to rest."""
-        for lane in self._lanes.values():
-            lane.manual.brake_all(self.time)
+        for run in self._runs.values():
+            run.manual.brake_all(self.time)
 
     def _brake(self, state: State) -> None:
         self._rates.hold = self._rates.gives_up = self._giving_up = True
@@ -352,7 +363,7 @@ class Core(ABC):
         self._brake_hands()
         self._returning = False
         self._set_state(state)
-        self._settle()
+        self._follow_up()
 
     def _apply_switches(self, channel: Channel) -> None:
         panel = self._switches
@@ -384,12 +395,12 @@ class Core(ABC):
         self._report("signal", name=name, value=value)
         if name in KEYS and value:
             self._pressed.append(name)
-            self._automatic.attention = True
+            self._execution.attention = True
         if name == SKIP_SIGNAL and value:
-            for lane in self._lanes.values():
-                here = lane.automatic.skip_signal()
+            for run in self._runs.values():
+                here = run.execution.skip_signal()
                 if here is not None:
-                    lane.channel.memory.note_skip(lane.display.work_of(here, lane.automatic.context))
+                    run.channel.memory.note_skip(run.display.work_of(here, run.execution.context))
         if name == FEED_IS_100:
             self._set_rates()
         turn_magazine(self._signals, self.machine, name, value)
@@ -398,18 +409,18 @@ class Core(ABC):
     def _on_stop(self, number: int, code: str) -> None:
         if code == "alarm":
             self.alarms = tuple(self.channel.alarms)
-        self._lanes[number].automatic.stop(code)
+        self._runs[number].execution.stop(code)
 
     def _on_halt(self, number: int, reason: str) -> None:
         """The run of a channel has halted of its own accord; the control does when no other one runs."""
-        lane = self._lanes[number]
+        run = self._runs[number]
         if reason == "end":
             self._group.end(number)
-        others = [other for other in self._lanes.values() if other is not lane and other.runs]
+        others = [other for other in self._runs.values() if other is not run and other.is_active]
         if self.state is State.RUNNING:
             if reason in HALT_SIGNALS:
                 self._signals[HALT_SIGNALS[reason]] = 1.0
-            if reason == "alarm" or not any(other.automatic.running for other in others):
+            if reason == "alarm" or not any(other.execution.running for other in others):
                 self._set_state(
                     HALTS.get("stop" if others and reason == "end" else reason, State.STOPPED), halt=reason
                 )
@@ -417,15 +428,15 @@ class Core(ABC):
                 self._report("halt", number, halt=reason)
         if reason == TYPED_BLOCKS_DONE.reason:
             self._program_mode = self._waiting_mode
-            self._apply_switches(lane.channel)
+            self._apply_switches(run.channel)
         if reason == "alarm" and others:
             self._rates.hold = True
             self._revise()
-        if reason == "end" and lane is self._lane:
+        if reason == "end" and run is self._run:
             self.parts += self._program_mode is not Mode.MDI
             if self._program_mode is not Mode.MDI:
                 self.control.reset(self.channel)
-            lane.show_own_state()
+            run.show_own_state()
 
     def _end_halt(self) -> None:
         for name in HALT_SIGNALS.values():
@@ -444,15 +455,15 @@ class Core(ABC):
         rates.rapid, rates.spindle = dials.rapid, dials.spindle
         in_dry_run = self._switches.dry_run and self._program_mode is not Mode.TAPE
         dry = rates.dry_run = self.control.motion_settings(self.channel).dry_run if in_dry_run else None
-        for lane in self._lanes.values():
-            lane.ahead.free_threads(free=dry is not None and dry.with_spindle)
+        for run in self._runs.values():
+            run.preprocessing.free_threads(free=dry is not None and dry.with_spindle)
         self._revise()
 
     def _machine_alarm(self, code: str) -> None:
         """The machine's controller raises an alarm: everything comes to rest, a reset ends it."""
         if any(alarm.code == code for alarm in self.alarms):
             return
-        block = self._automatic.block if self.state is State.RUNNING else None
+        block = self._execution.block if self.state is State.RUNNING else None
         place = (block.program, block.line) if block is not None else ("", 0)
         self.alarms = (*self.alarms, Alarm(self.control.id, code, *place))
         self._report("event", 1, type="alarm", code=code, line=place[1], program=place[0])
@@ -468,7 +479,7 @@ class Core(ABC):
         """Direction in which a program that waits wants to find the spindle turning: 1, -1, 0 for none."""
         if self._collected or self._switches.mst_lock:  # cycle start still starts it, or the program cannot
             return 0
-        return self._automatic.context.spindle_direction
+        return self._execution.context.spindle_direction
 
     @property
     def switches(self) -> PanelSwitches:

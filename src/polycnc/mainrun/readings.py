@@ -7,8 +7,9 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.control.alarm_text import alarm_text
+from polycnc.mainrun.commands.states import State
 from polycnc.mainrun.core import Core
-from polycnc.mainrun.snapshot import (
+from polycnc.mainrun.reading.snapshot import (
     ActiveBlock,
     ChannelSnapshot,
     Overrides,
@@ -17,13 +18,12 @@ from polycnc.mainrun.snapshot import (
     SpindleState,
     ToolState,
 )
-from polycnc.mainrun.states import State
 from polycnc.motion.frames import without_transformation
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.mainrun.signals import SignalImage
+    from polycnc.mainrun.signals.image import SignalImage
     from polycnc.messages import Alarm
 
 
@@ -39,22 +39,22 @@ class Readings(Core):
     @property
     def positions(self) -> Positions:
         """Positions as the displays show them."""
-        return self._lane.positions(self._locked_at)
+        return self._run.positions(self._locked_at)
 
     @property
     def channels(self) -> Mapping[int, ChannelSnapshot]:
         """Every channel that has been spoken of, by number; the other readings are of the first."""
-        return {number: lane.snapshot for number, lane in sorted(self._lanes.items())}
+        return {number: run.snapshot for number, run in sorted(self._runs.items())}
 
     @property
     def modal(self) -> Mapping[str, str]:
         """Active code of every modal group in the block in execution."""
-        return self._lane.modal
+        return self._run.modal
 
     @property
     def active_block(self) -> ActiveBlock:
         """The block in execution."""
-        return self._lane.active_block
+        return self._run.active_block
 
     @property
     def program(self) -> str:
@@ -69,13 +69,13 @@ class Readings(Core):
     @property
     def spindle(self) -> SpindleState:
         """The spindle of the block in execution; where the machine's rules drive it, as they do."""
-        spindle = self._lane.spindle
+        spindle = self._run.spindle
         if not self._guard.drives_spindle:
             return spindle
         direction = int(self._signals["SPINDLE_CW"] - self._signals["SPINDLE_CCW"])
         if not direction or not self._signals["SPINDLE_TURNS"]:
             return replace(spindle, rpm=0.0, direction=0)
-        context, data = self._automatic.context, self.machine.spindle.get(spindle.number)
+        context, data = self._execution.context, self.machine.spindle.get(spindle.number)
         override = self._rates.spindle if context.spindle_override else 1.0
         top = data.max_rpm if data is not None else inf
         rpm = 0.0 if context.surface_speed else min(spindle.programmed_rpm * override, top)
@@ -92,12 +92,12 @@ class Readings(Core):
 
         Empty where no program waits for axes that were moved by hand, or that a block search has left behind.
         """
-        if self._lane.manual.place is None or self.state not in (State.HOLD, State.STOPPED):
+        if self._run.manual.place is None or self.state not in (State.HOLD, State.STOPPED):
             return {}
         context, here, waits = (
-            without_transformation(self._automatic.context),
+            without_transformation(self._execution.context),
             self.machine_position,
-            self._lane.real,
+            self._run.real,
         )
         target = self._display.positions(waits, waits, waits, context).work
         left = self._display.positions(here, waits, here, context).to_go
@@ -106,7 +106,7 @@ class Readings(Core):
     @property
     def tool(self) -> ToolState:
         """Tool in the spindle, and the one that stands by."""
-        return self._lane.tool
+        return self._run.tool
 
     @property
     def signals(self) -> SignalImage:
@@ -124,7 +124,7 @@ class Readings(Core):
     @property
     def feed(self) -> float:
         """Path speed now, mm/min; of the fastest axis where axes are moved by hand."""
-        return 60.0 * max(self._automatic.speed, self._lane.manual.speed(self.time))
+        return 60.0 * max(self._execution.speed, self._run.manual.speed(self.time))
 
     @property
     def snapshot(self) -> Snapshot:

@@ -9,7 +9,7 @@ from importlib import resources
 from typing import TYPE_CHECKING, Any
 
 from polycnc.machine.rules import condition_of
-from polycnc.mainrun.states import Mode
+from polycnc.mainrun.commands.states import Mode
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -1,0 +1,86 @@
+"""Block search with calculation: the program is run through without motion up to a block."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun.preparation.items import Block, Happening, Move
+from polycnc.toolpath import Context
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.mainrun.preparation.preprocessing import Preprocessing
+
+#: M functions of which the last one before the block is put out, by what they switch. Others belong to their block.
+LASTING = ((3, 4, 5, 13, 14, 19), (7, 8, 9), (50,), (10, 11), (68, 69))
+#: How often the program may compute for an interpolation cycle without coming to a block.
+PATIENCE = 1000
+#: What is looked through at most: a program that begins again at its end (M99) never comes to an end.
+LONGEST = 1_000_000
+
+
+@dataclass(slots=True)
+class Found:
+    """What holds at the start of the block.
+
+    Attributes:
+        position: Machine position.
+        context: What holds for moves.
+        modal: Active codes.
+        functions: Auxiliary functions to be put out.
+    """
+
+    position: list[float]
+    context: Context
+    modal: Mapping[str, str] = field(default_factory=dict)
+    functions: list[Happening] = field(default_factory=list)
+
+
+def search(preprocessing: Preprocessing, program: str, line: int) -> Found | None:
+    """Go on in what is prepared to a block; it is then the next item. None where the program ends before it."""
+    found = Found(preprocessing.position, Context())
+    functions: dict[object, Happening] = {}
+    patience, left = PATIENCE, LONGEST
+    while patience > 0 and left > 0:
+        left -= 1
+        patience = PATIENCE if preprocessing.fill() else patience - 1
+        if not preprocessing.items:
+            if preprocessing.finished:
+                return None
+            if preprocessing.waiting is not None:
+                if preprocessing.waiting.until is not None and not preprocessing.waiting.until():
+                    return None  # another channel, which does not run, would have to do something first
+                preprocessing.proceed()
+            continue
+        item = preprocessing.items[0]
+        if isinstance(item, Block):
+            if (item.program, item.line) == (program, line):
+                found.functions = list(functions.values())
+                return found
+            found.modal = item.modal
+        if isinstance(item, Move):
+            piece, _ = preprocessing.pop_piece()
+            found.position, found.context = piece.at(1.0), piece.context
+            continue
+        preprocessing.items.popleft()
+        if isinstance(item, Happening):
+            found.context = item.context
+            if item.event.type == "alarm":
+                return None
+            key = _what_it_switches(item)
+            if key is not None:
+                functions.pop(key, None)
+                functions[key] = item
+    return None
+
+
+def _what_it_switches(happening: Happening) -> object:
+    """What a later event of the same kind makes meaningless; None for what is not put out later."""
+    event = happening.event
+    if event.type in ("s", "t", "signal"):
+        return event.type, event.data.get("spindle"), event.data.get("name")
+    if event.type == "m":
+        return next((group for group in LASTING if event.data.get("code") in group), None)
+    return None

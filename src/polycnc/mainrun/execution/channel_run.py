@@ -1,0 +1,190 @@
+"""One channel in the main run: what is prepared for it, what it executes, and what a panel reads of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import inf
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun.commands.programs import text_of
+from polycnc.mainrun.reading.snapshot import ActiveBlock, ChannelSnapshot, Positions, SpindleState, ToolState
+from polycnc.motion.frames import carried, without_transformation
+from polycnc.toolpath import Context
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.mainrun.axes.manual import ManualAxes
+    from polycnc.mainrun.axes.shared_axes import SharedAxes
+    from polycnc.mainrun.execution.execution import Execution
+    from polycnc.mainrun.execution.machinery import Machinery
+    from polycnc.mainrun.preparation.items import Rates
+    from polycnc.mainrun.preparation.preprocessing import Preprocessing
+    from polycnc.mainrun.reading.display import MainRunDisplay
+
+
+@dataclass(slots=True, eq=False)
+class ChannelRun:
+    """A channel with all that executes it.
+
+    Attributes:
+        channel: Runs ahead of the axes.
+        preprocessing: What it has prepared.
+        automatic: Executes that.
+        machinery: Carries out its events.
+        display: Shows its axes.
+        manual: Its axes while an operator moves them.
+        rates: What the operator has set.
+        others: Every channel of the control by number, this one too.
+        shared: The axes that channels share.
+    """
+
+    channel: Channel
+    preprocessing: Preprocessing
+    execution: Execution
+    machinery: Machinery
+    display: MainRunDisplay
+    manual: ManualAxes
+    rates: Rates
+    others: Mapping[int, ChannelRun]
+    shared: SharedAxes
+
+    @property
+    def number(self) -> int:
+        """Number of the channel."""
+        return self.channel.number
+
+    @property
+    def is_active(self) -> bool:
+        """Whether a program of the channel is under way, halted or not."""
+        group = self.channel.group
+        return group is not None and group.is_running(self.number)
+
+    @property
+    def real(self) -> list[float]:
+        """Commanded position of the real axes, mm (radius) and degrees, as their programs have led them."""
+        position = self.led
+        for column, mover, there in self.shared.elsewhere(self.number, self.channel.group):
+            position[column] = self.others[mover].led[there]
+        return position
+
+    @property
+    def led(self) -> list[float]:
+        """Where its own program has led the real axes, those too that another channel has moved since."""
+        execution = self.execution
+        return execution.manual_offset.applied_to(self.display.real(execution.machine, execution.place))
+
+    @property
+    def machine_position(self) -> list[float]:
+        """Commanded position of the real axes, mm (radius) and degrees, by hand or by program."""
+        return self.real if self.manual.place is None else self.manual.positions(self.execution.time)
+
+    def positions(self, locked: Mapping[int, float] | None = None) -> Positions:
+        """Positions as the displays show them; `locked` axes stand there, and the displays run on."""
+        execution, context, display = self.execution, self.execution.context, self.display
+        axes = self.machine_position
+        real = [(locked or {}).get(i, value) for i, value in enumerate(axes)]
+        shift = execution.manual_offset.shift
+        if self.manual.place is not None:
+            here = [a - b for a, b in zip(axes, shift, strict=True)]
+            shown = display.positions(here, here, real, without_transformation(context))
+        else:
+            here, end = (
+                execution.manual_offset.counted(carried(place, execution.place, context, display.geometry))
+                for place in (execution.machine, execution.row_end)
+            )
+            for column, _, _ in self.shared.elsewhere(self.number, self.channel.group):
+                here[column] = end[column] = axes[column] - shift[column]
+            shown = display.positions(here, end, real, context)
+        if not any(shift):
+            return shown
+        return replace(
+            shown, machine=display.positions(axes, axes, real, without_transformation(context)).machine
+        )
+
+    def intervene(self, *, absolute: bool) -> None:
+        """The program goes on from where an operator has left the axes; manual absolute is on or off."""
+        if self.manual.place is not None:
+            way = [a - b for a, b in zip(self.manual.place, self.real, strict=True)]
+            self.manual.leave()
+            self.execution.intervene(way, absolute=absolute)
+
+    def forget_shift(self) -> None:
+        """What was moved with manual absolute off shifts the coordinates no more."""
+        here, manual_offset = self.machine_position, self.execution.manual_offset
+        manual_offset.shift = [0.0] * len(manual_offset.shift)
+        self.stand_at(here)
+
+    def stand_at(self, position: Sequence[float]) -> None:
+        """The real axes stand here and no program runs."""
+        self.manual.leave()
+        self.execution.position, self.execution.place = self.execution.manual_offset.path(position), Context()
+        self.preprocessing.clear(self.execution.position)
+        self.show_own_state()
+
+    @property
+    def modal(self) -> Mapping[str, str]:
+        """Active code of every modal group in the block in execution."""
+        return dict(self.execution.modal)
+
+    @property
+    def active_block(self) -> ActiveBlock:
+        """The block in execution."""
+        block = self.execution.block
+        if block is None:
+            return ActiveBlock()
+        program = next((p for p in reversed(self.channel.programs) if p.name == block.program), None)
+        return ActiveBlock(block.program, block.line, text_of(program, block.line))
+
+    @property
+    def spindle(self) -> SpindleState:
+        """The spindle of the block in execution."""
+        context = self.execution.context
+        spindle = self.channel.machine.spindle.get(context.spindle)
+        top = spindle.max_rpm if spindle is not None else inf
+        turning = 0.0 if context.surface_speed or not context.spindle_direction else context.spindle_rpm
+        override = self.rates.spindle if context.spindle_override else 1.0
+        rpm = min(turning * override, top)
+        return SpindleState(context.spindle, context.spindle_rpm, rpm, context.spindle_direction)
+
+    @property
+    def tool(self) -> ToolState:
+        """Tool in the spindle, and the one that stands by."""
+        context = self.execution.context
+        return ToolState(context.tool, context.tool_name, self.machinery.next_tool)
+
+    @property
+    def snapshot(self) -> ChannelSnapshot:
+        """Everything at once, of one moment."""
+        execution = self.execution
+        return ChannelSnapshot(
+            number=self.number,
+            runs=self.is_active,
+            waits=execution.waits_for_channel,
+            halt=execution.halt,
+            positions=self.positions(),
+            feed=60.0 * execution.speed,
+            block=self.active_block,
+            modal=self.modal,
+            spindle=self.spindle,
+            tool=self.tool,
+            messages=tuple(self.machinery.messages),
+        )
+
+    def show_own_state(self) -> None:
+        """Between programs the displays show the channel's own state."""
+        self.execution.context = self.channel.control.context(self.channel)
+        self.execution.modal = self.channel.mode.codes
+
+    def give_up(self) -> None:
+        """The axes stand: the program is given up, the channel is as after reset."""
+        running, modal, context = self.execution.block, self.execution.modal, self.execution.context
+        self.execution.abandon()
+        self.machinery.reset()
+        if running is None:
+            self.channel.control.reset(self.channel)
+        else:
+            self.channel.control.give_up(self.channel, modal, context)
+        if self.channel.group is not None:
+            self.channel.group.end(self.number)

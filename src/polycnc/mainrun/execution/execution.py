@@ -1,0 +1,528 @@
+"""Automatic operation: what is prepared is executed in time, piece by piece and event by event.
+
+Between two events the motion is known in closed form, so the clock goes from event to event, however far apart they
+are, and an override or a hold takes effect at the very moment it is given.
+"""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING, Protocol
+
+from polycnc.channel.intervention import NOTHING_BACK
+from polycnc.channel.waits import TYPED_BLOCKS_DONE
+from polycnc.mainrun.axes.manual_offset import NO_WAY, ManualOffset
+from polycnc.mainrun.motion.follower import Follower
+from polycnc.mainrun.motion.geometry import Line
+from polycnc.mainrun.motion.piece_motion import AxesMotion, Motion, PathMotion
+from polycnc.mainrun.preparation.items import Block, BlockEnd, Happening, Move, Rates, Standing
+from polycnc.mainrun.preparation.reapproach import can_begin_elsewhere
+from polycnc.motion.frames import real_of
+from polycnc.motion.kernels.columns import BLEND, LENGTH, RAMP
+from polycnc.toolpath import Context, Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from polycnc.mainrun.preparation.items import Item, Piece
+    from polycnc.mainrun.preparation.preprocessing import Preprocessing
+    from polycnc.messages import AlarmError
+
+#: Squared speed below which the axes stand, (mm/s)².
+REST2 = 1e-9
+#: Points at which an arc beside its path is held against the limits.
+ARC_POINTS = 48
+
+
+class Machinery(Protocol):
+    """What carries out the program's events on the machine."""
+
+    def skip(self) -> None:
+        """The skip input comes, and goes."""
+
+    def perform(self, happening: Happening) -> None:
+        """An event of the program."""
+
+    def synchronise(self) -> None:
+        """The program is about to read signals."""
+
+    def enter(self, block: Block) -> None:
+        """A block begins."""
+
+    def halted(self, reason: str) -> None:
+        """The run has halted."""
+
+    @property
+    def busy(self) -> bool:
+        """Whether functions are under way that the next block waits for."""
+
+    @property
+    def due(self) -> float:
+        """When something happens on the machine next; inf where nothing will."""
+
+    def advance(self, time: float) -> None:
+        """Let happen what is due."""
+
+
+class Execution:
+    """Executes what is prepared.
+
+    Args:
+        preprocessing: What is prepared.
+        rates: What the operator has set; tell `revise` when it changes.
+        machinery: Carries out events.
+        position: Machine position at the start.
+        cycle_s: Interpolation cycle: as long lasts what a program computes between two moves.
+        skip_after_s: How long after the start of a skip move the skip input comes; None where it does not.
+
+    Attributes:
+        time: Simulated time, s.
+        running: Cycle start has been given, and nothing has halted the run since.
+        halt: Why it has halted: `single-block`, `M00`, `M01`, `alarm`, `end`; empty while it runs.
+        attention: Somebody else has to act on what has just happened.
+        single_block: Halt behind every block.
+        block: The block in execution.
+        context: What holds in it.
+        manual_offset: How far the axes are beside the path, because they were moved by hand.
+        position: Where on the path the axes last were at a joint, and `place` what held there.
+    """
+
+    def __init__(
+        self,
+        preprocessing: Preprocessing,
+        rates: Rates,
+        machinery: Machinery,
+        position: Sequence[float],
+        cycle_s: float,
+        skip_after_s: float | None = None,
+    ) -> None:
+        self.preprocessing = preprocessing
+        self.rates = rates
+        self.time = 0.0
+        self.running = False
+        self.halt = ""
+        self.attention = False
+        self.single_block = False
+        self.block: Block | None = None
+        self.context = Context()
+        self.modal: Mapping[str, str] = {}
+        self.motion: Motion | None = None
+        self.position = list(position)
+        self.place = Context()
+        self.manual_offset = ManualOffset(len(position))
+        self._machinery = machinery
+        self._x2 = 0.0
+        self._cap2 = inf
+        self._until = 0.0
+        self._waiting = False
+        self._blocked = False
+        self._moved_on = False
+        self._by_hand: tuple[float, ...] = ()
+        self._cycle_s = cycle_s
+        self._skip_after_s = skip_after_s
+        self._skips_at = inf
+        self._follower = Follower()
+        self._behind = 0.0
+        self._rest_time = 0.0
+
+    # ---- what a panel reads --------------------------------------------------------------------------------
+
+    @property
+    def moving(self) -> bool:
+        """Whether the axes move now."""
+        leads = self.motion is not None and self.motion.speed(self.time) > 0.0
+        return leads or self.time < self._rest_time
+
+    @property
+    def speed(self) -> float:
+        """Path speed now, mm/s."""
+        if self._follows:
+            return self._follower.speed(self.time)
+        return self.motion.speed(self.time) if self.motion is not None else 0.0
+
+    @property
+    def _follows(self) -> bool:
+        """Whether the axes are behind the interpolator, which leads them."""
+        leads = self.motion is not None and self.time < self.motion.rest
+        return self._follower.window > 0.0 and (leads or self.time < self._rest_time)
+
+    @property
+    def machine(self) -> list[float]:
+        """Machine position now."""
+        if self._follows:
+            return self._follower.machine(self.time)
+        return self.motion.machine(self.time) if self.motion is not None else list(self.position)
+
+    @property
+    def row_end(self) -> list[float]:
+        """Machine position at the end of the move in execution."""
+        return list(self.motion.piece.way.end) if self.motion is not None else list(self.position)
+
+    @property
+    def standing(self) -> bool:
+        """Whether the run has come to rest: no motion, no dwell, no auxiliary function under way."""
+        return not self.moving and self._until <= self.time and not self._machinery.busy
+
+    # ---- time ----------------------------------------------------------------------------------------------
+
+    def advance(self, until: float, *, freely: bool = False) -> None:
+        """Execute up to a time.
+
+        Args:
+            until: The time.
+            freely: Come back before it when `attention` is asked for, or when nothing goes on.
+        """
+        machinery = self._machinery
+        while (due := self._due()) <= until:
+            self.time = max(self.time, due)
+            if self._skips_at <= self.time:
+                self._skips_at = inf
+                machinery.skip()
+            elif machinery.due <= self.time:
+                was_busy = machinery.busy
+                machinery.advance(self.time)
+                if was_busy and not machinery.busy:
+                    self.revise()  # the gate behind the block opens
+            elif self.motion is not None:
+                if self.motion.end <= self.time:
+                    self._arrive()
+            elif self._go_on():
+                self._blocked = False
+            else:
+                self._blocked = True
+                if freely:
+                    return
+                if machinery.due > until:
+                    break
+                self.time = machinery.due
+            if freely and self.attention:
+                self.attention = False
+                return
+        if due < inf or not freely:
+            self.time = max(self.time, until)
+
+    def _due(self) -> float:
+        """When something happens next, as far as it is known."""
+        motion, now = self.motion, self.time
+        if motion is not None:
+            due = min(motion.end, self._skips_at, self._machinery.due)
+            if now < motion.rest < due:
+                due = motion.rest
+            return self._rest_time if now < self._rest_time < due else due
+        if self._waiting and self._machinery.busy:
+            return self._machinery.due
+        return min(max(self._until, self.time), self._machinery.due)
+
+    @property
+    def next_event(self) -> float:
+        """When something will happen next; inf where nothing will without a command."""
+        idle = self.motion is None and (self._blocked or not self.running)
+        return self._machinery.due if idle else self._due()
+
+    def _arrive(self) -> None:
+        """The end of a piece."""
+        motion = self.motion
+        assert motion is not None
+        self._x2 = motion.end2 if motion.end2 > REST2 else 0.0
+        self.position = motion.piece.at(1.0)
+        self.motion, self._skips_at = None, inf
+        if motion.piece.left > 0.0 and isinstance(motion, PathMotion):
+            self._coast(motion, 0.5 * self._follower.window)
+        if self.motion is None:
+            self._behind = motion.piece.length
+            if self._x2 == 0.0:
+                self._come_to_rest()
+
+    def _come_to_rest(self) -> None:
+        """The interpolator rests; nothing follows before the axes do, but for a stroke that overlaps."""
+        self._rest_time = self.time + self._follower.window
+        self._until = max(self._until, self._rest_time - self.preprocessing.early)
+
+    def _lead(self) -> None:
+        """The axes follow what has just been decided."""
+        motion = self.motion
+        if motion is None or self._follower.window == 0.0:
+            return
+        motion.lead(self._follower)
+        if self.time < motion.rest < inf:
+            self._rest_time = motion.rest + self._follower.window
+
+    def _coast(self, motion: PathMotion, late: float) -> None:
+        """A skip signal has come: the axes brake on the line of the move, and the rest of it is dropped."""
+        done = motion.done(self.time)
+        coasting = self.motion = motion.after_signal(self.time, late)
+        if coasting is not None:
+            self._follower.enter(coasting.piece, coasting.length, done)
+            self._lead()
+        self._x2, self._moved_on = 0.0, True
+        while self.preprocessing.items and isinstance(self.preprocessing.items[0], Move):
+            self.preprocessing.pop_piece()
+
+    def skip_signal(self) -> list[float] | None:
+        """The skip input comes now: where the axes are if a skip move runs, else None."""
+        motion = self.motion
+        if not isinstance(motion, PathMotion) or motion.piece.kind != Kind.SKIP or motion.piece.is_coasting:
+            return None
+        here = self.manual_offset.counted(self.machine)
+        self.position = motion.machine(self.time)
+        self._coast(motion, 0.0)
+        if self.motion is None:
+            self._come_to_rest()
+        return here
+
+    def _go_on(self) -> bool:
+        """Begin what comes next; false where nothing can begin now."""
+        self._waiting = False
+        if not self.running:
+            return False
+        filled = self.preprocessing.fill(one_block=self.single_block)
+        if self.preprocessing.revised:
+            self._look_ahead()
+        if not self.preprocessing.items:
+            return self._run_out(filled=filled)
+        item = self.preprocessing.items[0]
+        if isinstance(item, Move):
+            return self._begin(item)
+        held = self.context.feed_hold or (isinstance(item, Block) and self._may_hold())
+        held = self.rates.gives_up or (self.rates.hold and held)
+        if held and self._x2 == 0.0 and not isinstance(item, BlockEnd):
+            return False
+        return self._pass(item)
+
+    def _may_hold(self) -> bool:
+        """Whether feed hold stops in front of the next block: behind a tap it does, unless that block knows none."""
+        contexts = (
+            item.context for item in self.preprocessing.items if not isinstance(item, Block | BlockEnd)
+        )
+        return next((context.feed_hold for context in contexts), True)
+
+    def _run_out(self, *, filled: bool) -> bool:
+        """Nothing is prepared."""
+        if not filled:
+            self._until = self.time + self._cycle_s  # the program computes
+            return True
+        waiting = self.preprocessing.waiting
+        self._take_in_manual_offset()
+        if self.preprocessing.finished or waiting is None:
+            return self._end("end")
+        if waiting.until is not None and not waiting.until():
+            return False
+        if self._moved_on:
+            self._moved_on = False
+            self.preprocessing.arrived(self.position, self._by_hand)
+            self._by_hand = ()
+        if waiting is TYPED_BLOCKS_DONE:
+            return self._end(waiting.reason)
+        if waiting.reason == "preprocessing":
+            self._machinery.synchronise()
+            self._until = self.time + self._cycle_s
+        self.preprocessing.proceed()
+        return True
+
+    def _end(self, reason: str) -> bool:
+        """What runs is over once the machine has done its functions; whether that is still to come."""
+        self._waiting = self._machinery.busy
+        if not self._waiting:
+            self.preprocessing.proceed()
+            self._stop(reason)
+        return self._waiting
+
+    @property
+    def waits_for_channel(self) -> bool:
+        """Whether nothing goes on until another channel has done something."""
+        waiting = self.preprocessing.waiting
+        halted = not self.running or self.motion is not None or not self._blocked
+        return (
+            not halted and waiting is not None and waiting.until is not None and not self.preprocessing.items
+        )
+
+    def look_up(self) -> bool:
+        """Go on if another channel has done what this one waits for; whether it has."""
+        waiting = self.preprocessing.waiting
+        if not self.waits_for_channel or waiting is None or waiting.until is None or not waiting.until():
+            return False
+        self._blocked = False
+        return True
+
+    def _pass(self, item: Block | BlockEnd | Happening | Standing) -> bool:
+        """Execute something that is no motion."""
+        if isinstance(item, Block) and self._x2 == 0.0 and self._machinery.busy:
+            self._waiting = True
+            return True
+        self.preprocessing.items.popleft()
+        if isinstance(item, Block):
+            self._enter(item)
+        elif isinstance(item, BlockEnd):
+            if self.single_block and self._x2 == 0.0 and not self.preprocessing.typed_blocks_end:
+                self._stop("single-block")
+        elif isinstance(item, Standing):
+            self.context = item.context
+            self._until = self.time + item.seconds
+        else:
+            self.context = item.context
+            self._machinery.perform(item)
+            self._waiting = item.stands
+            if self._machinery.busy:
+                self._look_ahead()
+        return self.running
+
+    def _enter(self, block: Block) -> None:
+        self.block, self.modal = block, block.modal
+        self._machinery.enter(block)
+
+    def _begin(self, move: Move) -> bool:
+        """Start along the next piece of a move."""
+        if self.manual_offset and self._x2 == 0.0:
+            if (error := self._beyond(move)) is not None:
+                self.preprocessing.refuse(error)
+                return True
+            if self._take_back(move, self.position):
+                self._look_ahead()
+                return True
+        if self.preprocessing.is_last_piece:
+            self.preprocessing.end_in_rest()
+        cap2 = self.preprocessing.front_cap2(self.rates)
+        if self._x2 == 0.0 and cap2 == 0.0:
+            return False
+        preprocessing = self.preprocessing
+        piece, record = preprocessing.pop_piece()
+        self.context = self.place = piece.context
+        self._cap2 = cap2
+        if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
+            self._enter(Block(piece.program, piece.line, self.modal))
+        if piece.kind == Kind.SKIP and piece.first == 0.0 and self._skip_after_s is not None:
+            self._skips_at = self.time + self._skip_after_s
+        if self._x2 == 0.0 and self.time < self._rest_time:
+            self._follower = Follower(self._follower, self._rest_time, self.position)
+        follower = self._follower
+        if self._x2 == 0.0:
+            follower.begin(self.time, record[RAMP], record[BLEND])
+        follower.enter(piece, record[LENGTH], self._behind)
+        if piece.by_axis:
+            self.motion = AxesMotion(piece, preprocessing.limits, self.time, self.rates, record[RAMP])
+        else:
+            self.motion = PathMotion(
+                piece,
+                record,
+                preprocessing.limits,
+                self.time,
+                self._x2,
+                preprocessing.reach2,
+                cap2,
+                follower.window,
+            )
+        self._lead()
+        return True
+
+    # ---- changes -------------------------------------------------------------------------------------------
+
+    def _look_ahead(self) -> None:
+        """Work out the speeds of what is prepared again."""
+        self.preprocessing.revise(
+            self.rates,
+            self._cap2,
+            gated=self._machinery.busy,
+            single_block=self.single_block,
+            stops=self._stops_beside() if self.manual_offset else None,
+        )
+
+    def revise(self) -> None:
+        """Something that bounds the speed has changed: the motion goes on accordingly from where it is."""
+        self._blocked = False
+        motion = self.motion
+        if motion is None:
+            self._look_ahead()
+            return
+        piece = motion.piece
+        self._cap2 = self.rates.cap2(piece, piece.cap2, piece.asked)
+        self._look_ahead()
+        motion.revise(self.time, self.preprocessing.reach2, self._cap2, self.rates)
+        self._lead()
+
+    # ---- beside the path -----------------------------------------------------------------------------------
+
+    def intervene(self, way: Sequence[float], *, absolute: bool) -> None:
+        """The axes, which stand, have been moved by hand; manual absolute is on or off."""
+        self.manual_offset.moved(way, absolute=absolute)
+        motion = self.motion
+        if motion is not None and self._take_back(motion.piece, motion.machine(self.time)):
+            self.motion, self._x2, self._skips_at = None, 0.0, inf
+
+    def _take_back(self, piece: Move | Piece, here: Sequence[float]) -> bool:
+        """Let the row of a piece go to its end from where the axes are; false where it does not do that."""
+        if self.block is None or not can_begin_elsewhere(piece):
+            return False
+        back = self.block.takes_back
+        moved = sum(1 << i for i, (a, b) in enumerate(zip(here, piece.way.end, strict=True)) if a != b)
+        axes = back.at_once | (back.by_move & moved)
+        if not self.manual_offset.is_pending(axes):
+            return False
+        taken = self.manual_offset.take_back(axes)
+        self.position = [a + b for a, b in zip(here, taken, strict=True)]
+        self.preprocessing.begin_elsewhere(piece, self.position)
+        return True
+
+    def _stops_beside(self) -> Callable[[Item], bool]:
+        """Says of one item after the other whether the axes stand in front of it: it leads them back, or too far."""
+        back = self.block.takes_back if self.block is not None else NOTHING_BACK
+
+        def stops(item: Item) -> bool:
+            nonlocal back
+            if isinstance(item, Block):
+                back = item.takes_back
+                return self.manual_offset.is_pending(back.at_once | back.by_move)
+            if not isinstance(item, Move):
+                return False
+            return (item.done == 0.0 and self.manual_offset.is_pending(back.by_move)) or self._beyond(
+                item
+            ) is not None
+
+        return stops
+
+    def _beyond(self, move: Move) -> AlarmError | None:
+        """The alarm of a move that would lead the axes, which are beside the path, out of their limits."""
+        channel = self.preprocessing.channel
+        shares = (1.0,) if isinstance(move.way, Line) else (k / ARC_POINTS for k in range(1, ARC_POINTS + 1))
+        for share in shares:
+            place = move.way.at(share)
+            end = self.manual_offset.applied_to(real_of(place, move.context, channel.coordinates.geometry))
+            for axis, (value, (low, high)) in enumerate(zip(end, channel.limits, strict=False)):
+                if not low - NO_WAY <= value <= high + NO_WAY:
+                    error: AlarmError = channel.control.over_travel(
+                        channel.axes[axis], 1 if value > high else -1
+                    )
+                    error.line = move.line
+                    return error
+        return None
+
+    def _take_in_manual_offset(self) -> None:
+        """Nothing is prepared: what the axes were moved by hand is where the program goes on from."""
+        if any(self.manual_offset.pending):
+            self.position = self.manual_offset.counted(self.position)
+            self._by_hand = tuple(self.manual_offset.take_back(-1))
+            self._moved_on = True
+
+    def start(self) -> None:
+        """Go on, or begin."""
+        self.running, self.halt = True, ""
+        self.revise()
+
+    def _stop(self, reason: str) -> None:
+        self.running, self.halt, self.attention = False, reason, True
+        self._x2 = 0.0
+        self._machinery.halted(reason)
+
+    def stop(self, reason: str) -> None:
+        """Halt here: the axes stand."""
+        self._stop(reason)
+
+    def abandon(self) -> None:
+        """Give up what is left: reset. The axes stand where they are, or have been braked before."""
+        self.position = self.manual_offset.counted(self.machine)
+        self.manual_offset.take_back(-1)
+        self.motion = None
+        self.running, self.halt = False, ""
+        self._x2, self._until, self._skips_at = 0.0, self.time, inf
+        self._rest_time = self.time
+        self.block = None
+        self.preprocessing.clear(self.position)

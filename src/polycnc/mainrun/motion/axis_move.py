@@ -1,0 +1,77 @@
+"""One axis on its own: from where it is to where it shall come to rest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import copysign
+
+from polycnc.mainrun.motion.speed import Phase, Profile, straight_profile
+
+#: Ways below this count as none, mm or degrees.
+NO_WAY = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class AxisMove:
+    """A motion of one axis to rest.
+
+    Attributes:
+        start: Position when it began.
+        phases: Constant accelerations along the axis, signed; they come one after the other.
+        since: When it began.
+        target: Where the axis comes to rest.
+    """
+
+    start: float
+    phases: tuple[Phase, ...]
+    since: float
+    target: float
+
+    @property
+    def end(self) -> float:
+        """When the axis rests."""
+        return self.since + sum(phase.seconds for phase in self.phases)
+
+    def after(self, time: float) -> tuple[float, float]:
+        """Position and velocity at a time."""
+        if time >= self.end:
+            return self.target, 0.0
+        position, seconds = self.start, time - self.since
+        for phase in self.phases:
+            if seconds < phase.seconds:
+                velocity = phase.speed + phase.pull * seconds
+                return position + (phase.speed + 0.5 * phase.pull * seconds) * seconds, velocity
+            seconds -= phase.seconds
+            position += phase.way
+        return self.target, 0.0
+
+
+def axis_move(
+    position: float, velocity: float, target: float, speed: float, pull: float, since: float
+) -> AxisMove:
+    """The quickest way to rest at a target, or as near behind it as the axis can brake, and then back.
+
+    Args:
+        position: Where the axis is.
+        velocity: How fast it moves, signed.
+        target: Where it shall rest.
+        speed: How fast it may move; 0 lets it brake where it is.
+        pull: Its acceleration.
+        since: The time.
+    """
+    phases: list[Phase] = []
+    place, braking = position, velocity * velocity / (2.0 * pull)
+    if speed <= 0.0:
+        target = position + copysign(braking, velocity)
+    way = target - position
+    if velocity and (way * velocity <= 0.0 or braking > abs(way) + NO_WAY):
+        seconds = abs(velocity) / pull
+        phases.append(Phase(seconds, copysign(braking, velocity), velocity, -copysign(pull, velocity)))
+        place, velocity = position + copysign(braking, velocity), 0.0
+        way = target - place
+    if abs(way) > NO_WAY and (speed > 0.0 or velocity):
+        cap = speed if speed > 0.0 else abs(velocity)
+        sign = copysign(1.0, way)
+        profile: Profile = straight_profile(abs(way), velocity * velocity, 0.0, cap * cap, pull)
+        phases += [Phase(p.seconds, sign * p.way, sign * p.speed, sign * p.pull) for p in profile.phases]
+    return AxisMove(position, tuple(phases), since, target)

@@ -1,0 +1,140 @@
+"""Where the axes are along a row of the toolpath: lines and arcs, by the share of the way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, hypot, sin
+from typing import TYPE_CHECKING
+
+from polycnc.motion.kernels.columns import (
+    BASIS,
+    DELTA,
+    GEOMETRY,
+    GROWTH,
+    LIMIT_BLOCKS,
+    PLACES,
+    POSITION,
+    RADIUS,
+    RISE,
+    STATE_BLOCKS,
+    SWEEP,
+    VECTORS,
+)
+from polycnc.motion.pole import RING_MM
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.motion.pole import Turn
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """All axes move in proportion. Positions are machine coordinates of all channel axes (mm, degrees)."""
+
+    start: tuple[float, ...]
+    end: tuple[float, ...]
+
+    def at(self, share: float) -> list[float]:
+        """The position after a share of the way, 0 to 1."""
+        if share >= 1.0:
+            return list(self.end)
+        return [a + (b - a) * share for a, b in zip(self.start, self.end, strict=True)]
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """An arc, helix or spiral: radius, height and the axes beside the geometry change evenly with the angle.
+
+    Attributes:
+        start: Position of all axes.
+        end: Position of all axes.
+        geometry: Index of X, Y, Z among the axes, -1 for none.
+        outward: Unit vector from the centre to the start, in X, Y, Z.
+        forth: Unit vector along the way there.
+        normal: Unit vector of the axis.
+        sweep: Angle of the whole way, radians.
+        radius: At the start, mm.
+        growth: Of the radius over the whole way, mm.
+        rise: Along the axis over the whole way, mm.
+    """
+
+    start: tuple[float, ...]
+    end: tuple[float, ...]
+    geometry: tuple[int, int, int]
+    outward: tuple[float, ...]
+    forth: tuple[float, ...]
+    normal: tuple[float, ...]
+    sweep: float
+    radius: float
+    growth: float
+    rise: float
+
+    def at(self, share: float) -> list[float]:
+        """The position after a share of the angle, 0 to 1."""
+        if share >= 1.0:
+            return list(self.end)
+        point = [a + (b - a) * share for a, b in zip(self.start, self.end, strict=True)]
+        angle, radius = self.sweep * share, self.radius + self.growth * share
+        c, s = radius * cos(angle) - self.radius, radius * sin(angle)
+        for j, i in enumerate(self.geometry):
+            if i >= 0:
+                turned = c * self.outward[j] + s * self.forth[j] + self.rise * share * self.normal[j]
+                point[i] = self.start[i] + turned
+        return point
+
+
+Way = Line | Arc
+
+
+def row_line(start: Sequence[float], state: Sequence[float], axes: int) -> Line:
+    """The line of the row that the planner's kernel has just laid out."""
+    return Line(tuple(start), _position(state, axes))
+
+
+def row_arc(start: Sequence[float], state: Sequence[float], limits: Sequence[float], axes: int) -> Arc:
+    """The arc of the row that the planner's kernel has just laid out."""
+    at = LIMIT_BLOCKS * axes + GEOMETRY
+    x, y, z = (int(column) for column in limits[at : at + 3])
+    outward, forth, normal = (tuple(state[BASIS + 3 * k : BASIS + 3 * k + 3]) for k in range(3))
+    return Arc(
+        tuple(start),
+        _position(state, axes),
+        (x, y, z),
+        outward,
+        forth,
+        normal,
+        state[SWEEP],
+        state[RADIUS],
+        state[GROWTH],
+        state[RISE],
+    )
+
+
+def turn_arc(turn: Turn, records: Sequence[float], axes: int) -> Arc:
+    """The way of a turn at the pole along its ring; `records` are the planner's pieces of it."""
+    first, last = VECTORS + PLACES * axes, len(records) - axes
+    forth, inward = (records[VECTORS + k * axes : VECTORS + (k + 1) * axes] for k in (0, 2))
+    i, j = turn.pole.columns
+    return Arc(
+        tuple(records[first : first + axes]),
+        tuple(records[last : last + axes]),
+        (i, j, -1),
+        tuple(-inward[k] / hypot(inward[i], inward[j]) for k in (i, j)),
+        tuple(forth[k] / hypot(forth[i], forth[j]) for k in (i, j)),
+        (0.0, 0.0, 0.0),
+        abs(turn.way),
+        RING_MM,
+        0.0,
+        0.0,
+    )
+
+
+def _position(state: Sequence[float], axes: int) -> tuple[float, ...]:
+    first = STATE_BLOCKS + POSITION * axes
+    return tuple(state[first : first + axes])
+
+
+def way_along(state: Sequence[float], axis: int, axes: int) -> float:
+    """How far an axis moves in the row laid last, mm."""
+    return state[STATE_BLOCKS + DELTA * axes + axis]

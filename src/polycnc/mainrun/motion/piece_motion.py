@@ -1,0 +1,198 @@
+"""The motion of the axes along one piece: where they are and how fast, at any time."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import inf, sqrt
+from typing import TYPE_CHECKING, Any, Protocol
+
+from polycnc.mainrun.motion.axis_move import AxisMove, axis_move
+from polycnc.mainrun.motion.geometry import Line
+from polycnc.mainrun.motion.speed import NO_WAY_MM, profile_of
+from polycnc.motion.kernels.columns import LENGTH, PULL, TOP_RAPID
+from polycnc.motion.kernels.jerk import axis_pull
+
+if TYPE_CHECKING:
+    from array import array
+    from collections.abc import Sequence
+
+    from polycnc.mainrun.motion.follower import Follower
+    from polycnc.mainrun.preparation.items import Piece, Rates
+
+
+class Motion(Protocol):
+    """What the main run asks of a motion.
+
+    Attributes:
+        piece: The piece.
+        end: When its end is reached; inf where the axes come to rest before.
+        rest: When the axes come to rest before its end; inf where they do not.
+        end2: Squared path speed at the end.
+    """
+
+    piece: Piece
+    end: float
+    rest: float
+    end2: float
+
+    def machine(self, time: float) -> list[float]:
+        """Machine position."""
+
+    def speed(self, time: float) -> float:
+        """Path speed."""
+
+    def revise(self, time: float, aim2: float, cap2: float, rates: Rates) -> None:
+        """The limits of the speed have changed."""
+
+    def lead(self, follower: Follower) -> None:
+        """Say what the axes follow from now on."""
+
+
+class PathMotion:
+    """Along the path, all axes together.
+
+    Args:
+        piece: The piece.
+        record: The planner's numbers of it.
+        limits: The machine, as the planner's kernels take it.
+        since: When it begins.
+        start2: Squared speed then.
+        aim2: Largest squared speed at its end.
+        cap2: Largest squared speed on it.
+        window: Seconds by which the axes are behind.
+    """
+
+    def __init__(
+        self,
+        piece: Piece,
+        record: array[Any],
+        limits: Sequence[float],
+        since: float,
+        start2: float,
+        aim2: float,
+        cap2: float,
+        window: float = 0.0,
+    ) -> None:
+        self.piece = piece
+        self._window = window
+        self._record = record
+        self._limits = limits
+        self._axes = len(piece.way.start)
+        self._run(since, 0.0, start2, aim2, cap2)
+
+    def _run(self, since: float, done: float, start2: float, aim2: float, cap2: float) -> None:
+        aim2 = max(aim2, self.coasting2)
+        profile = profile_of(self._record, done, start2, aim2, cap2, self._axes, self._limits)
+        self._profile, self._since, self._done = profile, since, done
+        over = since + profile.seconds
+        self.end, self.rest = (over, inf) if profile.arrives else (inf, over)
+        self.end2 = profile.end2
+
+    def _after(self, time: float) -> tuple[float, float]:
+        over = time >= min(self.end, self.rest)
+        way, speed = self._profile.after(inf if over else time - self._since)
+        return min(self._done + way, self._record[LENGTH]), speed
+
+    def machine(self, time: float) -> list[float]:
+        """Machine position."""
+        return self.piece.at(self._after(time)[0] / self._record[LENGTH])
+
+    def speed(self, time: float) -> float:
+        """Path speed."""
+        return self._after(time)[1]
+
+    @property
+    def coasting2(self) -> float:
+        """Largest squared speed at its end from which the axes rest within the way that is left behind it."""
+        pull, left, late = float(self._record[PULL]), self.piece.left, 0.5 * self._window
+        if late == 0.0 or left <= 0.0:
+            return 2.0 * pull * left
+        speed = pull * (sqrt(late * late + 2.0 * left / pull) - late)
+        return speed * speed
+
+    @property
+    def length(self) -> float:
+        """Of the piece, mm."""
+        return float(self._record[LENGTH])
+
+    def lead(self, follower: Follower) -> None:
+        """Say what the axes follow from now on."""
+        follower.follow(self._since, self._done, self._profile.phases)
+
+    def done(self, time: float) -> float:
+        """How far along the piece the motion is."""
+        return self._after(time)[0]
+
+    def after_signal(self, time: float, late: float) -> PathMotion | None:
+        """The motion that brakes on the line of this one; None where the axes stand.
+
+        It goes on for `late` seconds, if the signal comes when the axes are where this motion is now.
+        """
+        way, speed = self._after(time)
+        brakes = speed * speed / (2.0 * self._record[PULL]) + speed * late
+        if brakes <= NO_WAY_MM:
+            return None
+        piece, length = self.piece, self._record[LENGTH]
+        here, per_mm = piece.at(way / length), piece.share / length
+        ahead = [a + (b - a) * per_mm * brakes for a, b in zip(piece.way.start, piece.way.end, strict=True)]
+        end = [h + a - s for h, a, s in zip(here, ahead, piece.way.start, strict=True)]
+        rest = replace(
+            piece, way=Line(tuple(here), tuple(end)), first=0.0, share=1.0, left=0.0, is_coasting=True
+        )
+        record = self._record[:]
+        record[LENGTH] = brakes
+        return PathMotion(rest, record, self._limits, time, speed * speed, 0.0, speed * speed, self._window)
+
+    def revise(self, time: float, aim2: float, cap2: float, rates: Rates) -> None:  # noqa: ARG002 - are in cap2
+        """The limits of the speed have changed."""
+        done, speed = self._after(time)
+        self._run(time, done, speed * speed, aim2, cap2)
+
+
+class AxesMotion:
+    """A rapid on which every axis runs alone to its end.
+
+    Args:
+        piece: The piece.
+        limits: The machine, as the planner's kernels take it.
+        since: When it begins.
+        rates: What the operator has set.
+        ramp: Seconds over which the axes' motion is averaged.
+    """
+
+    def __init__(
+        self, piece: Piece, limits: Sequence[float], since: float, rates: Rates, ramp: float = 0.0
+    ) -> None:
+        self.piece = piece
+        self.end2 = 0.0
+        n = len(piece.way.start)
+        own = piece.context.rapid_top
+        self._top = tuple(own(top) for top in limits[TOP_RAPID * n : (TOP_RAPID + 1) * n])
+        bounds = list(limits)
+        self._pull = tuple(axis_pull(ramp, n, bounds, i) for i in range(n))
+        self._moves = tuple(AxisMove(start, (), since, start) for start in piece.way.start)
+        self.revise(since, 0.0, 0.0, rates)
+
+    def machine(self, time: float) -> list[float]:
+        """Machine position."""
+        return [move.after(time)[0] for move in self._moves]
+
+    def lead(self, follower: Follower) -> None:
+        """Say what the axes follow from now on."""
+        follower.follow_alone(self._moves[0].since, [(move.start, move.phases) for move in self._moves])
+
+    def speed(self, time: float) -> float:
+        """Speed of the fastest axis."""
+        return max(abs(move.after(time)[1]) for move in self._moves)
+
+    def revise(self, time: float, aim2: float, cap2: float, rates: Rates) -> None:  # noqa: ARG002 - it ends in rest
+        """Another override; a speed of 0 brakes every axis."""
+        speeds = [rates.axis_speed(self.piece, top) for top in self._top]
+        self._moves = tuple(
+            axis_move(*move.after(time), end, speed, pull, time)
+            for move, end, speed, pull in zip(
+                self._moves, self.piece.way.end, speeds, self._pull, strict=True
+            )
+        )
+        over = max(move.end for move in self._moves)
+        self.end, self.rest = (over, inf) if all(speeds) else (inf, over)

@@ -1,0 +1,210 @@
+"""What the interpreter has prepared and the main run has still to do, in order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+from typing import TYPE_CHECKING
+
+from polycnc.channel.intervention import NOTHING_BACK
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.channel.intervention import TakesBack
+    from polycnc.machine.motion_settings import DryRun
+    from polycnc.mainrun.motion.geometry import Way
+    from polycnc.toolpath import Context, Event
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """A block begins.
+
+    Attributes:
+        program: Name of its program.
+        line: Its line in that program's file.
+        modal: Active code of every modal group behind it.
+        takes_back: What it takes back of a manual intervention.
+    """
+
+    program: str
+    line: int
+    modal: Mapping[str, str]
+    takes_back: TakesBack = NOTHING_BACK
+
+
+@dataclass(frozen=True, slots=True)
+class BlockEnd:
+    """A block is over; single block operation halts here. `code` is its N word, or its line."""
+
+    code: str
+
+
+@dataclass(frozen=True, slots=True)
+class Happening:
+    """An event of the program. `stands` says whether the axes stand still for it."""
+
+    event: Event
+    context: Context
+    stands: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """The axes stand for a time. `why` is a share of `motion.Times` (`dwell_s`, `spindle_s` …)."""
+
+    why: str
+    seconds: float
+    context: Context
+
+
+@dataclass(slots=True, eq=False)
+class Row:
+    """What a row of the path and its pieces share.
+
+    Attributes:
+        way: Where it leads; `row` is its number, with a fraction for a leg through the pole (`motion/pole.py`).
+        kind: Kind of the row.
+        context: What holds in it.
+        program: Name of the program; `line` the line in its file.
+        rapid: Runs at rapid traverse.
+        fixed: Bound to the spindle (thread, tap): no override, no feed hold, but for what follows.
+        per_revolution: Its speed follows the spindle.
+        left: Way from its end to the programmed end of a skip move that a signal cuts there, mm.
+        by_axis: A rapid on which every axis runs alone.
+        overridden: A tap on which the feed override acts all the same; `held` one that feed hold stops.
+        faster: How much faster than programmed a tap comes out where no override acts on it.
+        largest_override: The largest feed override of a tap.
+    """
+
+    way: Way
+    row: float
+    kind: int
+    context: Context
+    program: str
+    line: int
+    rapid: bool
+    fixed: bool
+    per_revolution: bool
+    left: float
+    by_axis: bool
+    overridden: bool
+    held: bool
+    faster: float
+    largest_override: float
+
+
+@dataclass(slots=True, eq=False)
+class Move(Row):
+    """A row that is laid out; its pieces are made when their turn comes.
+
+    Attributes:
+        asks: Speed that the program asks for up to a share of the way, mm/s; infinite where it asks for none.
+        total: Length of its pieces, mm, and `done` the share of those that have been taken.
+    """
+
+    asks: tuple[tuple[float, float], ...]
+    total: float
+    done: float = 0.0
+
+    def asked(self, share: float) -> float:
+        """Speed that the program asks for at a share of the way."""
+        if len(self.asks) == 1:
+            return self.asks[0][1]
+        return next((speed for end, speed in self.asks if share <= end), self.asks[-1][1])
+
+
+@dataclass(slots=True, eq=False)
+class Piece(Row):
+    """A piece of the path: a line, a chord, or 7.5° of an arc.
+
+    Attributes:
+        length: Of the piece, mm.
+        first: Share of the row that lies before it; `share` is its own.
+        cap2: Largest squared speed that the axes allow in it.
+        asked: Speed that the program asks for, mm/s; infinite where it asks for none.
+        is_coasting: What is run behind a skip signal.
+    """
+
+    length: float
+    first: float
+    share: float
+    cap2: float
+    asked: float
+    is_coasting: bool = False
+
+    def at(self, share: float) -> list[float]:
+        """Machine position after a share of the piece."""
+        last = share >= 1.0 and self.first + self.share >= 1.0 - 1e-9
+        return self.way.at(1.0 if last else self.first + self.share * share)
+
+
+Item = Block | BlockEnd | Happening | Standing | Move
+
+
+@dataclass(slots=True)
+class Rates:
+    """What the operator has set of the speeds, 1 for 100 %.
+
+    Attributes:
+        feed: Feed override.
+        rapid: Rapid override.
+        spindle: Spindle override.
+        dry_run: What a dry run does; None while none is on.
+        hold: Feed hold: the axes come to rest.
+        feed_cancelled: The feed override is switched off.
+        gives_up: Reset or emergency stop: so they do in threads and taps.
+    """
+
+    feed: float = 1.0
+    rapid: float = 1.0
+    spindle: float = 1.0
+    dry_run: DryRun | None = None
+    hold: bool = False
+    feed_cancelled: bool = False
+    gives_up: bool = False
+
+    def rapid_on(self, move: Row) -> float:
+        """Rapid override that acts on a move."""
+        return self.rapid if move.context.rapid_override else 1.0
+
+    def axis_speed(self, move: Row, top: float) -> float:
+        """Speed of an axis that runs a rapid alone and could go as fast as `top`."""
+        if self.gives_up or (self.hold and move.context.feed_hold):
+            return 0.0
+        return min(top * self.rapid_on(move), self._dry_rapid)
+
+    @property
+    def _dry_rapid(self) -> float:
+        """Largest speed of a rapid in dry run."""
+        dry = self.dry_run
+        return dry.speed * self.feed if dry is not None and dry.rapids else inf
+
+    def cap2(self, move: Row, cap2: float, asked: float) -> float:
+        """Largest squared speed on a piece of a move, where the axes allow `cap2` and the program asks for `asked`."""
+        context = move.context
+        if self.gives_up:
+            return 0.0
+        dry = self.dry_run
+        if move.fixed:
+            asked = dry.speed_for(asked) if dry is not None and dry.with_spindle else asked
+            overridden = move.overridden and not self.feed_cancelled
+            feed = min(self.feed, move.largest_override) / move.faster if overridden else 1.0
+            if feed == 0.0 or (self.hold and move.held):
+                return 0.0
+            return min(cap2, asked * asked * feed * feed)
+        if self.hold and context.feed_hold:
+            return 0.0
+        if move.by_axis:
+            return self.axis_speed(move, 1.0) ** 2
+        if move.rapid:
+            return min(cap2 * self.rapid_on(move) ** 2, self._dry_rapid**2)
+        if dry is not None:
+            speed = dry.speed_for(asked) * self.feed
+            return min(cap2, speed * speed)
+        feed = self.feed if context.feed_override else 1.0
+        speed = asked * feed if feed > 0.0 else 0.0
+        if move.per_revolution and context.spindle_override:
+            speed *= self.spindle
+        return min(cap2, speed * speed)

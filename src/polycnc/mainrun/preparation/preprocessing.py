@@ -1,0 +1,581 @@
+"""Preparation: the channel runs ahead of the axes, and its rows become pieces of the path and events, in order.
+
+The channel writes a block's rows; the planner's kernels (`motion/kernels`) lay them out as pieces with the speed
+that the axes allow. What the program asks for is kept beside it, because overrides act on that alone.
+"""
+
+from __future__ import annotations
+
+from array import array
+from collections import deque
+from functools import partial
+from math import inf
+from typing import TYPE_CHECKING, Any
+
+from polycnc.channel.intervention import NOTHING_BACK, TYPED_IN, MovedByHand
+from polycnc.channel.waits import PREPROCESSING, TYPED_BLOCKS_DONE, Wait
+from polycnc.mainrun.motion.geometry import row_arc, row_line, turn_arc, way_along
+from polycnc.mainrun.preparation.items import Block, BlockEnd, Happening, Item, Move, Piece, Rates, Standing
+from polycnc.mainrun.preparation.piece_buffer import PieceBuffer
+from polycnc.mainrun.preparation.reapproach import line_from
+from polycnc.motion.frames import real_of
+from polycnc.motion.kernels.arcs import facing_radius
+from polycnc.motion.kernels.columns import (
+    CAP2,
+    ENTRY2,
+    FACING,
+    FORM,
+    GEOMETRY,
+    LARGEST_OVERRIDE,
+    LENGTH,
+    LIMIT_BLOCKS,
+    OFFSETS,
+    PER_REVOLUTION,
+    ROW,
+    ROW_LENGTH,
+    SHARES,
+    STRAIGHT,
+    SWEEP,
+    TIMED,
+    Rows,
+    piece_width,
+)
+from polycnc.motion.kernels.feeds import asked_speed, faster, follows_radius, is_rapid
+from polycnc.motion.limits import averages, context_fields
+from polycnc.motion.transformed import Bounds, RealAxes
+from polycnc.motion.waits import ORIENT, Waits
+from polycnc.toolpath import Context, Kind, Toolpath
+from polycnc.toolpath.kinds import ARC_KINDS
+from polycnc.toolpath.table import CURVE_WIDTH
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.intervention import TakesBack
+    from polycnc.machine.model import Machine
+    from polycnc.machine.motion_settings import MotionSettings
+    from polycnc.mainrun.axes.shared_axes import SharedAxes
+    from polycnc.messages import AlarmError
+    from polycnc.motion.pole import Turn
+    from polycnc.program import Program
+    from polycnc.toolpath.table import Chunk
+
+#: Items that are prepared at most, and at how few the channel is asked for more.
+FULL, LOW = 512, 128
+#: Items that are prepared at most where short pieces do not make up the way that a bound reaches (`hold.py`).
+MOST = 4096
+#: Blocks that the channel runs in one interpolation cycle while it makes no item.
+BLOCKS_A_CYCLE = 1000
+#: Waits of the channel behind a block that counts as one even without rows.
+BEHIND_A_BLOCK = frozenset({"single-block", "stop"})
+#: Kinds of rows that may be arcs, and those that the spindle leads.
+ARC_WAYS = frozenset((*ARC_KINDS, Kind.THREAD))
+BOUND_TO_SPINDLE = frozenset((Kind.THREAD, Kind.TAP))
+#: Nothing among the moves themselves lets the axes stand.
+NO_STOPS = array("B")
+#: Waits of the channel that only let others look in.
+PASSING = frozenset({"chunk", "block", "single-block"})
+
+
+class Preprocessing:
+    """What lies ahead of the axes.
+
+    Args:
+        machine: The machine.
+        number: Number of the channel.
+        left: Where channels leave the axes that they share.
+
+    Attributes:
+        items: What is prepared, in order.
+        channel: The channel; set by `use` before anything runs.
+        waiting: Why the channel does not go on until it is told to; None while it runs.
+        finished: The program is at its end, or none runs.
+        revised: The speeds ahead have to be worked out again.
+        has_caught_up: Everything that the channel has written is executed.
+    """
+
+    def __init__(self, machine: Machine, number: int, left: SharedAxes) -> None:
+        self.toolpath = Toolpath(machine.channel_axes(number), chunk_rows=1, on_full=self._take)
+        self.items: deque[Item] = deque()
+        self.channel: Channel
+        self.waiting: Wait | None = None
+        self.finished = True
+        self.revised = False
+        self.has_caught_up = False
+        self._run: Iterator[Wait] = iter(())
+        self._axes = len(self.toolpath.axes)
+        self._settings: MotionSettings
+        self._buffer = PieceBuffer(self._axes)
+        self._machine, self._number = machine, number
+        self._stations: dict[tuple[object, ...], int] = {}
+        self._known_contexts = 0
+        self._delays: dict[int, list[tuple[str, float]]] = {}
+        self._waits = Waits(machine, self.toolpath.contexts, 0, self._delay)
+        self._blocks: deque[tuple[tuple[int, int], str, Mapping[str, str], TakesBack]] = deque()
+        self._open: tuple[tuple[int, int], str] | None = None
+        self._stopped = self._skips = False
+        self._geometry = machine.geometry_indices(number)
+        self._last_context, self._left = Context(), left
+        self._facing = -1
+        self._real: RealAxes
+
+    # ---- the channel ---------------------------------------------------------------------------------------
+
+    def use(self, channel: Channel, settings: MotionSettings) -> None:
+        """Say whose channel it is, and how the control leads the axes."""
+        self.channel, self._settings = channel, settings
+        self._waits.rapid_stops = settings.rapid_stops
+        self._waits.stand_in(channel.setup.spindle_tool if channel.number == 1 else 0)
+        channel.main_run = self
+        self._real = RealAxes(self._machine, self._number, self.toolpath.axes, settings, ())
+        limits = self._buffer.limits = self._real.limits(None)
+        self._facing = int(limits[LIMIT_BLOCKS * self._axes + GEOMETRY])
+
+    def start(self, program: Program, position: Sequence[float]) -> None:
+        """Begin with a program; the axes stand at a machine position."""
+        self.channel.alarms.clear()
+        self.begin(self.channel.run(program, power_on=False), position)
+
+    def begin(self, run: Iterator[Wait], position: Sequence[float]) -> None:
+        """Begin with a run of the channel; the axes stand at a machine position."""
+        self.clear(position)
+        self.finished = self.has_caught_up = False
+        self._run = run
+        if self.channel.group is not None:
+            self.channel.group.begin(self._number, run)
+
+    def clear(self, position: Sequence[float]) -> None:
+        """Forget everything prepared."""
+        self.items.clear()
+        self._buffer.clear()
+        self._waits.settle(0)
+        self._blocks.clear()
+        self._open = None
+        self._last_context = Context()
+        self._real.stand(position)
+        self.stand_at(position)
+        self._run = iter(())
+        self.waiting, self.finished, self.has_caught_up = None, True, True
+
+    def fill(self, *, one_block: bool = False) -> bool:
+        """Let the channel run ahead, in single block by one block; false if it made nothing although it may go on."""
+        if self._rests() or self._suffices(LOW, one_block=one_block):
+            return True
+        before = len(self.items)
+        for _ in range(BLOCKS_A_CYCLE):
+            self._step()
+            if self._rests() or self._suffices(FULL, one_block=one_block):
+                break
+        made = len(self.items) > before
+        self.revised = self.revised or made
+        return made or self._rests()
+
+    def _suffices(self, items: int, *, one_block: bool) -> bool:
+        """Whether so much is prepared, and enough for bounds that reach back; or where single block will halt."""
+        typed_in = self.channel.stack and self.channel.level.kind == TYPED_IN
+        if one_block and not typed_in and any(isinstance(item, BlockEnd) for item in self.items):
+            return True
+        return len(self.items) > items and (len(self.items) > MOST or self._buffer.reaches)
+
+    def _rests(self) -> bool:
+        """Whether the channel does not go on by itself."""
+        return self.finished or self.waiting is not None
+
+    @property
+    def is_bare(self) -> bool:
+        """Whether nothing of what a waiting program does next is prepared, nor read ahead for compensation."""
+        done = all(isinstance(item, BlockEnd) for item in self.items)
+        return done and not self.finished and self.channel.head is None
+
+    def intervene(self, program: Program) -> None:
+        """Blocks that were typed in come before what the waiting program does next, of which nothing is prepared."""
+        self.items.clear()
+        self.channel.push(program, kind=TYPED_IN, local=self.channel.level.locals)
+
+    @property
+    def typed_blocks_end(self) -> bool:
+        """Whether nothing comes any more of the blocks that were typed in."""
+        return not self.items and self.waiting is TYPED_BLOCKS_DONE
+
+    def end_in_rest(self) -> None:
+        """The axes come to rest behind what is prepared."""
+        self._buffer.end_in_rest()
+
+    def refuse(self, error: AlarmError) -> None:
+        """What is prepared cannot be executed: an alarm is in its place."""
+        self.clear(self.position)
+        self.fail(error)
+
+    def fail(self, error: AlarmError) -> None:
+        """The run of the channel ends with an alarm that did not arise in a block."""
+        self.channel.fail(error)
+        self.toolpath.block_boundary()
+        self.waiting, self.finished = None, True
+
+    def proceed(self) -> None:
+        """What the channel waited for has happened, and everything before it is executed."""
+        self.waiting, self.has_caught_up = None, True
+
+    @property
+    def returns_to_path(self) -> bool:
+        """Whether cycle start leads axes back that were moved by hand."""
+        return self._settings.returns_to_path
+
+    def free_threads(self, *, free: bool) -> None:
+        """Whether a dry run, not the spindle, says how fast the threads to come are."""
+        self._buffer.free_threads(free=free)
+
+    @property
+    def position(self) -> list[float]:
+        """Machine position behind everything prepared."""
+        return self._buffer.position
+
+    def arrived(self, position: Sequence[float], by_hand: Sequence[float] = ()) -> None:
+        """Tell the channel that the axes have come to rest elsewhere than its rows have led them.
+
+        `by_hand` is what an operator has moved of it.
+        """
+        self.stand_at(position)
+        real = real_of(position, self._last_context, self._geometry)
+        self.channel.coordinates.arrive_machine(real)
+        self.channel.moved_by_hand = MovedByHand(tuple(real), tuple(by_hand)) if by_hand else None
+
+    def stand_at(self, position: Sequence[float]) -> None:
+        """The axes stand elsewhere than the rows have led them."""
+        self._buffer.stand_at(position)
+
+    def _step(self) -> None:
+        """Run the channel to its next wait."""
+        channel = self.channel
+        wait = next(self._run, None)
+        level = channel.stack[-1] if channel.stack else None
+        if level is not None and (len(channel.toolpath.chunk) or (wait and wait.reason in BEHIND_A_BLOCK)):
+            halts = wait is not None and wait.reason == "single-block" and not channel.finished
+            self._note_block(level.program_number, level.line_of(level.current), wait if halts else None)
+        self._stopped = self._skips = self.has_caught_up = False
+        self.toolpath.block_boundary()
+        if wait is None:
+            self._end_waits()
+            self._close_blocks()
+            self.finished = True
+        elif channel.head is None:
+            self._close_blocks()
+        if wait is not None and wait.reason not in PASSING and (wait.reason != "stop" or self._stopped):
+            self.waiting = wait
+        elif self._skips:
+            self.waiting = PREPROCESSING
+        if self._rests():
+            self.end_in_rest()
+
+    # ---- blocks --------------------------------------------------------------------------------------------
+
+    def _note_block(self, program: int, line: int, halt: Wait | None) -> None:
+        """The channel has run a block; its rows may come later, if a stage of the path holds them back."""
+        code = "" if halt is None else halt.code or str(line)
+        channel = self.channel
+        self._blocks.append(((program, line), code, channel.mode.codes, channel.takes_back))
+        channel.takes_back = NOTHING_BACK
+
+    def _enter_block(self, key: tuple[int, int]) -> None:
+        """A row of a block comes: every block run before that one is over."""
+        if self._open is not None and self._open[0] == key:
+            return
+        if not any(block[0] == key for block in self._blocks):
+            return  # a row that a stage has added counts for the block before it
+        self._end_block()
+        while self._blocks:
+            found, code, modal, back = self._blocks.popleft()
+            self.items.append(Block(self.toolpath.programs[found[0]], found[1], modal, back))
+            self._open = (found, code)
+            if found == key:
+                return
+            self._end_block()
+
+    def _end_block(self) -> None:
+        if self._open is not None and self._open[1]:
+            self.items.append(BlockEnd(self._open[1]))
+        self._open = None
+
+    def _close_blocks(self) -> None:
+        """Nothing is held back: every block that was run is over."""
+        if self._blocks:
+            self._enter_block(self._blocks[-1][0])
+        self._end_block()
+
+    # ---- rows ----------------------------------------------------------------------------------------------
+
+    def _take(self, chunk: Chunk) -> bool:
+        """Turn the rows of a block into items."""
+        self._add_contexts()
+        self._take_over()
+        self._real.go_on_from(self._buffer.position)
+        bounds = self._real.bounds(chunk, self.toolpath.contexts)
+        self._delays.clear()
+        self._waits.take(chunk, self._facing)
+        self._waits.parallel.clear()
+        contexts = self.toolpath.contexts
+        for row in range(len(chunk)):
+            self._enter_block((chunk.program[row], chunk.line[row]))
+            number, context, kind = chunk.first + row, contexts[chunk.context[row]], chunk.kind[row]
+            delays = self._delays.get(number, [])
+            event = chunk.events[chunk.curve[row]] if kind == Kind.EVENT else None
+            if event is not None and event.type == "m":
+                delays = _without_function(delays, event.data.get("code"))
+            self.items.extend(Standing(why, seconds, context) for why, seconds in delays)
+            if event is not None:
+                stands = self._waits.stands_for(event)
+                self.items.append(Happening(event, context, stands))
+                if stands:
+                    self.end_in_rest()
+                self._stopped = self._stopped or event.type == "stop"
+            elif kind == Kind.DWELL:
+                self.end_in_rest()
+            else:
+                self._move(chunk, row, bounds)
+        return True
+
+    def _take_over(self) -> None:
+        """An axis that another channel has moved since is where that one has left it."""
+        for column, position in self._left.taken(self._number, self.channel.group):
+            self._buffer.move_axis(column, position)
+
+    def _end_waits(self) -> None:
+        """The program is at its end: an exact stop in its last row waits for its window."""
+        self._delays.clear()
+        self._waits.settle(0)
+        context = self._last_context
+        self.items.extend(Standing(why, seconds, context) for why, seconds in self._delays.get(0, []))
+
+    def _delay(self, row: int, why: str, _context: int, seconds: float) -> None:
+        if seconds > 0.0:
+            self._delays.setdefault(row, []).append((why, seconds))
+
+    def _add_contexts(self) -> None:
+        for context in self.toolpath.contexts[self._known_contexts :]:
+            spindle = self._waits.spindle(context)
+            turning = (context.spindle, context.spindle_rpm, context.spindle_direction, context.surface_speed)
+            smoothing = averages(context, self._machine, self._settings)
+            key = (context.tool, context.tool_name, *turning, smoothing)
+            station = self._stations.setdefault(key, len(self._stations))
+            self._buffer.contexts.extend(
+                context_fields(context, self._axes, spindle, station, self._settings, smoothing)
+            )
+            self._known_contexts += 1
+
+    def _move(self, chunk: Chunk, row: int, bounds: Bounds) -> None:
+        """Lay a move out; one through the pole of a transformation in legs, the rotary axis turning between them."""
+        n, number = self._axes, chunk.first + row
+        self._last_context = self.toolpath.contexts[chunk.context[row]]
+        if row in bounds.enters:
+            self.stand_at(bounds.enters[row])
+        own, shares = slice(row, row + 1), slice(row * SHARES, (row + 1) * SHARES)
+        if row not in bounds.legs:
+            rows = Rows(
+                chunk.kind[own], chunk.context[own], bounds.paced(chunk.feed[own], own),
+                chunk.end[row * n : (row + 1) * n], chunk.curve[own], NO_STOPS,
+                *(column[shares] for column in bounds.shares),
+            )  # fmt: skip
+            self._lay(chunk, row, rows, chunk.curves, number)
+            return
+        legs, feed = bounds.legs[row], bounds.paced(chunk.feed[own], own)[0]
+        for k, leg in enumerate(legs):
+            called = number + (k + 1) / (len(legs) + 1)
+            if leg.turn is not None:
+                self._turn(leg.turn, chunk, row, called - 0.5 / (len(legs) + 1))
+            self._lay(chunk, row, leg.at_feed(feed), leg.curves, called)
+            self.end_in_rest()
+
+    def _turn(self, turn: Turn, chunk: Chunk, row: int, called: float) -> None:
+        """The rotary axis turns at the pole."""
+        context, kind = self.toolpath.contexts[chunk.context[row]], chunk.kind[row]
+        records = self._real.turn(turn, context, kind, called, 0)
+        self._buffer.add(records)
+        way = turn_arc(turn, records, self._axes)
+        program, line, rapid = self.toolpath.programs[chunk.program[row]], chunk.line[row], kind == Kind.RAPID
+        total = sum(records[LENGTH :: piece_width(self._axes)])
+        self.items.append(
+            Move(
+                way, called, kind, context, program, line, rapid, False, False, 0.0, False, False, False, 1.0,
+                inf, ((1.0, inf),), total,
+            )
+        )  # fmt: skip
+
+    def _lay(self, chunk: Chunk, row: int, rows: Rows, curves: array[float], called: float) -> None:
+        """Lay a row or a leg of it out as pieces. Its feed is FREE, so that the pieces know what the axes allow."""
+        n, buffer, kind = self._axes, self._buffer, chunk.kind[row]
+        context = self.toolpath.contexts[chunk.context[row]]
+        start, limits = tuple(buffer.position), self._real.limits(context.transformation)
+        found = buffer.lay(rows, curves, chunk.first + row, limits, called)
+        if not found:
+            return
+        self._skips = self._skips or kind == Kind.SKIP
+        form = buffer.field(found[0], FORM)
+        is_arc = kind in ARC_WAYS and form != STRAIGHT
+        way = row_arc(start, buffer.state, limits, n) if is_arc else row_line(start, buffer.state, n)
+        record = chunk.context[row] * (OFFSETS + n)
+        self.items.append(
+            Move(
+                way,
+                called,
+                kind,
+                context,
+                self.toolpath.programs[chunk.program[row]],
+                chunk.line[row],
+                is_rapid(buffer.state),
+                kind in BOUND_TO_SPINDLE,
+                buffer.contexts[record + PER_REVOLUTION] != 0.0,
+                chunk.curves[chunk.curve[row] * CURVE_WIDTH]
+                if kind == Kind.SKIP and chunk.curve[row] >= 0
+                else 0.0,
+                form == TIMED,
+                kind == Kind.TAP and self._settings.taps_overridden,
+                kind == Kind.TAP and self._settings.taps_held,
+                faster(chunk.curves, buffer.state),
+                self._largest_override(chunk, row),
+                self._asks(curves, record, found, is_arc=is_arc),
+                sum(buffer.field(at, LENGTH) for at in found),
+            )
+        )
+
+    def _largest_override(self, chunk: Chunk, row: int) -> float:
+        """Of a tap, by its record of parameters; any for other moves."""
+        if chunk.kind[row] != Kind.TAP or chunk.curve[row] < 0:
+            return inf
+        return chunk.curves[chunk.curve[row] * CURVE_WIDTH + LARGEST_OVERRIDE] or inf
+
+    def _asks(
+        self, curves: array[float], record: int, found: Sequence[int], *, is_arc: bool
+    ) -> tuple[tuple[float, float], ...]:
+        """Speeds that the program asks for in the row laid last, by shares of its way; `found` are its pieces."""
+        state, contexts = self._buffer.state, self._buffer.contexts
+        follows = self._facing >= 0 and follows_radius(contexts, record)
+        lengths = [self._buffer.field(at, LENGTH) for at in found] if follows else [1.0]
+        total, done, asks = sum(lengths), 0.0, []
+        for length in lengths:
+            share = length / total
+            radius = self._radius(record, done + 0.5 * share, is_arc=is_arc)
+            speed = asked_speed(curves, contexts, record, state, state[ROW_LENGTH], radius)
+            done += share
+            asks.append((done, speed if speed > 0.0 else inf))
+        return tuple(asks)
+
+    def _radius(self, record: int, middle: float, *, is_arc: bool) -> float:
+        """Turning radius at a share of the row laid last, as the planner takes it."""
+        state, n, facing = self._buffer.state, self._axes, self._facing
+        if facing < 0:
+            return 0.0
+        follows = follows_radius(self._buffer.contexts, record)
+        if is_arc:
+            return facing_radius(middle * state[SWEEP] if follows else 0.0, n, self._buffer.limits, state)
+        return state[FACING] - (way_along(state, facing, n) * (1.0 - middle) if follows else 0.0)
+
+    # ---- speeds --------------------------------------------------------------------------------------------
+
+    def revise(
+        self,
+        rates: Rates,
+        cap2: float,
+        *,
+        gated: bool,
+        single_block: bool,
+        stops: Callable[[Item], bool] | None,
+    ) -> None:
+        """Work out how fast each piece may be entered, so that all that follow can be run.
+
+        Args:
+            rates: Overrides.
+            cap2: Largest squared speed on the piece that runs now.
+            gated: An auxiliary function is running: the next block must wait.
+            single_block: Every block ends in a halt.
+            stops: Says in front of which items the axes stand for another reason.
+        """
+        self._buffer.plan(partial(self._entries, rates, cap2, gated, single_block, stops))
+        self.revised = False
+
+    def _entries(
+        self, rates: Rates, cap2: float, gated: bool, single_block: bool, stops: Callable[[Item], bool] | None,
+        records: array[float], width: int,
+    ) -> Iterator[tuple[int, float]]:  # fmt: skip
+        """The largest squared speed at the start of each piece, by what the operator has set."""
+        at, closed, end = 0, False, len(records)
+        for item in self.items:
+            closed = closed or (stops is not None and stops(item))
+            if isinstance(item, Block):
+                closed = closed or gated
+            elif isinstance(item, BlockEnd):
+                closed = closed or single_block
+            elif isinstance(item, Move):
+                row, done = records[at + ROW], item.done
+                while at < end and records[at + ROW] == row:
+                    share = records[at + LENGTH] / item.total
+                    own = rates.cap2(item, records[at + CAP2], item.asked(done + 0.5 * share))
+                    yield at, 0.0 if closed else min(records[at + ENTRY2], cap2, own)
+                    cap2, closed = own, False
+                    done += share
+                    at += width
+
+    @property
+    def reach2(self) -> float:
+        """Largest squared speed at which the next piece may be entered; 0 where none is prepared."""
+        return self._buffer.reach2
+
+    @property
+    def early(self) -> float:
+        """Seconds by which the next piece may begin before the axes rest."""
+        return self._buffer.early
+
+    @property
+    def limits(self) -> array[float]:
+        """The machine, as the planner's kernels take it."""
+        return self._buffer.limits
+
+    def front_cap2(self, rates: Rates) -> float:
+        """Largest squared speed on the piece in front."""
+        move = self.items[0]
+        assert isinstance(move, Move)
+        middle = move.done + 0.5 * self._buffer.front(LENGTH) / move.total
+        return rates.cap2(move, self._buffer.front(CAP2), move.asked(middle))
+
+    def pop_piece(self) -> tuple[Piece, array[Any]]:
+        """Take the piece in front, and its record; its move leaves the queue with its last one."""
+        move, buffer = self.items[0], self._buffer
+        assert isinstance(move, Move)
+        is_last = buffer.is_last_of_row
+        record = buffer.take()
+        share = 1.0 - move.done if is_last else record[LENGTH] / move.total
+        piece = Piece(
+            move.way, move.row, move.kind, move.context, move.program, move.line, move.rapid, move.fixed,
+            move.per_revolution, move.left if is_last else 0.0, move.by_axis, move.overridden, move.held,
+            move.faster, move.largest_override, record[LENGTH], move.done, share, record[CAP2],
+            move.asked(move.done + 0.5 * share),
+        )  # fmt: skip
+        move.done += share
+        if is_last:
+            self.items.popleft()
+        return piece, record
+
+    def begin_elsewhere(self, move: Move | Piece, start: Sequence[float]) -> None:
+        """The rest of a row goes to its end from another start; the axes rest at both."""
+        while self.items and isinstance(self.items[0], Move) and self.items[0].row == move.row:
+            self.pop_piece()
+        fields = self._buffer.context_fields(self.toolpath.context_number(move.context), OFFSETS + self._axes)
+        records, moves = line_from(move, start, fields, self._buffer.limits)
+        self._buffer.put_in_front(records)
+        self.items.extendleft(moves)
+
+    @property
+    def is_last_piece(self) -> bool:
+        """Whether a row to come could still change the piece in front, and nobody knows when one will come."""
+        return not self._rests() and self._buffer.may_change
+
+    @property
+    def axes(self) -> int:
+        """Number of axes."""
+        return self._axes
+
+
+def _without_function(delays: list[tuple[str, float]], code: object) -> list[tuple[str, float]]:
+    """Delays of a row without what its M function takes: that is up to the machine's own controller."""
+    kept = [delay for delay in delays if delay[0] != "auxiliary_s"]
+    return kept[:-1] if code == ORIENT and kept else kept

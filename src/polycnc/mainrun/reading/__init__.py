@@ -1,0 +1,5 @@
+"""What a panel or a factory system reads.
+
+snapshot       values that belong to one moment
+display        from machine positions to what the displays show
+"""

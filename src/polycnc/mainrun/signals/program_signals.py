@@ -1,0 +1,54 @@
+"""Signals as programs read and write them: through the main run, at the time of the block."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.channel.channel import Channel
+    from polycnc.mainrun.signals.image import SignalImage
+
+
+class ProgramSignals(dict[str, int]):
+    """The bits between program and machine, in the control's memory: reading waits for the main run.
+
+    Args:
+        start: Values at power-on.
+        channel: The channel whose programs use them.
+        image: The signal image.
+    """
+
+    def __init__(self, start: Mapping[str, int], channel: Channel, image: SignalImage) -> None:
+        super().__init__(start)
+        self._channel = channel
+        self._image = image
+
+    def get(self, name: str, default: Any = 0) -> Any:  # noqa: ARG002 - a signal that nobody has set is 0
+        """The value of a signal once everything before the running block is executed."""
+        self._channel.synchronise()
+        return int(self._image[name])
+
+    def __setitem__(self, name: str, value: int) -> None:
+        super().__setitem__(name, value)
+        self._channel.event("signal", name=name, value=value)
+
+
+def connect(channel: Channel, image: SignalImage) -> None:
+    """Let the programs of a channel use the signal image; `#1000`, `READDI` and their likes."""
+    for attribute in ("signals", "bits"):
+        known = getattr(channel.memory, attribute, None)
+        if isinstance(known, dict):
+            setattr(channel.memory, attribute, ProgramSignals(known, channel, image))
+    if hasattr(channel.memory, "machine_signals"):
+        channel.memory.machine_signals = None  # the machine's controller is asked when a word reaches it
+
+
+def give(channel: Channel, image: SignalImage) -> None:
+    """Give the inputs to programs that keep them in variables (`$A_IN[1]`), before they are read."""
+    kept: dict[tuple[str, tuple[int, ...]], float] = getattr(channel.memory, "nck", {})
+    for name, value in image.values.items():
+        variable, _, index = name.partition("[")
+        if variable.startswith("$A_") and index[:-1].isdigit():
+            kept[variable, (int(index[:-1]),)] = bool(value) if variable[-1] != "A" else value
