@@ -1,7 +1,7 @@
 """The interpreter: runs the blocks of a program ahead and writes their motion and events into the toolpath.
 
-A channel is a coroutine: `run()` yields a `Wait` when something outside must happen first (an operator's start after
-M00, a chunk to be taken) and goes on when it is resumed. It knows no control: blocks are callables that a control's
+`run()` gives a `Wait` when something outside must happen first (an operator's start after M00, a chunk to be taken) and
+goes on when the next one is asked for. It knows no control: blocks are callables that a control's
 language compiled, and what differs between controls lies behind `Control`.
 """
 
@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import re
 from math import inf, nan
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.coordinates import Coordinates
 from polycnc.channel.failure import end_run, stand_at_last_row, take_back
 from polycnc.channel.intervention import NOTHING_BACK, TYPED_IN, MovedByHand
 from polycnc.channel.mode import Mode, ModeTable
 from polycnc.channel.path import Move, PathStage, TableStage, is_way, points_of_arc
+from polycnc.channel.run import Run
 from polycnc.channel.stack import Executable, Level
 from polycnc.channel.waits import (
     BLOCK,
@@ -30,7 +31,7 @@ from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
 from polycnc.toolpath.table import CHUNK_ROWS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Sequence
 
     from polycnc.channel.group import ChannelGroup
     from polycnc.channel.interface import Bulk, Control, MainRun, Scanner, Zone
@@ -57,6 +58,7 @@ class Channel:
         coordinates: Positions and frames.
         feed: Feed in force in internal units (mm/s, mm/rev, 1/s as the feed mode says), NaN when none was programmed.
         level: The running program level, `stack[-1]`.
+        running: The run that was begun last; None before the first one.
         start_position: Position at power-on, all axes.
         head: First stage of the path, or None while moves go straight to the table.
         mark: Rows of the chunk when the running block began.
@@ -74,6 +76,11 @@ class Channel:
         passes: What ends a main program that would begin again for ever; None where somebody else ends it.
         bulk: Whether and how plain blocks are scanned in bulk; None interprets every block.
     """
+
+    #: A snapshot of the channel does not go on to these: they are none of its state.
+    UNFOLLOWED: ClassVar = frozenset(
+        {"axis_data", "bulk", "control", "_control", "machine", "main_run", "setup", "share_after"}
+    )
 
     def __init__(
         self,
@@ -118,6 +125,7 @@ class Channel:
         #: Joined steps run no more of their blocks at once from here on, so that the block limit is exact.
         self.joined_below = block_limit - 2 * len(BURST)
         self._wait: Wait | None = None
+        self.running: Run | None = None
         self.group: ChannelGroup | None = None
         self.stroke_zone: Zone | None = None
         self.single_block = bool(setup.switches.single_block)
@@ -268,13 +276,18 @@ class Channel:
 
     # ---- running -------------------------------------------------------------------------------------------------
 
-    def run(self, program: Program, *, power_on: bool = True) -> Iterator[Wait]:
-        """Run a program to its end or to an alarm, yielding whenever the channel must wait.
+    def run(self, program: Program, *, power_on: bool = True) -> Run:
+        """Run a program to its end or to an alarm: an iterator that gives every wait of the channel.
 
         Args:
             program: The main program.
             power_on: Begin in the state of power-on; else in the state that the channel is in.
         """
+        self.running = Run(self, program, power_on=power_on)
+        return self.running
+
+    def begin(self, program: Program, *, power_on: bool) -> None:
+        """Stand at the first block of a program; `run` calls it."""
         self.stack.clear()
         self.finished = False
         self.push(program, kind="main")
@@ -285,12 +298,9 @@ class Channel:
                 self._control.begin(self)
         except AlarmError as error:
             self.fail(error)
-        while not self._finished:
-            yield from self._run_blocks()
-        self.flush()
 
-    def _run_blocks(self) -> Iterator[Wait]:
-        """Run blocks until the channel has finished or has to hand over."""
+    def advance(self) -> Wait | None:
+        """Run blocks until the channel has to hand over; None where it has finished, or was stopped by an alarm."""
         toolpath = self.toolpath
         self.mark = toolpath.mark()
         try:
@@ -300,22 +310,23 @@ class Channel:
                 if self.mark >= CHUNK_ROWS:
                     toolpath.block_boundary()
                     self.mark = 0
-                    yield CHUNK
+                    self._wait = self._wait or CHUNK
                 if self._wait is not None:
                     wait, self._wait = self._wait, None
-                    yield wait
+                    return wait
         except AlarmError as error:
             take_back(self, found_ahead=bool(error.line))
             self.fail(error)
         except PreprocessingStop:
             self._level.index = self._level.current
-            yield PREPROCESSING
+            return PREPROCESSING
         except ArithmeticError as error:
             take_back(self)
             self.fail(self._control.arithmetic_alarm(error))
         except RecursionError:
             take_back(self)
             self.fail(AlarmError("PC0003"))
+        return None
 
     def _run_burst(self, level: Level) -> Step | None:
         """Run blocks of a level until something asks for attention; gives the last one.

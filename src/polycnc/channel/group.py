@@ -8,7 +8,7 @@ programs always give the same result. The run ends with the program of the first
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.channel import Channel
 from polycnc.channel.waits import Wait
@@ -68,7 +68,11 @@ class ChannelGroup:
         shared: What the control keeps once for all channels, by names of its own.
         owner: Number of the channel that may move an axis of the machine, 0 for none.
         moved_by: Number of the channel that knows where an axis of the machine stands.
+        running: The run that was begun last.
     """
+
+    #: A snapshot does not go on to these: they belong to who drives the group.
+    UNFOLLOWED: ClassVar = frozenset({"_make", "_on_start"})
 
     def __init__(
         self,
@@ -85,6 +89,7 @@ class ChannelGroup:
         self.moved_by = self.owner.copy()
         self._members = {first.number: Member(first)}
         self._meetings: list[Meeting] = []
+        self.running: GroupRun | None = None
         first.group = self
 
     @property
@@ -162,32 +167,30 @@ class ChannelGroup:
         if number in self._members:
             self._members[number].run = None
 
-    def run(self, program: Program) -> Iterator[Wait]:
-        """Run a program in the first channel, and in the others what it starts; yields the waits of the first."""
+    def run(self, program: Program) -> GroupRun:
+        """Run a program in the first channel, and in the others what it starts: gives the waits of the first."""
+        self.running = GroupRun(self, program)
+        return self.running
+
+    def first_turn(self, program: Program) -> Member:
+        """The first channel begins with a program; `run` calls it."""
         first = self._members[self.first.number]
-        first.run = self.first.run(program)
-        member: Member | None = first
-        while member is not None and member.run is not None and self.is_running(first.channel.number):
+        first.run, first.until = self.first.run(program), None
+        return first
+
+    def next_turn(self, number: int) -> Member | None:
+        """The member whose turn comes behind that of a channel; None where none can go on."""
+        member = self._next(number)
+        if member is not None:
             member.until = None
-            for wait in self._turn(member, member.run):
-                if member is first:
-                    yield wait
-            member = self._next(member.channel.number)
-        if self.is_running(first.channel.number) and not self.first.alarms:
-            # Every channel waits for another one: nothing will ever happen again.
+        return member
+
+    def end_turns(self) -> None:
+        """The run is over; where every channel waits for another one, nothing would ever happen again: PC0005."""
+        if self.is_running(self.first.number) and not self.first.alarms:
             self.first.fail(AlarmError("PC0005"))
         for member in self._members.values():
             member.run = None
-
-    @staticmethod
-    def _turn(member: Member, run: Iterator[Wait]) -> Iterator[Wait]:
-        """Let a channel run until it waits for another one; yields its other waits."""
-        for wait in run:
-            if wait.until is not None:
-                member.until = wait.until
-                return
-            yield wait
-        member.run = None
 
     def _next(self, number: int) -> Member | None:
         """The channel that can go on, from the one behind a number on; None where all wait."""
@@ -231,3 +234,48 @@ class ChannelGroup:
     def let_run(self, channel: Channel) -> None:
         """Give the other channels a turn."""
         channel.wait = Wait("channel", until=lambda: True)
+
+
+class GroupRun:
+    """The waits of the first channel while all channels of a group take turns; see `Run`.
+
+    Args:
+        group: The group.
+        program: The program of the first channel.
+    """
+
+    __slots__ = ("_begun", "_group", "_over", "_program", "_turn")
+
+    def __init__(self, group: ChannelGroup, program: Program) -> None:
+        self._group = group
+        self._program = program
+        self._begun = self._over = False
+        self._turn: Member | None = None
+
+    def __iter__(self) -> GroupRun:
+        return self
+
+    def __next__(self) -> Wait:
+        if self._over:
+            raise StopIteration
+        group = self._group
+        if not self._begun:
+            self._begun = True
+            self._turn = group.first_turn(self._program)
+        first = group.first
+        while (
+            (member := self._turn) is not None and member.run is not None and group.is_running(first.number)
+        ):
+            wait = next(member.run, None)
+            if wait is None:
+                member.run = None
+            elif wait.until is not None:
+                member.until = wait.until
+            elif member.channel is first:
+                return wait
+            else:
+                continue
+            self._turn = group.next_turn(member.channel.number)
+        self._over = True
+        group.end_turns()
+        raise StopIteration

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
 
 
 class Mode:
@@ -66,3 +66,16 @@ class ModeTable:
         self.generation += 1
         for mode in self._modes.values():
             mode.plans.clear()
+
+    def memento(self) -> Callable[[], None]:
+        """For a snapshot: modes and plans are only worked out once, but plans that rest on what was changed are none.
+
+        The generation never goes back: nobody must take a plan made in between for one of before.
+        """
+        generation = self.generation
+
+        def put_back() -> None:
+            if self.generation != generation:
+                self.forget_plans()
+
+        return put_back

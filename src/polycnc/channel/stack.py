@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -60,6 +60,8 @@ class Level:
         counts: Whether a step is a block for stages that look ahead (a macro statement is none).
         scanner: What scans the plain blocks of the program, if anything does.
     """
+
+    UNFOLLOWED: ClassVar = frozenset({"steps", "line_of", "counts"})  # those of the program
 
     code: Executable
     index: int = 0

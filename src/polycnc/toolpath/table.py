@@ -139,6 +139,20 @@ class Chunk:
             "curves": np.frombuffer(self.curves, np.float64).reshape(-1, CURVE_WIDTH),
         }
 
+    def memento(self) -> Callable[[], None]:
+        """What drops the rows that are added from here on; rows that are there now stay for ever."""
+        rows, curves, events = len(self.kind), len(self.curves), len(self.events)
+
+        def put_back() -> None:
+            columns: tuple[array[Any], ...] = (
+                self.kind, self.program, self.line, self.context, self.feed, self.curve
+            )  # fmt: skip
+            for column in columns:
+                del column[rows:]
+            del self.end[rows * self.axes :], self.curves[curves:], self.events[events:]
+
+        return put_back
+
     def truncate(self, rows: int) -> None:
         """Drop every row from number `rows` (within the chunk) on, with its curve and event."""
         events = sum(1 for kind in self.kind[rows:] if kind == Kind.EVENT)
@@ -262,6 +276,25 @@ class Toolpath:
     def truncate(self, mark: int) -> None:
         """Forget the rows of a block that alarmed."""
         self.chunk.truncate(mark)
+
+    def memento(self) -> Callable[[], None]:
+        """What forgets all that comes from here on (for a snapshot). Chunks that were dropped meanwhile are back."""
+        chunk, chunks, cut = self.chunk, self.chunks.copy(), self.chunk.memento()
+        contexts, programs = len(self.contexts), len(self.programs)
+        before = self._rows_before, self._last_end, self._last_context
+
+        def put_back() -> None:
+            cut()
+            self.chunk = chunk
+            self.chunks[:] = chunks
+            del self.contexts[contexts:], self.programs[programs:]
+            while len(self._context_numbers) > contexts:
+                self._context_numbers.popitem()
+            while len(self._program_numbers) > programs:
+                self._program_numbers.popitem()
+            self._rows_before, self._last_end, self._last_context = before
+
+        return put_back
 
     def rows(self) -> Iterator[Row]:
         """All rows that are still held, as Python values."""

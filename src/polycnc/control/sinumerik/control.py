@@ -6,6 +6,7 @@ from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from polycnc.channel.snapshot import unchanging
 from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.sinumerik import (
     access,
@@ -74,6 +75,7 @@ R_PARAMETERS = 1000
 ZERO_OFFSETS = {word: gcodes.number_of(word) for word in gcodes.BY_NAME["zero_offset"].words}
 
 
+@unchanging
 class Sinumerik:
     """SINUMERIK 840D sl with its full NC language."""
 

@@ -7,6 +7,7 @@ from importlib import resources
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.intervention import TYPED_IN, TakesBack
+from polycnc.channel.snapshot import unchanging
 from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.word_address import coordinates, frames, path
 from polycnc.control.word_address.codes import GCode, MCode
@@ -43,6 +44,7 @@ if TYPE_CHECKING:
 LAST_OFFSET = 999
 
 
+@unchanging
 class WordAddressControl:
     """A word-address control. A family states its tables as class attributes and overrides what differs.
 

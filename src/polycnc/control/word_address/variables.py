@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.channel.snapshot import unchanging
 from polycnc.control.word_address.memory import Memory
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.word_address.functions import round_half_away
@@ -41,6 +42,7 @@ class SystemRange:
     name: str = ""
 
 
+@unchanging
 class Registry:
     """The system variables of a control.
 

@@ -6,6 +6,7 @@ from array import array
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
+from polycnc.channel.snapshot import unchanging
 from polycnc.language.bulk import layout
 from polycnc.language.bulk.shapes import Shapes
 from polycnc.language.bulk.text import Window
@@ -26,6 +27,7 @@ MOST_NOTES = 4096
 READY_LINES, COMPILE_LINES = 5_000, 200_000
 
 
+@unchanging
 @dataclass(frozen=True, slots=True)
 class Bulk:
     """Whether and how plain blocks are scanned.
@@ -133,6 +135,7 @@ class LastMoves(NamedTuple):
     curve: tuple[float, ...]
 
 
+@unchanging
 class Scanner:
     """Scans the plain blocks of one channel.
 

@@ -12,6 +12,7 @@ from bisect import bisect_left
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.snapshot import unchanging
 from polycnc.channel.steps import forget_steps, kept_steps
 from polycnc.language.sinumerik import rights
 from polycnc.language.sinumerik.blocks import CompiledBlock, compile_block, compile_text, expanded
@@ -43,6 +44,7 @@ _BLANK = " \t;%\r\x00"
 _EMPTY = re.compile(r"[ \t\r\x00]*(?:;|%|$)")
 
 
+@unchanging
 class SinumerikProgram:
     """One program; satisfies the channel's `Executable`.
 

@@ -7,6 +7,7 @@ from bisect import bisect_left, bisect_right
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
+from polycnc.channel.snapshot import unchanging
 from polycnc.channel.steps import several
 from polycnc.language.syntec.layout import NO_SEQUENCE
 from polycnc.language.syntec.statements import StatementReader
@@ -27,6 +28,7 @@ _SEQUENCE = re.compile(r"[ \t]*(?:/\d?[ \t]*)*N[ \t]*(\d+)", re.IGNORECASE)
 _HEAD = re.compile(r"[ \t]*[O:][ \t]*\d+", re.IGNORECASE)
 
 
+@unchanging
 class MacroProgram:
     """The steps of a macro file (`%@MACRO`): blocks, assignments, tests and jumps.
 

@@ -7,6 +7,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.channel.snapshot import unchanging
 from polycnc.channel.steps import kept_steps, several
 from polycnc.language.word_address.joining import JOINABLE, MAX_JOINED, join, join_loop
 from polycnc.language.word_address.macro_b import Reader, compile_source
@@ -69,6 +70,7 @@ def _led_by(first: Step, joined: Step) -> Step:
     return joined
 
 
+@unchanging
 class WordAddressProgram:
     """The steps of one program. A line is a step; a line with several `;` keeps its blocks in one step.
 
