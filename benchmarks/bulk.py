@@ -93,14 +93,15 @@ def scanner() -> Iterator[Figure]:
     """From the lines of a program to columns of the toolpath, in this process."""
     from polycnc.channel.channel import Channel
     from polycnc.control.registry import control
-    from polycnc.language.bulk.compiled import NATIVE
+    from polycnc.language.bulk.compiled import LIBRARY
+    from polycnc.language.bulk.kernels import scan
     from polycnc.language.bulk.scanner import Bulk
     from polycnc.machine import load_machine
     from polycnc.machine.setup import Setup
     from polycnc.program import ProgramStore
     from polycnc.toolpath import Toolpath
 
-    if NATIVE.function is None:
+    if LIBRARY.compiled(scan) is None:
         yield skipped("scanner", "numba is not installed (extra `fast`)")
         return
     machine = load_machine("mill3")
@@ -120,7 +121,10 @@ def scanner() -> Iterator[Figure]:
                 raise RuntimeError(channel.alarms[0].code)
         yield rate("scanner alone", BLOCKS / min(times), SCANNED_PER_SECOND, "blocks/s")
     with tempfile.TemporaryDirectory() as cache:
-        code = "from polycnc.language.bulk.compiled import NATIVE; NATIVE.function"
+        code = (
+            "from polycnc.language.bulk.compiled import LIBRARY\n"
+            "from polycnc.language.bulk.kernels import scan\nLIBRARY.compiled(scan)"
+        )
         cold = [sys.executable, "-c", code]
         environment = os.environ | {"NUMBA_CACHE_DIR": cache}
         begin = time.perf_counter()

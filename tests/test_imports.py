@@ -15,6 +15,7 @@ import polycnc
 SOURCE = Path(polycnc.__file__).parent
 #: From the ground up: a folder (or module) imports only those that stand before it.
 LAYERS = (
+    "kernels",
     "messages",
     "geometry",
     "toolpath",

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from array import array
 from math import inf, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from polycnc.motion.compiled import PLAIN, compiled_kernels
+from polycnc.motion.compiled import PLAIN, compiled_kernels, ready
 from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
@@ -61,7 +61,7 @@ if TYPE_CHECKING:
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
 
-#: From so many rows on compiled kernels pay off: when they are in Numba's cache, and when they must be
+#: From so many rows on compiled kernels pay off: when machine code is kept, and when they must be
 #: compiled first.
 READY_ROWS, COMPILE_ROWS = 20_000, 150_000
 #: Pieces that the buffer takes at first, and pieces that it takes before it is looked at.
@@ -170,16 +170,13 @@ class Planner:
         self._next_row = chunk.first + len(chunk)
         self._waits.take(chunk, self.facing)
         stops = array("B", [self._waits.stands_for(event) for event in chunk.events])
-        see = self._kernels.see
         feed = chunk.feed if self._feed_profile is None else self._feed_profile(chunk)
         bounds = self._real.bounds(chunk, self._toolpath.contexts)
         feed = bounds.paced(feed)
-        columns = (chunk.kind, chunk.context, feed, chunk.end, chunk.curve, stops, *bounds.shares)
-        kind, *others = (see(column) for column in columns)
-        fixed = see(chunk.curves), chunk.first, see(self._contexts)
+        others = chunk.context, feed, chunk.end, chunk.curve, stops, *bounds.shares
         row = 0
         for edge in (*sorted({*bounds.enters, *bounds.legs}), len(chunk)):
-            self._lay(Rows(kind[:edge], *others), row, *fixed)
+            self._lay(Rows(chunk.kind[:edge], *others), row, chunk.curves, chunk.first)
             row = edge
             if edge in bounds.enters:
                 context = self._toolpath.contexts[chunk.context[edge]]
@@ -189,24 +186,22 @@ class Planner:
                 row = edge + 1
         return True
 
-    def _lay(self, rows: Rows, row: int, curves: Any, number: int, contexts: Any) -> None:
+    def _lay(self, rows: Rows, row: int, curves: array[float], number: int) -> None:
         """Lay rows out from one on."""
-        see = self._kernels.see
         while row < len(rows.kind):
-            pieces, state = see(self._pieces), see(self._state)
-            row = self._kernels.lay(rows, row, curves, number, contexts, see(self._limits), pieces, state)
-            del pieces  # an array must not grow while it is seen
+            row = self._kernels.lay(
+                rows, row, curves, number, self._contexts, self._limits, self._pieces, self._state
+            )
             if row < len(rows.kind):
                 self._make_room()
 
     def _through_pole(self, legs: Sequence[LaidLeg], chunk: Chunk, row: int, feed: float) -> None:
         """Lay the legs of a row, at rest before each of them; between two of them the rotary axis turns."""
-        see, number, first = self._kernels.see, chunk.first + row, chunk.context[row]
+        number, first = chunk.first + row, chunk.context[row]
         for leg in legs:
             if leg.turn is not None:
                 self._turn(leg.turn, first, chunk.kind[row], number)
-            columns: Any = leg.at_feed(feed)
-            self._lay(Rows(*map(see, columns)), 0, see(leg.curves), number, see(self._contexts))
+            self._lay(leg.at_feed(feed), 0, leg.curves, number)
             self._state[STOP] = 1.0
 
     def _turn(self, turn: Turn, context: int, kind: int, number: int) -> None:
@@ -256,7 +251,7 @@ class Planner:
         ):
             return
         fast = compiled_kernels()
-        if fast is not None and (self._compiled or fast.ready or rows >= COMPILE_ROWS):
+        if fast is not None and (self._compiled or ready() or rows >= COMPILE_ROWS):
             self._kernels = fast
 
     # ---- the buffer of pieces
@@ -280,11 +275,11 @@ class Planner:
         The last pieces wait for the rows behind them, for a spline bends there, and a bound on the speed may
         reach back; the joint before them is taken as a stop.
         """
-        count, width, see = int(self._state[PIECES]), self._width, self._kernels.see
+        count, width = int(self._state[PIECES]), self._width
         last = self._settled(count) if end is None else count
         if last <= 0:
             return
-        final = self._kernels.backward(see(self._pieces), last, self._axes, see(self._limits))
+        final = self._kernels.backward(self._pieces, last, self._axes, self._limits)
         if end is not None:
             final = count
         if final <= 0:
@@ -292,13 +287,13 @@ class Planner:
         pieces, rest = self._pieces, array("d", self._pieces[final * width : count * width])
         end2 = rest[REACH2] if rest else 0.0
         self._kernels.forward(
-            see(pieces),
+            pieces,
             final,
             self._axes,
-            see(self._limits),
+            self._limits,
             end2,
-            see(self._slots),
-            see(self._row_s),
+            self._slots,
+            self._row_s,
             self._first_row,
         )
         if self.on_pieces is not None:

@@ -11,7 +11,9 @@ from typing import Any
 from polycnc.channel.channel import Channel
 from polycnc.control.registry import control
 from polycnc.language.bulk import layout
-from polycnc.language.bulk.compiled import plain_scan
+from polycnc.language.bulk.kernels import Tables
+from polycnc.language.bulk.kernels import scan as plain_scan
+from polycnc.language.bulk.moves import Columns
 from polycnc.language.bulk.scanner import Bulk
 from polycnc.machine import load_machine
 from polycnc.machine.setup_file import parse_setup
@@ -58,10 +60,10 @@ def scanned(text: str, control_id: str, setup: Mapping[str, Any] | None = None, 
     """How many blocks of a program the scanner takes."""
     taken = 0
 
-    def scan(*arrays: Any) -> int:
+    def scan(tables: Tables, columns: Columns) -> int:
         nonlocal taken
-        outcome = plain_scan(*arrays)
-        taken += arrays[1][layout.BLOCKS]
+        outcome = plain_scan(tables, columns)
+        taken += tables.ints[layout.BLOCKS]
         return outcome
 
     run(text, control_id, setup, replace(PLAIN, scan=scan), **limits)

@@ -10,7 +10,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from polycnc.language.bulk import compiled
+from polycnc.language.bulk import kernels
+from polycnc.language.bulk.compiled import LIBRARY
 from polycnc.language.bulk.scanner import Bulk
 from polycnc.program import long_text
 from polycnc.session import open_session
@@ -93,7 +94,7 @@ def test_large_files_give_the_same_whatever_ends_their_lines(
     assert [name for name in whole if whole[name] != paged[name]] == []
 
 
-@pytest.mark.skipif(compiled.NATIVE.function is None, reason="needs numba")
+@pytest.mark.skipif(LIBRARY.compiled(kernels.scan) is None, reason="needs numba")
 @settings(max_examples=40, deadline=None)
 @given(FANUC)
 def test_the_compiled_kernel_gives_the_same(text: str) -> None:

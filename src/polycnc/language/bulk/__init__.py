@@ -1,10 +1,10 @@
 """Bulk scanning: runs of plain blocks go from the bytes of the program straight into columns of the toolpath.
 
 `kernels` reads and works off blocks, `moves` holds what they do; both are pure functions on arrays (`layout`
-names the fields), compiled by Numba (`compiled`) and kept as machine code (`native`); `text` gives them the
-bytes. `recipe` is how a control declares that a block of some shape in some modal state is plain, `shapes`
-keeps what was declared in the kernels' tables; `scanner` leads a channel through all that. Whatever is not
-plain goes to the interpreter, block by block. Both ways give the same table, bit for bit.
+names the fields), also as machine code (`compiled`); `text` gives them the bytes. `recipe` is how a control
+declares that a block of some shape in some modal state is plain, `shapes` keeps what was declared in the
+kernels' tables; `scanner` leads a channel through all that. Whatever is not plain goes to the interpreter,
+block by block. Both ways give the same table, bit for bit.
 """
 
 from polycnc.language.bulk.recipe import (

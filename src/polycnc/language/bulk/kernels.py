@@ -13,8 +13,9 @@ Numbers have up to 15 digits, so that mantissa and power of ten are exact and on
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32
 from polycnc.language.bulk.layout import (
     AT_END,
     BLANK_LINES_ARE_NONE,
@@ -96,13 +97,13 @@ class Tables(NamedTuple):
         factors: `(rules, FACTOR_WIDTH)`.
     """
 
-    text: Any
-    ints: Any
-    floats: Any
-    nexts: Any
-    leaves: Any
-    rules: Any
-    factors: Any
+    text: Bytes
+    ints: Ints
+    floats: Floats
+    nexts: Ints32
+    leaves: Ints32
+    rules: Ints32
+    factors: Floats
 
 
 def scan(tables: Tables, columns: Columns) -> int:
@@ -171,7 +172,7 @@ def read_block(tables: Tables) -> tuple[int, int]:
     return place, node if is_block else NO_BLOCK
 
 
-def read_word(text: Any, place: int, grammar: int, most_digits: int) -> tuple[int, int, float]:
+def read_word(text: Bytes, place: int, grammar: int, most_digits: int) -> tuple[int, int, float]:
     """Place behind the word that begins here, its key, and its value; `NO_KEY` where it is not plain."""
     letter = int(text[place])
     place += 1
@@ -205,7 +206,7 @@ def read_word(text: Any, place: int, grammar: int, most_digits: int) -> tuple[in
     return place, (letter - LETTER_A) * FORMS + form, value
 
 
-def read_number(text: Any, place: int, most_digits: int) -> tuple[int, float, int]:
+def read_number(text: Bytes, place: int, most_digits: int) -> tuple[int, float, int]:
     """Place behind the number that begins here, -1 for none; its value, and its decimals, -1 without a point."""
     negative = text[place] == MINUS
     if negative or text[place] == PLUS:
@@ -227,12 +228,26 @@ def read_number(text: Any, place: int, most_digits: int) -> tuple[int, float, in
         place += 1
     if digits == 0 or significant > most_digits:
         return -1, 0.0, 0
-    value = mantissa / POWERS[max(decimals, 0)]
+    value = mantissa / POWERS[min(max(decimals, 0), EXACT_DIGITS)]
     return place, -value if negative else value, decimals
 
 
-def read_rest(text: Any, place: int, grammar: int) -> int:
+def read_rest(text: Bytes, place: int, grammar: int) -> int:
     """What is no word: a comment, or `;` with nothing but comments behind it. Place behind it, -1 for others."""
+    if text[place] != SEMICOLON or grammar & SEMICOLON_COMMENTS:
+        return read_comment(text, place, grammar)
+    place += 1
+    while text[place] in (BLANK, TAB):
+        place += 1
+    if text[place] in (OPEN, SLASH):
+        place = read_comment(text, place, grammar)
+        while place >= 0 and text[place] in (BLANK, TAB):
+            place += 1
+    return place if place >= 0 and text[place] == NEWLINE else -1
+
+
+def read_comment(text: Bytes, place: int, grammar: int) -> int:
+    """Place behind the comment that begins here, -1 for none."""
     char = int(text[place])
     if char == OPEN and grammar & ROUND_COMMENTS:
         starred = text[place + 1] == STAR and grammar & STARRED_COMMENTS
@@ -246,13 +261,4 @@ def read_rest(text: Any, place: int, grammar: int) -> int:
         while text[place] != NEWLINE:
             place += 1
         return place
-    if char != SEMICOLON:
-        return -1
-    place += 1
-    while text[place] in (BLANK, TAB):
-        place += 1
-    if text[place] in (OPEN, SLASH):
-        place = read_rest(text, place, grammar)
-        while place >= 0 and text[place] in (BLANK, TAB):
-            place += 1
-    return place if place >= 0 and text[place] == NEWLINE else -1
+    return -1

@@ -8,8 +8,9 @@ end in an alarm are a trifle stricter than there: what they refuse, the interpre
 from __future__ import annotations
 
 from math import copysign, floor, nan, sqrt
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Words32
 from polycnc.language.bulk.layout import (
     ABSOLUTE,
     ARC_MOTION,
@@ -95,17 +96,17 @@ class Columns(NamedTuple):
     Notes beside them: `notes` flat with `NOTE_WIDTH` numbers each, `said` with its value and the position each.
     """
 
-    kind: Any
-    line: Any
-    feed: Any
-    end: Any
-    curve: Any
-    curves: Any
-    notes: Any
-    said: Any
+    kind: Bytes
+    line: Words32
+    feed: Floats
+    end: Floats
+    curve: Ints32
+    curves: Floats
+    notes: Ints
+    said: Floats
 
 
-def act(ints: Any, floats: Any, rules: Any, factors: Any, number: int, columns: Columns) -> bool:
+def act(ints: Ints, floats: Floats, rules: Ints32, factors: Floats, number: int, columns: Columns) -> bool:
     """Do what a rule says with the values read; false, and nothing done, where the interpreter must."""
     rule, factor = number * RULE_WIDTH, number * FACTOR_WIDTH
     feed = floats[FEED]
@@ -130,7 +131,7 @@ def act(ints: Any, floats: Any, rules: Any, factors: Any, number: int, columns: 
     return True
 
 
-def note(ints: Any, floats: Any, rules: Any, factors: Any, number: int, columns: Columns) -> bool:
+def note(ints: Ints, floats: Floats, rules: Ints32, factors: Floats, number: int, columns: Columns) -> bool:
     """Note down that a block begins here that does more than move; it counts when the block is done."""
     place, axes = ints[NOTES] * NOTE_WIDTH, ints[AXES]
     said = ints[NOTES] * (axes + 1)
@@ -160,13 +161,13 @@ def converted(value: float, way: int, scale: float, unit: float) -> float:
     return value
 
 
-def word(floats: Any, rules: Any, factors: Any, rule: int, factor: int, which: int) -> float:
+def word(floats: Floats, rules: Ints32, factors: Floats, rule: int, factor: int, which: int) -> float:
     """The value of a word in internal units."""
     value = floats[VALUES + rules[rule + which]]
     return converted(value, rules[rule + which + 1], factors[factor + which], factors[factor + which + 1])
 
 
-def find_target(ints: Any, floats: Any, rules: Any, factors: Any, rule: int, factor: int) -> None:
+def find_target(ints: Ints, floats: Floats, rules: Ints32, factors: Floats, rule: int, factor: int) -> None:
     """The programmed end point, the display's, and what incremental words are owed behind the block."""
     axes = ints[AXES]
     direct = rules[rule + ABSOLUTE] != 0 and ints[DIRECT] != 0 and ints[OWES] == 0
@@ -196,7 +197,7 @@ def find_target(ints: Any, floats: Any, rules: Any, factors: Any, rule: int, fac
             floats[position + i] += floats[VECTORS + SHIFT * axes + i]
 
 
-def image(ints: Any, floats: Any, frame: int, source: int, target: int) -> None:
+def image(ints: Ints, floats: Floats, frame: int, source: int, target: int) -> None:
     """The image of a vector under a frame of the geometry axes; a frame of -1 changes nothing."""
     for i in range(ints[AXES]):
         floats[target + i] = floats[source + i]
@@ -210,14 +211,14 @@ def image(ints: Any, floats: Any, frame: int, source: int, target: int) -> None:
             floats[target + ints[GEOMETRY + row]] = mapped(floats, frame, row, x, y, z)
 
 
-def mapped(floats: Any, frame: int, row: int, x: float, y: float, z: float) -> float:
+def mapped(floats: Floats, frame: int, row: int, x: float, y: float, z: float) -> float:
     """One coordinate of the image of a point."""
     m = frame + 3 * row
     value: float = floats[m] * x + floats[m + 1] * y + floats[m + 2] * z + floats[frame + 9 + row]
     return value
 
 
-def within_limits(ints: Any, floats: Any) -> bool:
+def within_limits(ints: Ints, floats: Floats) -> bool:
     """Whether the target lies within the travel of every axis."""
     if not ints[LIMITED]:
         return True
@@ -231,7 +232,7 @@ def within_limits(ints: Any, floats: Any) -> bool:
     return True
 
 
-def arrive(ints: Any, floats: Any, moves: bool) -> None:
+def arrive(ints: Ints, floats: Floats, moves: bool) -> None:
     """The block is done: positions are the new ones."""
     axes = ints[AXES]
     for i in range(VECTORS, VECTORS + axes):
@@ -242,7 +243,7 @@ def arrive(ints: Any, floats: Any, moves: bool) -> None:
         floats[i + PENDING * axes] = floats[i + NEW_PENDING * axes]
 
 
-def put_row(ints: Any, floats: Any, kind: int, feed: float, curve: int, columns: Columns) -> None:
+def put_row(ints: Ints, floats: Floats, kind: int, feed: float, curve: int, columns: Columns) -> None:
     """Write the move to the target as a row."""
     row, axes = ints[ROWS], ints[AXES]
     columns.kind[row] = kind
@@ -254,7 +255,7 @@ def put_row(ints: Any, floats: Any, kind: int, feed: float, curve: int, columns:
     ints[ROWS] = row + 1
 
 
-def straight(ints: Any, floats: Any, kind: int, feed: float, skips_tiny: bool, columns: Columns) -> bool:
+def straight(ints: Ints, floats: Floats, kind: int, feed: float, skips_tiny: bool, columns: Columns) -> bool:
     """A straight move to the target; no way, no row, and the position stays where `skips_tiny` says so."""
     axes = ints[AXES]
     moves = False
@@ -277,7 +278,14 @@ def straight(ints: Any, floats: Any, kind: int, feed: float, skips_tiny: bool, c
 
 
 def arc(
-    ints: Any, floats: Any, rules: Any, factors: Any, rule: int, factor: int, feed: float, columns: Columns
+    ints: Ints,
+    floats: Floats,
+    rules: Ints32,
+    factors: Floats,
+    rule: int,
+    factor: int,
+    feed: float,
+    columns: Columns,
 ) -> bool:
     """An arc or helix to the target, about a centre or with a radius."""
     axes = ints[AXES]
@@ -311,7 +319,7 @@ def arc(
     return True
 
 
-def barely_rises(ints: Any, floats: Any, rules: Any, rule: int) -> bool:
+def barely_rises(ints: Ints, floats: Floats, rules: Ints32, rule: int) -> bool:
     """Whether an arc goes so little along the third axis that controls differ on whether it is a helix."""
     axes, third = ints[AXES], ints[GEOMETRY + rules[rule + PLANE + 2]]
     if third < 0:
@@ -320,7 +328,7 @@ def barely_rises(ints: Any, floats: Any, rules: Any, rule: int) -> bool:
     return 0.0 < abs(way) < TINY_HIGH
 
 
-def center_word(floats: Any, rules: Any, factors: Any, rule: int, factor: int, which: int) -> float:
+def center_word(floats: Floats, rules: Ints32, factors: Floats, rule: int, factor: int, which: int) -> float:
     """The way from the start to the centre along one axis; 0 without a word."""
     return word(floats, rules, factors, rule, factor, which) if rules[rule + which] >= 0 else 0.0
 
@@ -341,7 +349,7 @@ def center_by_radius(
 
 
 def put_curve(
-    ints: Any, floats: Any, rules: Any, rule: int, center_u: float, center_v: float, columns: Columns
+    ints: Ints, floats: Floats, rules: Ints32, rule: int, center_u: float, center_v: float, columns: Columns
 ) -> int:
     """Write the curve parameters of an arc; gives its kind."""
     axes = ints[AXES]

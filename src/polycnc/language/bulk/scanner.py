@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from polycnc.channel.snapshot import unchanging
 from polycnc.language.bulk import layout
+from polycnc.language.bulk.kernels import Tables
+from polycnc.language.bulk.moves import Columns
 from polycnc.language.bulk.shapes import Shapes
 from polycnc.language.bulk.text import Window
 from polycnc.toolpath.table import CHUNK_ROWS, CURVE_WIDTH
@@ -40,7 +42,7 @@ class Bulk:
     """
 
     fewest_lines: int | None = None
-    scan: Callable[..., int] | None = None
+    scan: Callable[[Tables, Columns], int] | None = None
     rooms: int = CHUNK_ROWS
     most_patience: int = 4096
 
@@ -50,9 +52,9 @@ class Bulk:
             return lines >= self.fewest_lines
         if lines < READY_LINES:
             return False
-        from polycnc.language.bulk.compiled import NATIVE
+        from polycnc.language.bulk.compiled import LIBRARY
 
-        return NATIVE.ready or lines >= COMPILE_LINES
+        return LIBRARY.ready or lines >= COMPILE_LINES
 
     def scanner(self, channel: Channel) -> Scanner | None:
         """What scans for a channel; None where its control has no plain blocks, or the kernel cannot be compiled."""
@@ -61,11 +63,12 @@ class Bulk:
             return None
         scan = self.scan
         if scan is None:
-            from polycnc.language.bulk.compiled import NATIVE, compiled_scan
+            from polycnc.language.bulk import kernels
+            from polycnc.language.bulk.compiled import LIBRARY
 
-            if NATIVE.function is None:
+            scan = LIBRARY.compiled(kernels.scan)
+            if scan is None:
                 return None
-            scan = compiled_scan
         return Scanner(dialect, scan, len(channel.axes), self)
 
 
@@ -146,7 +149,9 @@ class Scanner:
         settings: Rooms and patience.
     """
 
-    def __init__(self, dialect: Dialect, scan: Callable[..., int], axes: int, settings: Bulk) -> None:
+    def __init__(
+        self, dialect: Dialect, scan: Callable[[Tables, Columns], int], axes: int, settings: Bulk
+    ) -> None:
         rooms = settings.rooms
         self._dialect = dialect
         self._scan = scan
@@ -193,10 +198,11 @@ class Scanner:
         if not window.stand_at(lines, line, code.scannable_to(line)):
             return False
         self._put_state(channel)
-        outcome = self._scan(
-            window.text, ints, self._floats, self._shapes.nexts, self._shapes.leaves, self._shapes.rules,
-            self._shapes.factors, *self._columns, self._notes, self._said,
-        )  # fmt: skip
+        shapes = self._shapes
+        tables = Tables(
+            window.text, ints, self._floats, shapes.nexts, shapes.leaves, shapes.rules, shapes.factors
+        )
+        outcome = self._scan(tables, Columns(*self._columns, self._notes, self._said))
         taken = ints[layout.LINE] - code.program.first_line - window.line
         if taken:
             window.place, window.line = ints[layout.PLACE], window.line + taken

@@ -1,8 +1,8 @@
 """Rows laid out: the planner's records of the pieces that lie ahead, and how fast each may be entered.
 
 Records in front that have been taken stay in the buffer until it is full, so that taking one moves nothing. The kernels
-run as they are; from some rows on copies of them that are compiled, where Numba has them in its cache, or where so many
-rows come that compiling pays. Both give the same numbers.
+run as they are; from some rows on their machine code, where it is there already, or where so many rows come that
+compiling pays. Both give the same numbers.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from array import array
 from math import inf, sqrt
 from typing import TYPE_CHECKING, Any
 
-from polycnc.motion.compiled import PLAIN, compiled_kernels
+from polycnc.motion.compiled import PLAIN, compiled_kernels, ready
 from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.columns import (
     BLEND,
@@ -34,12 +34,13 @@ from polycnc.motion.kernels.columns import (
     TIMED,
     TOP2,
     WINDOW,
-    Rows,
     piece_width,
 )
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
+
+    from polycnc.motion.kernels.columns import Rows
 
 #: Rows from which on compiled kernels are used: where they are in the cache, and where they must be compiled first.
 READY_ROWS, COMPILE_ROWS = 400, 20_000
@@ -127,12 +128,8 @@ class PieceBuffer:
         called = called if called >= 0.0 else number
         if self._rows in (READY_ROWS, COMPILE_ROWS):
             self._choose_kernels()
-        state, see = self.state, self._kernels.see
-        columns: Any = rows
-        seen = rows if self._kernels is PLAIN else Rows(*map(see, columns))
-        while not self._kernels.lay(
-            seen, 0, see(curves), number, see(self.contexts), see(limits), see(self._records), see(state)
-        ):
+        state = self.state
+        while not self._kernels.lay(rows, 0, curves, number, self.contexts, limits, self._records, state):
             self._make_room()
         width, records = self._width, self._records
         at = (int(state[PIECES]) - 1) * width
@@ -176,7 +173,7 @@ class PieceBuffer:
 
     def _choose_kernels(self) -> None:
         fast = compiled_kernels()
-        if fast is not None and (fast.ready or self._rows >= COMPILE_ROWS):
+        if fast is not None and (ready() or self._rows >= COMPILE_ROWS):
             self._kernels = fast
 
     def field(self, at: int, name: int) -> float:
@@ -243,8 +240,7 @@ class PieceBuffer:
         self._next = 0
         for at, entry2 in entries(planned, self._width):
             planned[at + ENTRY2] = entry2
-        see = self._kernels.see
-        self._kernels.backward(see(planned), len(self), self._axes, see(self.limits))
+        self._kernels.backward(planned, len(self), self._axes, self.limits)
 
     @property
     def reach2(self) -> float:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from math import inf, sqrt
 
+from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
     ALONE,
@@ -38,7 +39,6 @@ from polycnc.motion.kernels.columns import (
     VECTORS,
     WANTED,
     WINDOW,
-    Floats,
     piece_width,
 )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import atan2, ceil, cos, inf, pi, sin, sqrt
 
+from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
@@ -66,7 +67,6 @@ from polycnc.motion.kernels.columns import (
     TOP_FEED,
     UNIT,
     VECTORS,
-    Floats,
 )
 from polycnc.motion.kernels.corners import join
 from polycnc.motion.kernels.feeds import (

@@ -6,11 +6,9 @@ Everything is a flat array of floats, so that a kernel takes few arguments and t
 
 from __future__ import annotations
 
-from collections.abc import MutableSequence
 from typing import NamedTuple
 
-Floats = MutableSequence[float]
-Ints = MutableSequence[int]
+from polycnc.kernels.layout import Bytes, Floats, Ints32, Words32
 
 # Numbers of the row kinds (`toolpath.Kind`), as plain integers that a compiler can fold.
 RAPID, CW, CCW, HELIX_CW, HELIX_CCW, SPLINE, THREAD, TAP, REF, SKIP, DWELL, EVENT = (
@@ -41,12 +39,12 @@ class Rows(NamedTuple):
     columns' limits at corners (`motion/transformed.py`). All empty where none acts.
     """
 
-    kind: Ints
-    context: Ints
+    kind: Bytes
+    context: Words32
     feed: Floats
     end: Floats
-    curve: Ints
-    stops: Ints
+    curve: Ints32
+    stops: Bytes
     share: Floats
     top: Floats
     ease: Floats

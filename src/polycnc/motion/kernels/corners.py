@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import inf, sqrt
 
+from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.alone import pays_to_rest
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
@@ -33,7 +34,6 @@ from polycnc.motion.kernels.columns import (
     TOLERANCE,
     UNIT,
     WINDOW,
-    Floats,
 )
 from polycnc.motion.kernels.feeds import is_rapid
 from polycnc.motion.kernels.jerk import corner_hold2

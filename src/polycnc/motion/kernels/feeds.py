@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import inf, pi, sqrt
 
+from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.columns import (
     BLEND,
     BLOCKS,
@@ -57,7 +58,6 @@ from polycnc.motion.kernels.columns import (
     TOP_RAPID,
     VECTORS,
     WITHOUT_FEED,
-    Floats,
     piece_width,
 )
 

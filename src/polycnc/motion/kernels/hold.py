@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from math import inf, sqrt
 
+from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.columns import (
     AHEAD,
     BENT,
@@ -37,7 +38,6 @@ from polycnc.motion.kernels.columns import (
     TOP_PULL,
     VECTORS,
     WINDOW,
-    Floats,
     piece_width,
 )
 

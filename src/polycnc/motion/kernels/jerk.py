@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from math import inf, sqrt
 
+from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
     BASIS,
@@ -35,7 +36,6 @@ from polycnc.motion.kernels.columns import (
     TANGENT,
     TOLERANCE,
     UNIT,
-    Floats,
 )
 
 #: Parts of the acceleration: along the path; across it; in corners.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import inf
 
+from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.alone import best_ramp, goes_straight_on, settle_alone
 from polycnc.motion.kernels.arcs import find_arc, lay_arc
 from polycnc.motion.kernels.columns import (
@@ -98,7 +99,6 @@ from polycnc.motion.kernels.columns import (
     UNIT,
     VECTORS,
     WANTED,
-    Floats,
     Rows,
     piece_width,
 )

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from math import inf, sqrt
 
+from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.columns import (
     ACCELERATION,
     BENT,
@@ -31,7 +32,6 @@ from polycnc.motion.kernels.columns import (
     SPEED2,
     TIME,
     VECTORS,
-    Floats,
     piece_width,
 )
 

@@ -1,0 +1,10 @@
+"""Kernels: plain functions on arrays and records that run as they are, or as machine code.
+
+`layout` is how a kernel's data is declared: kinds of arrays, records with named fields, places in flat arrays. A kernel
+says with its annotations what it takes, so that one declaration serves Python, the compiler and the call. `library`
+is a set of kernels that are compiled together, and gives each of them compiled or as it is written; `compiler` makes
+object code of them (Numba), `store` keeps it in files and brings it into the process.
+
+Both ways work on the same memory and give the same numbers, bit for bit. `POLYCNC_KERNELS=python` in the environment
+chooses the plain one.
+"""

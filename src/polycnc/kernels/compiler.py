@@ -1,0 +1,163 @@
+"""Object code of kernels, made by Numba.
+
+Every kernel that Python calls gets an entry of its own name that takes addresses and lengths: arrays are views of the
+caller's memory, records are pointers. The code needs neither Numba nor Python when it runs.
+"""
+
+from __future__ import annotations
+
+import re
+from types import FunctionType, ModuleType
+from typing import TYPE_CHECKING, Any, get_type_hints
+
+from polycnc.kernels.layout import Argument, Kind, Places, arguments, flat
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+#: Helpers of the wrappers that Numba lays round a function. None is called here: nothing raises, no array is owned.
+_HELPERS = re.compile(
+    r"^declare void @(numba_gil_ensure|numba_gil_release|NRT_MemInfo_call_dtor)(\(.*?\)).*$", re.MULTILINE
+)
+
+#: How functions of Python and Numba begin.
+_PYTHON = ("Py", "numba_", "NRT_")
+
+
+def object_code(
+    modules: Sequence[ModuleType], kernels: Sequence[Callable[..., object]], *, inline: bool
+) -> bytes:
+    """Compile kernels for the processor at hand.
+
+    Args:
+        modules: Modules with the functions that they rest on; each may call those of every other.
+        kernels: The functions that are called from outside; an entry has the function's name.
+        inline: Every call is replaced by what it calls.
+
+    Raises:
+        ImportError: Numba is not installed.
+        TypeError: A kernel can raise.
+    """
+    from llvmlite import binding
+    from numba import cfunc
+
+    functions = _compiled(modules, inline=inline)
+    whole = None
+    for kernel in kernels:
+        made = cfunc(_signature(kernel), error_model="numpy")(_entry(functions[kernel.__name__], kernel))
+        source = _HELPERS.sub(r"define internal void @\1\2 { ret void }", made.inspect_llvm())
+        part = binding.parse_assembly(source)
+        part.get_function(made.native_name).name = kernel.__name__
+        if whole is None:
+            whole = part
+        else:
+            whole.link_in(part)
+    assert whole is not None
+    return _optimised(whole, {kernel.__name__ for kernel in kernels})
+
+
+def _optimised(module: Any, entries: set[str]) -> bytes:
+    """Object code of a whole module. Seen as a whole, no function raises: what would tell Python of it goes."""
+    from llvmlite import binding
+
+    for function in module.functions:
+        if not function.is_declaration and function.name not in entries:
+            function.linkage = "internal"
+    target = machine()
+    builder = binding.create_pass_builder(target, binding.create_pipeline_tuning_options(speed_level=3))
+    builder.getModulePassManager().run(module, builder)
+    raising = [f.name for f in module.functions if f.is_declaration and f.name.startswith(_PYTHON)]
+    if raising:
+        msg = f"a kernel can raise: its code needs {', '.join(raising)}"
+        raise TypeError(msg)
+    code: bytes = target.emit_object(module)
+    return code
+
+
+def machine() -> Any:
+    """What llvmlite makes code for: this processor."""
+    from llvmlite import binding
+
+    binding.initialize_native_target()
+    binding.initialize_native_asmprinter()
+    target = binding.Target.from_default_triple()
+    features = binding.get_host_cpu_features().flatten()
+    return target.create_target_machine(
+        cpu=binding.get_host_cpu_name(), features=features, opt=3, jit=True, codemodel="jitdefault"
+    )
+
+
+def _compiled(modules: Sequence[ModuleType], *, inline: bool) -> dict[str, Callable[..., object]]:
+    """Copies of the functions of modules, for Numba. They see each other, not the plain ones."""
+    from numba import njit
+
+    scopes = [dict(vars(module)) for module in modules]
+    functions: dict[str, Callable[..., object]] = {}
+    for scope in scopes:
+        for name, value in scope.items():
+            if isinstance(value, FunctionType) and value.__module__ == scope["__name__"]:
+                copy = FunctionType(value.__code__, scope, name, value.__defaults__)
+                functions[name] = njit(error_model="numpy", forceinline=inline)(copy)
+    # Numba compiles at the first call: what a scope holds then is what counts.
+    for scope in scopes:
+        scope.update((name, function) for name, function in functions.items() if name in scope)
+        for name, value in scope.items():
+            if isinstance(value, type) and issubclass(value, Places):
+                scope[name] = _constants(value)
+    return functions
+
+
+def _constants(places: type[Places]) -> ModuleType:
+    """Places as Numba takes them: it knows the constants of a module, not those of a class."""
+    module = ModuleType(places.__name__)
+    vars(module).update((name, getattr(places, name)) for name in dir(places) if name.isupper())
+    return module
+
+
+def _signature(kernel: Callable[..., object]) -> Any:
+    from numba import from_dtype, types
+    from numpy import dtype
+
+    items = {"B": types.uint8, "i": types.int32, "I": types.uint32, "q": types.int64, "d": types.float64}
+    taken: list[Any] = []
+    for argument in flat(arguments(kernel)):
+        if argument.kind is Kind.ARRAY:
+            taken += [types.CPointer(items[argument.code]), types.int64]  # type: ignore[no-untyped-call]
+        elif argument.kind is Kind.RECORD:
+            taken.append(types.CPointer(from_dtype(dtype(argument.type))))  # type: ignore[no-untyped-call]
+        else:
+            taken.append(types.int64 if argument.kind is Kind.INTEGER else types.float64)
+    return types.int64(*taken)
+
+
+def _entry(compiled: Callable[..., object], kernel: Callable[..., object]) -> Callable[..., int]:
+    """The function that takes addresses and lengths, and gives a whole number: 0 where the kernel gives nothing."""
+    from numba import carray  # type: ignore[attr-defined]
+
+    scope: dict[str, Any] = {"carray": carray, "kernel": compiled}
+    names: list[str] = []
+    given = ", ".join(_given(argument, names, scope) for argument in arguments(kernel))
+    call = (
+        f"kernel({given})\n    return 0"
+        if get_type_hints(kernel)["return"] is type(None)
+        else f"return kernel({given})"
+    )
+    source = f"def entry({', '.join(names)}):\n    {call}\n"
+    exec(source, scope)  # Numba compiles functions with a fixed number of arguments only
+    entry: Callable[..., int] = scope["entry"]
+    return entry
+
+
+def _given(argument: Argument, names: list[str], scope: dict[str, Any]) -> str:
+    """An expression for an argument of a kernel; adds the names of what it is made of."""
+    if argument.kind is Kind.GROUP:
+        assert argument.type is not None
+        scope[argument.type.__name__] = argument.type
+        parts = ", ".join(_given(part, names, scope) for part in argument.parts)
+        return f"{argument.type.__name__}({parts})"
+    name = f"a{len(names)}"
+    names.append(name)
+    if argument.kind is Kind.ARRAY:
+        names.append(f"{name}_count")
+        return f"carray({name}, {name}_count)"
+    return f"carray({name}, 1)[0]" if argument.kind is Kind.RECORD else name

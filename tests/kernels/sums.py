@@ -1,0 +1,54 @@
+"""Small kernels for tests."""
+
+from __future__ import annotations
+
+from ctypes import Structure
+from typing import Annotated, NamedTuple
+
+from polycnc.kernels.layout import Floats, Ints32, Places, place, record
+
+HALF = 0.5
+
+
+class Room(Places):
+    """Places in an array."""
+
+    FIRST = place()
+    LAST = place()
+
+
+@record
+class Total(Structure):
+    """What is carried on."""
+
+    value: float
+    count: int
+    parts: Annotated[Floats, 2]
+
+
+class Columns(NamedTuple):
+    """Numbers, and how often each counts."""
+
+    values: Floats
+    times: Ints32
+
+
+def add(columns: Columns, total: Total, extra: float) -> int:
+    """Add products to a total; gives their number."""
+    for i in range(len(columns.values)):
+        weigh(columns, total, i)
+    total.value += extra * HALF
+    columns.values[0] = total.value
+    total.count += 1
+    return len(columns.values)
+
+
+def weigh(columns: Columns, total: Total, i: int) -> None:
+    """One product."""
+    total.value += columns.values[i] * columns.times[i]
+    total.parts[i] = columns.times[i]
+
+
+def put(values: Floats, last: bool) -> None:
+    """Mark a place."""
+    values[Room.LAST if last else Room.FIRST] = 7.0
