@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from polycnc.control.registry import control
 from polycnc.language.word_address.functions import round_half_away
-from polycnc.language.word_address.macro_b import Reader
+from polycnc.language.word_address.macro_b import Reader, macro_shapes
 from polycnc.messages import AlarmError
 from tests.support import codes, run
 
@@ -47,7 +47,7 @@ class FakeChannel(NamedTuple):
 
 def value_of(text: str, **variables: float) -> float | None:
     """The value of an expression."""
-    reader = Reader(text, ALARMS)
+    reader = Reader(text, ALARMS, macro_shapes())
     evaluate = reader.evaluator(reader.sum())
     assert reader.peek() == "", f"unread: {text[reader.pos :]}"
     channel: Any = FakeChannel(Memory(**variables))
@@ -174,6 +174,18 @@ def test_operators_keep_their_priority(text: str, value: float) -> None:
 def test_a_bare_vacant_variable_stays_vacant_and_counts_as_zero_in_a_sum() -> None:
     assert value_of("#5") is None
     assert value_of("#5+1") == 1.0
+
+
+def test_a_vacant_variable_in_brackets_counts_as_zero_too() -> None:
+    assert value_of("[#5]+1") == 1.0
+    assert value_of("[#5]") is None
+
+
+def test_a_sum_of_more_terms_than_python_nests_has_an_alarm() -> None:
+    assert value_of("1" + "+1" * 190) == 191
+    with pytest.raises(AlarmError) as caught:
+        value_of("1" + "+1" * 300)
+    assert caught.value.code == "PS0118"
 
 
 def test_an_index_may_be_an_expression() -> None:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.snapshot import unchanging
 from polycnc.channel.steps import kept_steps, several
-from polycnc.language.word_address.joining import JOINABLE, MAX_JOINED, join, join_loop
-from polycnc.language.word_address.macro_b import Reader, compile_source
+from polycnc.language.expressions.code import listed
+from polycnc.language.expressions.joined import MAX_JOINED
+from polycnc.language.word_address.joining import JOINABLE, join, join_loop
+from polycnc.language.word_address.macro_b import Lifting, Reader, macro_shapes
 from polycnc.language.word_address.statements import KEYWORD, LoopEnd, parse_statement
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock, code_key, is_fixed_code, word_key
 from polycnc.messages import AlarmError
@@ -20,6 +22,8 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
+    from polycnc.language.expressions.code import Code
+    from polycnc.language.expressions.shapes import Shapes
     from polycnc.program import Program
 
 #: Longer blocks are refused: no control stores one, and a damaged file must not fill the memory.
@@ -51,6 +55,7 @@ class Grammar:
         comma_addresses: Letters that may follow a comma (`,R` `,C`); they become addresses `,R`.
         letters: Letters that may be addresses.
         point_in_numbers: Whether a block number or an M code may have a decimal point (`M3.`), which means nothing.
+        shapes: The compiled code of the control's expressions.
     """
 
     alarms: Mapping[str, str]
@@ -58,6 +63,7 @@ class Grammar:
     comma_addresses: str = "RCAD"
     letters: str = "ABCDEFGHIJKLMNPQRSTUVWXYZ"
     point_in_numbers: bool = True
+    shapes: Shapes = field(default_factory=macro_shapes, compare=False, repr=False)
 
 
 def empty_block(_channel: Channel) -> None:
@@ -110,11 +116,11 @@ class WordAddressProgram:
         for i in range(index + 1, min(index + MAX_JOINED, len(self.lines))):
             following = self.compile(self.lines[i], i) if self._reached[i] else None
             if isinstance(following, LoopEnd):
-                return _led_by(first, join_loop(stretch, i, following))
+                return _led_by(first, join_loop(self.grammar.shapes, stretch, i, following))
             if not isinstance(following, JOINABLE):
                 break
             stretch.append((i, following))
-        return _led_by(first, join(stretch)) if len(stretch) > 1 else first
+        return _led_by(first, join(self.grammar.shapes, stretch)) if len(stretch) > 1 else first
 
     def line_of_step(self, index: int) -> int:
         """Index of a step's line in the program's text."""
@@ -326,9 +332,9 @@ class WordAddressProgram:
         if not _VALUE.match(reader.text, reader.pos):
             raise reader.fail("minus" if reader.peek() in ("-", "+") else "no_data", start)
         reader.in_word = True
-        source = reader.factor()
+        value = reader.factor()
         reader.in_word = False
-        words.expression(address if address in ("G", "M") else address + "#", source)
+        words.expression(address if address in ("G", "M") else address + "#", value)
 
 
 class _BlockWords:
@@ -336,7 +342,7 @@ class _BlockWords:
 
     def __init__(self) -> None:
         self.keys: list[str] = []
-        self.sources: list[str] = []
+        self.codes: list[Code] = []
         self.values: list[float] = []
         self.computed = False
 
@@ -344,13 +350,12 @@ class _BlockWords:
         """A word with a number."""
         self.keys.append(key)
         self.values.append(value)
-        self.sources.append(f"k[{len(reader.literals)}]")
-        reader.literals.append(value)
+        self.codes.append(reader.lift(value))
 
-    def expression(self, key: str, source: str) -> None:
+    def expression(self, key: str, value: Code) -> None:
         """A word with a variable or an expression."""
         self.keys.append(key)
-        self.sources.append(source)
+        self.codes.append(value)
         self.computed = True
 
     def block(self, reader: Reader) -> Step:
@@ -358,15 +363,14 @@ class _BlockWords:
         keys = tuple(self.keys)
         if not self.computed:
             return WordBlock(keys, list(self.values))
-        evaluate = compile_source(f"[{','.join(self.sources)}]")
-        return ExpressionBlock(keys, evaluate, list(reader.literals))
+        return ExpressionBlock(keys, reader.compiled_list(Lifting(listed(self.codes), tuple(reader.numbers))))
 
 
 class BlockReader(Reader):
     """A reader that knows words and the comment behind a statement."""
 
     def __init__(self, text: str, grammar: Grammar, line: str) -> None:
-        super().__init__(text, grammar.alarms)
+        super().__init__(text, grammar.alarms, grammar.shapes)
         self._grammar = grammar
         self._line = line
 

@@ -177,7 +177,7 @@ def joined_(m: Any, left: bool, operator: str, right: bool) -> bool:
     return {"and": left and right, "or": left or right, "xor": left is not right}[operator]
 
 
-#: What generated expressions may call.
-NAMESPACE: dict[str, Any] = {name: value for name, value in globals().items() if name.endswith("_")} | {
-    "__builtins__": {}
-}
+#: What generated code may call.
+NAMESPACE: dict[str, object] = {name: value for name, value in globals().items() if name.endswith("_")} | {
+    "__builtins__": {}, "range": range, "len": len, "min": min,
+}  # fmt: skip

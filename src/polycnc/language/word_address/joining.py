@@ -11,122 +11,140 @@ Every block is counted, and near the block limit (`Channel.joined_below`) only t
 
 from __future__ import annotations
 
-import re
-from typing import TYPE_CHECKING, Any
+import ast
+from typing import TYPE_CHECKING
 
-from polycnc.language.word_address.functions import NAMESPACE
+from polycnc.language.expressions import joined
+from polycnc.language.expressions.code import (
+    added,
+    assigned,
+    attribute,
+    binary,
+    call,
+    compared,
+    constant,
+    deleted,
+    either,
+    given,
+    item,
+    moved,
+    name,
+    negation,
+    repeated,
+    run,
+    when,
+)
+from polycnc.language.expressions.joined import ATTENTION, BLOCKS, BURST, CHANNEL, CURRENT, INDEX, ROOM
+from polycnc.language.expressions.shapes import Function
 from polycnc.language.word_address.statements import Assignment, ConditionalJump, LoopEnd
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock
 
 if TYPE_CHECKING:
     from polycnc.channel.steps import Step
+    from polycnc.language.expressions.code import Body, Code
+    from polycnc.language.expressions.shapes import Shapes
+    from polycnc.language.word_address.macro_b import Lifting
 
 JOINABLE = (Assignment, ConditionalJump, WordBlock, ExpressionBlock)
-#: How many steps are joined at the most.
-MAX_JOINED = 200
-#: Passes of a loop between two looks at the block limit and the size of the chunk.
-BURST = 256
-_LITERAL = re.compile(r"(?<![\w.])k\[(\d+)\]")
 
 
-class _Source:
-    """Generated Python of joined steps."""
+class _Stretch:
+    """The code of joined steps."""
 
     def __init__(self) -> None:
-        self.lines: list[str] = []
-        self.literals: list[float] = []
-        self.steps: dict[int, Any] = {}
-        self.statements = 0
+        self.numbers: list[float] = []
+        self.objects: list[Step] = []
+        self.count = 0
 
-    def add(self, indent: str, *lines: str) -> None:
-        """Add lines."""
-        self.lines += [indent + line for line in lines]
+    def lift(self, step: Step) -> Code:
+        """A step as a parameter of the code."""
+        self.objects.append(step)
+        return joined.lifted_object(len(self.objects) - 1)
 
-    def shifted(self, source: str, literals: list[float]) -> str:
-        """A generated expression with its literals placed among those of the whole."""
-        offset = len(self.literals)
-        self.literals += literals
-        return _LITERAL.sub(lambda match: f"k[{int(match[1]) + offset}]", source)
+    def _placed(self, lifting: Lifting) -> Code:
+        """Code of one step, with its numbers among those of all."""
+        offset = len(self.numbers)
+        self.numbers += lifting.numbers
+        return moved(lifting.code, {"n": offset})
 
-    def step(self, indent: str, index: int, step: Step) -> None:
+    def step(self, index: int, step: Step) -> Body:
         """One step."""
-        self.statements += 1
-        self.add(indent, f"level.current = {index}")
+        self.count += 1
+        current = assigned(CURRENT, constant(index))
         if isinstance(step, Assignment):
-            self.add(indent, f"{step.target} = {self.shifted(step.source, step.literals)}")
-            return
-        self.steps[index] = step.jump if isinstance(step, ConditionalJump) else step
+            return current, self._placed(step.statement)
+        following = constant(index + 1)
+        hands_over = either(ast.Or, compared(INDEX, ast.NotEq, following), ATTENTION)
         if isinstance(step, ConditionalJump):
-            self.add(indent, f"if {self.shifted(step.source, step.literals)}:")
-            indent += "    "
-        else:
-            self.add(indent, "channel.mark = len(channel.toolpath.chunk.kind)")
-        self.add(
-            indent,
-            f"level.index = {index + 1}",
-            f"s[{index}](channel)",
-            f"if level.index != {index + 1} or channel.attention:",
-            f"    channel.blocks += {self.statements - 1}",
-            "    return",
+            condition = self._placed(step.condition.lifting)
+            return current, when(condition, self._acting(step.jump, following, hands_over))
+        return current, joined.MARK, *self._acting(step, following, hands_over)
+
+    def _acting(self, step: Step, following: Code, hands_over: Code) -> Body:
+        return (
+            assigned(INDEX, following),
+            run(call(self.lift(step), CHANNEL)),
+            when(hands_over, (added(BLOCKS, self.count - 1), given())),
         )
 
-    def function(self, **names: Step) -> Step:
-        """The step."""
-        space: dict[str, Any] = {
-            **NAMESPACE, **names, "k": self.literals, "s": self.steps, "range": range, "len": len, "min": min,
-        }  # fmt: skip
-        exec(compile("\n".join(self.lines), "<macro>", "exec"), space)
-        step: Step = space["run"]
-        return step
+    def function(self, shapes: Shapes, body: Body, alone: Step) -> Step:
+        """The step; near the block limit it runs the first of its steps alone."""
+        near_limit = compared(BLOCKS, ast.Gt, ROOM)
+        first = given(call(self.lift(alone), CHANNEL))
+        head = (
+            when(near_limit, (assigned(ATTENTION, constant(True)), first)),
+            assigned(name("m"), attribute(CHANNEL, "memory")),
+            assigned(name("level"), attribute(CHANNEL, "level")),
+        )
+        function = Function(("channel",), len(self.numbers), len(self.objects), (*head, *body))
+        return shapes.single(function, (*self.numbers, *self.objects))
 
 
-def join(steps: list[tuple[int, Step]]) -> Step:
+def join(shapes: Shapes, steps: list[tuple[int, Step]]) -> Step:
     """One step for a stretch of steps, given with their numbers."""
-    source = _start()
-    for index, step in steps:
-        source.step("    ", index, step)
-    source.add("    ", f"level.index = {steps[-1][0] + 1}", f"channel.blocks += {source.statements - 1}")
-    return source.function(first=steps[0][1])
+    stretch = _Stretch()
+    body = [statement for index, step in steps for statement in stretch.step(index, step)]
+    body += [assigned(INDEX, constant(steps[-1][0] + 1)), added(BLOCKS, stretch.count - 1)]
+    return stretch.function(shapes, tuple(body), steps[0][1])
 
 
-def join_loop(steps: list[tuple[int, Step]], end: int, loop_end: LoopEnd) -> Step:
+def join_loop(shapes: Shapes, steps: list[tuple[int, Step]], end: int, loop_end: LoopEnd) -> Step:
     """One step for a stretch of steps that is the whole body of a loop; `end` is the step of its END."""
     first, count = steps[0][0], len(steps) + 1
-    source = _start()
-    source.add(
-        "    ",
-        f"loop = level.data.get({loop_end.number})",
-        f"if loop is None or loop.end != {end} or loop.start != {first - 1}:",
-        "    one_by_one(channel)",
-        "    return",
-        "condition = loop.condition",
-        f"for _ in range(min({BURST}, (channel.joined_below - channel.blocks) // {count} + 1)):",
+    stretch = _Stretch()
+    loop, condition, number = name("loop"), name("condition"), constant(loop_end.number)
+    loops = attribute(name("level"), "data")
+    entered = _any(
+        compared(loop, ast.Is, constant(None)),
+        compared(attribute(loop, "end"), ast.NotEq, constant(end)),
+        compared(attribute(loop, "start"), ast.NotEq, constant(first - 1)),
     )
-    for index, step in steps:
-        source.step("        ", index, step)
-    source.add(
-        "        ",
-        f"level.current = {end}",
-        f"channel.blocks += {count}",
-        "if condition is not None and not condition(channel):",
-        f"    del level.data[{loop_end.number}]",
-        f"    level.index = {end + 1}",
-        "    channel.blocks -= 1",
-        "    return",
+    one_by_one = run(call(stretch.lift(join(shapes, steps)), CHANNEL))
+    room = binary(ast.FloorDiv, binary(ast.Sub, ROOM, BLOCKS), constant(count))
+    passes = call("range", call("min", constant(BURST), binary(ast.Add, room, constant(1))))
+    over = either(ast.And, compared(condition, ast.IsNot, constant(None)), negation(call(condition, CHANNEL)))
+    last = (
+        assigned(CURRENT, constant(end)),
+        added(BLOCKS, count),
+        when(
+            over,
+            (deleted(item(loops, number)), assigned(INDEX, constant(end + 1)), added(BLOCKS, -1), given()),
+        ),
     )
-    source.add("    ", f"level.index = {first}", "channel.attention = True", "channel.blocks -= 1")
-    return source.function(first=steps[0][1], one_by_one=join(steps))
+    body = (
+        assigned(loop, call(attribute(loops, "get"), number)),
+        when(entered, (one_by_one, given())),
+        assigned(condition, attribute(loop, "condition")),
+        repeated(passes, (*(line for index, step in steps for line in stretch.step(index, step)), *last)),
+        assigned(INDEX, constant(first)),
+        assigned(ATTENTION, constant(True)),
+        added(BLOCKS, -1),
+    )
+    return stretch.function(shapes, body, steps[0][1])
 
 
-def _start() -> _Source:
-    source = _Source()
-    source.add("", "def run(channel):")
-    source.add(
-        "    ",
-        "if channel.blocks > channel.joined_below:",
-        "    channel.attention = True",
-        "    return first(channel)",
-        "m = channel.memory",
-        "level = channel.level",
-    )
-    return source
+def _any(*conditions: Code) -> Code:
+    first, *others = conditions
+    for condition in others:
+        first = either(ast.Or, first, condition)
+    return first

@@ -1,21 +1,36 @@
 """Expressions of custom macro B, compiled to Python.
 
-A recursive-descent parser turns the text into Python source in which every literal is a parameter, so that all
-expressions of one shape share one compiled function (FANUC macro B; priorities: functions, `* / AND MOD`,
-`+ - OR XOR`, comparisons). Generated code reads variables through the channel's memory `m`: `m.locals[n]` for #1-#33,
-`m.common` for #100-#999, `m.read(n)` for the rest. A vacant variable is None; in arithmetic it counts as zero.
+The reader turns the text into code in which every number is a parameter, so that all expressions of one shape share
+one compiled function (FANUC macro B; priorities: functions, `* / AND MOD`, `+ - OR XOR`, comparisons). The code reads
+variables through the channel's memory `m`: `m.locals[n]` for #1-#33, `m.common` for #100-#999, `m.read(n)` for the
+rest. A vacant variable is None; in arithmetic it counts as zero.
 """
 
 from __future__ import annotations
 
+import ast
 import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.language.word_address import functions
+from polycnc.language.expressions.code import (
+    Code,
+    Lifted,
+    attribute,
+    call,
+    constant,
+    either,
+    given,
+    item,
+    name,
+)
+from polycnc.language.expressions.operators import TIGHTEST, Operator, OperatorReader, applied, applied_to_one
+from polycnc.language.expressions.shapes import Function, Shapes, TooDeepError
+from polycnc.language.word_address.functions import NAMESPACE
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
+    from types import FunctionType
 
     from polycnc.channel.channel import Channel
 
@@ -31,44 +46,84 @@ FUNCTIONS = (
 _ABBREVIATIONS = {"SI": "SIN", "CO": "COS", "TA": "TAN", "AS": "ASIN", "AC": "ACOS", "AT": "ATAN", "SQ": "SQRT",
                   "AB": "ABS", "BI": "BIN", "BC": "BCD", "RO": "ROUND", "FI": "FIX", "FU": "FUP", "EX": "EXP",
                   "PO": "POW"}  # fmt: skip
-_SPACE = re.compile(r"[ \t]*")
+#: Powers of comparisons, of sums and of products; a comparison stands in a condition only.
+COMPARISON, SUM, PRODUCT = 1, 2, 3
+#: Operators that tell a vacant variable from zero.
+VACANT_TOO = "vacant too"
+OPERATORS = {
+    "EQ": Operator(COMPARISON, "eq_", VACANT_TOO),
+    "NE": Operator(COMPARISON, "ne_", VACANT_TOO),
+    "GT": Operator(COMPARISON, ast.Gt),
+    "GE": Operator(COMPARISON, ast.GtE),
+    "LT": Operator(COMPARISON, ast.Lt),
+    "LE": Operator(COMPARISON, ast.LtE),
+    "+": Operator(SUM, ast.Add),
+    "-": Operator(SUM, ast.Sub),
+    "XOR": Operator(SUM, "xor_"),
+    "OR": Operator(SUM, "or_"),
+    "*": Operator(PRODUCT, ast.Mult),
+    "/": Operator(PRODUCT, ast.Div),
+    "AND": Operator(PRODUCT, "and_"),
+    "MOD": Operator(PRODUCT, "mod_"),
+}
+SIGNS = {"-": Operator(TIGHTEST, ast.USub), "+": Operator(TIGHTEST, ast.UAdd)}
+
+_BLANKS = (" ", "\t")
 _NUMBER = re.compile(r"\d+\.?\d*|\.\d+")
+_VARIABLE = re.compile(r"#[ \t]*(\d+)(?![\d.])")
 _FUNCTION = re.compile(r"([A-Z]+)[ \t]*(?=\[)")
-_TERM_OPERATOR = re.compile(r"\*|/|AND|MOD")
-_SUM_OPERATOR = re.compile(r"\+|-|OR|XOR")
-_COMPARISON = re.compile(r"EQ|NE|GT|GE|LT|LE")
+_OPERATOR = re.compile(rf"[ \t]*({'|'.join(map(re.escape, OPERATORS))})")
 _LOGIC = re.compile(r"AND|OR|XOR")
 _NAMED = re.compile(r"\[#(_?[A-Z][A-Z0-9_]*)")
 
-_compiled: dict[str, Callable[[Any, list[float]], Any]] = {}
+MEMORY = name("m")
+_LOCALS, _COMMON = attribute(MEMORY, "locals"), attribute(MEMORY, "common")
+_NONE, _ZERO = constant(None), constant(0.0)
 
 
-class Reader:
-    """A place in the text of one block, and the literals met so far.
+def macro_shapes() -> Shapes:
+    """A place for the compiled code of a control's programs."""
+    return Shapes(NAMESPACE)
+
+
+class Lifting(NamedTuple):
+    """Code, and the numbers that were lifted out of it."""
+
+    code: Code
+    numbers: tuple[float, ...]
+
+
+class Reader(OperatorReader[int, Code]):
+    """A place in the text of one block, and the numbers met so far.
 
     Args:
         text: The block in upper case, comments blanked out, so that columns stay true.
         alarms: Names of mistakes to the control's alarm codes.
+        shapes: Compiled code of the control.
     """
 
-    def __init__(self, text: str, alarms: Mapping[str, str], pos: int = 0) -> None:
+    def __init__(self, text: str, alarms: Mapping[str, str], shapes: Shapes) -> None:
+        super().__init__()
         self.text = text
-        self.pos = pos
+        self.pos = 0
         self.alarms = alarms
-        self.literals: list[float] = []
-        self.depth = 0
+        self.shapes = shapes
+        self.numbers: list[float] = []
         self.in_word = False
+        self._open_brackets = 0
+        self._behind_operator = 0
 
-    def fail(self, name: str, column: int | None = None) -> AlarmError:
+    def fail(self, mistake: str, column: int | None = None) -> AlarmError:
         """The alarm for a mistake at this place."""
         place = self.pos if column is None else column
-        return AlarmError(self.alarms[name], column=place + 1, word=self.text[place : place + 1])
+        return AlarmError(self.alarms[mistake], column=place + 1, word=self.text[place : place + 1])
 
     def space(self) -> None:
         """Pass over blanks."""
-        match = _SPACE.match(self.text, self.pos)
-        if match:
-            self.pos = match.end()
+        text, pos = self.text, self.pos
+        while text[pos : pos + 1] in _BLANKS:
+            pos += 1
+        self.pos = pos
 
     def peek(self) -> str:
         """The next character that is not blank, or an empty text at the end."""
@@ -97,158 +152,187 @@ class Reader:
         if not self.accept(token):
             raise self.fail(mistake)
 
-    # ---- grammar: each method gives Python source of a number (`value`) or of a number or None (`raw`) -------------
+    # ---- operators -----------------------------------------------------------------------------------------------
 
-    def sum(self) -> str:
-        """Terms joined by `+ - OR XOR`."""
-        left = self.term()
-        while operator := self.match(_SUM_OPERATOR):
-            right = _value(self.term())
-            left = _value(left)
-            left = (
-                f"({left}{operator}{right})" if operator in "+-" else f"{operator.lower()}_({left},{right})"
-            )
-        return left
+    def prefix_ahead(self) -> Operator | None:
+        """A sign."""
+        operator = SIGNS.get(self.peek())
+        self._behind_operator = self.pos + 1
+        return operator
 
-    def term(self) -> str:
-        """Factors joined by `* / AND MOD`."""
-        left = self.factor()
-        while operator := self.match(_TERM_OPERATOR):
-            right = _value(self.factor())
-            left = _value(left)
-            left = (
-                f"({left}{operator}{right})" if operator in "*/" else f"{operator.lower()}_({left},{right})"
-            )
-        return left
+    def infix_ahead(self) -> Operator | None:
+        """The operator that stands here."""
+        match = _OPERATOR.match(self.text, self.pos)
+        if match is None:
+            return None
+        self._behind_operator = match.end()
+        return OPERATORS[match[1]]
 
-    def factor(self) -> str:
-        """A number, a variable, a function, a bracket, with signs."""
+    def take_operator(self) -> int:
+        """Read the operator that was found ahead."""
+        self.pos = self._behind_operator
+        return self.pos
+
+    def signed(self, operator: Operator, _mark: int, operand: Code) -> Code:
+        """A value with its sign."""
+        return applied_to_one(operator.gives, number_of(operand))
+
+    def joined(self, operator: Operator, _mark: int, left: Code, right: Code) -> Code:
+        """Two operands."""
+        if operator.family != VACANT_TOO:
+            left, right = number_of(left), number_of(right)
+        return applied(operator.gives, left, right)
+
+    def too_deep(self) -> AlarmError:
+        """More than Python takes."""
+        return self.fail("nesting")
+
+    # ---- grammar: each method gives code of a number, or of a number or None for a vacant variable --------------
+
+    def sum(self) -> Code:
+        """An expression without comparisons."""
+        return self.expression(COMPARISON)
+
+    def factor(self) -> Code:
+        """An operand with its signs."""
+        return self.expression(TIGHTEST)
+
+    def operand(self) -> Code:
+        """A number, a variable, a function, a bracket."""
         char = self.peek()
-        if char == "-":
-            self.pos += 1
-            return f"(-{_value(self.factor())})"
-        if char == "+":
-            self.pos += 1
-            return f"(+{_value(self.factor())})"
         if char == "#":
-            return self.variable()
+            plain = _VARIABLE.match(self.text, self.pos)
+            if plain is None:
+                return self.variable()
+            self.pos = plain.end()
+            return self._numbered(int(plain[1]))
         if char == "[":
             named = _NAMED.match(self.text, self.pos)
             return self.named_variable(named) if named else self.bracket()
         if number := self.match(_NUMBER):
-            self.literals.append(float(number))
-            return f"k[{len(self.literals) - 1}]"
-        if name := self.match(_FUNCTION):
-            return self.function(name.strip())
+            return self.lift(float(number))
+        if function := self.match(_FUNCTION):
+            return self.function(function.strip())
         raise self.fail("expression")
 
-    def bracket(self) -> str:
-        """`[ … ]`; at most five may be open."""
+    def lift(self, number: float) -> Lifted:
+        """A number as a parameter of the code."""
+        self.numbers.append(number)
+        return Lifted("n", len(self.numbers) - 1)
+
+    def _open(self) -> None:
         self.expect("[", "open_bracket")
-        self.depth += 1
-        if self.depth > MAX_NESTING:
+        self._open_brackets += 1
+        if self._open_brackets > MAX_NESTING:
             raise self.fail("nesting")
+
+    def bracket(self) -> Code:
+        """`[ … ]`; at most five may be open."""
+        self._open()
         inner = self.sum()
         if not self.accept("]"):
-            raise self.fail("condition_as_value" if self.match(_COMPARISON) else "close_bracket")
-        self.depth -= 1
-        return inner if inner.startswith(("(", "k[")) else f"({inner})"
+            comparison = self.infix_ahead()
+            if comparison is None or comparison.power != COMPARISON:
+                raise self.fail("close_bracket")
+            self.take_operator()
+            raise self.fail("condition_as_value")
+        self._open_brackets -= 1
+        return inner
 
-    def variable(self) -> str:
-        """`#n` or `#[expression]`: the source that reads it (None when vacant)."""
+    def variable(self) -> Code:
+        """`#n` or `#[expression]`: the code that reads it (None when vacant)."""
         self.expect("#", "expression")
         if self.peek() == "[":
-            return f"m.read_indirect({_value(self.bracket())})"
+            return call("m.read_indirect", number_of(self.bracket()))
         if self.peek() == "#":
             raise self.fail("expression")
         number = self.match(_NUMBER)
         if not number or "." in number:
             raise self.fail("expression")
-        n = int(number)
-        if 1 <= n <= 33:
-            return f"m.locals[{n}]"
-        if 100 <= n <= 199 or 500 <= n <= 999:
-            return f"m.common[{n}]"
-        return f"m.read({n})"
+        return self._numbered(int(number))
 
-    def named_variable(self, match: re.Match[str]) -> str:
+    def _numbered(self, number: int) -> Code:
+        return self.place(number) or call("m.read", self.lift(number))
+
+    def place(self, number: int) -> Code | None:
+        """Where a local or a common variable lies; None for all others."""
+        if 1 <= number <= 33:
+            return item(_LOCALS, self.lift(number))
+        if 100 <= number <= 199 or 500 <= number <= 999:
+            return item(_COMMON, self.lift(number))
+        return None
+
+    def named_variable(self, match: re.Match[str]) -> Code:
         """`[#NAME]` or `[#_ABSIO[n]]`: a variable by its name."""
         self.pos = match.end()
-        name = match.group(1)
-        index = _value(self.bracket()) if self.peek() == "[" else "None"
+        index = number_of(self.bracket()) if self.peek() == "[" else _NONE
         self.expect("]", "close_bracket")
-        return f"m.read_named({name!r},{index})"
+        return call("m.read_named", constant(match[1]), index)
 
-    def function(self, name: str) -> str:
+    def function(self, written: str) -> Code:
         """A function call; `ATAN[a]/[b]` and `ATAN[a,b]` have two arguments."""
-        full = _ABBREVIATIONS.get(name, name)
-        if full not in FUNCTIONS:
-            raise self.fail("function", self.pos - len(name))
-        self.expect("[", "open_bracket")
-        self.depth += 1
-        if self.depth > MAX_NESTING:
-            raise self.fail("nesting")
-        arguments = [_value(self.sum())]
+        function = _ABBREVIATIONS.get(written, written)
+        if function not in FUNCTIONS:
+            raise self.fail("function", self.pos - len(written))
+        self._open()
+        arguments = [number_of(self.sum())]
         while self.accept(","):
-            arguments.append(_value(self.sum()))
+            arguments.append(number_of(self.sum()))
         self.expect("]", "close_bracket")
-        self.depth -= 1
-        if full == "PRM":
+        self._open_brackets -= 1
+        if function == "PRM":
             return self._parameter(arguments)
-        if full == "ATAN" and len(arguments) == 1:
-            before = self.pos
-            if self.accept("/") and self.peek() == "[":
-                arguments.append(_value(self.bracket()))
-            else:
-                self.pos = before
-        if len(arguments) != (2 if full == "POW" else 1) and not (full == "ATAN" and len(arguments) == 2):
+        if function == "ATAN" and len(arguments) == 1:
+            arguments += self._divisor()
+        if len(arguments) != (2 if function == "POW" else 1) and not (
+            function == "ATAN" and len(arguments) == 2
+        ):
             raise self.fail("argument")
-        call = full.lower()
-        if full == "ROUND" and self.in_word:
-            call = "round_increment"
-        return f"{call}_(m,{','.join(arguments)})"
+        called = "round_increment_" if function == "ROUND" and self.in_word else f"{function.lower()}_"
+        return call(called, MEMORY, *arguments)
 
-    def _parameter(self, arguments: list[str]) -> str:
+    def _parameter(self, arguments: list[Code]) -> Code:
         """`PRM[number]`, `PRM[number,bit]`, each with `/[axis number]`: a machine parameter."""
         if len(arguments) > 2:
             raise self.fail("argument")
-        bit = arguments[1] if len(arguments) == 2 else "None"
-        before = self.pos
-        axis = "None"
-        if self.accept("/") and self.peek() == "[":
-            axis = _value(self.bracket())
-        else:
-            self.pos = before
-        return f"m.parameter({arguments[0]},{bit},{axis})"
+        bit = arguments[1] if len(arguments) == 2 else _NONE
+        axis = self._divisor() or [_NONE]
+        return call("m.parameter", arguments[0], bit, *axis)
 
-    def condition(self) -> str:
+    def _divisor(self) -> list[Code]:
+        """The second argument of a function that has it behind a `/`."""
+        before = self.pos
+        if self.accept("/") and self.peek() == "[":
+            return [number_of(self.bracket())]
+        self.pos = before
+        return []
+
+    def condition(self) -> Code:
         """`[a EQ b]`, and with the parameter for it `[[a EQ b] AND [c GT d]]`."""
         self.expect("[", "open_bracket")
-        start, literals = self.pos, len(self.literals)
+        start = self.pos, len(self.numbers), self.depth, self._open_brackets
         if self.peek() == "[":
             try:
                 left = self.condition()
             except AlarmError:
-                self.pos = start
-                del self.literals[literals:]
+                self.pos, numbers, self.depth, self._open_brackets = start
+                del self.numbers[numbers:]
             else:
                 return self._joined_conditions(left)
         left = self.sum()
-        comparison = self.match(_COMPARISON)
-        if not comparison:
+        comparison = self.infix_ahead()
+        if comparison is None or comparison.power != COMPARISON:
             raise self.fail("condition")
-        right = self.sum()
+        mark = self.take_operator()
+        condition = self.joined(comparison, mark, left, self.sum())
         if not self.accept("]"):
             raise self.fail("close_bracket")
-        if comparison in ("EQ", "NE"):
-            return f"{comparison.lower()}_({left},{right})"
-        operator = {"GT": ">", "GE": ">=", "LT": "<", "LE": "<="}[comparison]
-        return f"({_value(left)}{operator}{_value(right)})"
+        return condition
 
-    def _joined_conditions(self, left: str) -> str:
+    def _joined_conditions(self, left: Code) -> Code:
         while operator := self.match(_LOGIC):
             right = self.condition()
-            left = f"joined_(m,{left},{operator.lower()!r},{right})"
+            left = call("joined_", MEMORY, left, constant(operator.lower()), right)
         self.expect("]", "close_bracket")
         return left
 
@@ -258,37 +342,43 @@ class Reader:
 
     # ---- results ----------------------------------------------------------------------------------------------------
 
-    def evaluator(self, source: str) -> Evaluate:
-        """A function of the channel that gives the value of generated source."""
-        function = compile_source(source)
-        literals = self.take_literals()
-        return lambda channel: function(channel.memory, literals)
+    def evaluator(self, code: Code) -> Evaluate:
+        """A function of the channel that gives the value of code that was just read."""
+        function = self.compiled(self.lifting(code))
+        return lambda channel: function(channel.memory)
 
-    def take_literals(self) -> list[float]:
-        """The literals of the source generated so far; the next source begins anew."""
-        literals, self.literals = self.literals, []
-        return literals
+    def compiled(self, lifting: Lifting) -> Callable[[object], float | None]:
+        """The function of the memory for the code of a value."""
+        return self._function(lifting.numbers, given(lifting.code))
+
+    def compiled_list(self, lifting: Lifting) -> Callable[[object], list[float | None]]:
+        """The function of the memory for the code of a list of values."""
+        return self._function(lifting.numbers, given(lifting.code))
+
+    def compiled_statement(self, lifting: Lifting) -> Callable[[object], None]:
+        """The function of the memory that carries out a statement."""
+        return self._function(lifting.numbers, lifting.code)
+
+    def _function(self, numbers: tuple[float, ...], statement: Code) -> FunctionType:
+        try:
+            return self.shapes.function(Function(("m",), len(numbers), 0, (statement,)), numbers)
+        except TooDeepError:
+            raise self.too_deep() from None
+
+    def lifting(self, code: Code) -> Lifting:
+        """Code with the numbers read so far; the next code begins anew."""
+        numbers, self.numbers = tuple(self.numbers), []
+        return Lifting(code, numbers)
 
 
-def _value(source: str) -> str:
-    """Source of a plain number: a bare variable counts as zero while it is vacant."""
-    return f"({source} or 0.0)" if source.startswith("m.") else source
+def number_of(code: Code) -> Code:
+    """Code of a plain number: a bare variable counts as zero while it is vacant."""
+    return either(ast.Or, code, _ZERO) if _is_variable(code) else code
 
 
-def compile_source(source: str) -> Callable[[Any, list[float]], Any]:
-    """The function of (memory, literals) for generated source; one for each shape of expression."""
-    function = _compiled.get(source)
-    if function is None:
-        code = compile(f"lambda m, k: {source}", "<macro>", "eval")
-        function = _compiled[source] = eval(code, functions.NAMESPACE)
-    return function
-
-
-def compile_statement(source: str) -> Callable[[Any, list[float]], Any]:
-    """The function of (memory, literals) that carries out a generated statement; one for each shape."""
-    function = _compiled.get(source)
-    if function is None:
-        space = dict(functions.NAMESPACE)
-        exec(compile(f"def run(m, k):\n    {source}", "<macro>", "exec"), space)
-        function = _compiled[source] = space["run"]
-    return function
+def _is_variable(code: Code) -> bool:
+    """Whether code reads a variable: an item of a list of the memory, or a method of it."""
+    if code.kind is ast.Subscript:
+        return True
+    function = code[1]
+    return code.kind is ast.Call and isinstance(function, Code) and function.kind is ast.Attribute

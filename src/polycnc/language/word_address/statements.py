@@ -10,16 +10,17 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.language.expressions.code import assigned
 from polycnc.language.word_address.functions import round_half_away
-from polycnc.language.word_address.macro_b import compile_source, compile_statement
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
+    from polycnc.language.expressions.code import Code
     from polycnc.language.word_address.executable import WordAddressProgram
-    from polycnc.language.word_address.macro_b import Evaluate, Reader
+    from polycnc.language.word_address.macro_b import Evaluate, Lifting, Reader
     from polycnc.messages import AlarmError
 
 KEYWORD = re.compile(r"IF|WHILE|WH(?=\s*\[)|GOTO|GO(?=\s*[\d#\[])|DO|END|POPEN|PCLOS|DPRNT|BPRNT|SETVN|#")
@@ -52,54 +53,49 @@ def parse_assignment(reader: Reader, _program: WordAddressProgram, _index: int) 
     if not reader.accept("="):
         raise reader.fail("missing_equals")
     begin = reader.pos
-    source = reader.sum()
+    value = reader.sum()
     text = reader.comment_behind(begin)
     if callable(target):
-        index_of, value = target, reader.evaluator(source)
-        return lambda channel: channel.memory.write_indirect(index_of(channel), value(channel), text)
-    return _assign(target, source, reader, text)
+        index_of, written = target, reader.evaluator(value)
+        return lambda channel: channel.memory.write_indirect(index_of(channel), written(channel), text)
+    return _assign(target, value, reader, text)
 
 
-def _assign(number: int, source: str, reader: Reader, text: str) -> Step:
+def _assign(number: int, value: Code, reader: Reader, text: str) -> Step:
     """Writing to a constant variable number."""
-    if 1 <= number <= 33:
-        return Assignment(f"m.locals[{number}]", source, reader.take_literals())
-    if 100 <= number <= 199 or 500 <= number <= 999:
-        return Assignment(f"m.common[{number}]", source, reader.take_literals())
-    value = reader.evaluator(source)
-    return lambda channel: channel.memory.write(number, value(channel), text)
+    place = reader.place(number)
+    if place is not None:
+        return Assignment(reader, assigned(place, value))
+    written = reader.evaluator(value)
+    return lambda channel: channel.memory.write(number, written(channel), text)
 
 
 class Assignment:
     """`#n = expression` for a local or common variable: a step, and a line of Python where several are joined."""
 
-    __slots__ = ("_function", "literals", "source", "target")
+    __slots__ = ("_function", "statement")
 
-    def __init__(self, target: str, source: str, literals: list[float]) -> None:
-        self.target = target
-        self.source = source
-        self.literals = literals
-        self._function = compile_statement(f"{target} = {source}")
+    def __init__(self, reader: Reader, statement: Code) -> None:
+        self.statement = reader.lifting(statement)
+        self._function = reader.compiled_statement(self.statement)
 
     def __call__(self, channel: Channel) -> None:
         """Run the statement."""
-        self._function(channel.memory, self.literals)
+        self._function(channel.memory)
 
 
 class ConditionalJump:
     """`IF [c] GOTO n` and `IF [c] THEN statement`."""
 
-    __slots__ = ("_condition", "jump", "literals", "source")
+    __slots__ = ("condition", "jump")
 
-    def __init__(self, source: str, literals: list[float], jump: Step) -> None:
-        self.source = source
-        self.literals = literals
-        self._condition = compile_source(source)
+    def __init__(self, condition: Condition, jump: Step) -> None:
+        self.condition = condition
         self.jump = jump
 
     def __call__(self, channel: Channel) -> None:
         """Run the statement."""
-        if self._condition(channel.memory, self.literals):
+        if self.condition(channel):
             self.jump(channel)
 
 
@@ -162,8 +158,7 @@ def parse_if(reader: Reader, program: WordAddressProgram, index: int) -> Step:
     """`IF [c] GOTO n` and `IF [c] THEN statement`."""
     if reader.peek() != "[":
         raise reader.fail("if_format")
-    source = reader.condition()
-    literals = reader.take_literals()
+    condition = Condition(reader)
     if reader.accept("THEN"):
         keyword = reader.match(re.compile("#|GOTO|POPEN|PCLOS|DPRNT|BPRNT"))
         if not keyword:
@@ -172,14 +167,14 @@ def parse_if(reader: Reader, program: WordAddressProgram, index: int) -> Step:
         keyword = "GOTO"
     else:
         raise reader.fail("if_format")
-    return ConditionalJump(source, literals, _PARSERS[keyword](reader, program, index))
+    return ConditionalJump(condition, _PARSERS[keyword](reader, program, index))
 
 
 def parse_while(reader: Reader, program: WordAddressProgram, index: int) -> Step:
     """`WHILE [c] DO m`."""
     if reader.peek() != "[":
         raise reader.fail("while_format")
-    condition = Condition(reader.condition(), reader.take_literals())
+    condition = Condition(reader)
     if not reader.accept("DO"):
         raise reader.fail("while_format")
     number = _loop_number(reader)
@@ -215,18 +210,17 @@ class Loop:
 
 
 class Condition:
-    """A condition of WHILE, and its generated source for joined steps."""
+    """A condition that has been read, and its code for joined steps."""
 
-    __slots__ = ("_function", "literals", "source")
+    __slots__ = ("_function", "lifting")
 
-    def __init__(self, source: str, literals: list[float]) -> None:
-        self.source = source
-        self.literals = literals
-        self._function = compile_source(source)
+    def __init__(self, reader: Reader) -> None:
+        self.lifting: Lifting = reader.lifting(reader.condition())
+        self._function = reader.compiled(self.lifting)
 
     def __call__(self, channel: Channel) -> bool:
-        """Run the statement."""
-        return bool(self._function(channel.memory, self.literals))
+        """Whether it holds."""
+        return bool(self._function(channel.memory))
 
 
 def parse_end(reader: Reader, _program: WordAddressProgram, index: int) -> Step:

@@ -17,6 +17,7 @@ An address is a letter, `,R`, or a letter with an index (`X1`, where the control
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -26,18 +27,13 @@ if TYPE_CHECKING:
 
 #: The characters that end a key and say how its number was written.
 FORMS = '.:;#"'
-_code_keys: dict[str, str] = {}
 
 
+@lru_cache(maxsize=1024)
 def code_key(letter: str, number: str) -> str:
     """The signature key of a G or M code: `G01` is `G1`, `G54.10` is `G54.10`, `M03` is `M3`."""
-    text = letter + number
-    key = _code_keys.get(text)
-    if key is None:
-        whole, point, fraction = number.partition(".")
-        key = letter + (whole.lstrip("0") or "0") + (point + fraction if fraction.strip("0") else "")
-        _code_keys[text] = key
-    return key
+    whole, point, fraction = number.partition(".")
+    return letter + (whole.lstrip("0") or "0") + (point + fraction if fraction.strip("0") else "")
 
 
 def word_key(letter: str, number: str) -> str:
@@ -78,26 +74,20 @@ class ExpressionBlock:
 
     Args:
         keys: As a signature; for a code from an expression only `G` or `M`.
-        evaluate: Gives the values, one for each key that is not a fixed code; None for a vacant variable.
-        literals: Literals of the generated source.
+        evaluate: Gives the values from the memory, one for each key that is not a fixed code; None for a vacant
+            variable.
     """
 
-    __slots__ = ("_computes_codes", "_evaluate", "keys", "literals")
+    __slots__ = ("_computes_codes", "_evaluate", "keys")
 
-    def __init__(
-        self,
-        keys: tuple[str, ...],
-        evaluate: Callable[[Any, list[float]], list[float | None]],
-        literals: list[float],
-    ) -> None:
+    def __init__(self, keys: tuple[str, ...], evaluate: Callable[[object], list[float | None]]) -> None:
         self.keys = keys
-        self.literals = literals
         self._evaluate = evaluate
         self._computes_codes = "G" in keys or "M" in keys
 
     def __call__(self, channel: Channel) -> None:
         """Run the block."""
-        values: list[Any] = self._evaluate(channel.memory, self.literals)
+        values: list[Any] = self._evaluate(channel.memory)
         keys = self.keys
         if self._computes_codes or None in values:
             keys, values = self._shape(values)

@@ -1,0 +1,120 @@
+"""The reader of expressions: operands joined by operators, as tables of operators tell (V. Pratt, 1973).
+
+A language gives its tables and says how its operands are read, which operator stands at its cursor, and what an
+operator makes of its operands. Values `V` are what the language builds: code, or code with a type.
+"""
+
+from __future__ import annotations
+
+import ast
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
+
+from polycnc.language.expressions import code
+
+if TYPE_CHECKING:
+    from polycnc.language.expressions.code import Code
+
+#: How deep an expression may be nested, in brackets, signs and operators; Python's own limit is not far.
+MAX_DEPTH = 200
+#: Power of signs: their operand holds no other operators.
+TIGHTEST = 100
+
+V = TypeVar("V")
+M = TypeVar("M")
+
+
+class Operator(NamedTuple):
+    """An operator as a row of a table.
+
+    Attributes:
+        power: How closely it binds; the greater, the closer. Operators of equal power work from left to right. Before
+            an operand: the operand holds operators of greater power only.
+        gives: Python's operator (a class of `ast`), or the name of a function.
+        family: Which operands it takes, in the language's own words.
+    """
+
+    power: int
+    gives: type[ast.AST] | str
+    family: str = ""
+
+
+class OperatorReader(ABC, Generic[M, V]):
+    """Reads expressions; `M` is the operator's mark in the text, for alarms."""
+
+    def __init__(self) -> None:
+        self.depth = 0
+
+    # ---- what a language says --------------------------------------------------------------------------------
+
+    @abstractmethod
+    def operand(self) -> V:
+        """Read an operand without signs."""
+
+    @abstractmethod
+    def prefix_ahead(self) -> Operator | None:
+        """The operator that stands before the next operand, unread."""
+
+    @abstractmethod
+    def infix_ahead(self) -> Operator | None:
+        """The operator that stands behind the operand just read, unread."""
+
+    @abstractmethod
+    def take_operator(self) -> M:
+        """Read the operator that was found ahead."""
+
+    @abstractmethod
+    def signed(self, operator: Operator, mark: M, operand: V) -> V:
+        """The value of an operator before its operand."""
+
+    @abstractmethod
+    def joined(self, operator: Operator, mark: M, left: V, right: V) -> V:
+        """The value of an operator between two operands."""
+
+    @abstractmethod
+    def too_deep(self) -> Exception:
+        """The alarm for an expression that is nested too deeply."""
+
+    # ---- reading -----------------------------------------------------------------------------------------------
+
+    def expression(self, power: int = 0) -> V:
+        """Read an operand and all operators behind it that bind more closely than `power`."""
+        depth = self.depth
+        self._deeper()
+        operator = self.prefix_ahead()
+        if operator is None:
+            left = self.operand()
+        else:
+            mark = self.take_operator()
+            left = self.signed(operator, mark, self.expression(operator.power))
+        while (operator := self.infix_ahead()) is not None and operator.power > power:
+            mark = self.take_operator()
+            self._deeper()
+            left = self.joined(operator, mark, left, self.expression(operator.power))
+        self.depth = depth
+        return left
+
+    def _deeper(self) -> None:
+        self.depth += 1
+        if self.depth > MAX_DEPTH:
+            raise self.too_deep()
+
+
+def applied(gives: type[ast.AST] | str, left: Code, right: Code) -> Code:
+    """The code of an operator with its operands."""
+    if isinstance(gives, str):
+        return code.call(gives, left, right)
+    if issubclass(gives, ast.operator):
+        return code.binary(gives, left, right)
+    if issubclass(gives, ast.cmpop):
+        return code.compared(left, gives, right)
+    assert issubclass(gives, ast.boolop)
+    return code.either(gives, left, right)
+
+
+def applied_to_one(gives: type[ast.AST] | str, operand: Code) -> Code:
+    """The code of an operator before its operand."""
+    if isinstance(gives, str):
+        return code.call(gives, operand)
+    assert issubclass(gives, ast.unaryop)
+    return code.unary(gives, operand)

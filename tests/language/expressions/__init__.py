@@ -1,0 +1,1 @@
+"""The kit that the expressions of all languages share."""

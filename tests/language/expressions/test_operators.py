@@ -1,0 +1,77 @@
+"""The reader of expressions, with a table of its own, held against brackets set by hand."""
+
+from __future__ import annotations
+
+import ast
+
+import pytest
+
+from polycnc.language.expressions.operators import MAX_DEPTH, TIGHTEST, Operator, OperatorReader
+
+INFIX = {
+    "=": Operator(1, ast.Eq),
+    "+": Operator(2, ast.Add),
+    "-": Operator(2, ast.Sub),
+    "*": Operator(3, ast.Mult),
+}
+PREFIX = {"-": Operator(TIGHTEST, ast.USub), "~": Operator(1, ast.Invert)}
+
+
+class Letters(OperatorReader[str, str]):
+    """Every character is a token; values are texts with all brackets."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.left = list(text)
+
+    def operand(self) -> str:
+        return self.left.pop(0)
+
+    def prefix_ahead(self) -> Operator | None:
+        return PREFIX.get(self.left[0])
+
+    def infix_ahead(self) -> Operator | None:
+        return INFIX.get(self.left[0]) if self.left else None
+
+    def take_operator(self) -> str:
+        return self.left.pop(0)
+
+    def signed(self, _operator: Operator, mark: str, operand: str) -> str:
+        return f"({mark}{operand})"
+
+    def joined(self, _operator: Operator, mark: str, left: str, right: str) -> str:
+        return f"({left}{mark}{right})"
+
+    def too_deep(self) -> Exception:
+        return OverflowError()
+
+
+@pytest.mark.parametrize(
+    ("text", "bracketed"),
+    [
+        ("a", "a"),
+        ("a+b*c", "(a+(b*c))"),
+        ("a*b+c", "((a*b)+c)"),
+        ("a-b-c", "((a-b)-c)"),
+        ("a=b+c=d", "((a=(b+c))=d)"),
+        ("-a*b", "((-a)*b)"),
+        ("--a", "(-(-a))"),
+        ("~a+b=c", "((~(a+b))=c)"),
+        ("a+~b*c=d", "((a+(~(b*c)))=d)"),
+    ],
+)
+def test_operators_bind_as_their_table_says(text: str, bracketed: str) -> None:
+    assert Letters(text).expression() == bracketed
+
+
+def test_operators_that_bind_less_closely_are_left_unread() -> None:
+    reader = Letters("a*b+c")
+    assert reader.expression(2) == "(a*b)"
+    assert reader.left == ["+", "c"]
+
+
+@pytest.mark.parametrize("text", ["-" * MAX_DEPTH + "a", "a" + "+a" * MAX_DEPTH])
+def test_an_expression_that_is_nested_too_deeply_is_refused(text: str) -> None:
+    with pytest.raises(OverflowError):
+        Letters(text).expression()
+    assert Letters(text[-2 * (MAX_DEPTH // 2) + 1 :]).expression()
