@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from polycnc.mainrun import Record, State, VirtualControl
+from polycnc.mainrun.execution.execution import Execution
 
 MILL = """O1
 G90 G54 G0 X10. Y5.
@@ -28,6 +29,11 @@ def power_on(text: str = MILL, control: str = "fanuc-m", **more: Any) -> Virtual
     virtual = VirtualControl(control, **more)
     virtual.load(text)
     return virtual
+
+
+def execution_of(virtual: VirtualControl) -> Execution:
+    """What executes the program of the first channel."""
+    return virtual._operation.runs.first.execution
 
 
 def recorded(virtual: VirtualControl) -> list[Record]:

@@ -9,10 +9,8 @@
     axes/          what moves an axis beside its program
     signals/       the machine's own controller
     reading/       what is read
-    control        the operator's commands
-    byhand         axes without a program
-    readings       readings of the moment
-    core           the parts of a control and the events between them
+    control        `VirtualControl`, made of all these
+    status         mode, state, alarms, and the trace
     equipment      control, machine, setup
     errors         refusals
 """

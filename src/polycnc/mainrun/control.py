@@ -8,38 +8,58 @@
 
 Time is simulated and passes only in `step`, `run` and `run_until`; commands act at the moment at which the clock
 stands. The same commands at the same times give the same trace, bit for bit.
+
+The control is made of objects, and does nothing itself: `MainLoop` lets time pass, `Operation` goes from state to
+state, `ProgramCommands`, `HandCommands` and `SwitchCommands` are the operator's, `Readings` is what can be read.
 """
 
 from __future__ import annotations
 
-from contextlib import suppress
-from dataclasses import replace
-from math import ceil, inf
-from typing import TYPE_CHECKING, Any
+from enum import StrEnum
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from polycnc.mainrun.byhand import ByHand
-from polycnc.mainrun.commands.programs import forget_skipped
-from polycnc.mainrun.commands.search import search
+from polycnc.control.alarm_text import alarm_text
+from polycnc.mainrun.commands.hand import HandCommands
+from polycnc.mainrun.commands.permission import Permission
+from polycnc.mainrun.commands.program_keys import ProgramCommands
+from polycnc.mainrun.commands.programs import Programs
 from polycnc.mainrun.commands.states import Command, Mode, State, is_allowed
-from polycnc.mainrun.core import AT_END, LOCKED_STATES, MANUAL_ABSOLUTE, SINGLE_BLOCK_KINDS
+from polycnc.mainrun.commands.switches import SwitchCommands, Switches
+from polycnc.mainrun.equipment import equipment
 from polycnc.mainrun.errors import CommandRefused
+from polycnc.mainrun.execution.clock import Clock
+from polycnc.mainrun.execution.main_loop import LONGEST_RUN_S, MainLoop
+from polycnc.mainrun.execution.operation import MANUAL_ABSOLUTE, Operation
+from polycnc.mainrun.reading.readings import Readings
+from polycnc.mainrun.signals.image import SignalImage
+from polycnc.mainrun.signals.interlocks import Interlocks
+from polycnc.mainrun.status import Status
 from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
-#: Lowest and highest overrides, 1 for 100 % (Hartford manual, operator panel).
-FEED_RANGE, RAPID_RANGE, SPINDLE_RANGE = (0.0, 2.0), (0.0, 1.0), (0.5, 1.2)
-#: Switches that keep axes from moving.
-LOCKS = ("machine_lock", "z_lock")
-#: Cycles that a program runs at least before anybody looks, where nobody has to.
-FREE_CYCLES = 256
-#: A run without limit ends after a day.
-LONGEST_RUN_S = 86400.0
+    from polycnc.channel.channel import Channel
+    from polycnc.control.interface import Control
+    from polycnc.machine.model import Machine
+    from polycnc.machine.setup import Setup
+    from polycnc.mainrun.reading.snapshot import (
+        ActiveBlock,
+        ChannelSnapshot,
+        PanelSwitches,
+        Positions,
+        Record,
+        Snapshot,
+        SpindleState,
+        ToolState,
+    )
+    from polycnc.messages import Alarm
+
+_Name = TypeVar("_Name", bound=StrEnum)
 
 
-class VirtualControl(ByHand):
+class VirtualControl:
     """One control with its machine, from power-on.
 
     Args:
@@ -49,10 +69,51 @@ class VirtualControl(ByHand):
         search: Folders in which calls look for subprograms.
         files: Further programs as texts, by name.
 
+    Attributes:
+        control: The control.
+        machine: Its machine.
+        signals: The signal image; inputs can be set.
+
     Raises:
         CommandRefused: There is no such control.
         FileError: The machine or the setup is wrong.
     """
+
+    def __init__(
+        self,
+        control: str | Control,
+        *,
+        machine: str | Path | Machine | None = None,
+        setup: Mapping[str, Any] | str | Path | Setup | None = None,
+        search: Sequence[str | Path] = (),
+        files: Mapping[str, str] | None = None,
+    ) -> None:
+        self.control, self.machine, start = equipment(control, machine, setup)
+        given = start.switches.signals.items()
+        signals = {name: float(value) for name, value in given if isinstance(value, int | float)}
+        signals.setdefault(MANUAL_ABSOLUTE, 1.0)
+        plc, clock = self.control.plc, Clock(self.machine.interpolation_cycle_s)
+        self.signals = SignalImage(signals, (*plc.rules, *self.machine.rules), clock)
+        interlocks = Interlocks(plc, self.signals)
+        self._status = Status(self.control.id, clock, self.signals)
+        self._programs = Programs(self.control.form, search, files or {})
+        self._operation = operation = Operation(
+            self.control, self.machine, start, self._programs, clock, Switches(start.switches), self.signals,
+            interlocks, self._status,
+        )  # fmt: skip
+        permission = Permission(self.control, self._status, interlocks)
+        self._commands = commands = ProgramCommands(operation, self._programs, permission)
+        self._hand = HandCommands(operation, permission)
+        self._switches = SwitchCommands(operation, permission)
+        self._loop = MainLoop(operation, clock)
+        self._readings = Readings(operation, self._programs)
+        operation.keys = {
+            "CYCLE_START": commands.cycle_start,
+            "FEED_HOLD": commands.feed_hold,
+            "RESET": commands.reset,
+            "EMERGENCY_STOP": commands.emergency_stop,
+            "POWER_OFF": commands.power_off,
+        }
 
     # ---- programs ------------------------------------------------------------------------------------------
 
@@ -63,11 +124,7 @@ class VirtualControl(ByHand):
             CommandRefused: A program runs.
             ProgramFileError: The file cannot be read.
         """
-        self._ask(Command.LOAD)
-        self._programs.load(source)
-        self._signals[AT_END] = 0.0
-        for run in self._runs.values():
-            run.channel.store = self._programs.store
+        self._commands.load(source)
 
     def load_tape(self, source: str | bytes | Path) -> None:
         """Give the program that comes from outside in mode `tape`: tape, DNC, memory card. Sources as for `load`.
@@ -76,8 +133,7 @@ class VirtualControl(ByHand):
             CommandRefused: A program runs.
             ProgramFileError: The file cannot be read.
         """
-        self._ask(Command.LOAD)
-        self._tape = self._programs.from_outside(source)
+        self._commands.load_tape(source)
 
     def mdi(self, text: str) -> None:
         """Type blocks in and start them; allowed in MDI mode. What they change stays.
@@ -89,9 +145,7 @@ class VirtualControl(ByHand):
             CommandRefused: Out of place; or blocks of a waiting program are prepared already, or read ahead for
                 compensation.
         """
-        self._ask(Command.MDI)
-        self._typed = self._programs.typed(text)
-        self.cycle_start()
+        self._commands.mdi(text)
 
     def teach(self, words: str = "", *, line: int | None = None) -> str:
         """Write a block with the present position into the loaded program; allowed in teach-in.
@@ -103,10 +157,7 @@ class VirtualControl(ByHand):
         Returns:
             The block.
         """
-        self._ask(Command.TEACH)
-        block = " ".join(filter(None, (words, *(_word(a, v) for a, v in self.positions.work.items()))))
-        self._programs.insert(block, line)
-        return block
+        return self._commands.teach(words, line)
 
     def block_search(self, target: int | str) -> None:
         """Search a block with calculation: a line of the main program, or a block number such as `N50`.
@@ -117,28 +168,7 @@ class VirtualControl(ByHand):
         Raises:
             CommandRefused: The program ends before it.
         """
-        self._ask(Command.BLOCK_SEARCH)
-        if self._by_hand:
-            raise CommandRefused("mainrun.moving")
-        program = self._programs.main
-        line = self._programs.line_of(target)
-        if program is None:
-            raise CommandRefused("mainrun.no-program")
-        here = self.machine_position
-        self._program_mode = Mode.AUTO
-        self._prepare(self._run)
-        self._machinery.reset()
-        self._preprocessing.start(program, here)
-        found = search(self._preprocessing, program.name, line)
-        if found is None:
-            self._give_up()
-            raise CommandRefused("mainrun.search", target=target)
-        self._run.manual.begin(here)
-        self._execution.position = found.position
-        self._execution.context = self._execution.place = found.context
-        self._execution.modal = found.modal
-        self._collected, self._searched = found.functions, True
-        self._set_state(State.STOPPED, halt="search")
+        self._commands.block_search(target)
 
     # ---- running -------------------------------------------------------------------------------------------
 
@@ -146,115 +176,29 @@ class VirtualControl(ByHand):
         """Start the program, or go on with it after a hold, a stop or a single block.
 
         Axes that were moved by hand meanwhile go back to where the program stands first, or the program goes on from
-        where they are: as the control has it, and the signal `MANUAL_ABSOLUTE` says (`mainrun/axes/manual_offset.py`).
+        where they are: as the control has it, and the signal `MANUAL_ABSOLUTE` says (`axes/manual_offset.py`).
         """
-        self._ask(Command.CYCLE_START)
-        if self._by_hand:
-            raise CommandRefused("mainrun.moving")
-        if self.state is State.READY:
-            sources = {Mode.MDI: self._typed, Mode.TAPE: self._tape}
-            program = sources.get(self.mode, self._programs.main)
-            if program is None:
-                raise CommandRefused("mainrun.no-program")
-            if self.mode is Mode.AUTO and self._signals[AT_END]:
-                raise CommandRefused("mainrun.at-end")
-            self._ask_machine("CYCLE_START")
-            self._program_mode = self.mode
-            self._pulse("STARTED")
-            self._set_rates()
-            self._prepare(self._run)
-            self._machinery.reset()
-            self._preprocessing.start(program, self._execution.position)
-            self._resume()
-        elif self.mode is Mode.MDI and self._program_mode is not Mode.MDI and self._may_intervene:
-            self._intervene()
-        elif self.mode is not self._program_mode:
-            raise CommandRefused("mainrun.other-mode", mode=self._program_mode)
-        else:
-            self._ask_machine("CYCLE_START")
-            if self._left_path and (self._searched or self._preprocessing.returns_to_path):
-                self._lead_back()
-                return
-            self._go_on_from_here()
-
-    def _go_on_from_here(self) -> None:
-        """The program goes on from where an operator has left the axes."""
-        for run in self._runs.values():
-            run.intervene(absolute=bool(self._signals[MANUAL_ABSOLUTE]))
-        self._resume()
-
-    @property
-    def _may_intervene(self) -> bool:
-        """Whether blocks that are typed in can be run in the midst of a program."""
-        return self.control.mdi_intervenes and self.state is State.STOPPED
-
-    def _intervene(self) -> None:
-        """Run what was typed in while a program waits (FANUC 0i-TF Plus II.5.4.7, MDI intervention)."""
-        others = any(run.is_active for run in self._runs.values() if run is not self._run)
-        if self._typed is None or self._searched or others or not self._preprocessing.is_bare:
-            raise CommandRefused("mainrun.prepared", mode=self._program_mode)
-        self._ask_machine("CYCLE_START")
-        self._waiting_mode, self._program_mode = self._program_mode, Mode.MDI
-        self._apply_switches(self.channel)
-        self._preprocessing.intervene(self._typed)
-        self._go_on_from_here()
-
-    def _lead_back(self) -> None:
-        """Axes that were moved by hand go to where the program waits, which then goes on."""
-        self._set_state(State.RUNNING)
-        for happening in self._collected:
-            self._machinery.perform(happening)
-        self._collected = []
-        self._returning = True
-        for run in self._runs.values():
-            if run.manual.place is not None:
-                for axis, target in enumerate(run.real):
-                    run.manual.towards(axis, target, self._jog_speed(run, axis), self.time)
+        self._commands.cycle_start()
 
     def feed_hold(self) -> None:
         """Bring the axes to rest on the path; a thread is finished first."""
-        self._ask(Command.FEED_HOLD)
-        if self.state is State.RUNNING:
-            self._rates.hold = True
-            self._revise()
-            self._brake_hands()
-            self._returning = False
-            self._set_state(State.HOLD)
+        self._commands.feed_hold()
 
     def reset(self) -> None:
         """Give the program up: the axes brake, alarms go, modal states become those after reset."""
-        if self.state in LOCKED_STATES:
-            raise CommandRefused("mainrun.refused", command=Command.RESET, mode=self.mode, state=self.state)
-        self._brake(State.BRAKING)
+        self._commands.reset()
 
     def emergency_stop(self, *, pressed: bool = True) -> None:
         """Press the emergency stop, or pull it out again: then the control is as after reset."""
-        if self.state is State.OFF:
-            return
-        if pressed:
-            self._brake(State.EMERGENCY)
-        elif self.state is State.EMERGENCY:
-            self._brake(State.BRAKING)
+        self._commands.emergency_stop(pressed=pressed)
 
     def power_off(self) -> None:
         """Switch off: the axes come to rest, outputs drop. Programs, offsets and variables stay."""
-        if self.state is State.OFF:
-            return
-        self._brake(State.OFF)
-        for rule in self.control.plc.rules:
-            if rule.latch:
-                self._signals[rule.output] = 0.0
+        self._commands.power_off()
 
     def power_on(self) -> None:
         """Switch on again: as after reset; machines without absolute encoders have to return to their references."""
-        if self.state is not State.OFF:
-            return
-        if self._signals["INCREMENTAL_ENCODERS"]:
-            for axis in self.channel.axes:
-                self._signals[f"NOT_REFERENCED_{axis}"] = 1.0
-        for run in self._runs.values():
-            run.forget_shift()
-        self._brake(State.BRAKING)
+        self._commands.power_on()
 
     def key(self, name: str, *, pressed: bool = True) -> None:
         """Press a key of the machine panel by its name in the machine's rules (`B3`, `D1`), or let it go.
@@ -262,36 +206,37 @@ class VirtualControl(ByHand):
         Raises:
             CommandRefused: The machine refuses it; where that is an alarm, it has come.
         """
-        if pressed:
-            self._ask_machine(f"KEY_{name}")
-        self._signals[f"KEY_{name}"] = float(pressed)
-
-    def _press(self, key: str) -> None:
-        press = {
-            "CYCLE_START": self.cycle_start,
-            "FEED_HOLD": self.feed_hold,
-            "RESET": self.reset,
-            "EMERGENCY_STOP": self.emergency_stop,
-            "POWER_OFF": self.power_off,
-        }[key]
-        with suppress(CommandRefused):  # a key that cannot act now does nothing
-            press()
-
-    # ---- by hand -------------------------------------------------------------------------------------------
+        self._commands.key(name, pressed=pressed)
 
     def select_mode(self, mode: Mode | str) -> None:
         """Turn the mode switch. A running program is held; it goes on in the same mode after cycle start."""
-        wanted: Mode = _one_of(Mode, "mode", mode)
-        self._ask(Command.SELECT_MODE)
-        if wanted is not self.mode:
-            self._ask_machine(f"MODE_{wanted.upper()}")
-            if self.state is State.RUNNING:
-                self.feed_hold()
-            self._brake_hands()
-            self._signals[self.mode.upper()] = 0.0
-            self.mode = wanted
-            self._signals[wanted.upper()] = 1.0
-            self._report("mode", mode=wanted)
+        self._commands.select_mode(_one_of(Mode, "mode", mode))
+
+    def allows(self, command: Command | str) -> bool:
+        """Whether a command may be given in this mode and state."""
+        return is_allowed(_one_of(Command, "command", command), self.mode, self.state)
+
+    # ---- by hand -------------------------------------------------------------------------------------------
+
+    def jog(self, axis: str, direction: int, *, rapid: bool = False, channel: int = 1) -> None:
+        """Press a jog key: the axis moves until `stop_jog`, or to its limit."""
+        self._hand.jog(axis, direction, rapid=rapid, channel=channel)
+
+    def stop_jog(self, axis: str | None = None, *, channel: int = 1) -> None:
+        """Let a jog key go; all of them where no axis is named."""
+        self._hand.stop_jog(axis, channel=channel)
+
+    def increment(self, axis: str, steps: int, size: float = 0.001, *, channel: int = 1) -> None:
+        """Move by steps of a size, as the machine display counts (mm or degrees; diameters where it shows them)."""
+        self._hand.increment(axis, steps * size, channel=channel)
+
+    def handle(self, axis: str, pulses: int, size: float = 0.001, *, channel: int = 1) -> None:
+        """Turn the handwheel: the axis follows its pulses as fast as it can."""
+        self._hand.handle(axis, pulses * size, channel=channel)
+
+    def home(self, axis: str | None = None, *, channel: int = 1) -> None:
+        """Approach the first reference point; with all axes of the channel where none is named."""
+        self._hand.home(axis, channel=channel)
 
     # ---- switches ------------------------------------------------------------------------------------------
 
@@ -299,16 +244,7 @@ class VirtualControl(ByHand):
         self, *, feed: float | None = None, rapid: float | None = None, spindle: float | None = None
     ) -> None:
         """Turn the override switches; 1 is 100 %. They act at once, within what the axes can do."""
-        new = {"feed": (feed, FEED_RANGE), "rapid": (rapid, RAPID_RANGE), "spindle": (spindle, SPINDLE_RANGE)}
-        for name, (value, (low, high)) in new.items():
-            if value is not None and not low <= value <= high:
-                raise CommandRefused("mainrun.value", name=name, allowed=f"{low:g} … {high:g}", value=value)
-        for name, (value, _) in new.items():
-            if value is not None:
-                setattr(self._dials, name, float(value))
-                self._report("override", name=name, value=float(value))
-        self._set_rates()
-        self._set_hand_speeds()
+        self._switches.override(feed, rapid, spindle)
 
     def set_switches(self, **changes: Any) -> None:
         """Turn panel switches, by the names of `PanelSwitches`.
@@ -316,53 +252,13 @@ class VirtualControl(ByHand):
         `single_block` is `SBL1`, `SBL2`, `SBL3`, or True for the first; `block_skip` True, False, or levels. Optional
         stop and single block act on the block in execution, block skip on blocks that are not prepared yet.
         """
-        if "single_block" in changes:
-            kind = changes["single_block"]
-            changes["single_block"] = "SBL1" if kind is True else kind or ""
-            if changes["single_block"] not in SINGLE_BLOCK_KINDS:
-                allowed = listed(SINGLE_BLOCK_KINDS[1:])
-                raise CommandRefused("mainrun.value", name="single_block", allowed=allowed, value=kind)
-        if changes.get("block_skip", self._switches.block_skip) != self._switches.block_skip:
-            forget_skipped(self.channel)
-        if any(
-            changes.get(lock, getattr(self._switches, lock)) != getattr(self._switches, lock)
-            for lock in LOCKS
-        ):
-            self._ask(Command.MACHINE_LOCK)
-            self._lock({lock: changes.get(lock, getattr(self._switches, lock)) for lock in LOCKS})
-        self._switches = replace(self._switches, **changes)
-        self._set_rates()
-        for run in self._runs.values():
-            run.machinery.optional_stop = self._switches.optional_stop
-            run.machinery.mst_lock = self._switches.mst_lock
-        for run in self._runs.values():
-            run.execution.single_block = bool(self._switches.single_block)
-            self._apply_switches(run.channel)
-        self._revise()
-        self._report("switch", **changes)
-
-    def _lock(self, locks: Mapping[str, bool]) -> None:
-        """Locked axes stand while the display runs on; when a lock ends, the display shows the axes again."""
-        if self._by_hand:
-            raise CommandRefused("mainrun.moving")
-        position = self.machine_position
-        z = self.machine.geometry_indices(self.channel.number)[2]
-        wanted = set(range(len(position))) if locks["machine_lock"] else {z} if locks["z_lock"] else set()
-        released = self._locked_at.keys() - wanted
-        if released:
-            self._run.stand_at(
-                [self._locked_at[i] if i in released else value for i, value in enumerate(position)]
-            )
-            self._prepare(self._run)
-        self._locked_at = {i: self._locked_at.get(i, position[i]) for i in wanted}
+        self._switches.set_switches(changes)
 
     # ---- time ----------------------------------------------------------------------------------------------
 
     def step(self, seconds: float | None = None) -> None:
         """Let time pass: the given seconds in whole interpolation cycles, or one cycle."""
-        cycle = self.machine.interpolation_cycle_s
-        self._cycles += 1 if seconds is None else max(round(seconds / cycle), 0)
-        self._advance(self._cycles * cycle)
+        self._loop.step(seconds)
 
     def run(self, *, limit_s: float = LONGEST_RUN_S, real_time: bool = False) -> State:
         """Let time pass until nothing runs any more; gives the state then.
@@ -371,53 +267,152 @@ class VirtualControl(ByHand):
             limit_s: No longer than this.
             real_time: As fast as time really passes; else as fast as the computer can.
         """
-        self._follow_up()
         if real_time:
-            return self._run_in_real_time(limit_s)
-        cycle = self.machine.interpolation_cycle_s
-        last = self._cycles + ceil(limit_s / cycle)
-        while self.is_busy and self._cycles < last and (due := self._due()) < inf:
-            if self._runs_freely:
-                until = min(max(due, (self._cycles + FREE_CYCLES) * cycle), last * cycle)
-                self._execution.advance(until, freely=True)
-                due = self.time
-            # Whole pieces in one step: nothing can happen before `due` but by a command.
-            self._cycles = min(max(ceil(due / cycle - 1e-9), self._cycles + 1), last)
-            self._advance(self._cycles * cycle)
+            self._loop.run_in_real_time(limit_s)
+        else:
+            self._loop.run(limit_s)
         return self.state
 
     def run_until(self, reached: Callable[[VirtualControl], bool], *, limit_s: float = LONGEST_RUN_S) -> bool:
         """Let time pass, cycle by cycle, until a condition holds; false if it did not within the limit."""
-        last = self._cycles + ceil(limit_s / self.machine.interpolation_cycle_s)
-        while not reached(self):
-            if self._cycles >= last:
-                return False
-            self.step()
-        return True
+        return self._loop.run_until(lambda: reached(self), limit_s)
 
-    def _run_in_real_time(self, limit_s: float) -> State:
-        from time import monotonic, sleep
+    # ---- readings: of the moment at which the clock stands; `snapshot` is all of them ------------------------
 
-        began, at = monotonic(), self.time
-        while self.is_busy and self.time - at < limit_s:
-            self.step()
-            sleep(max(self.time - at - (monotonic() - began), 0.0))
-        return self.state
+    @property
+    def time(self) -> float:
+        """Simulated time since power-on, s: a whole number of interpolation cycles, between commands."""
+        return self._operation.clock.time
 
-    def allows(self, command: Command | str) -> bool:
-        """Whether a command may be given in this mode and state."""
-        return is_allowed(_one_of(Command, "command", command), self.mode, self.state)
+    @property
+    def mode(self) -> Mode:
+        """What the mode switch says."""
+        return self._status.mode
+
+    @property
+    def state(self) -> State:
+        """What the control is doing."""
+        return self._status.state
+
+    @property
+    def halt(self) -> str:
+        """Why the program stands (`M00`, `M01`, `single-block` …), or empty."""
+        return self._operation.halt
+
+    @property
+    def alarms(self) -> tuple[Alarm, ...]:
+        """Alarms that wait for reset."""
+        return self._status.alarms
+
+    @property
+    def parts(self) -> int:
+        """How often a program has come to its end."""
+        return self._status.parts
+
+    @property
+    def listeners(self) -> list[Callable[[Record], object]]:
+        """Called with each `Record` of what happens, in order; append to it."""
+        return self._status.listeners
+
+    @property
+    def channel(self) -> Channel:
+        """The first channel; it runs ahead of the axes."""
+        return self._operation.runs.first.channel
+
+    @property
+    def channels(self) -> Mapping[int, ChannelSnapshot]:
+        """Every channel that has been spoken of, by number; the other readings are of the first."""
+        return self._readings.channels
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether something runs or moves."""
+        return self._loop.is_busy
+
+    @property
+    def positions(self) -> Positions:
+        """Positions as the displays show them."""
+        return self._readings.positions
+
+    @property
+    def machine_position(self) -> list[float]:
+        """Commanded position of the real axes of the first channel, mm (radius) and degrees."""
+        return self._operation.runs.first.machine_position
+
+    @property
+    def restart(self) -> Mapping[str, tuple[float, float]]:
+        """Where a program waits while its axes stand elsewhere: axis to position and way that is left, work units.
+
+        Empty where no program waits for axes that were moved by hand, or that a block search has left behind.
+        """
+        return self._readings.restart
+
+    @property
+    def feed(self) -> float:
+        """Path speed now, mm/min; of the fastest axis where axes are moved by hand."""
+        return self._readings.feed
+
+    @property
+    def program(self) -> str:
+        """Name of the loaded program; empty for none."""
+        return self._readings.program
+
+    @property
+    def active_block(self) -> ActiveBlock:
+        """The block in execution."""
+        return self._operation.runs.first.active_block
+
+    @property
+    def modal(self) -> Mapping[str, str]:
+        """Active code of every modal group in the block in execution."""
+        return self._operation.runs.first.modal
+
+    @property
+    def spindle(self) -> SpindleState:
+        """The spindle of the block in execution; where the machine's rules drive it, as they do."""
+        return self._readings.spindle
+
+    @property
+    def tool(self) -> ToolState:
+        """Tool in the spindle, and the one that stands by."""
+        return self._operation.runs.first.tool
+
+    @property
+    def switches(self) -> PanelSwitches:
+        """The panel's switches."""
+        return self._operation.switches.panel
+
+    @property
+    def messages(self) -> tuple[str, ...]:
+        """Texts that the program has put out."""
+        return tuple(self._operation.runs.first.machinery.messages)
+
+    @property
+    def notices(self) -> tuple[str, ...]:
+        """Numbers of the messages from the machine's controller; their texts are in the control's catalogue."""
+        return self._operation.interlocks.messages
+
+    def read_variable(self, name: str) -> object:
+        """A variable of the control as programs name it; None where it is vacant. It may be ahead of the axes.
+
+        Raises:
+            KeyError: There is no such variable.
+        """
+        return self.control.read_variable(self.channel, name)
+
+    def alarm_text(self, alarm: Alarm, lang: str | None = None) -> str:
+        """The control's own text of an alarm, with the hint on this very case if there is one."""
+        return alarm_text(self.control, alarm, lang)
+
+    @property
+    def snapshot(self) -> Snapshot:
+        """Everything at once, of one moment."""
+        return self._readings.snapshot
 
 
-def _one_of(kind: Any, name: str, value: object) -> Any:
+def _one_of(kind: type[_Name], name: str, value: object) -> _Name:
     try:
         return kind(str(value).lower())
     except ValueError:
         allowed = listed(kind)
         raise CommandRefused("mainrun.value", name=name, allowed=allowed, value=value) from None
-
-
-def _word(axis: str, value: float) -> str:
-    """A position word with its decimal point."""
-    number = f"{value + 0.0:.4f}".rstrip("0")
-    return f"{axis}={number}" if axis[-1].isdigit() else f"{axis}{number}"

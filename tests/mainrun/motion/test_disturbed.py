@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from polycnc.mainrun import State, VirtualControl
-from tests.mainrun.support import MILL, power_on, recorded
+from tests.mainrun.support import MILL, execution_of, power_on, recorded
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -24,16 +24,16 @@ def joints_of(virtual: VirtualControl) -> list[tuple[float, ...]]:
     Where a row is cut into pieces depends on what is prepared behind it: in single block nothing is.
     """
     joints: list[tuple[float, ...]] = []
-    arrive = virtual._execution._arrive
+    arrive = execution_of(virtual)._arrive
 
     def noted() -> None:
-        motion = virtual._execution.motion
+        motion = execution_of(virtual).motion
         is_last = motion is not None and motion.piece.first + motion.piece.share >= 1.0 - 1e-9
         arrive()
         if is_last:
-            joints.append(tuple(virtual._execution.position))
+            joints.append(tuple(execution_of(virtual).position))
 
-    virtual._execution._arrive = noted  # type: ignore[method-assign]
+    execution_of(virtual)._arrive = noted  # type: ignore[method-assign]
     return joints
 
 

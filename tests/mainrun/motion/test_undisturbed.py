@@ -8,7 +8,7 @@ import pytest
 
 import polycnc
 from polycnc.mainrun import State, VirtualControl
-from tests.mainrun.support import MILL, power_on, recorded, run_through
+from tests.mainrun.support import MILL, execution_of, power_on, recorded, run_through
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 CONTROLS = {
@@ -77,14 +77,14 @@ def test_stepping_gives_the_same_as_running() -> None:
 def test_no_piece_is_ticked_through() -> None:
     virtual = power_on("O1\nG1 X100. F1.\nM30\n")
     steps = 0
-    advance = virtual._execution.advance
+    advance = execution_of(virtual).advance
 
     def counted(until: float, *, freely: bool = False) -> None:
         nonlocal steps
         steps += 1
         advance(until, freely=freely)
 
-    virtual._execution.advance = counted  # type: ignore[method-assign]
+    execution_of(virtual).advance = counted  # type: ignore[method-assign]
     virtual.cycle_start()
     virtual.run()
     assert virtual.time > 5000.0

@@ -9,6 +9,7 @@ import pytest
 from polycnc.machine import MachineFileError, load_machine
 from polycnc.machine.rules import Rule
 from polycnc.mainrun import State, VirtualControl
+from polycnc.mainrun.execution.clock import Clock
 from polycnc.mainrun.signals.image import SignalImage
 from tests.mainrun.support import recorded
 
@@ -19,19 +20,20 @@ class Bench:
     """A signal image with a clock in the hand."""
 
     def __init__(self, *rules: Rule) -> None:
-        self.time = 0.0
+        self.clock = Clock(0.004)
         self.edges: list[tuple[float, str, float]] = []
-        self.image = SignalImage({}, rules, self._edge, lambda: self.time, 0.004)
+        self.image = SignalImage({}, rules, self.clock)
+        self.image.on_edge = self._edge
 
     def _edge(self, name: str, value: float) -> None:
-        self.edges.append((self.time, name, value))
+        self.edges.append((self.clock.time, name, value))
 
     def wait(self, seconds: float) -> None:
-        end = self.time + seconds
+        end = self.clock.time + seconds
         while self.image.due <= end:
-            self.time = self.image.due
-            self.image.advance(self.time)
-        self.time = end
+            self.clock.time = self.image.due
+            self.image.advance(self.clock.time)
+        self.clock.time = end
 
 
 @pytest.mark.parametrize(

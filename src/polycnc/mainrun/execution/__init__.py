@@ -1,6 +1,10 @@
 """Execution: what is prepared is carried out in time.
 
+clock          simulated time
 execution      from event to event, one channel
 channel_run    a channel with all that executes it
+channel_runs   the channels of a control
+operation      from state to state: what follows from commands and from what happens
+main_loop      lets time pass on all channels
 machinery      what the machine does with M, T, S and messages
 """

@@ -31,7 +31,7 @@ class ChannelRun:
     Attributes:
         channel: Runs ahead of the axes.
         preprocessing: What it has prepared.
-        automatic: Executes that.
+        execution: Executes that.
         machinery: Carries out its events.
         display: Shows its axes.
         manual: Its axes while an operator moves them.
@@ -78,7 +78,7 @@ class ChannelRun:
     @property
     def machine_position(self) -> list[float]:
         """Commanded position of the real axes, mm (radius) and degrees, by hand or by program."""
-        return self.real if self.manual.place is None else self.manual.positions(self.execution.time)
+        return self.real if self.manual.place is None else self.manual.positions(self.execution.clock.time)
 
     def positions(self, locked: Mapping[int, float] | None = None) -> Positions:
         """Positions as the displays show them; `locked` axes stand there, and the displays run on."""
@@ -109,6 +109,12 @@ class ChannelRun:
             way = [a - b for a, b in zip(self.manual.place, self.real, strict=True)]
             self.manual.leave()
             self.execution.intervene(way, absolute=absolute)
+
+    def skip_signal(self) -> None:
+        """The skip input comes now; the channel knows where the axes are, if a skip move runs."""
+        here = self.execution.skip_signal()
+        if here is not None:
+            self.channel.memory.note_skip(self.display.work_of(here, self.execution.context))
 
     def forget_shift(self) -> None:
         """What was moved with manual absolute off shifts the coordinates no more."""

@@ -24,6 +24,7 @@ from polycnc.toolpath import Context, Kind
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
+    from polycnc.mainrun.execution.clock import Clock
     from polycnc.mainrun.preparation.items import Item, Piece
     from polycnc.mainrun.preparation.preprocessing import Preprocessing
     from polycnc.messages import AlarmError
@@ -50,7 +51,7 @@ class Machinery(Protocol):
         """A block begins."""
 
     def halted(self, reason: str) -> None:
-        """The run has halted."""
+        """The run has halted of its own accord."""
 
     @property
     def busy(self) -> bool:
@@ -72,11 +73,10 @@ class Execution:
         rates: What the operator has set; tell `revise` when it changes.
         machinery: Carries out events.
         position: Machine position at the start.
-        cycle_s: Interpolation cycle: as long lasts what a program computes between two moves.
+        clock: The time; an interpolation cycle lasts what a program computes between two moves.
         skip_after_s: How long after the start of a skip move the skip input comes; None where it does not.
 
     Attributes:
-        time: Simulated time, s.
         running: Cycle start has been given, and nothing has halted the run since.
         halt: Why it has halted: `single-block`, `M00`, `M01`, `alarm`, `end`; empty while it runs.
         attention: Somebody else has to act on what has just happened.
@@ -93,12 +93,12 @@ class Execution:
         rates: Rates,
         machinery: Machinery,
         position: Sequence[float],
-        cycle_s: float,
+        clock: Clock,
         skip_after_s: float | None = None,
     ) -> None:
         self.preprocessing = preprocessing
         self.rates = rates
-        self.time = 0.0
+        self.clock = clock
         self.running = False
         self.halt = ""
         self.attention = False
@@ -118,7 +118,6 @@ class Execution:
         self._blocked = False
         self._moved_on = False
         self._by_hand: tuple[float, ...] = ()
-        self._cycle_s = cycle_s
         self._skip_after_s = skip_after_s
         self._skips_at = inf
         self._follower = Follower()
@@ -130,28 +129,28 @@ class Execution:
     @property
     def moving(self) -> bool:
         """Whether the axes move now."""
-        leads = self.motion is not None and self.motion.speed(self.time) > 0.0
-        return leads or self.time < self._rest_time
+        leads = self.motion is not None and self.motion.speed(self.clock.time) > 0.0
+        return leads or self.clock.time < self._rest_time
 
     @property
     def speed(self) -> float:
         """Path speed now, mm/s."""
         if self._follows:
-            return self._follower.speed(self.time)
-        return self.motion.speed(self.time) if self.motion is not None else 0.0
+            return self._follower.speed(self.clock.time)
+        return self.motion.speed(self.clock.time) if self.motion is not None else 0.0
 
     @property
     def _follows(self) -> bool:
         """Whether the axes are behind the interpolator, which leads them."""
-        leads = self.motion is not None and self.time < self.motion.rest
-        return self._follower.window > 0.0 and (leads or self.time < self._rest_time)
+        leads = self.motion is not None and self.clock.time < self.motion.rest
+        return self._follower.window > 0.0 and (leads or self.clock.time < self._rest_time)
 
     @property
     def machine(self) -> list[float]:
         """Machine position now."""
         if self._follows:
-            return self._follower.machine(self.time)
-        return self.motion.machine(self.time) if self.motion is not None else list(self.position)
+            return self._follower.machine(self.clock.time)
+        return self.motion.machine(self.clock.time) if self.motion is not None else list(self.position)
 
     @property
     def row_end(self) -> list[float]:
@@ -161,7 +160,7 @@ class Execution:
     @property
     def standing(self) -> bool:
         """Whether the run has come to rest: no motion, no dwell, no auxiliary function under way."""
-        return not self.moving and self._until <= self.time and not self._machinery.busy
+        return not self.moving and self._until <= self.clock.time and not self._machinery.busy
 
     # ---- time ----------------------------------------------------------------------------------------------
 
@@ -174,17 +173,17 @@ class Execution:
         """
         machinery = self._machinery
         while (due := self._due()) <= until:
-            self.time = max(self.time, due)
-            if self._skips_at <= self.time:
+            self.clock.time = max(self.clock.time, due)
+            if self._skips_at <= self.clock.time:
                 self._skips_at = inf
                 machinery.skip()
-            elif machinery.due <= self.time:
+            elif machinery.due <= self.clock.time:
                 was_busy = machinery.busy
-                machinery.advance(self.time)
+                machinery.advance(self.clock.time)
                 if was_busy and not machinery.busy:
                     self.revise()  # the gate behind the block opens
             elif self.motion is not None:
-                if self.motion.end <= self.time:
+                if self.motion.end <= self.clock.time:
                     self._arrive()
             elif self._go_on():
                 self._blocked = False
@@ -194,16 +193,16 @@ class Execution:
                     return
                 if machinery.due > until:
                     break
-                self.time = machinery.due
+                self.clock.time = machinery.due
             if freely and self.attention:
                 self.attention = False
                 return
         if due < inf or not freely:
-            self.time = max(self.time, until)
+            self.clock.time = max(self.clock.time, until)
 
     def _due(self) -> float:
         """When something happens next, as far as it is known."""
-        motion, now = self.motion, self.time
+        motion, now = self.motion, self.clock.time
         if motion is not None:
             due = min(motion.end, self._skips_at, self._machinery.due)
             if now < motion.rest < due:
@@ -211,7 +210,7 @@ class Execution:
             return self._rest_time if now < self._rest_time < due else due
         if self._waiting and self._machinery.busy:
             return self._machinery.due
-        return min(max(self._until, self.time), self._machinery.due)
+        return min(max(self._until, self.clock.time), self._machinery.due)
 
     @property
     def next_event(self) -> float:
@@ -235,7 +234,7 @@ class Execution:
 
     def _come_to_rest(self) -> None:
         """The interpolator rests; nothing follows before the axes do, but for a stroke that overlaps."""
-        self._rest_time = self.time + self._follower.window
+        self._rest_time = self.clock.time + self._follower.window
         self._until = max(self._until, self._rest_time - self.preprocessing.early)
 
     def _lead(self) -> None:
@@ -244,13 +243,13 @@ class Execution:
         if motion is None or self._follower.window == 0.0:
             return
         motion.lead(self._follower)
-        if self.time < motion.rest < inf:
+        if self.clock.time < motion.rest < inf:
             self._rest_time = motion.rest + self._follower.window
 
     def _coast(self, motion: PathMotion, late: float) -> None:
         """A skip signal has come: the axes brake on the line of the move, and the rest of it is dropped."""
-        done = motion.done(self.time)
-        coasting = self.motion = motion.after_signal(self.time, late)
+        done = motion.done(self.clock.time)
+        coasting = self.motion = motion.after_signal(self.clock.time, late)
         if coasting is not None:
             self._follower.enter(coasting.piece, coasting.length, done)
             self._lead()
@@ -264,7 +263,7 @@ class Execution:
         if not isinstance(motion, PathMotion) or motion.piece.kind != Kind.SKIP or motion.piece.is_coasting:
             return None
         here = self.manual_offset.counted(self.machine)
-        self.position = motion.machine(self.time)
+        self.position = motion.machine(self.clock.time)
         self._coast(motion, 0.0)
         if self.motion is None:
             self._come_to_rest()
@@ -299,7 +298,7 @@ class Execution:
     def _run_out(self, *, filled: bool) -> bool:
         """Nothing is prepared."""
         if not filled:
-            self._until = self.time + self._cycle_s  # the program computes
+            self._until = self.clock.time + self.clock.cycle_s  # the program computes
             return True
         waiting = self.preprocessing.waiting
         self._take_in_manual_offset()
@@ -315,7 +314,7 @@ class Execution:
             return self._end(waiting.reason)
         if waiting.reason == "preprocessing":
             self._machinery.synchronise()
-            self._until = self.time + self._cycle_s
+            self._until = self.clock.time + self.clock.cycle_s
         self.preprocessing.proceed()
         return True
 
@@ -357,7 +356,7 @@ class Execution:
                 self._stop("single-block")
         elif isinstance(item, Standing):
             self.context = item.context
-            self._until = self.time + item.seconds
+            self._until = self.clock.time + item.seconds
         else:
             self.context = item.context
             self._machinery.perform(item)
@@ -391,21 +390,21 @@ class Execution:
         if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
             self._enter(Block(piece.program, piece.line, self.modal))
         if piece.kind == Kind.SKIP and piece.first == 0.0 and self._skip_after_s is not None:
-            self._skips_at = self.time + self._skip_after_s
-        if self._x2 == 0.0 and self.time < self._rest_time:
+            self._skips_at = self.clock.time + self._skip_after_s
+        if self._x2 == 0.0 and self.clock.time < self._rest_time:
             self._follower = Follower(self._follower, self._rest_time, self.position)
         follower = self._follower
         if self._x2 == 0.0:
-            follower.begin(self.time, record[RAMP], record[BLEND])
+            follower.begin(self.clock.time, record[RAMP], record[BLEND])
         follower.enter(piece, record[LENGTH], self._behind)
         if piece.by_axis:
-            self.motion = AxesMotion(piece, preprocessing.limits, self.time, self.rates, record[RAMP])
+            self.motion = AxesMotion(piece, preprocessing.limits, self.clock.time, self.rates, record[RAMP])
         else:
             self.motion = PathMotion(
                 piece,
                 record,
                 preprocessing.limits,
-                self.time,
+                self.clock.time,
                 self._x2,
                 preprocessing.reach2,
                 cap2,
@@ -436,7 +435,7 @@ class Execution:
         piece = motion.piece
         self._cap2 = self.rates.cap2(piece, piece.cap2, piece.asked)
         self._look_ahead()
-        motion.revise(self.time, self.preprocessing.reach2, self._cap2, self.rates)
+        motion.revise(self.clock.time, self.preprocessing.reach2, self._cap2, self.rates)
         self._lead()
 
     # ---- beside the path -----------------------------------------------------------------------------------
@@ -445,7 +444,7 @@ class Execution:
         """The axes, which stand, have been moved by hand; manual absolute is on or off."""
         self.manual_offset.moved(way, absolute=absolute)
         motion = self.motion
-        if motion is not None and self._take_back(motion.piece, motion.machine(self.time)):
+        if motion is not None and self._take_back(motion.piece, motion.machine(self.clock.time)):
             self.motion, self._x2, self._skips_at = None, 0.0, inf
 
     def _take_back(self, piece: Move | Piece, here: Sequence[float]) -> bool:
@@ -502,6 +501,11 @@ class Execution:
             self._by_hand = tuple(self.manual_offset.take_back(-1))
             self._moved_on = True
 
+    def stand_before(self, position: list[float], context: Context, modal: Mapping[str, str]) -> None:
+        """A block search has come to a block: from here, with this, it begins."""
+        self.position, self.modal = position, modal
+        self.context = self.place = context
+
     def start(self) -> None:
         """Go on, or begin."""
         self.running, self.halt = True, ""
@@ -522,7 +526,7 @@ class Execution:
         self.manual_offset.take_back(-1)
         self.motion = None
         self.running, self.halt = False, ""
-        self._x2, self._until, self._skips_at = 0.0, self.time, inf
-        self._rest_time = self.time
+        self._x2, self._until, self._skips_at = 0.0, self.clock.time, inf
+        self._rest_time = self.clock.time
         self.block = None
         self.preprocessing.clear(self.position)

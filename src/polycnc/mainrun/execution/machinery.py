@@ -3,27 +3,18 @@
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
-from polycnc.mainrun.signals.guard import Guard, word_of
+from polycnc.mainrun.signals.interlocks import word_of
 from polycnc.motion.waits import ORIENT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from polycnc.machine.model import Machine
+    from polycnc.mainrun.execution.clock import Clock
     from polycnc.mainrun.preparation.items import Block, Happening
     from polycnc.mainrun.signals.image import SignalImage
+    from polycnc.mainrun.signals.interlocks import Interlocks
     from polycnc.toolpath import Context, Event
-
-    Reports = tuple[
-        Callable[[Event], None],
-        Callable[[str], None],
-        Callable[[Block], None],
-        Callable[[str], None],
-        Callable[[], None],
-        Guard,
-    ]
 
 #: Stops that the operator's switch decides on.
 OPTIONAL_STOPS = frozenset({"M01", "M1"})
@@ -33,16 +24,35 @@ MESSAGES = frozenset({"message", "print"})
 PROGRAM_ENDS = frozenset({"M2", "M30"})
 
 
+class Observer(Protocol):
+    """What is told of the events of a channel's program, by the number of the channel."""
+
+    def performs(self, number: int, event: Event) -> None:
+        """An event is carried out."""
+
+    def enters(self, number: int, block: Block) -> None:
+        """A block begins."""
+
+    def reads_signals(self, number: int) -> None:
+        """The program is about to read signals."""
+
+    def stops(self, number: int, code: str) -> None:
+        """A programmed stop by its code, or `alarm`."""
+
+    def halted(self, number: int, reason: str) -> None:
+        """The run has halted of its own accord."""
+
+
 class Machinery:
     """Carries out a program's events.
 
     Args:
+        number: Number of the channel.
         machine: How long its functions take.
         signals: The signal image; its rules may finish functions.
-        clock: Gives the simulated time.
-        report: Called with each event that is carried out, with the code of a programmed stop (or `alarm`), with
-            each block that begins, with the reason when the run has halted, and before the program reads signals;
-            last, what the machine's controller refuses.
+        clock: The time.
+        interlocks: What the machine's controller refuses.
+        observer: Is told of everything.
 
     Attributes:
         optional_stop: M01 stops.
@@ -53,10 +63,12 @@ class Machinery:
 
     def __init__(
         self,
+        number: int,
         machine: Machine,
         signals: SignalImage,
-        clock: Callable[[], float],
-        report: Reports,
+        clock: Clock,
+        interlocks: Interlocks,
+        observer: Observer,
     ) -> None:
         self.optional_stop = self.mst_lock = False
         self.next_tool: int | str = 0
@@ -64,7 +76,7 @@ class Machinery:
         self._machine = machine
         self._signals = signals
         self._clock = clock
-        self._report, self._stop, self.enter, self.halted, self.synchronise, self._guard = report
+        self._number, self._interlocks, self._observer = number, interlocks, observer
         self._running: dict[int, float] = {}
 
     @property
@@ -78,7 +90,7 @@ class Machinery:
         if not self._running:
             return self._signals.due
         if any(end == inf and self._signals.is_done(code) for code, end in self._running.items()):
-            return self._clock()
+            return self._clock.time
         return min(min(self._running.values(), default=inf), self._signals.due)
 
     def advance(self, time: float) -> None:
@@ -96,32 +108,44 @@ class Machinery:
         self._signals[SKIP_SIGNAL] = 1.0
         self._signals[SKIP_SIGNAL] = 0.0
 
+    def synchronise(self) -> None:
+        """The program is about to read signals."""
+        self._observer.reads_signals(self._number)
+
+    def enter(self, block: Block) -> None:
+        """A block begins."""
+        self._observer.enters(self._number, block)
+
+    def halted(self, reason: str) -> None:
+        """The run has halted of its own accord."""
+        self._observer.halted(self._number, reason)
+
     def perform(self, happening: Happening) -> None:
         """Carry out an event."""
         event = happening.event
         if event.type == "ask":
-            self._guard.refuses(str(event.data["word"]))
+            self._interlocks.refuses(str(event.data["word"]))
             return
-        self._report(event)
+        self._observer.performs(self._number, event)
         if event.type == "t":
             self.next_tool = event.data.get("tool") or 0
         word = word_of(event)
-        if word and ((self.mst_lock and word not in PROGRAM_ENDS) or self._guard.refuses(word)):
+        if word and ((self.mst_lock and word not in PROGRAM_ENDS) or self._interlocks.refuses(word)):
             return
         if event.type == "m":
             self._begin(event.data.get("code"), happening.context)
         elif word:
-            self._guard.answer(word)
+            self._interlocks.answer(word)
         elif event.type == "signal":
             self._signals[str(event.data["name"])] = float(event.data["value"])
         elif event.type in MESSAGES:
             self.messages.append(str(event.data.get("text", "")))
         elif event.type == "alarm":
-            self._stop("alarm")
+            self._observer.stops(self._number, "alarm")
         elif event.type == "stop":
             code = str(event.data.get("code", ""))
             if code not in OPTIONAL_STOPS or self.optional_stop:
-                self._stop(code)
+                self._observer.stops(self._number, code)
 
     def _begin(self, code: object, context: Context) -> None:
         """An M function goes out to the machine."""
@@ -136,7 +160,7 @@ class Machinery:
         if awaited:
             self._running[code] = inf
         elif seconds > 0.0:
-            self._running[code] = self._clock() + seconds
+            self._running[code] = self._clock.time + seconds
         else:
             self._signals.finish(code)
 

@@ -1,5 +1,6 @@
 """What a panel or a factory system reads.
 
+readings       readings of the whole control
 snapshot       values that belong to one moment
 display        from machine positions to what the displays show
 """

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from polycnc.machine.rules import Rule
+    from polycnc.mainrun.execution.clock import Clock
 
 #: In front of the M function that a rule says is done.
 DONE = "FIN_"
@@ -27,30 +28,23 @@ class SignalImage:
     Args:
         start: Signals and their values at power-on.
         rules: Rules of the machine, in the order of their scan.
+        clock: The time; outputs that chase each other wait for an interpolation cycle.
+
+    Attributes:
         on_edge: Called with name and value when a signal changes.
-        clock: Gives the simulated time.
-        cycle_s: How long outputs that chase each other wait.
         states: Signals that follow from the state of the control, and how they are read.
+        due: When the next delay of a rule ends; inf where none runs.
     """
 
-    def __init__(
-        self,
-        start: Mapping[str, float],
-        rules: Sequence[Rule],
-        on_edge: Callable[[str, float], None],
-        clock: Callable[[], float],
-        cycle_s: float,
-        states: Mapping[str, Callable[[], bool]] | None = None,
-    ) -> None:
+    def __init__(self, start: Mapping[str, float], rules: Sequence[Rule], clock: Clock) -> None:
         self._values: dict[str, float] = dict(start)
         self._edges: dict[str, float] = {}
         self._rules = rules
         self._held_since: list[float | None] = [None] * len(rules)
         self._answered = frozenset(rule.output for rule in rules if rule.output.startswith(DONE))
-        self._on_edge = on_edge
+        self.on_edge: Callable[[str, float], None] | None = None
         self._clock = clock
-        self._cycle_s = cycle_s
-        self._states = states or {}
+        self.states: Mapping[str, Callable[[], bool]] = {}
         self._acted = [False] * len(rules)
         self._scanning = False
         self.due = inf
@@ -63,15 +57,16 @@ class SignalImage:
         return dict(self._values)
 
     def __getitem__(self, name: str) -> float:
-        state = self._states.get(name)
+        state = self.states.get(name)
         return self._values.get(name, 0.0) if state is None else float(state())
 
     def __setitem__(self, name: str, value: float) -> None:
         changed = self._values.get(name, 0.0) != value
         self._values[name] = float(value)
         if changed:
-            self._edges[name] = self._clock()
-            self._on_edge(name, float(value))
+            self._edges[name] = self._clock.time
+            if self.on_edge is not None:
+                self.on_edge(name, float(value))
             self.scan()
 
     def since(self, name: str) -> float:
@@ -91,12 +86,12 @@ class SignalImage:
                 self.due = self._round()
                 if self._values == before:
                     return
-            self.due = self._clock() + self._cycle_s
+            self.due = self._clock.time + self._clock.cycle_s
         finally:
             self._scanning = False
 
     def _round(self) -> float:
-        now, due = self._clock(), inf
+        now, due = self._clock.time, inf
         for number, rule in enumerate(self._rules):
             holds = rule.condition(self.__getitem__)
             since = self._held_since[number]

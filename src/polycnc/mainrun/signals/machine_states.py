@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from polycnc.machine.model import Machine
-    from polycnc.mainrun.core import Core
+    from polycnc.mainrun.execution.operation import Operation
     from polycnc.mainrun.signals.image import SignalImage
 
     States = Mapping[str, Callable[[], bool]]
@@ -27,48 +27,51 @@ STEPS = {"MAGAZINE_STEP_CW": 1, "MAGAZINE_STEP_CCW": -1}
 TO_POCKET_1 = "MAGAZINE_TO_POCKET_1"
 
 
-def axis_states(core: Core) -> States:
+def axis_states(operation: Operation) -> States:
     """Whether each axis stands at its first reference point, or beyond it."""
-    channel = core.machine.channels[0]
+    channel = operation.machine.channels[0]
     states: dict[str, Callable[[], bool]] = {}
     for index, name in enumerate(channel.axes):
-        states[f"{name}_AT_REFERENCE"] = partial(stands_at, core, index, 1)
-        states[f"{name}_BEYOND_REFERENCE"] = partial(_stands_beyond, core, index)
+        states[f"{name}_AT_REFERENCE"] = partial(stands_at, operation, index, 1)
+        states[f"{name}_BEYOND_REFERENCE"] = partial(_stands_beyond, operation, index)
     return states
 
 
-def machine_states(core: Core) -> States:
+def machine_states(operation: Operation) -> States:
     """States that the tables of a machining centre ask for."""
-    names = core.machine.channels[0].axes
+    names = operation.machine.channels[0].axes
     z = names.index("Z") if "Z" in names else None
     return {
         "Z_AT_CHANGE_POINT": lambda: (
-            z is None or any(stands_at(core, z, n) for n in change_points(core.channel, z))
+            z is None
+            or any(stands_at(operation, z, n) for n in change_points(operation.runs.first.channel, z))
         ),
-        "SPINDLE_COMMANDED": lambda: core.program_spindle != 0,
-        "T_NOT_IN_MAGAZINE": lambda: _is_not_in_magazine(core.machine, core.waiting_tool),
+        "SPINDLE_COMMANDED": lambda: operation.program_spindle != 0,
+        "T_NOT_IN_MAGAZINE": lambda: _is_not_in_magazine(
+            operation.machine, operation.runs.first.machinery.next_tool
+        ),
         "HAS_AXIS_A": lambda: "A" in names,
-        **{switch.upper(): partial(_is_switched, core, switch) for switch in SWITCHES},
+        **{switch.upper(): partial(_is_switched, operation, switch) for switch in SWITCHES},
     }
 
 
-def _is_switched(core: Core, switch: str) -> bool:
-    return bool(getattr(core.switches, switch))
+def _is_switched(operation: Operation, switch: str) -> bool:
+    return bool(getattr(operation.switches.panel, switch))
 
 
-def stands_at(core: Core, axis: int, number: int) -> bool:
+def stands_at(operation: Operation, axis: int, number: int) -> bool:
     """Whether an axis stands at one of its reference points."""
-    return abs(core.machine_position[axis] - _reference(core, axis, number)) <= WINDOW
+    return abs(operation.runs.first.machine_position[axis] - _reference(operation, axis, number)) <= WINDOW
 
 
-def _stands_beyond(core: Core, axis: int) -> bool:
+def _stands_beyond(operation: Operation, axis: int) -> bool:
     """Past its reference point at the end of its travel; an axis without limits can return from anywhere."""
-    ends = core.channel.axis_data[axis].limit_plus < inf
-    return ends and core.machine_position[axis] > _reference(core, axis, 1) + WINDOW
+    ends = operation.runs.first.channel.axis_data[axis].limit_plus < inf
+    return ends and operation.runs.first.machine_position[axis] > _reference(operation, axis, 1) + WINDOW
 
 
-def _reference(core: Core, axis: int, number: int) -> float:
-    return core.control.reference_point(core.channel, axis, number)
+def _reference(operation: Operation, axis: int, number: int) -> float:
+    return operation.control.reference_point(operation.runs.first.channel, axis, number)
 
 
 def _is_not_in_magazine(machine: Machine, tool: int | str) -> bool:

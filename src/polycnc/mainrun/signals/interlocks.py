@@ -20,19 +20,21 @@ def word_of(event: Event) -> str:
     return f"M{event.data.get('code')}" if event.type == "m" else EVENT_WORDS.get(event.type, "")
 
 
-class Guard:
+class Interlocks:
     """Refuses words and raises alarms.
 
     Args:
         plc: The tables.
         signals: The signal image.
-        alarm: Called with the number of an alarm that comes.
+
+    Attributes:
+        on_alarm: Called with the number of an alarm that comes.
     """
 
-    def __init__(self, plc: Plc, signals: SignalImage, alarm: Callable[[str], None]) -> None:
+    def __init__(self, plc: Plc, signals: SignalImage) -> None:
         self._plc = plc
         self._signals = signals
-        self._alarm = alarm
+        self.on_alarm: Callable[[str], None] | None = None
         self._refused = ""
         self._by_signal: dict[str, list[PlcAlarm]] = {}
         for row in plc.standing:
@@ -71,6 +73,10 @@ class Guard:
         for row in self._plc.standing:
             if row.stops and row.condition(self._signal):
                 self._alarm(row.code)
+
+    def _alarm(self, code: str) -> None:
+        if self.on_alarm is not None:
+            self.on_alarm(code)
 
     def _signal(self, name: str) -> float:
         return self._signals[name]

@@ -1,0 +1,103 @@
+"""The axes by hand: jog, steps, handwheel, reference approach."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun.commands.states import Command
+from polycnc.mainrun.errors import CommandRefused
+from polycnc.messages.catalogue import listed
+
+if TYPE_CHECKING:
+    from polycnc.mainrun.commands.permission import Permission
+    from polycnc.mainrun.execution.channel_run import ChannelRun
+    from polycnc.mainrun.execution.operation import Operation
+
+
+class HandCommands:
+    """Moves axes without a program. `channel` is the number of the channel whose axis is meant.
+
+    Args:
+        operation: The channels.
+        permission: Asked in front of every command.
+    """
+
+    def __init__(self, operation: Operation, permission: Permission) -> None:
+        self._runs = operation.runs
+        self._switches = operation.switches
+        self._clock = operation.clock
+        self._permission = permission
+
+    def jog(self, axis: str, direction: int, *, rapid: bool, channel: int) -> None:
+        """Press a jog key."""
+        self._permission.ask(Command.JOG)
+        run, i = self._axis(axis, channel)
+        self._permission.ask_machine(*_move_words(run, i))
+        here, data = self._hand_of(run)[i], run.channel.axis_data[i]
+        speed = self._switches.rapid_speed(data) if rapid else self._switches.jog_speed(data)
+        run.manual.towards(i, run.manual.along(i, direction, here), speed, self._clock.time)
+
+    def stop_jog(self, axis: str | None, *, channel: int) -> None:
+        """Let a jog key go; all of them where no axis is named."""
+        if axis is None:
+            self._runs.brake_hands()
+        else:
+            run, i = self._axis(axis, channel)
+            run.manual.brake(i, self._clock.time)
+
+    def increment(self, axis: str, way: float, *, channel: int) -> None:
+        """Move by a way, as the machine display counts."""
+        self._permission.ask(Command.INCREMENT)
+        run, i = self._axis(axis, channel)
+        self._shift(run, i, way, self._switches.jog_speed(run.channel.axis_data[i]))
+
+    def handle(self, axis: str, way: float, *, channel: int) -> None:
+        """Turn the handwheel by a way, as the machine display counts."""
+        self._permission.ask(Command.HANDLE)
+        run, i = self._axis(axis, channel)
+        self._shift(run, i, way, self._switches.rapid_speed(run.channel.axis_data[i]))
+
+    def home(self, axis: str | None, *, channel: int) -> None:
+        """Approach the first reference point; with all axes of the channel where none is named."""
+        self._permission.ask(Command.HOME)
+        run = self._runs.named(channel)
+        named = range(len(run.channel.axes)) if axis is None else (self._axis(axis, channel)[1],)
+        self._permission.ask_machine(*(f"HOME_{run.channel.axes[i]}" for i in named))
+        self._hand_of(run)
+        for i in named:
+            data = run.channel.axis_data[i]
+            run.execution.manual_offset.shift[i] = 0.0
+            speed = self._switches.rapid_speed(data)
+            run.manual.towards(i, data.reference_points[0], speed, self._clock.time)
+
+    def _shift(self, run: ChannelRun, axis: int, shown: float, speed: float) -> None:
+        self._permission.ask_machine(*_move_words(run, axis))
+        here = self._hand_of(run)[axis]
+        factor = run.display.machine_factor(axis, run.execution.context)
+        run.manual.towards(axis, run.manual.goal(axis, here) + shown / factor, speed, self._clock.time)
+
+    def _hand_of(self, run: ChannelRun) -> list[float]:
+        """Machine position from which axes of a channel are moved by hand."""
+        if self._runs.move:
+            raise CommandRefused("mainrun.moving")
+        run.manual.begin(run.machine_position)
+        return run.machine_position
+
+    def _axis(self, name: str, channel: int) -> tuple[ChannelRun, int]:
+        run = self._runs.named(channel)
+        index = run.channel.axis_index.get(name.upper())
+        if index is None:
+            raise CommandRefused("mainrun.axis", axis=name, known=listed(run.channel.axes))
+        owner = self._runs.group.owner[run.channel.axis_data[index].name]
+        if owner not in (0, channel):
+            raise CommandRefused("mainrun.value", name="channel", allowed=str(owner), value=channel)
+        return run, index
+
+
+def _move_words(run: ChannelRun, axis: int) -> list[str]:
+    """What an axis that is to move asks the machine for."""
+    channel = run.channel
+    rotary = [i for i, data in enumerate(channel.axis_data) if data.rotary]
+    words = [f"MOVE_{channel.axes[axis]}"]
+    words += ["MOVE_FIFTH_AXIS"] if axis in rotary[1:2] else []
+    return words + (["MOVE_SECOND_AXIS"] if run.manual.moving - {axis} else [])

@@ -1,0 +1,50 @@
+"""Whether a command may be given: the control's own table, and what the machine says."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun.commands.states import is_allowed
+from polycnc.mainrun.errors import CommandRefused
+
+if TYPE_CHECKING:
+    from polycnc.control.interface import Control
+    from polycnc.mainrun.commands.states import Command
+    from polycnc.mainrun.signals.interlocks import Interlocks
+    from polycnc.mainrun.status import Status
+
+
+class Permission:
+    """Asked in front of every command.
+
+    Args:
+        control: The control, which knows the texts of refusals.
+        status: Mode and state.
+        interlocks: What the machine's controller refuses.
+    """
+
+    def __init__(self, control: Control, status: Status, interlocks: Interlocks) -> None:
+        self._control = control
+        self._status = status
+        self._interlocks = interlocks
+
+    def ask(self, command: Command) -> None:
+        """Ask the control.
+
+        Raises:
+            CommandRefused: The command is out of place in this mode and state.
+        """
+        mode, state = self._status.mode, self._status.state
+        if not is_allowed(command, mode, state):
+            raise CommandRefused("mainrun.refused", command=command, mode=mode, state=state)
+
+    def ask_machine(self, *words: str) -> None:
+        """Ask the machine's controller for something; it answers with an alarm or a message where it refuses.
+
+        Raises:
+            CommandRefused: It refuses one of the words.
+        """
+        for word in words:
+            if code := self._interlocks.refuses(word):
+                text = self._control.catalogue.text(code)
+                raise CommandRefused("mainrun.machine", code=code, text=text)

@@ -1,0 +1,215 @@
+"""Programs: loading, typing in, searching, teaching; start, hold and reset; power and modes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun.commands.search import search
+from polycnc.mainrun.commands.states import Command, Mode, State
+from polycnc.mainrun.errors import CommandRefused
+from polycnc.mainrun.execution.operation import AT_END
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from polycnc.mainrun.commands.permission import Permission
+    from polycnc.mainrun.commands.programs import Programs
+    from polycnc.mainrun.execution.operation import Operation
+    from polycnc.program import Program
+
+
+class ProgramCommands:
+    """What an operator does with programs, and with the control as a whole.
+
+    Args:
+        operation: The channels, and what the control does with them.
+        programs: What is loaded.
+        permission: Asked in front of every command.
+    """
+
+    def __init__(self, operation: Operation, programs: Programs, permission: Permission) -> None:
+        self._operation = operation
+        self._programs = programs
+        self._permission = permission
+        self._status, self._signals = operation.status, operation.signals
+        self._typed: Program | None = None
+        self._tape: Program | None = None
+
+    # ---- programs ------------------------------------------------------------------------------------------
+
+    def load(self, source: str | bytes | Path) -> None:
+        """Load a program."""
+        self._permission.ask(Command.LOAD)
+        self._programs.load(source)
+        self._signals[AT_END] = 0.0
+        for run in self._operation.runs:
+            run.channel.store = self._programs.store
+
+    def load_tape(self, source: str | bytes | Path) -> None:
+        """Give the program that comes from outside."""
+        self._permission.ask(Command.LOAD)
+        self._tape = self._programs.from_outside(source)
+
+    def mdi(self, text: str) -> None:
+        """Type blocks in and start them."""
+        self._permission.ask(Command.MDI)
+        self._typed = self._programs.typed(text)
+        self.cycle_start()
+
+    def teach(self, words: str, line: int | None) -> str:
+        """Write a block with the present position into the loaded program."""
+        self._permission.ask(Command.TEACH)
+        operation = self._operation
+        position = operation.runs.first.positions(operation.switches.locked_at).work
+        block = " ".join(filter(None, (words, *(_word(a, v) for a, v in position.items()))))
+        self._programs.insert(block, line)
+        return block
+
+    def block_search(self, target: int | str) -> None:
+        """Search a block with calculation."""
+        self._permission.ask(Command.BLOCK_SEARCH)
+        operation = self._operation
+        if operation.runs.move_by_hand:
+            raise CommandRefused("mainrun.moving")
+        program = self._programs.main
+        line = self._programs.line_of(target)
+        if program is None:
+            raise CommandRefused("mainrun.no-program")
+        run = operation.runs.first
+        here = run.machine_position
+        operation.program_mode = Mode.AUTO
+        operation.prepare(run)
+        run.machinery.reset()
+        run.preprocessing.start(program, here)
+        found = search(run.preprocessing, program.name, line)
+        if found is None:
+            operation.give_up()
+            raise CommandRefused("mainrun.search", target=target)
+        run.manual.begin(here)
+        run.execution.stand_before(found.position, found.context, found.modal)
+        operation.collected, operation.searched = found.functions, True
+        self._status.become(State.STOPPED, halt="search")
+
+    # ---- running -------------------------------------------------------------------------------------------
+
+    def cycle_start(self) -> None:
+        """Start the program, or go on with it after a hold, a stop or a single block."""
+        self._permission.ask(Command.CYCLE_START)
+        operation, mode = self._operation, self._status.mode
+        if operation.runs.move_by_hand:
+            raise CommandRefused("mainrun.moving")
+        if self._status.state is State.READY:
+            self._start()
+        elif mode is Mode.MDI and operation.program_mode is not Mode.MDI and self._may_intervene:
+            self._intervene()
+        elif mode is not operation.program_mode:
+            raise CommandRefused("mainrun.other-mode", mode=operation.program_mode)
+        else:
+            self._permission.ask_machine("CYCLE_START")
+            returns = operation.searched or operation.runs.first.preprocessing.returns_to_path
+            if operation.runs.left_path and returns:
+                operation.lead_back()
+            else:
+                operation.go_on_from_here()
+
+    def _start(self) -> None:
+        """A program begins from its top."""
+        operation, mode = self._operation, self._status.mode
+        program = {Mode.MDI: self._typed, Mode.TAPE: self._tape}.get(mode, self._programs.main)
+        if program is None:
+            raise CommandRefused("mainrun.no-program")
+        if mode is Mode.AUTO and self._signals[AT_END]:
+            raise CommandRefused("mainrun.at-end")
+        self._permission.ask_machine("CYCLE_START")
+        operation.program_mode = mode
+        self._status.pulse("STARTED")
+        operation.set_rates()
+        run = operation.runs.first
+        operation.prepare(run)
+        run.machinery.reset()
+        run.preprocessing.start(program, run.execution.position)
+        operation.resume()
+
+    @property
+    def _may_intervene(self) -> bool:
+        """Whether blocks that are typed in can be run in the midst of a program."""
+        return self._operation.control.mdi_intervenes and self._status.state is State.STOPPED
+
+    def _intervene(self) -> None:
+        """Run what was typed in while a program waits (FANUC 0i-TF Plus II.5.4.7, MDI intervention)."""
+        operation, first = self._operation, self._operation.runs.first
+        others = any(run.is_active for run in operation.runs if run is not first)
+        if self._typed is None or operation.searched or others or not first.preprocessing.is_bare:
+            raise CommandRefused("mainrun.prepared", mode=operation.program_mode)
+        self._permission.ask_machine("CYCLE_START")
+        operation.waiting_mode, operation.program_mode = operation.program_mode, Mode.MDI
+        operation.switches.apply_to(first.channel, typed=True)
+        first.preprocessing.intervene(self._typed)
+        operation.go_on_from_here()
+
+    def feed_hold(self) -> None:
+        """Bring the axes to rest on the path."""
+        self._permission.ask(Command.FEED_HOLD)
+        self._operation.hold()
+
+    def reset(self) -> None:
+        """Give the program up."""
+        status = self._status
+        if status.is_locked:
+            raise CommandRefused(
+                "mainrun.refused", command=Command.RESET, mode=status.mode, state=status.state
+            )
+        self._operation.brake(State.BRAKING)
+
+    # ---- power, modes, keys --------------------------------------------------------------------------------
+
+    def emergency_stop(self, *, pressed: bool = True) -> None:
+        """Press the emergency stop, or pull it out again."""
+        state = self._status.state
+        if state is not State.OFF and pressed:
+            self._operation.brake(State.EMERGENCY)
+        elif state is State.EMERGENCY:
+            self._operation.brake(State.BRAKING)
+
+    def power_off(self) -> None:
+        """Switch off."""
+        if self._status.state is State.OFF:
+            return
+        self._operation.brake(State.OFF)
+        for rule in self._operation.control.plc.rules:
+            if rule.latch:
+                self._signals[rule.output] = 0.0
+
+    def power_on(self) -> None:
+        """Switch on again."""
+        if self._status.state is not State.OFF:
+            return
+        runs = self._operation.runs
+        if self._signals["INCREMENTAL_ENCODERS"]:
+            for axis in runs.first.channel.axes:
+                self._signals[f"NOT_REFERENCED_{axis}"] = 1.0
+        for run in runs:
+            run.forget_shift()
+        self._operation.brake(State.BRAKING)
+
+    def key(self, name: str, *, pressed: bool) -> None:
+        """Press a key of the machine panel, or let it go."""
+        if pressed:
+            self._permission.ask_machine(f"KEY_{name}")
+        self._signals[f"KEY_{name}"] = float(pressed)
+
+    def select_mode(self, wanted: Mode) -> None:
+        """Turn the mode switch."""
+        self._permission.ask(Command.SELECT_MODE)
+        if wanted is not self._status.mode:
+            self._permission.ask_machine(f"MODE_{wanted.upper()}")
+            if self._status.state is State.RUNNING:
+                self.feed_hold()
+            self._operation.runs.brake_hands()
+            self._status.turn_to(wanted)
+
+
+def _word(axis: str, value: float) -> str:
+    """A position word with its decimal point."""
+    number = f"{value + 0.0:.4f}".rstrip("0")
+    return f"{axis}={number}" if axis[-1].isdigit() else f"{axis}{number}"

@@ -1,0 +1,188 @@
+"""The channels of a control in the main run; further ones are made when they are first spoken of."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+from polycnc.channel.channel import Channel
+from polycnc.channel.group import ChannelGroup
+from polycnc.mainrun.axes.manual import ManualAxes
+from polycnc.mainrun.axes.shared_axes import SharedAxes
+from polycnc.mainrun.errors import CommandRefused
+from polycnc.mainrun.execution.channel_run import ChannelRun
+from polycnc.mainrun.execution.execution import Execution
+from polycnc.mainrun.execution.machinery import Machinery, Observer
+from polycnc.mainrun.preparation.preprocessing import Preprocessing
+from polycnc.mainrun.reading.display import MainRunDisplay
+from polycnc.mainrun.signals.program_signals import connect
+from polycnc.messages import AlarmError
+from polycnc.messages.catalogue import listed
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from polycnc.channel.waits import Wait
+    from polycnc.control.interface import Control
+    from polycnc.machine.model import Machine
+    from polycnc.machine.setup import Setup
+    from polycnc.mainrun.commands.programs import Programs
+    from polycnc.mainrun.execution.clock import Clock
+    from polycnc.mainrun.preparation.items import Rates
+    from polycnc.mainrun.signals.image import SignalImage
+    from polycnc.mainrun.signals.interlocks import Interlocks
+
+
+class Supervisor(Observer, Protocol):
+    """What is told of everything that happens on the channels."""
+
+    def started(self, number: int, waits: Iterator[Wait]) -> None:
+        """A channel has been started by another one."""
+
+    def failed(self, error: AlarmError) -> None:
+        """A channel cannot be switched on."""
+
+
+class ChannelRuns:
+    """Every channel that has been spoken of, by number.
+
+    Args:
+        control: The control.
+        machine: The machine.
+        setup: What the channels start from.
+        programs: What is loaded.
+        clock: The time.
+        rates: What the operator has set of the speeds.
+        signals: The signal image.
+        interlocks: What the machine's controller refuses.
+        supervisor: Is told of what happens.
+
+    Attributes:
+        first: The channel that a control has in any case.
+        group: What the channels share.
+    """
+
+    def __init__(
+        self,
+        control: Control,
+        machine: Machine,
+        setup: Setup,
+        programs: Programs,
+        clock: Clock,
+        rates: Rates,
+        signals: SignalImage,
+        interlocks: Interlocks,
+        supervisor: Supervisor,
+    ) -> None:
+        self._control, self._machine, self._setup, self._programs = control, machine, setup, programs
+        self._clock, self._rates, self._signals, self._interlocks = clock, rates, signals, interlocks
+        self._supervisor = supervisor
+        self._shared = SharedAxes(machine)
+        self._runs: dict[int, ChannelRun] = {}
+        self.first = self._make(machine.channels[0].number, setup)
+        self.group = ChannelGroup(self.first.channel, self._further, supervisor.started)
+
+    def __iter__(self) -> Iterator[ChannelRun]:
+        return iter(tuple(self._runs.values()))
+
+    def __len__(self) -> int:
+        return len(self._runs)
+
+    def __getitem__(self, number: int) -> ChannelRun:
+        return self._runs[number]
+
+    def named(self, number: int) -> ChannelRun:
+        """A channel of the machine by its number.
+
+        Raises:
+            CommandRefused: The machine has none of this number.
+        """
+        if not self.group.has(number):
+            known = listed(str(channel.number) for channel in self._machine.channels)
+            raise CommandRefused("mainrun.value", name="channel", allowed=known, value=number)
+        self.group.channel(number)
+        return self._runs[number]
+
+    # ---- states --------------------------------------------------------------------------------------------
+
+    @property
+    def due(self) -> float:
+        """When something happens next on any channel; inf where nothing will without a command."""
+        return min(min(run.manual.due, run.execution.next_event) for run in self._runs.values())
+
+    @property
+    def move(self) -> bool:
+        """Whether axes move because of a program."""
+        return any(run.execution.moving for run in self._runs.values())
+
+    @property
+    def move_by_hand(self) -> bool:
+        """Whether an axis moves because of an operator."""
+        return any(run.manual.moving for run in self._runs.values())
+
+    @property
+    def shall_move_by_hand(self) -> bool:
+        """Whether an axis is not yet where an operator wants it."""
+        return any(run.manual.goals for run in self._runs.values())
+
+    @property
+    def left_path(self) -> bool:
+        """Whether an axis has been moved by hand since a program led it."""
+        return any(run.manual.place is not None for run in self._runs.values())
+
+    def revise(self) -> None:
+        """What bounds the speeds has changed."""
+        for run in self:
+            run.execution.revise()
+
+    def brake_hands(self) -> None:
+        """Axes that are moved by hand come to rest."""
+        for run in self:
+            run.manual.brake_all(self._clock.time)
+
+    # ---- making channels -----------------------------------------------------------------------------------
+
+    def _make(self, number: int, setup: Setup) -> ChannelRun:
+        """A channel; `switch_on` starts it."""
+        machine = self._machine
+        preprocessing = Preprocessing(machine, number, self._shared)
+        channel = Channel(
+            self._control,
+            machine,
+            setup,
+            self._programs.store,
+            number=number,
+            toolpath=preprocessing.toolpath,
+        )
+        machinery = Machinery(number, machine, self._signals, self._clock, self._interlocks, self._supervisor)
+        execution = Execution(
+            preprocessing, self._rates, machinery, channel.coordinates.machine, self._clock,
+            setup.switches.skip_signal_after,
+        )  # fmt: skip
+        run = self._runs[number] = ChannelRun(
+            channel, preprocessing, execution, machinery,
+            MainRunDisplay(preprocessing.toolpath, machine, number),
+            ManualAxes(channel.axis_data, self._control.motion_settings(channel)),
+            self._rates, self._runs, self._shared,
+        )  # fmt: skip
+        self._shared.paths[number] = preprocessing
+        return run
+
+    def _further(self, number: int) -> Channel:
+        run = self._make(number, self.first.channel.setup)
+        run.channel.group = self.group
+        self.switch_on(run)
+        return run.channel
+
+    def switch_on(self, run: ChannelRun) -> None:
+        """Power-on of a channel."""
+        channel = run.channel
+        channel.push(self._programs.typed("\n"), kind="main")  # a control starts with a level to stand on
+        try:
+            self._control.start(channel)
+        except AlarmError as error:
+            self._supervisor.failed(error)
+        connect(channel, self._signals)
+        run.preprocessing.use(channel, self._control.motion_settings(channel))
+        run.preprocessing.clear(channel.coordinates.machine)
+        run.execution.position = channel.coordinates.machine
+        run.show_own_state()

@@ -1,0 +1,352 @@
+"""What a control does: from state to state, as commands ask for it and as it follows from what happens."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+from polycnc.channel.waits import TYPED_BLOCKS_DONE
+from polycnc.mainrun.commands.states import Mode, State
+from polycnc.mainrun.errors import CommandRefused
+from polycnc.mainrun.execution.channel_runs import ChannelRuns
+from polycnc.mainrun.execution.machinery import SKIP_SIGNAL
+from polycnc.mainrun.signals.machine_states import axis_states, machine_states, turn_magazine
+from polycnc.mainrun.signals.program_signals import give
+from polycnc.messages import Alarm, AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from polycnc.channel.waits import Wait
+    from polycnc.control.interface import Control
+    from polycnc.machine.model import Machine
+    from polycnc.machine.setup import Setup
+    from polycnc.mainrun.commands.programs import Programs
+    from polycnc.mainrun.commands.switches import Switches
+    from polycnc.mainrun.execution.channel_run import ChannelRun
+    from polycnc.mainrun.execution.clock import Clock
+    from polycnc.mainrun.preparation.items import Block, Happening
+    from polycnc.mainrun.signals.image import SignalImage
+    from polycnc.mainrun.signals.interlocks import Interlocks
+    from polycnc.mainrun.status import Status
+    from polycnc.toolpath import Event
+
+#: Programmed stops that the machine's rules know of.
+HALT_SIGNALS = {"M00": "HALT_M00", "M0": "HALT_M00", "M01": "HALT_M01", "M1": "HALT_M01"}
+#: Manual absolute: coordinates count what is moved by hand while a program waits (FANUC *ABSM, which means on by 0).
+MANUAL_ABSOLUTE = "MANUAL_ABSOLUTE"
+#: The program has ended without going back to its top: M02 on machines whose rules latch this, or by the control's
+#: parameters. A reset goes back.
+AT_END = "M02_END"
+PROGRAM_ENDS = frozenset((2, 30))
+#: The soft key that holds the feed at 100 %.
+FEED_IS_100 = "F_100"
+#: What the reasons of a halt lead to; every other one stops.
+HALTS = {"end": State.READY, "alarm": State.ALARM}
+
+
+class Operation:
+    """The channels of a control, and what it does with them.
+
+    Args:
+        control: The control.
+        machine: The machine.
+        setup: What the channels start from.
+        programs: What is loaded.
+        clock: The time.
+        switches: What the operator has set.
+        signals: The signal image.
+        interlocks: What the machine's controller refuses.
+        status: Mode, state and alarms.
+
+    Attributes:
+        runs: The channels.
+        keys: What the keys do that are signals too, by name.
+        program_mode: The mode in which the program was started that runs or waits.
+        waiting_mode: The same of a program that waits while typed blocks run in its midst.
+        searched: A block search has come to its block; cycle start leads the axes there.
+        collected: Auxiliary functions that the search has collected.
+    """
+
+    def __init__(
+        self,
+        control: Control,
+        machine: Machine,
+        setup: Setup,
+        programs: Programs,
+        clock: Clock,
+        switches: Switches,
+        signals: SignalImage,
+        interlocks: Interlocks,
+        status: Status,
+    ) -> None:
+        self.control, self.machine = control, machine
+        self.clock, self.switches, self.signals, self.interlocks = clock, switches, signals, interlocks
+        self.status = status
+        self.keys: Mapping[str, Callable[[], None]] = {}
+        self.program_mode = self.waiting_mode = Mode.AUTO
+        self.searched = False
+        self.collected: list[Happening] = []
+        self._giving_up = self._returning = False
+        self._pressed: list[str] = []
+        signals.on_edge = self._edge
+        interlocks.on_alarm = self._machine_alarm
+        self.runs = ChannelRuns(
+            control, machine, setup, programs, clock, switches.rates, signals, interlocks, self
+        )
+        signals.states = {**machine_states(self), **axis_states(self)}
+        self.runs.switch_on(self.runs.first)
+        status.show()
+        signals.scan()
+        interlocks.look()
+
+    @property
+    def halt(self) -> str:
+        """Why the program stands (`M00`, `M01`, `single-block` …), or empty."""
+        reasons = [run.execution.halt for run in self.runs]
+        return reasons[0] or next((reason for reason in reasons if reason not in ("", "end")), "")
+
+    @property
+    def runs_freely(self) -> bool:
+        """Whether one channel runs its program, and nothing else happens."""
+        run, quiet = self.runs.first, not (self._giving_up or self._returning)
+        return quiet and len(self.runs) == 1 and run.manual.place is None and run.execution.running
+
+    # ---- from state to state -------------------------------------------------------------------------------
+
+    def follow_up(self) -> None:
+        """What follows when keys were pressed by signals, or axes have come to rest."""
+        while self._pressed:
+            with suppress(CommandRefused):  # a key that cannot act now does nothing
+                self.keys[self._pressed.pop(0)]()
+        if self.runs.move_by_hand:
+            return
+        goals = self.runs.shall_move_by_hand
+        if self._giving_up and not self.runs.move:
+            self.give_up()
+        elif self._returning and not goals:
+            self.resume()
+        elif self.status.state is State.READY and not goals:
+            self._stand()
+        if self.status.mode is Mode.REFERENCE and not goals:
+            self._note_references()
+
+    def prepare(self, run: ChannelRun) -> None:
+        """Before a program of a channel begins: it is where its axes are."""
+        run.channel.coordinates.arrive_machine(list(run.execution.position))
+        self.switches.apply_to(run.channel, typed=self.program_mode is Mode.MDI)
+
+    def resume(self) -> None:
+        """Every channel that has a program goes on."""
+        rates = self.switches.rates
+        self._returning = self.searched = rates.hold = rates.gives_up = False
+        for run in self.runs:
+            run.manual.leave()
+        self._end_halt()
+        self.status.become(State.RUNNING)
+        for run in self.runs:
+            if run.is_active:
+                run.execution.single_block = bool(self.switches.panel.single_block)
+                run.execution.start()
+
+    def go_on_from_here(self) -> None:
+        """The program goes on from where an operator has left the axes."""
+        for run in self.runs:
+            run.intervene(absolute=bool(self.signals[MANUAL_ABSOLUTE]))
+        self.resume()
+
+    def lead_back(self) -> None:
+        """Axes that were moved by hand go to where the program waits, which then goes on."""
+        self.status.become(State.RUNNING)
+        for happening in self.collected:
+            self.runs.first.machinery.perform(happening)
+        self.collected = []
+        self._returning = True
+        for run in self.runs:
+            if run.manual.place is not None:
+                for axis, target in enumerate(run.real):
+                    speed = self.switches.jog_speed(run.channel.axis_data[axis])
+                    run.manual.towards(axis, target, speed, self.clock.time)
+
+    def hold(self) -> None:
+        """Feed hold."""
+        if self.status.state is State.RUNNING:
+            self._bring_to_rest()
+            self.status.become(State.HOLD)
+
+    def brake(self, state: State) -> None:
+        """The axes come to rest, and the program is given up then."""
+        self.switches.rates.gives_up = self._giving_up = True
+        self._bring_to_rest()
+        self.status.become(state)
+        self.follow_up()
+
+    def _bring_to_rest(self) -> None:
+        self.switches.rates.hold = True
+        self.runs.revise()
+        self.runs.brake_hands()
+        self._returning = False
+
+    def give_up(self) -> None:
+        """The axes stand: the program is given up, the control is as after reset."""
+        rates = self.switches.rates
+        self._giving_up = self.searched = rates.hold = rates.gives_up = False
+        self._end_halt()
+        self.status.pulse("ENDED")
+        self.signals[AT_END] = 0.0
+        here = [(run, run.machine_position) for run in self.runs]
+        for run, position in here:
+            run.give_up()
+            if self.status.is_locked:
+                self.control.stop_spindles(run.channel)
+            run.stand_at(position)
+            self.prepare(run)
+        if not self.status.is_locked:
+            self.status.alarms = ()
+            self.status.become(State.READY)
+            self.interlocks.look()
+
+    def _stand(self) -> None:
+        """No program runs: axes that were moved by hand are where one would begin."""
+        for run in self.runs:
+            if run.manual.place is not None:
+                run.stand_at(run.manual.place)
+                self.prepare(run)
+
+    def _note_references(self) -> None:
+        """Axes that have come to their reference points know their position."""
+        for name in self.runs.first.channel.axes:
+            if self.signals[f"NOT_REFERENCED_{name}"] and self.signals[f"{name}_AT_REFERENCE"]:
+                self.signals[f"NOT_REFERENCED_{name}"] = 0.0
+
+    def look_for_deadlock(self) -> None:
+        """Every channel that is still there waits for another one: nothing will ever happen again."""
+        here = [run for run in self.runs if run.is_active]
+        if not here or any(not run.execution.waits_for_channel for run in here):
+            return
+        first = self.runs.first
+        if first.is_active:
+            first.preprocessing.fail(AlarmError("PC0005"))
+            first.execution.start()
+            return
+        for run in here:
+            run.give_up()  # the run ends with the first channel
+        if self.status.state is State.RUNNING:
+            self.status.become(State.READY, halt="end")
+
+    def _end_halt(self) -> None:
+        for name in HALT_SIGNALS.values():
+            self.signals[name] = 0.0
+
+    def set_rates(self) -> None:
+        """The speeds follow the override switches; a soft key of the machine holds the feed at 100 %."""
+        switches = self.switches
+        settings = self.control.motion_settings(self.runs.first.channel)
+        in_dry_run = switches.panel.dry_run and self.program_mode is not Mode.TAPE
+        switches.set_rates(
+            feed_is_100=bool(self.signals[FEED_IS_100]), dry_run=settings.dry_run if in_dry_run else None
+        )
+        dry = switches.rates.dry_run
+        for run in self.runs:
+            run.preprocessing.free_threads(free=dry is not None and dry.with_spindle)
+        self.runs.revise()
+
+    # ---- what happens on the channels ----------------------------------------------------------------------
+
+    def started(self, number: int, waits: Iterator[Wait]) -> None:
+        """A channel has started another one."""
+        run = self.runs[number]
+        self.prepare(run)
+        run.machinery.reset()
+        self.runs.first.execution.attention = True
+        run.preprocessing.begin(waits, run.execution.position)
+        run.execution.single_block = bool(self.switches.panel.single_block)
+        if self.status.state is State.RUNNING:
+            run.execution.start()
+
+    def failed(self, error: AlarmError) -> None:
+        """A channel cannot be switched on."""
+        self.status.fail(error)
+
+    def performs(self, number: int, event: Event) -> None:
+        """An event of a program is carried out."""
+        self.status.report("event", number, type=event.type, **event.data)
+        code = event.data.get("code") if event.type == "m" else None
+        if code in PROGRAM_ENDS and self.control.stays_at_end(self.runs.first.channel, code):
+            self.signals[AT_END] = 1.0
+
+    def enters(self, number: int, block: Block) -> None:
+        """A block begins."""
+        self.status.report("block", number, program=block.program, line=block.line)
+
+    def reads_signals(self, number: int) -> None:
+        """A program is about to read signals."""
+        give(self.runs[number].channel, self.signals)
+
+    def stops(self, number: int, code: str) -> None:
+        """A programmed stop, or `alarm`."""
+        if code == "alarm":
+            self.status.alarms = tuple(self.runs.first.channel.alarms)
+        self.runs[number].execution.stop(code)
+
+    def halted(self, number: int, reason: str) -> None:
+        """The run of a channel has halted of its own accord; the control does when no other one runs."""
+        run = self.runs[number]
+        if reason == "end":
+            self.runs.group.end(number)
+        others = [other for other in self.runs if other is not run and other.is_active]
+        if self.status.state is State.RUNNING:
+            if reason in HALT_SIGNALS:
+                self.signals[HALT_SIGNALS[reason]] = 1.0
+            if reason == "alarm" or not any(other.execution.running for other in others):
+                state = HALTS.get("stop" if others and reason == "end" else reason, State.STOPPED)
+                self.status.become(state, halt=reason)
+            else:
+                self.status.report("halt", number, halt=reason)
+        if reason == TYPED_BLOCKS_DONE.reason:
+            self.program_mode = self.waiting_mode
+            self.switches.apply_to(run.channel, typed=self.program_mode is Mode.MDI)
+        if reason == "alarm" and others:
+            self.switches.rates.hold = True
+            self.runs.revise()
+        if reason == "end" and run is self.runs.first:
+            self.status.parts += self.program_mode is not Mode.MDI
+            if self.program_mode is not Mode.MDI:
+                self.control.reset(run.channel)
+            run.show_own_state()
+
+    # ---- what happens on the machine -----------------------------------------------------------------------
+
+    def _edge(self, name: str, value: float) -> None:
+        """A signal has changed."""
+        self.status.report("signal", name=name, value=value)
+        if name in self.keys and value:
+            self._pressed.append(name)
+            self.runs.first.execution.attention = True
+        if name == SKIP_SIGNAL and value:
+            for run in self.runs:
+                run.skip_signal()
+        if name == FEED_IS_100:
+            self.set_rates()
+        turn_magazine(self.signals, self.machine, name, value)
+        self.interlocks.watch(name)
+
+    def _machine_alarm(self, code: str) -> None:
+        """The machine's controller raises an alarm: everything comes to rest, a reset ends it."""
+        status = self.status
+        if any(alarm.code == code for alarm in status.alarms):
+            return
+        block = self.runs.first.execution.block if status.state is State.RUNNING else None
+        place = (block.program, block.line) if block is not None else ("", 0)
+        status.alarms = (*status.alarms, Alarm(self.control.id, code, *place))
+        status.report("event", 1, type="alarm", code=code, line=place[1], program=place[0])
+        if not status.is_locked and status.state is not State.BRAKING:
+            self._bring_to_rest()
+            status.become(State.ALARM, halt="alarm")
+
+    @property
+    def program_spindle(self) -> int:
+        """Direction in which a program that waits wants to find the spindle turning: 1, -1, 0 for none."""
+        if self.collected or self.switches.panel.mst_lock:  # cycle start starts it, or the program cannot
+            return 0
+        return self.runs.first.execution.context.spindle_direction

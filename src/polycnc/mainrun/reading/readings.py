@@ -1,0 +1,107 @@
+"""Readings of a whole control: of the moment at which the clock stands."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import inf
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun.commands.states import State
+from polycnc.mainrun.reading.snapshot import Overrides, Snapshot
+from polycnc.motion.frames import without_transformation
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.mainrun.commands.programs import Programs
+    from polycnc.mainrun.execution.operation import Operation
+    from polycnc.mainrun.reading.snapshot import ChannelSnapshot, Positions, SpindleState
+
+
+class Readings:
+    """What a panel or a factory system reads.
+
+    Args:
+        operation: The channels, and what the control does with them.
+        programs: What is loaded.
+    """
+
+    def __init__(self, operation: Operation, programs: Programs) -> None:
+        self._operation = operation
+        self._runs = operation.runs
+        self._programs = programs
+
+    @property
+    def positions(self) -> Positions:
+        """Positions as the displays show them."""
+        return self._runs.first.positions(self._operation.switches.locked_at)
+
+    @property
+    def channels(self) -> Mapping[int, ChannelSnapshot]:
+        """Every channel that has been spoken of, by number."""
+        return {run.number: run.snapshot for run in sorted(self._runs, key=lambda run: run.number)}
+
+    @property
+    def program(self) -> str:
+        """Name of the loaded program; empty for none."""
+        return self._programs.main.name if self._programs.main is not None else ""
+
+    @property
+    def spindle(self) -> SpindleState:
+        """The spindle of the block in execution; where the machine's rules drive it, as they do."""
+        operation, run = self._operation, self._runs.first
+        signals, spindle = operation.signals, run.spindle
+        if not operation.interlocks.drives_spindle:
+            return spindle
+        direction = int(signals["SPINDLE_CW"] - signals["SPINDLE_CCW"])
+        if not direction or not signals["SPINDLE_TURNS"]:
+            return replace(spindle, rpm=0.0, direction=0)
+        context, data = run.execution.context, operation.machine.spindle.get(spindle.number)
+        override = operation.switches.rates.spindle if context.spindle_override else 1.0
+        top = data.max_rpm if data is not None else inf
+        rpm = 0.0 if context.surface_speed else min(spindle.programmed_rpm * override, top)
+        return replace(spindle, rpm=rpm, direction=direction)
+
+    @property
+    def restart(self) -> Mapping[str, tuple[float, float]]:
+        """Where a program waits while its axes stand elsewhere: axis to position and way that is left, work units."""
+        run = self._runs.first
+        if run.manual.place is None or self._operation.status.state not in (State.HOLD, State.STOPPED):
+            return {}
+        context, here, waits = without_transformation(run.execution.context), run.machine_position, run.real
+        target = run.display.positions(waits, waits, waits, context).work
+        left = run.display.positions(here, waits, here, context).to_go
+        return {axis: (target[axis], left[axis]) for axis in target}
+
+    @property
+    def feed(self) -> float:
+        """Path speed now, mm/min; of the fastest axis where axes are moved by hand."""
+        run = self._runs.first
+        return 60.0 * max(run.execution.speed, run.manual.speed(self._operation.clock.time))
+
+    @property
+    def snapshot(self) -> Snapshot:
+        """Everything at once, of one moment."""
+        operation, status, run = self._operation, self._operation.status, self._runs.first
+        dials = operation.switches.dials
+        return Snapshot(
+            time=operation.clock.time,
+            mode=status.mode,
+            state=status.state,
+            halt=operation.halt,
+            positions=self.positions,
+            feed=self.feed,
+            program=self.program,
+            block=run.active_block,
+            modal=run.modal,
+            spindle=self.spindle,
+            tool=run.tool,
+            overrides=Overrides(dials.feed, dials.rapid, dials.spindle),
+            switches=operation.switches.panel,
+            signals=operation.signals.values,
+            alarms=status.alarms,
+            messages=tuple(run.machinery.messages),
+            parts=status.parts,
+            channels=self.channels,
+            notices=operation.interlocks.messages,
+        )
