@@ -5,5 +5,6 @@ one control together, `snapshot` notes a state between two blocks and brings it 
 `mode` is the modal state, `coordinates` where the channel is, `path` the stages between a handler's move and
 the toolpath, `way` the points on that move. `failure` says what an alarm does, `passes`
 when a main program that begins again does nothing new, `intervention` what an
-operator's hand does to a waiting program; `interface` is what the channel asks of those around it.
+operator's hand does to a waiting program; `interface` is what the channel asks of those around it, `family` the
+kinds of control and memory by which a channel is typed.
 """

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import re
 from math import inf, nan
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic
 
 from polycnc.channel.coordinates import Coordinates
 from polycnc.channel.failure import end_run, stand_at_last_row, take_back
+from polycnc.channel.family import ControlT_co, MemoryT_co
 from polycnc.channel.intervention import NOTHING_BACK, TYPED_IN, MovedByHand
 from polycnc.channel.mode import Mode, ModeTable
 from polycnc.channel.path import Move, PathStage, TableStage, is_way, points_of_arc
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.channel.group import ChannelGroup
-    from polycnc.channel.interface import Bulk, Control, MainRun, Scanner, Zone
+    from polycnc.channel.interface import Bulk, MainRun, Scanner, Zone
     from polycnc.channel.passes import Passes
     from polycnc.channel.steps import Step
     from polycnc.geometry.frames import Vector
@@ -50,7 +51,7 @@ DEFAULT_BLOCK_LIMIT = 100_000_000
 BURST = range(4096)
 
 
-class Channel:
+class Channel(Generic[ControlT_co, MemoryT_co]):
     """One channel of a control: state, program stack, and the way of its moves.
 
     Attributes:
@@ -62,7 +63,7 @@ class Channel:
         start_position: Position at power-on, all axes.
         head: First stage of the path, or None while moves go straight to the table.
         mark: Rows of the chunk when the running block began.
-        control: The control, for the handlers of its family, which know its class.
+        control: The control. Handlers of a family know its class: `Channel[ThatControl, ThatMemory]`.
         single_block: Hand over behind every block at which single block operation halts.
         inner_halts: Blocks at which single block halts inside the block that runs, before its end.
         takes_back: What the running block takes back of a manual intervention.
@@ -79,12 +80,12 @@ class Channel:
 
     #: A snapshot of the channel does not go on to these: they are none of its state.
     UNFOLLOWED: ClassVar = frozenset(
-        {"axis_data", "bulk", "control", "_control", "machine", "main_run", "setup", "share_after"}
+        {"axis_data", "bulk", "control", "machine", "main_run", "setup", "share_after"}
     )
 
     def __init__(
         self,
-        control: Control,
+        control: ControlT_co,
         machine: Machine,
         setup: Setup,
         store: ProgramStore,
@@ -94,8 +95,7 @@ class Channel:
         toolpath: Toolpath | None = None,
         bulk: Bulk | None = None,
     ) -> None:
-        self._control = control
-        self.control: Any = control
+        self.control = control
         self.machine = machine
         self.setup = setup
         self.store = store
@@ -116,7 +116,7 @@ class Channel:
         self._head: PathStage | None = None
         self.rows = TableStage(self)
         self.table: PathStage = self.rows
-        self.memory: Any = None
+        self.memory: MemoryT_co = None  # type: ignore[assignment]  # made by `Control.start`
         self.alarms: list[Alarm] = []
         self._finished = False
         self.attention = False
@@ -193,7 +193,7 @@ class Channel:
         """The compiled form of a program; each program is compiled once."""
         key = id(program)
         if key not in self._executables:
-            self._executables[key] = self._control.compile(program)
+            self._executables[key] = self.control.compile(program)
         return self._executables[key]
 
     @property
@@ -293,9 +293,9 @@ class Channel:
         self.push(program, kind="main")
         try:
             if power_on:
-                self._control.start(self)
+                self.control.start(self)
             else:
-                self._control.begin(self)
+                self.control.begin(self)
         except AlarmError as error:
             self.fail(error)
 
@@ -322,7 +322,7 @@ class Channel:
             return PREPROCESSING
         except ArithmeticError as error:
             take_back(self)
-            self.fail(self._control.arithmetic_alarm(error))
+            self.fail(self.control.arithmetic_alarm(error))
         except RecursionError:
             take_back(self)
             self.fail(AlarmError("PC0003"))
@@ -345,7 +345,7 @@ class Channel:
                 self.mark = len(kinds)
                 step = level.code.step(index)
                 if step is None:
-                    self._control.end_of_program(self)
+                    self.control.end_of_program(self)
                     break
             if self.single_block:
                 step = getattr(step, "alone", step)
@@ -363,13 +363,13 @@ class Channel:
         if self._head is not None and level.counts(level.current):
             self._head.block()
         if self.single_block and step is not None:
-            if self._control.halts(self, level, step):
+            if self.control.halts(self, level, step):
                 self._wait = self._wait or Wait("single-block", self.sequence_of(level))
             elif self.block_by_block:
                 self._wait = self._wait or BLOCK
         self.mark = self.toolpath.mark()
         if self.blocks >= self.block_limit:
-            raise self._control.block_limit()
+            raise self.control.block_limit()
 
     def _burst(self, level: Level) -> range:
         """Scan plain blocks; gives as many numbers as blocks are to be interpreted now."""
@@ -431,7 +431,7 @@ class Channel:
         """Number of the context that holds now."""
         if self._context_changed:
             # An alarm of the setup comes before there is a state that a context could tell of.
-            context = Context() if self.memory is None else self._control.context(self)
+            context = Context() if self.memory is None else self.control.context(self)
             self._context = self.toolpath.context_number(context)
             self._context_changed = False
         return self._context
@@ -537,9 +537,9 @@ class Channel:
         machine = self.coordinates.to_machine(end)
         for i, (low, high) in enumerate(self._limits):
             if machine[i] < low - 1e-9:
-                raise self._control.over_travel(self.axes[i], -1)
+                raise self.control.over_travel(self.axes[i], -1)
             if machine[i] > high + 1e-9:
-                raise self._control.over_travel(self.axes[i], 1)
+                raise self.control.over_travel(self.axes[i], 1)
         if self.stroke_zone is not None:
             self.stroke_zone.check(self, machine, straight=straight)
 
