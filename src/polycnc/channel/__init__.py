@@ -1,7 +1,8 @@
 """The interpreter that all controls share: modal state, program stack, flow, frames, and the way of a move.
 
 `channel` runs steps (`steps`, `stack`) and gives `waits`; `run` is the run of a program, `group` runs the channels of
-one control together, `snapshot` notes a state between two blocks and brings it back.
+one control together, `snapshot` notes a channel between two blocks and brings it back; `state` is what
+features own of it, with its lifetime.
 `mode` is the modal state, `coordinates` where the channel is, `path` the stages between a handler's move and
 the toolpath, `way` the points on that move. `failure` says what an alarm does, `passes`
 when a main program that begins again does nothing new, `intervention` what an

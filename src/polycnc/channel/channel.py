@@ -19,6 +19,7 @@ from polycnc.channel.mode import Mode, ModeTable
 from polycnc.channel.path import Move, PathStage, TableStage, is_way, points_of_arc
 from polycnc.channel.run import Run
 from polycnc.channel.stack import Executable, Level
+from polycnc.channel.state import Lifetime, State, end_of
 from polycnc.channel.waits import (
     BLOCK,
     CHUNK,
@@ -74,6 +75,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
             None where a clock runs, which knows.
         group: The channels of the control, which the first one belongs to as well; None where it runs alone.
         memory: The control's own state (variables, offsets, tools), set by `Control.start`.
+        states: The states that features own, one of each class; see `State.of`.
         passes: What ends a main program that would begin again for ever; None where somebody else ends it.
         bulk: Whether and how plain blocks are scanned in bulk; None interprets every block.
     """
@@ -117,6 +119,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         self.rows = TableStage(self)
         self.table: PathStage = self.rows
         self.memory: MemoryT_co = None  # type: ignore[assignment]  # made by `Control.start`
+        self.states: dict[type[State], State] = {}
         self.alarms: list[Alarm] = []
         self._finished = False
         self.attention = False
@@ -291,6 +294,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         self.stack.clear()
         self.finished = False
         self.push(program, kind="main")
+        end_of(self, Lifetime.POWER if power_on else Lifetime.PROGRAM)
         try:
             if power_on:
                 self.control.start(self)

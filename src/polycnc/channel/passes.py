@@ -7,11 +7,9 @@ same, for ever. A program that counts, reads a clock or changes an offset does n
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import fields, is_dataclass
 from typing import TYPE_CHECKING, Any
 
-from polycnc.machine.setup import Parameters
+from polycnc.channel.state import plain, plain_states
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -64,20 +62,5 @@ def _state(channel: Channel) -> Any:
     return (
         id(channel.mode), channel.level.index, repr(channel.feed), list(c.position), list(c.programmed),
         list(c.pending), list(c.offsets), repr(c.zero), repr(c.programming),
-        named, _plain(memory), _plain(channel.level.locals),
+        named, plain(memory), plain_states(channel), plain(channel.level.locals),
     )  # fmt: skip
-
-
-def _plain(value: Any) -> Any:
-    """A value as nested tuples that can be kept and compared; of what is no data only the kind."""
-    if value is None or isinstance(value, str | bytes | int | float | complex):
-        return value
-    if isinstance(value, Mapping | Parameters):
-        return tuple((_plain(key), _plain(element)) for key, element in value.items())
-    if isinstance(value, list | tuple):
-        return tuple(map(_plain, value))
-    if isinstance(value, set | frozenset):
-        return tuple(sorted(map(repr, value)))
-    if is_dataclass(value) and not isinstance(value, type):
-        return tuple(_plain(getattr(value, each.name)) for each in fields(value))
-    return type(value).__name__

@@ -1,0 +1,141 @@
+"""State that features own, with its lifetime: what a reset, the end of a program or power-on bring back.
+
+A feature declares its state beside its handlers, and says how long it lives:
+
+    @dataclass(slots=True)
+    class PolarState(State, lifetime=Lifetime.RESET):
+        plane: PolarPlane | None = None
+        entries: int = lasting(Lifetime.POWER, 0)  # one field that lives longer than the others
+
+    PolarState.of(channel).plane = ...
+
+A channel has one object of every class, made when somebody first asks for it and never replaced: `end_of` puts first
+values back into it. So a handler that runs for every block may keep the object at hand. First values that depend on
+the channel (one number for each axis) come from `first`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import MISSING, field, fields, is_dataclass
+from enum import IntEnum
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, overload
+
+from polycnc.machine.setup import Parameters
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection
+    from typing import Self
+
+    from polycnc.channel.channel import Channel
+
+_T = TypeVar("_T")
+_LIFETIME = "lifetime"
+
+
+class Lifetime(IntEnum):
+    """How long a value lives: up to the named event. Each event ends the shorter lifetimes as well."""
+
+    BLOCK = 1
+    """To the end of the block. A control that has such says itself when that is: no event comes after every block."""
+    PROGRAM = 2
+    """To the end of the program, or the start of another one."""
+    RESET = 3
+    """To a reset, by its key or where the control's end of program (M02, M30) is one."""
+    POWER = 4
+    """As long as the power is on."""
+    RETAINED = 5
+    """For ever."""
+
+
+@overload
+def lasting(lifetime: Lifetime, default: _T) -> _T: ...
+@overload
+def lasting(lifetime: Lifetime, *, factory: Callable[[], _T]) -> _T: ...
+def lasting(lifetime: Lifetime, default: Any = MISSING, *, factory: Any = MISSING) -> Any:
+    """A field of a `State` whose lifetime is not that of the class."""
+    metadata = {_LIFETIME: lifetime}
+    if factory is not MISSING:
+        return field(default_factory=factory, metadata=metadata)
+    return field(default=default, metadata=metadata)
+
+
+class State:
+    """Base of the states of features; each is a dataclass whose fields all have defaults, unless it has a `first`.
+
+    Class keywords:
+        lifetime: How long its fields live, where a field does not say otherwise by `lasting`.
+    """
+
+    __slots__ = ()
+    #: Every class of states by its full name.
+    CLASSES: ClassVar[dict[str, type[State]]] = {}
+    lifetime: ClassVar[Lifetime]
+
+    def __init_subclass__(cls, *, lifetime: Lifetime | None = None) -> None:
+        if lifetime is not None:
+            cls.lifetime = lifetime
+        # A dataclass with slots is made twice: the second class counts, and has the lifetime of the first.
+        State.CLASSES[f"{cls.__module__}.{cls.__qualname__}"] = cls
+
+    @classmethod
+    def of(cls, channel: Channel) -> Self:
+        """The one of a channel."""
+        state = channel.states.get(cls)
+        if state is None:
+            state = channel.states[cls] = cls.first(channel)
+        return state  # type: ignore[return-value]  # the key says the class
+
+    @classmethod
+    def first(cls, channel: Channel) -> Self:  # noqa: ARG003 - most states begin alike in every channel
+        """One with the values that it begins with."""
+        return cls()
+
+
+def lifetimes(cls: type[State]) -> dict[str, Lifetime]:
+    """The lifetime of every field of a class."""
+    return {each.name: each.metadata.get(_LIFETIME, cls.lifetime) for each in fields(cls)}  # type: ignore[arg-type]
+
+
+def end_of(channel: Channel, lifetime: Lifetime, kept: Collection[type[State]] = ()) -> None:
+    """An event has come (end of block, end or start of a program, reset, power-on): what lived up to it begins anew.
+
+    Args:
+        channel: The channel.
+        lifetime: The longest lifetime that the event ends.
+        kept: Classes that it does not concern this time, because a parameter of the control says so.
+    """
+    for cls, state in channel.states.items():
+        if cls in kept:
+            continue
+        ended = [name for name, lives in lifetimes(cls).items() if lives <= lifetime]
+        if ended:
+            fresh = cls.first(channel)
+            for name in ended:
+                setattr(state, name, getattr(fresh, name))
+
+
+# ---- comparing -------------------------------------------------------------------------------------------------
+
+
+def plain_states(channel: Channel) -> dict[str, Any]:
+    """Every state of a channel that is not as it began, as plain values that can be kept and compared."""
+    found = {
+        cls.__qualname__: (plain(state), plain(cls.first(channel))) for cls, state in channel.states.items()
+    }
+    return {name: now for name, (now, first) in found.items() if now != first}
+
+
+def plain(value: Any) -> Any:
+    """A value as nested tuples that can be kept and compared; of what is no data only the kind."""
+    if value is None or isinstance(value, str | bytes | int | float | complex):
+        return value
+    if isinstance(value, Mapping | Parameters):
+        return tuple((plain(key), plain(element)) for key, element in value.items())
+    if isinstance(value, list | tuple):
+        return tuple(map(plain, value))
+    if isinstance(value, set | frozenset):
+        return tuple(sorted(map(repr, value)))
+    if is_dataclass(value) and not isinstance(value, type):
+        return tuple(plain(getattr(value, each.name)) for each in fields(value))
+    return type(value).__name__
