@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
-from polycnc.channel.path import Move, PathStage
+from polycnc.channel.path import Move, PlacedEvent, Sink, Stage
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane
 from polycnc.compensation.policies import Policy, Violation
@@ -14,16 +14,16 @@ from polycnc.toolpath import Event, Kind
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+S = TypeVar("S", bound=Stage)
 CODES = {violation: violation.name for violation in Violation}
 G17 = Plane(0, 1, 2)
 _KINDS = {0: Kind.RAPID, 1: Kind.FEED, 2: Kind.CW, 3: Kind.CCW}
 
 
-class Recorder:
+class Recorder(Sink):
     """The end of a chain: keeps moves, and everything in order."""
 
     def __init__(self) -> None:
-        self.after: PathStage = self
         self.moves: list[Move] = []
         self.order: list[str] = []
         self.flushed = 0
@@ -32,8 +32,8 @@ class Recorder:
         self.moves.append(move)
         self.order.append(f"{move.kind.name.lower()} {move.line}")
 
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
-        self.order.append(f"{event.type}{event.data['code']}")
+    def event(self, event: PlacedEvent) -> None:
+        self.order.append(f"{event.event.type}{event.event.data['code']}")
 
     def block(self) -> None:
         self.order.append(";")
@@ -52,6 +52,12 @@ class Recorder:
         return [(m.kind.name.lower(), u, v) for m, (u, v) in zip(self.moves, self.points, strict=True)]
 
 
+def into(after: Stage, stage: S) -> S:
+    """A stage that passes on to another one."""
+    stage.after = after
+    return stage
+
+
 class Reader:
     """Absolute X Y Z, arc centres I J from the start, D for the radius; `start` is where it stands."""
 
@@ -63,7 +69,7 @@ class Reader:
         radius: float = 5.0,
     ) -> None:
         self.recorder = Recorder()
-        self.stage = CutterCompensation(G17, policy, violations, self.recorder)
+        self.stage = into(self.recorder, CutterCompensation(G17, policy, violations))
         self.position = list(start)
         self.kind = Kind.RAPID
         self.radius = radius
@@ -103,7 +109,7 @@ class Reader:
         if {"X", "Y", "Z"} & set(values):
             self._move(values, vector)
         if "M" in values:
-            self.stage.event(Event("m", {"code": int(values["M"])}), 0, self.line, 0)
+            self.stage.event(PlacedEvent(Event("m", {"code": int(values["M"])}), 0, self.line, 0))
         self.stage.block()
 
     def _move(self, values: dict[str, float], vector: tuple[float, float]) -> None:

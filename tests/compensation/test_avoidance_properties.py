@@ -14,14 +14,14 @@ from math import asin, atan2, ceil, cos, hypot, pi, sin, sqrt, tan
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from polycnc.channel.path import Move
+from polycnc.channel.path import Move, PlacedEvent
 from polycnc.compensation import policies
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.policies import Policy
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Event, Kind
-from tests.compensation.support import CODES, G17, Recorder
+from tests.compensation.support import CODES, G17, Recorder, into
 
 #: What counts as a cut, mm.
 CUT_MM = 1e-4
@@ -94,7 +94,7 @@ def jagged(draw: st.DrawFn) -> list[Piece]:
 def compensate(policy: Policy, contour: list[Piece], side: int, radius: float) -> Recorder:
     """Run above the contour with G41, or below its mirror image with G42, with start-up and cancel far away."""
     recorder = Recorder()
-    stage = CutterCompensation(G17, policy, CODES, recorder)
+    stage = into(recorder, CutterCompensation(G17, policy, CODES))
     x, y = contour[-1].end
     pieces = [*contour, Piece((x, y), (x + 20, y))]
     for line, piece in enumerate(pieces, 1):
@@ -108,7 +108,7 @@ def compensate(policy: Policy, contour: list[Piece], side: int, radius: float) -
             center = (piece.circle[0], side * piece.circle[1], 0.0)
         start, end = ([p[0], side * p[1], 0.0] for p in (piece.start, piece.end))
         stage.move(Move(kind, start, end, 1.0, line=line, center=center))
-        stage.event(Event("m", {"code": line}), 0, line, 0)
+        stage.event(PlacedEvent(Event("m", {"code": line}), 0, line, 0))
         stage.block()
     stage.flush()
     return recorder

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from polycnc.channel.path import Move
+from polycnc.channel.path import Move, PlacedEvent
 from polycnc.compensation.corner import (
     FANUC_CORNERS,
     SINUMERIK_CORNERS,
@@ -23,10 +23,10 @@ from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.policies import FANUC_A
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Event, Kind
-from tests.compensation.support import G17, Recorder
+from tests.compensation.support import G17, Recorder, into
 
 if TYPE_CHECKING:
-    from polycnc.channel.path import PathStage
+    from polycnc.channel.path import Stage
 
 CODES = {CornerViolation.NO_NEXT_MOVE: "PS0051", CornerViolation.TOO_SHORT: "PS0055"}
 
@@ -34,9 +34,9 @@ CODES = {CornerViolation.NO_NEXT_MOVE: "PS0051", CornerViolation.TOO_SHORT: "PS0
 class Path:
     """Moves from point to point, one block each, through a corner stage."""
 
-    def __init__(self, policy: CornerPolicy = FANUC_CORNERS, after: PathStage | None = None) -> None:
+    def __init__(self, policy: CornerPolicy = FANUC_CORNERS, after: Stage | None = None) -> None:
         self.recorder = Recorder()
-        self.stage = CornerStage(G17, policy, CODES, after or self.recorder)
+        self.stage = into(after or self.recorder, CornerStage(G17, policy, CODES))
         self.position = [0.0, 0.0, 0.0]
         self.line = 0
 
@@ -62,7 +62,7 @@ class Path:
 
     def idle(self, code: int = 8) -> Path:
         self.line += 1
-        self.stage.event(Event("m", {"code": code}), 0, self.line, 0)
+        self.stage.event(PlacedEvent(Event("m", {"code": code}), 0, self.line, 0))
         self.stage.block()
         return self
 
@@ -188,7 +188,7 @@ def test_a_path_that_turns_back_has_no_corner_to_round() -> None:
 
 def test_radius_compensation_takes_the_rounded_corner() -> None:
     recorder = Recorder()
-    compensation = CutterCompensation(G17, FANUC_A, {}, recorder)
+    compensation = into(recorder, CutterCompensation(G17, FANUC_A, {}))
     path = Path(after=compensation)
     compensation.engage(1, 5)
     path.to(10, 0).insert(Shape.ROUNDING, 8).to(50, 0).to(50, 40)

@@ -17,7 +17,7 @@ from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.policies import Policy
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.toolpath import Kind
-from tests.compensation.support import CODES, G17, Recorder
+from tests.compensation.support import CODES, G17, Recorder, into
 
 Spot = tuple[float, float]
 TOOL, BEND, LENGTH = 4.0, 40.0, 30.0
@@ -107,7 +107,7 @@ class Corner:
 def run(policy: Policy, corner: Corner, roles: str) -> Recorder:
     """Lead-in, front, behind, lead-out; `roles` says which of the two are compensated: "both", "front", "behind"."""
     recorder = Recorder()
-    stage = CutterCompensation(G17, replace(policy, least_move_mm=0.0), CODES, recorder)
+    stage = into(recorder, CutterCompensation(G17, replace(policy, least_move_mm=0.0), CODES))
     start, end = corner.on_front(LENGTH), corner.on_behind(LENGTH)
     front, behind = corner.centers()
     slope = corner.front * -LENGTH / BEND

@@ -11,14 +11,14 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from shapely.geometry import LineString, Point, Polygon
 
-from polycnc.channel.path import Move
+from polycnc.channel.path import Move, PlacedEvent
 from polycnc.compensation import policies
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.policies import Policy, Violation
 from polycnc.geometry import arcs
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Event, Kind
-from tests.compensation.support import CODES, G17, Recorder
+from tests.compensation.support import CODES, G17, Recorder, into
 
 Corner = tuple[float, float]
 POLICIES = [
@@ -43,7 +43,7 @@ def star(draw: st.DrawFn) -> list[Corner]:
 def compensate(policy: Policy, contour: list[Corner], side: int, radius: float = RADIUS) -> Recorder:
     """Walk round a closed contour, starting and ending in the middle of its last edge."""
     recorder = Recorder()
-    stage = CutterCompensation(G17, policy, CODES, recorder)
+    stage = into(recorder, CutterCompensation(G17, policy, CODES))
     (u0, v0), (u1, v1) = contour[-1], contour[0]
     middle = (0.5 * (u0 + u1), 0.5 * (v0 + v1))
     far = (middle[0] + (u0 - u1), middle[1] + (v0 - v1))
@@ -55,7 +55,7 @@ def compensate(policy: Policy, contour: list[Corner], side: int, radius: float =
         if line == len(points) - 1:
             stage.cancel()
         stage.move(Move(Kind.FEED, [*one, 0.0], [*two, 0.0], 1.0, line=line))
-        stage.event(Event("m", {"code": line}), 0, line, 0)
+        stage.event(PlacedEvent(Event("m", {"code": line}), 0, line, 0))
         stage.block()
     stage.flush()
     return recorder
@@ -172,7 +172,7 @@ def test_rows_are_continuous_and_events_keep_their_order(
 def test_a_flush_at_any_point_gives_all_rows(contour: list[Corner], policy: Policy, at: int) -> None:
     recorder = Recorder()
     unchecked = {Violation.ARC_START: "034"}
-    stage = CutterCompensation(G17, policy, unchecked, recorder)
+    stage = into(recorder, CutterCompensation(G17, policy, unchecked))
     stage.engage(1, RADIUS)
     points = [(0.0, 0.0), *contour]
     for line, (one, two) in enumerate(pairwise(points), 1):

@@ -16,7 +16,7 @@ from polycnc.channel.failure import end_run, stand_at_last_row, take_back
 from polycnc.channel.family import ControlT_co, MemoryT_co
 from polycnc.channel.intervention import NOTHING_BACK, TYPED_IN, MovedByHand
 from polycnc.channel.mode import Mode, ModeTable
-from polycnc.channel.path import Move, PathStage, TableStage, is_way, points_of_arc
+from polycnc.channel.path import Move, Path, PlacedEvent, is_way, points_of_arc
 from polycnc.channel.run import Run
 from polycnc.channel.stack import Executable, Level
 from polycnc.channel.state import Lifetime, State, end_of
@@ -62,7 +62,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         level: The running program level, `stack[-1]`.
         running: The run that was begun last; None before the first one.
         start_position: Position at power-on, all axes.
-        head: First stage of the path, or None while moves go straight to the table.
+        path: The stages that moves pass on their way to the toolpath.
         mark: Rows of the chunk when the running block began.
         control: The control. Handlers of a family know its class: `Channel[ThatControl, ThatMemory]`.
         single_block: Hand over behind every block at which single block operation halts.
@@ -115,9 +115,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         self.feed = nan
         self.stack: list[Level] = []
         self._level: Level
-        self._head: PathStage | None = None
-        self.rows = TableStage(self)
-        self.table: PathStage = self.rows
+        self.path = Path(self)
         self.memory: MemoryT_co = None  # type: ignore[assignment]  # made by `Control.start`
         self.states: dict[type[State], State] = {}
         self.alarms: list[Alarm] = []
@@ -157,18 +155,6 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
     def level(self, level: Level) -> None:
         self._level = level
         self.attention = True
-
-    @property
-    def head(self) -> PathStage | None:
-        """First stage of the path."""
-        return self._head
-
-    @head.setter
-    def head(self, stage: PathStage | None) -> None:
-        self._head = stage
-        self.attention = True
-        if stage is None:
-            self.rows.end = []  # moves no longer come this way
 
     @property
     def finished(self) -> bool:
@@ -246,20 +232,11 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
 
     @property
     def row_position(self) -> list[float]:
-        """The position as a row would hold it: a last stage may turn positions into those of the axes."""
+        """The position as a row would hold it: that of the axes where the path leads them."""
         c = self.coordinates
-        if self.table is self.rows or c.transformation is None:
+        if c.transformation is None or not self.path.leads_axes:
             return c.position
         return c.transformation.real(c.position)
-
-    def put_stage(self, stage: PathStage) -> None:
-        """Put a stage in front of the path; its `after` must be what was in front before, or the table."""
-        self.head = stage
-
-    def take_stage(self, stage: PathStage) -> None:
-        """Take a stage that holds nothing back out of the front of the path; where it is not there, nothing happens."""
-        if self.head is stage:
-            self.head = None if stage.after is self.table else stage.after
 
     def begin_again(self) -> None:
         """The main program goes to its top."""
@@ -271,7 +248,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
 
         Where a stage has changed the path (compensation that is still on) the tool stands where that has led it.
         """
-        is_changed = self._head is not None
+        is_changed = self.path.head is not None
         self.flush()
         if is_changed:
             stand_at_last_row(self)
@@ -340,7 +317,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         """
         burst = self._burst(level)
         steps, kinds, step = level.steps, self.toolpath.chunk.kind, None
-        self.attention = self._head is not None or self.single_block
+        self.attention = self.path.head is not None or self.single_block
         for _ in burst:
             index = level.index
             step = steps[index] if index < len(steps) else None
@@ -364,8 +341,8 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
 
     def _look_up(self, level: Level, step: Step | None) -> None:
         """What must be seen to between bursts: stages that count blocks, single block, the block limit."""
-        if self._head is not None and level.counts(level.current):
-            self._head.block()
+        if self.path.head is not None and level.counts(level.current):
+            self.path.head.block()
         if self.single_block and step is not None:
             if self.control.halts(self, level, step):
                 self._wait = self._wait or Wait("single-block", self.sequence_of(level))
@@ -399,12 +376,11 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
 
     def flush(self) -> None:
         """Pass on every move that a stage still holds back."""
-        if self._head is not None:
-            try:
-                self._head.flush()
-            except AlarmError as error:
-                take_back(self, found_ahead=True)
-                self.fail(error)
+        try:
+            self.path.flush()
+        except AlarmError as error:
+            take_back(self, found_ahead=True)
+            self.fail(error)
 
     def fail(self, error: AlarmError) -> None:
         """End the run with an alarm."""
@@ -451,11 +427,11 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
             context = self._context if not self._context_changed else self.context_number()
             if self._limits or self.stroke_zone is not None:
                 self._check_limits(end, straight=True)
-            line = level.line_of(level.current)
-            if self._head is None:
+            line, head = level.line_of(level.current), self.path.head
+            if head is None:
                 self.toolpath.chunk.add(kind, level.program_number, line, context, feed, end, NO_CURVE)
             else:
-                self._head.move(Move(kind, start, end, feed, level.program_number, line, context))
+                head.move(Move(kind, start, end, feed, level.program_number, line, context))
         if programmed is None and coordinates.direct:
             coordinates.position = coordinates.programmed = end
         else:
@@ -495,15 +471,15 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
             if center is not None and self.stroke_zone is not None:
                 for point in points_of_arc(move, self.coordinates.geometry):
                     self.stroke_zone.check_point(self, self.coordinates.to_machine(point))
-        if self._head is None:
+        if self.path.head is None:
             self.write(move)
         else:
-            self._head.move(move)
+            self.path.head.move(move)
         if kind != Kind.DWELL:
             self.coordinates.arrive(end, programmed)
 
     def write(self, move: Move) -> None:
-        """Write a finished move as a row: the last stage of the path."""
+        """Write a finished move as a row: what stands at the end of the path."""
         toolpath = self.toolpath
         if move.center is not None:
             number = toolpath.add_curve(*move.center, *move.normal, move.turns)
@@ -519,11 +495,11 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         line = level.code.line(level.current)
         event = Event(type_, data)
         context = self.context_number()
-        if self._head is None:
+        if self.path.head is None:
             end = self.coordinates.position
             self.toolpath.append_event(event, level.program_number, line, context, end)
         else:
-            self._head.event(event, level.program_number, line, context)
+            self.path.head.event(PlacedEvent(event, level.program_number, line, context))
 
     def stop(self, code: str) -> None:
         """A programmed stop: recorded, then the channel waits for a start."""

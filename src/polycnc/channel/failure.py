@@ -18,12 +18,11 @@ def take_back(channel: Channel, *, found_ahead: bool = False) -> None:
     Moves that a stage holds back belong to blocks in front and are still made, unless the stage itself has found
     the mistake in one of them (`found_ahead`): then the motion ends in front of that one.
     """
-    head = channel.head
-    if head is not None:
-        channel.head = None
+    if channel.path.head is not None:
         if not found_ahead:
             with suppress(AlarmError):
-                head.flush()
+                channel.path.flush()
+        channel.path.clear()
         stand_at_last_row(channel)
     elif len(channel.toolpath.chunk) > channel.mark:
         channel.toolpath.truncate(channel.mark)
@@ -38,7 +37,7 @@ def stand_at_last_row(channel: Channel) -> None:
         # The block has changed offsets before it alarmed: the axes stand, what is displayed follows.
         c.arrive_machine(toolpath.to_machine(end, context, c.geometry))
         return
-    if channel.table is not channel.rows and c.transformation is not None:
+    if channel.path.leads_axes and c.transformation is not None:
         end = c.transformation.display(end)
     c.arrive(end)
 
@@ -52,7 +51,7 @@ def end_run(channel: Channel, error: AlarmError) -> None:
     number = channel.level.program_number if channel.stack else toolpath.program_number("")
     context = channel.context_number()
     toolpath.append_event(Event("alarm", data), number, alarm.line, context, channel.coordinates.position)
-    channel.head = None
+    channel.path.clear()
     channel.finished = True
 
 

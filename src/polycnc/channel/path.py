@@ -1,15 +1,21 @@
-"""The way of a move from the interpreter to the toolpath: a short chain of stages.
+"""The way of a move from the interpreter to the toolpath: ranked stages.
 
 The interpreter gives every move and event to the first stage. A stage that must look ahead (corner rounding, cutter
-compensation) holds moves back and passes them on, changed, in order; the last stage writes rows. A stage that is not
-active is not in the chain, so plain motion goes straight to the table.
+compensation) holds moves back and passes them on, changed, in order; behind the last one stands the table, which
+writes rows. A stage that is not there costs nothing: with an empty path, plain motion goes straight to the table.
+
+`Rank` is the order, whatever order codes were typed in. `Path.put` puts a stage into its place, `Path.take` takes it
+out; `Path.divert` lays the whole path aside while a control reads a contour without moving.
 """
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from dataclasses import dataclass
+from enum import IntEnum, auto
+from itertools import pairwise
 from math import nan
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from polycnc.geometry import arcs
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, Kind
@@ -20,6 +26,35 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.geometry.frames import Vector
     from polycnc.toolpath import Event
+
+
+class Rank(IntEnum):
+    """The place of a stage in the path, first to last; the path holds at most one stage of a rank."""
+
+    #: Inputs that interrupt a block: they see moves as the program means them.
+    INTERRUPTS = auto()
+    #: Control points become the chords of a curve.
+    SPLINE = auto()
+    #: A smooth approach waits for the contour.
+    APPROACH = auto()
+    #: Chamfers and roundings belong to the contour, so they come before the tool leaves it.
+    CORNERS = auto()
+    #: Cutter and nose radius.
+    COMPENSATION = auto()
+    #: Tool radius in space, across a tool that tilts.
+    SPATIAL_COMPENSATION = auto()
+    #: A rotary axis follows the direction of the way that the tool really takes.
+    NORMAL = auto()
+    #: Positions of the work become those of the axes.
+    AXES = auto()
+    #: Protection zones: they see where the machine would go.
+    ZONES = auto()
+    #: Touch probes end moves, so they know how far one was allowed to go.
+    PROBES = auto()
+    #: Keeps or drops moves: nothing reaches the rows, and all stages in front work as if it did.
+    SINK = auto()
+    #: Writes rows; always there.
+    TABLE = auto()
 
 
 #: A way shorter than this on every axis (mm, degrees) is the rounding of a changed offset: no way.
@@ -62,6 +97,25 @@ class Move:
         return self.center is not None
 
 
+@dataclass(frozen=True, slots=True)
+class PlacedEvent:
+    """An event on its way to the toolpath, with program, line and context as a `Move` has them."""
+
+    event: Event
+    program: int
+    line: int
+    context: int
+
+
+@dataclass(frozen=True, slots=True)
+class EndOfBlock:
+    """The end of a block that keeps its place behind moves that are held back."""
+
+
+#: What a stage may hold back.
+Item = Move | PlacedEvent | EndOfBlock
+
+
 def is_way(start: list[float], end: list[float]) -> bool:
     """Whether two positions differ by more than rounding."""
     for a, b in zip(start, end, strict=True):  # noqa: SIM110 - a generator costs more than the comparison
@@ -70,56 +124,62 @@ def is_way(start: list[float], end: list[float]) -> bool:
     return False
 
 
-class PathStage(Protocol):
-    """One stage of the chain; `after` is the next one."""
+class Stage:
+    """A stage of the path. This one passes everything on; what others do to moves they say themselves.
 
-    after: PathStage
+    What a stage remembers are plain fields, so that a path can be copied at any block.
+
+    Attributes:
+        rank: Its place in the path.
+        lasts: It stays in the path when a program is broken off by an alarm or a reset.
+        after: The next stage; the path sets it.
+    """
+
+    rank: ClassVar[Rank]
+    lasts: ClassVar[bool] = False
+    after: Stage
+
+    @property
+    def active(self) -> bool:
+        """Whether moves are held back or changed; where not, the path may do without the stage."""
+        return True
 
     def move(self, move: Move) -> None:
         """Take the next move."""
+        self.after.move(move)
 
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
+    def event(self, event: PlacedEvent) -> None:
         """Take an event; it keeps its place between the moves."""
+        self.after.event(event)
 
     def block(self) -> None:
         """Called after every block of the program, with or without motion (look-ahead limits count blocks)."""
-
-    def flush(self) -> None:
-        """Pass on everything that is held back: no more moves will come that could change it."""
-
-
-class PassingStage:
-    """A stage that holds nothing back; what it does to moves is up to those that inherit.
-
-    Args:
-        after: The next stage.
-    """
-
-    def __init__(self, after: PathStage) -> None:
-        self.after = after
-
-    def move(self, move: Move) -> None:
-        """Pass a move on."""
-        self.after.move(move)
-
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
-        """Pass an event on."""
-        self.after.event(event, program, line, context)
-
-    def block(self) -> None:
-        """Pass the end of a block on."""
         self.after.block()
 
     def flush(self) -> None:
-        """Nothing is held back here; the stages behind may do so."""
+        """Pass on everything that is held back: no more moves will come that could change it."""
         self.after.flush()
 
+    def pass_on(self, item: Item) -> None:
+        """Pass on something that was held back, as it is."""
+        if isinstance(item, Move):
+            self.after.move(item)
+        elif isinstance(item, PlacedEvent):
+            self.after.event(item)
+        else:
+            self.after.block()
 
-class LastStage:
-    """The last stage of a path: nothing waits here, nothing is held back."""
 
-    def __init__(self) -> None:
-        self.after: Any = self
+class Sink(Stage):
+    """A stage behind which nothing comes: moves and events end here."""
+
+    rank = Rank.SINK
+
+    def move(self, move: Move) -> None:
+        """Drop a move."""
+
+    def event(self, event: PlacedEvent) -> None:
+        """Drop an event."""
 
     def block(self) -> None:
         """Nothing waits here."""
@@ -128,26 +188,27 @@ class LastStage:
         """Nothing is held back here."""
 
 
-class Recorder(LastStage):
-    """The only stage while the control reads a contour without moving: keeps the moves, drops the events."""
+class Recorder(Sink):
+    """Keeps the moves of a contour that is read without moving; its auxiliary functions do nothing."""
 
     def __init__(self) -> None:
-        super().__init__()
         self.moves: list[Move] = []
 
     def move(self, move: Move) -> None:
         """Keep a move."""
         self.moves.append(move)
 
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
-        """Auxiliary functions of a contour that is only read do nothing."""
 
+class TableStage(Sink):
+    """Writes rows: the end of every path.
 
-class TableStage(LastStage):
-    """Writes rows: the last stage wherever the control moves."""
+    Attributes:
+        end: End of the last move that came this way; empty where moves go past the stages.
+    """
+
+    rank = Rank.TABLE
 
     def __init__(self, channel: Channel) -> None:
-        super().__init__()
         self._channel = channel
         self.end: list[float] = []
 
@@ -157,10 +218,106 @@ class TableStage(LastStage):
         if move.end != move.start or move.center is not None or move.parameters:
             self._channel.write(move)
 
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
+    def event(self, event: PlacedEvent) -> None:
         """Write an event at the place of the last move."""
         end = self.end or self._channel.coordinates.position
-        self._channel.toolpath.append_event(event, program, line, context, end)
+        self._channel.toolpath.append_event(event.event, event.program, event.line, event.context, end)
+
+
+S = TypeVar("S", bound=Stage)
+
+
+class Path:
+    """The stages that a channel's moves pass, in the order of their ranks.
+
+    Attributes:
+        head: The first stage, or None while moves go straight to the table.
+        table: Writes the rows.
+    """
+
+    def __init__(self, channel: Channel) -> None:
+        self.head: Stage | None = None
+        self.table = TableStage(channel)
+        self._channel = channel
+        self._stages: list[Stage] = []
+        self._aside: list[list[Stage]] = []
+
+    @property
+    def stages(self) -> Sequence[Stage]:
+        """The stages in front of the table, in their order."""
+        return self._stages
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether no stage holds back or changes anything."""
+        return not any(stage.active for stage in self._stages)
+
+    @property
+    def leads_axes(self) -> bool:
+        """Whether rows hold positions of the axes, because a stage has turned those of the work into them."""
+        return any(stage.rank is Rank.AXES for stage in self._stages)
+
+    def find(self, kind: type[S]) -> S | None:
+        """The stage of a kind; None where the path has none."""
+        for stage in self._stages:
+            if isinstance(stage, kind):
+                return stage
+        return None
+
+    def put(self, stage: S) -> S:
+        """Put a stage into its place; one of the same rank goes, and must hold nothing back (see `flush`)."""
+        others = [each for each in self._stages if each.rank is not stage.rank]
+        self._lead(sorted([*others, stage], key=lambda each: each.rank))
+        return stage
+
+    def take(self, *kinds: type[Stage]) -> None:
+        """Take out the stages of some kinds, which must hold nothing back (see `flush`)."""
+        self._lead([stage for stage in self._stages if not isinstance(stage, kinds)])
+
+    def relax(self) -> None:
+        """Take out the stages that have nothing to do."""
+        if not all(stage.active for stage in self._stages):
+            self._lead([stage for stage in self._stages if stage.active])
+
+    def clear(self) -> None:
+        """The program is broken off: all stages go but those that last; what was laid aside is forgotten."""
+        stages = self._aside[0] if self._aside else self._stages
+        self._aside.clear()
+        self._lead([stage for stage in stages if stage.lasts])
+
+    def divert(self, recorder: Recorder) -> None:
+        """Lay the path aside: moves end in a recorder, through stages of their own, until `resume`."""
+        self._aside.append(self._stages)
+        self._lead([recorder])
+
+    def resume(self, recorder: Recorder) -> None:
+        """The path is as it was before `divert`; where the recorder has gone already, nothing happens."""
+        if recorder in self._stages:
+            self._lead(self._aside.pop())
+
+    @contextmanager
+    def diverted(self, recorder: Recorder) -> Iterator[None]:
+        """Moves end in a recorder meanwhile."""
+        self.divert(recorder)
+        try:
+            yield
+        finally:
+            self.resume(recorder)
+
+    def flush(self) -> None:
+        """Pass on everything that stages hold back."""
+        if self.head is not None:
+            self.head.flush()
+
+    def _lead(self, stages: list[Stage]) -> None:
+        """Lead moves through these stages, which are in order."""
+        self._stages = stages
+        for stage, after in pairwise([*stages, self.table]):
+            stage.after = after
+        self.head = stages[0] if stages else None
+        self._channel.attention = True
+        if self.head is None:
+            self.table.end = []  # moves no longer come this way
 
 
 #: Chords of an arc may be this far off it where it is looked at point by point, mm.

@@ -13,17 +13,16 @@ from enum import Enum
 from math import cos, degrees, hypot, isnan, nan, pi, radians
 from typing import TYPE_CHECKING
 
+from polycnc.channel.path import EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.geometry import arcs, offset
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
-    from polycnc.channel.path import Move, PathStage
     from polycnc.compensation.plane import Plane
     from polycnc.geometry.arcs import Point
-    from polycnc.toolpath import Event
 
 #: Directions that differ by less (radians) have no corner between them.
 _STRAIGHT_ON = 1e-6
@@ -57,11 +56,13 @@ class CornerPolicy:
         idle_blocks: Blocks without plane motion that may stand between the two moves.
         shrinks: A size that does not fit is reduced to the largest that does (SINUMERIK).
         least_turn_deg: Between directions that differ by less there is no corner.
+        start_up_between: Radius compensation may start up between the two moves.
     """
 
     idle_blocks: int = 0
     shrinks: bool = False
     least_turn_deg: float = degrees(1e-6)
+    start_up_between: bool = False
 
 
 #: The next block must be the next move (FANUC 0i-TF Plus 4.7); too short is an alarm.
@@ -85,25 +86,23 @@ class _Held:
     move: Move
     request: _Request
     blocks: int = 0
-    after: list[Callable[[], None]] = field(default_factory=list)
+    after: list[Item] = field(default_factory=list)
 
 
-class CornerStage:
+class CornerStage(Stage):
     """The stage of the path that inserts chamfers and roundings.
 
     Args:
         plane: Working plane.
         policy: The control's behaviour.
         violations: The control's alarm codes.
-        after: The next stage.
     """
 
-    def __init__(
-        self, plane: Plane, policy: CornerPolicy, violations: Mapping[CornerViolation, str], after: PathStage
-    ) -> None:
+    rank = Rank.CORNERS
+
+    def __init__(self, plane: Plane, policy: CornerPolicy, violations: Mapping[CornerViolation, str]) -> None:
         self.plane = plane
         self.policy = policy
-        self.after = after
         self._violations = violations
         self._modal: _Request | None = None
         self._wanted: _Request | None = None
@@ -131,9 +130,9 @@ class CornerStage:
         self._modal = _Request(Shape.ROUNDING, radius, feed, modal=True) if radius > 0.0 else None
 
     def move(self, move: Move) -> None:
-        """Take the next move; see `PathStage`."""
+        """Take the next move; see `Stage`."""
         if not self.plane.moves(move):
-            self._in_order(lambda: self.after.move(self._displaced(move)))
+            self._in_order(move)
             return
         held, wanted, self._wanted = self._held, self._wanted, None
         if held is not None:
@@ -144,13 +143,13 @@ class CornerStage:
         else:
             self._held = _Held(move, request)
 
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
+    def event(self, event: PlacedEvent) -> None:
         """Take an event; it keeps its place between the moves."""
-        self._in_order(lambda: self.after.event(event, program, line, context))
+        self._in_order(event)
 
     def block(self) -> None:
         """A block has been read: too many without plane motion, and there is no corner."""
-        self._in_order(self.after.block)
+        self._in_order(EndOfBlock())
         if self._wanted is not None:
             self._wanted = None
             self._violate(CornerViolation.NO_NEXT_MOVE, 0)
@@ -170,11 +169,14 @@ class CornerStage:
 
     # ---- inside --------------------------------------------------------------------------------------------
 
-    def _in_order(self, deed: Callable[[], None]) -> None:
+    def _in_order(self, item: Item) -> None:
         if self._held is not None:
-            self._held.after.append(deed)
+            self._held.after.append(item)
         else:
-            deed()
+            self._pass_item(item)
+
+    def _pass_item(self, item: Item) -> None:
+        self.pass_on(self._displaced(item) if isinstance(item, Move) else item)
 
     def _give_up(self) -> None:
         held = self._held
@@ -190,8 +192,8 @@ class CornerStage:
         if inserted is not None:
             self._pass(inserted)
             self._behind_shape = self.plane.point(inserted.end)
-        for deed in held.after:
-            deed()
+        for item in held.after:
+            self._pass_item(item)
         self._behind_shape = None
 
     def _displaced(self, move: Move) -> Move:

@@ -27,6 +27,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.channel.path import EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.compensation import vectors
 from polycnc.compensation.ends import blind_end, end_before, square_ends, starts_blind
 from polycnc.compensation.interference import InterferenceCheck, Objections
@@ -37,16 +38,14 @@ from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Corner
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
-    from polycnc.channel.path import Move, PathStage
     from polycnc.compensation.plane import Plane
     from polycnc.compensation.policies import Policy
     from polycnc.geometry.arcs import Point
-    from polycnc.toolpath import Event
 
 
-class CutterCompensation:
+class CutterCompensation(Stage):
     """The stage of the path that moves the tool off the contour by its radius.
 
     Args:
@@ -54,19 +53,18 @@ class CutterCompensation:
         policy: The control's behaviour; may be replaced between blocks.
         violations: The control's alarm code for each violation that it checks; one without a code is let
             pass.
-        after: The next stage.
 
     Attributes:
         suspended: Contour blocks keep the vector that stands square at the end of the last compensated one
             (CUTCONON); the first one behind them begins square on itself, with a line to there.
     """
 
-    def __init__(
-        self, plane: Plane, policy: Policy, violations: Mapping[Violation, str], after: PathStage
-    ) -> None:
+    rank = Rank.COMPENSATION
+
+    def __init__(self, plane: Plane, policy: Policy, violations: Mapping[Violation, str]) -> None:
         self.plane = plane
         self.policy = policy
-        self._rows = RowWriter(plane, after)
+        self._rows = RowWriter(plane, self)
         self._violations = Objections(violations)
         self._role = Role.PLAIN
         self._side = 1
@@ -84,21 +82,17 @@ class CutterCompensation:
         self._starts_square = False
         self.suspended = False
 
-    @property
-    def after(self) -> PathStage:
-        """The next stage."""
-        return self._rows.after
-
-    @after.setter
-    def after(self, stage: PathStage) -> None:
-        self._rows.after = stage
-
     # ---- what a control commands ---------------------------------------------------------------------------
 
     @property
     def active(self) -> bool:
         """Whether moves are compensated, or a vector is still to be removed."""
         return self._role is not Role.PLAIN
+
+    @property
+    def side(self) -> int:
+        """The side that was commanded last: 1 left of the direction of travel, -1 right."""
+        return self._side
 
     def engage(self, side: int, radius: float, tip: Point = NO_VECTOR, place: Move | None = None) -> None:
         """G41 or G42, at the start, for a change of side or again.
@@ -183,9 +177,9 @@ class CutterCompensation:
     # ---- the stage -----------------------------------------------------------------------------------------
 
     def move(self, move: Move) -> None:
-        """Take the next move; see `PathStage`."""
+        """Take the next move; see `Stage`."""
         if self._role is Role.PLAIN or not self.plane.moves(move):
-            self._in_order(lambda: self._rows.pass_on(move))
+            self._in_order(move)
             return
         edge = self.plane.edge(move)
         if edge is None:
@@ -194,9 +188,9 @@ class CutterCompensation:
         self._place = None
         self._take(move, edge)
 
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
+    def event(self, event: PlacedEvent) -> None:
         """Take an event; it keeps its place between the moves."""
-        self._in_order(lambda: self.after.event(event, program, line, context))
+        self._in_order(event)
 
     def block(self) -> None:
         """A block has been read: look-ahead counts blocks, with or without motion."""
@@ -204,7 +198,7 @@ class CutterCompensation:
         if place is not None and (self.policy.shifts_without_motion or self._forced is not None):
             point = self.plane.point(place.end)
             self._take(place, offset.Edge(point, point, NO_VECTOR, NO_VECTOR))
-        self._in_order(self.after.block)
+        self._in_order(EndOfBlock())
         self._read += 1
         while self._window and self._read - self._window[0].read >= self._window[0].policy.read_blocks:
             self._release()
@@ -216,11 +210,19 @@ class CutterCompensation:
 
     # ---- the window ----------------------------------------------------------------------------------------
 
-    def _in_order(self, deed: Callable[[], None]) -> None:
+    def _in_order(self, item: Item) -> None:
         if self._window:
-            self._window[-1].after.append(deed)
+            self._window[-1].after.append(item)
         else:
-            deed()
+            self._pass_item(item)
+
+    def _pass_item(self, item: Item | Step) -> None:
+        if isinstance(item, Step):
+            self._rows.pass_over(item)
+        elif isinstance(item, Move):
+            self._rows.pass_on(item)
+        else:
+            self.pass_on(item)
 
     def _take(self, move: Move, edge: offset.Edge) -> None:
         """Put a plane move into the window; it closes the corner in front of it."""
@@ -296,8 +298,8 @@ class CutterCompensation:
             step.corner = self._blind_end(step)
         self._interference.admit(step)
         self._rows.emit(step, step.corner)
-        for deed in step.after:
-            deed()
+        for item in step.after:
+            self._pass_item(item)
 
     def _blind_end(self, step: Step) -> Corner:
         if not starts_blind(step):

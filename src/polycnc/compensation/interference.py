@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import deque
-from functools import partial
 from itertools import pairwise
 from math import pi
 from typing import TYPE_CHECKING
@@ -146,7 +145,7 @@ class InterferenceCheck:
     def _pass_over(self, step: Step, left_out: Sequence[Step]) -> None:
         """What came after the steps left out comes after the one in front of them."""
         for other in left_out:
-            step.after.append(partial(self._rows.pass_over, other))
+            step.after.append(other)
             step.after.extend(other.after)
 
     def admit(self, step: Step) -> None:

@@ -12,7 +12,7 @@ from polycnc.geometry.offset import Joint
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.path import Move, PathStage
+    from polycnc.channel.path import Move, Stage
     from polycnc.compensation.plane import Plane
     from polycnc.compensation.step import Step
     from polycnc.geometry.arcs import Point
@@ -20,19 +20,19 @@ if TYPE_CHECKING:
 
 
 class RowWriter:
-    """Writes rows to the next stage, and knows where the tool stands beside the programmed point.
+    """Passes rows on for a stage, and knows where the tool stands beside the programmed point.
 
     Args:
         plane: The plane of compensation.
-        after: The next stage.
+        stage: The stage whose next one gets the rows.
 
     Attributes:
         vector: The vector at the end of the last compensated move.
     """
 
-    def __init__(self, plane: Plane, after: PathStage) -> None:
+    def __init__(self, plane: Plane, stage: Stage) -> None:
         self.plane = plane
-        self.after = after
+        self._stage = stage
         self.vector = NO_VECTOR
         self._delta = NO_VECTOR
 
@@ -45,17 +45,19 @@ class RowWriter:
         move, edge, plane = step.move, step.edge, self.plane
         here = arcs.plus(plane.point(move.start), self._delta)
         if plane.moves_elsewhere(move):
-            self.after.move(_straight(move, plane.at(move.start, here), plane.at(move.end, here)))
+            self._stage.after.move(_straight(move, plane.at(move.start, here), plane.at(move.end, here)))
         self._delta = arcs.plus(self._delta, arcs.minus(edge.start, edge.end))
 
     def pass_on(self, move: Move) -> None:
         """Pass on a move that is not compensated itself, from where the vector holds the tool."""
         if self._delta == NO_VECTOR:
-            self.after.move(move)
+            self._stage.after.move(move)
             return
         plane = self.plane
         start, end = (plane.at(p, arcs.plus(plane.point(p), self._delta)) for p in (move.start, move.end))
-        self.after.move(replace(move, start=start, end=end, center=plane.moved_center(move, self._delta)))
+        self._stage.after.move(
+            replace(move, start=start, end=end, center=plane.moved_center(move, self._delta))
+        )
 
     def emit(self, step: Step, corner: Corner) -> None:
         """Pass on a compensated move and the rows that lead round the corner at its end."""
@@ -74,7 +76,7 @@ class RowWriter:
                 along = arcs.plus(step.shift, step.first) if step.suspended else step.shift
                 row = replace(row, center=plane.moved_center(move, along))
         if row.center is not None or way > arcs.SAME_POINT_MM or plane.moves_elsewhere(move):
-            self.after.move(row)
+            self._stage.after.move(row)
         template = replace(step.corner_arc[0] if step.corner_arc else move, start=row.end, end=row.end)
         for vector in corner.vectors[1:]:
             template = self._join(template, step, corner.joint, vector)
@@ -98,7 +100,7 @@ class RowWriter:
         )  # fmt: skip
         u, v = plane.point(template.end)
         if hypot(target[0] - u, target[1] - v) > arcs.SAME_POINT_MM:
-            self.after.move(row)
+            self._stage.after.move(row)
         return replace(row, kind=template.kind)
 
 

@@ -11,9 +11,7 @@ from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Joint
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from polycnc.channel.path import Move
+    from polycnc.channel.path import Item, Move
     from polycnc.compensation.policies import Policy
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.offset import Corner, Edge
@@ -53,7 +51,7 @@ class Step:
         straight: Its vectors were left out, so it is a straight move.
         altered: A detour round an interference changed it.
         corner_arc: The block of G39 after it, and the direction on which the arc ends square.
-        after: What came after it, in order.
+        after: What came after it, in order: held items, and steps that a detour has left out.
     """
 
     move: Move
@@ -73,7 +71,7 @@ class Step:
     straight: bool = False
     altered: bool = False
     corner_arc: tuple[Move, Point | None] | None = None
-    after: list[Callable[[], None]] = field(default_factory=list)
+    after: list[Item | Step] = field(default_factory=list)
 
     def lead_to(self, following: Step) -> None:
         """Let the following step start where this one ends."""

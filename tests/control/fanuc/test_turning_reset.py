@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from polycnc.compensation import CutterCompensation
 from polycnc.control import registry
 from polycnc.program.program import Program
 from tests.control.fanuc.lathe import moves, run
@@ -88,7 +89,7 @@ def test_compensation_stays_modal_without_a_vector_or_ends(clr: int, code: str) 
     program = "T0101\nG42 G0 X20. Z2.\nG1 Z-10. F.2"
     result = after_reset(program, tools={1: {"radius": 2.0}}, parameters={"3402#6": clr})
     assert codes(result, "compensation") == [code]
-    assert result.channel.memory.compensation is None
+    assert result.channel.path.find(CutterCompensation) is None
 
 
 @pytest.mark.parametrize(("number", "start"), [("", 40.0), ("T0101", 44.0)])

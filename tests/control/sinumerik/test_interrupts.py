@@ -52,4 +52,4 @@ def test_reset_keeps_the_watch_for_inputs() -> None:
     session.run()
     channel = session.channel
     channel.control.reset(channel)
-    assert channel.head is channel.memory.watch
+    assert channel.path.head is channel.memory.watch

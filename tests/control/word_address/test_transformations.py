@@ -54,7 +54,7 @@ def test_a_reset_ends_the_mode_where_the_axes_stand(mode: str, machine: str, con
     )
     channel.control.reset(channel)
     assert channel.coordinates.machine == pytest.approx(before)
-    assert channel.table is channel.rows
+    assert not channel.path.stages
     assert channel.coordinates.transformation is None
 
 

@@ -59,15 +59,11 @@ def _engage(channel: Channel, words: Words, engage: Callable[[Channel, Words], N
     if channel.setup.switches.mode == "mdi" and memory.parameters.bit(5008, 4):
         raise words.fail("comp_in_mdi", channel.mode["compensation"])
     memory.d = memory.offset_active
-    corner = channel.head if isinstance(channel.head, turning_corners.TurningCorner) else None
     engage(channel, words)
-    if not memory.d:
+    stage = radius.active_compensation(channel)
+    if stage is not None and not memory.d:
         # Number 0 has no offset: start-up waits for another one.
-        memory.compensation.cancel()
-    if corner is not None and channel.head is not corner:
-        # A corner that waits for its second move stays in front of compensation.
-        corner.after = memory.compensation
-        channel.head = corner
+        stage.cancel()
 
 
 def cancel(channel: Channel, words: Words) -> None:
@@ -100,17 +96,16 @@ def _takes(channel: Channel, words: Words, *, starts: bool) -> bool:
 
 def hold_vector(channel: Channel, _words: Words) -> None:
     """G38: the block in front ends square on itself, and this block keeps that vector."""
-    stage = channel.memory.compensation
-    if stage is not None and stage.active:
+    stage = radius.active_compensation(channel)
+    if stage is not None:
         stage.hold_vector()
 
 
 def corner_arc(channel: Channel, words: Words) -> None:
     """G39 [I K]: an arc about the corner; no motion in its block."""
-    stage = channel.memory.compensation
-    if stage is None or not stage.active:
-        return
-    stage.corner_arc(radius.place_of_block(channel), _direction(channel, words))
+    stage = radius.active_compensation(channel)
+    if stage is not None:
+        stage.corner_arc(radius.place_of_block(channel), _direction(channel, words))
 
 
 def _direction(channel: Channel, words: Words) -> tuple[float, float] | None:
@@ -135,8 +130,8 @@ def plan_travel(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
     def run(channel: Channel, values: list[float]) -> None:
         before = channel.coordinates.position[:]
         step(channel, values)
-        stage = channel.memory.compensation
-        if stage is not None and stage.active and channel.coordinates.position == before:
+        stage = radius.active_compensation(channel)
+        if stage is not None and channel.coordinates.position == before:
             stage.end_square()
 
     return run
@@ -159,8 +154,8 @@ def plan_line_words(builder: Builder) -> Callable[[Channel, list[float]], object
     words = [(builder.slot(a), builder.length(a) if builder.has(a) else None) for a in letters]
 
     def force(channel: Channel, values: list[float]) -> None:
-        stage = channel.memory.compensation
-        if stage is not None and stage.active:
+        stage = radius.active_compensation(channel)
+        if stage is not None:
             direction = [0.0 if s is None else (c(values[s]) if c else values[s]) for s, c in words]
             stage.forced_vector((direction[0], direction[1]))
 

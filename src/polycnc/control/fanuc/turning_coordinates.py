@@ -10,7 +10,7 @@ from polycnc.control.fanuc.turning_corners import corner_waits
 from polycnc.control.fanuc.turning_tools import refresh
 from polycnc.control.word_address import coordinates, planes, settled
 from polycnc.control.word_address.path import PLANES
-from polycnc.control.word_address.radius import suspended
+from polycnc.control.word_address.radius import active_compensation, suspended
 from polycnc.geometry.frames import IDENTITY, about, rotation
 from polycnc.toolpath import Kind
 
@@ -142,8 +142,8 @@ def _refuse_rotation(channel: Channel, words: Words, code: str) -> None:
 
 def drop_vector(channel: Channel) -> None:
     """A command for which the tool goes to the uncompensated point and back (II.5.4.3)."""
-    stage = channel.memory.compensation
-    if stage is not None and stage.active:
+    stage = active_compensation(channel)
+    if stage is not None:
         stage.drop_vector()
 
 
@@ -166,7 +166,7 @@ def _plane_is_settled(channel: Channel) -> bool:
     """G17 to G19: as on every control; no corner waits for its next block, and no single cycle has words."""
     memory = channel.memory
     unchanged = memory.plane == channel.mode["plane"] and not memory.single_cycle
-    return channel.head is None and unchanged and settled.plane(channel)
+    return channel.path.head is None and unchanged and settled.plane(channel)
 
 
 def _length_is_settled(channel: Channel) -> bool:
@@ -203,7 +203,7 @@ def select_plane(channel: Channel, words: Words) -> None:
 
 def _refuse_corner(channel: Channel, words: Words, code: str) -> None:
     """A plane code behind a chamfer or corner R is an alarm, even if it names the same plane (II.4.7)."""
-    if channel.head is not None and corner_waits(channel):
+    if corner_waits(channel):
         drawing = channel.memory.parameters.bit(3453, 0)
         raise words.fail("drawing_increment" if drawing else "corner_no_move", code)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from polycnc.compensation import Plane
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
-    from polycnc.channel.path import Move, PathStage
+    from polycnc.channel.path import Move
     from polycnc.control.word_address.control import WordAddressControl
     from polycnc.control.word_address.plan import Builder
 
@@ -23,8 +23,9 @@ if TYPE_CHECKING:
 _CENTERS = "IJK"
 #: Angle between lines, degrees, up to which drawing dimensions find no intersection and put in no corner.
 LEAST_ANGLE_DEG = 1.0
+_COMMANDED = replace(FANUC_CORNERS, start_up_between=True)
 #: Corners of drawing dimensions: one block without motion may stand between the two moves.
-_DRAWN = CornerPolicy(idle_blocks=1, least_turn_deg=LEAST_ANGLE_DEG)
+_DRAWN = CornerPolicy(idle_blocks=1, least_turn_deg=LEAST_ANGLE_DEG, start_up_between=True)
 #: Moves that a figure of drawing dimensions is made of.
 _LINES = frozenset({Kind.RAPID, Kind.FEED, Kind.THREAD})
 
@@ -41,7 +42,7 @@ class Expected:
 class TurningCorner(CornerStage):
     """The corner stage of the lathe: it also checks that the next block is the one that the corner needs."""
 
-    def __init__(self, channel: Channel, after: PathStage) -> None:
+    def __init__(self, channel: Channel) -> None:
         control = channel.control
         u, v, w = PLANES[channel.mode["plane"]]
         codes = {
@@ -49,7 +50,7 @@ class TurningCorner(CornerStage):
             CornerViolation.RAPID: control.alarms["corner_no_move"],
             CornerViolation.TOO_SHORT: control.alarms["corner_too_short"],
         }
-        super().__init__(Plane(u, v, w, channel.coordinates.geometry), FANUC_CORNERS, codes, after)
+        super().__init__(Plane(u, v, w, channel.coordinates.geometry), _COMMANDED, codes)
         self._control: WordAddressControl = control
         self._codes = codes
         self._expected: Expected | None = None
@@ -66,7 +67,7 @@ class TurningCorner(CornerStage):
         self._expected, self._first = expected, True
 
     def move(self, move: Move) -> None:
-        """Take the next move; see `PathStage`."""
+        """Take the next move; see `Stage`."""
         expected = self._expected
         if self._is_drawn and self._held is not None and move.kind not in _LINES and self.plane.moves(move):
             raise AlarmError(self._control.alarms["drawing_increment"], line=move.line)
@@ -102,17 +103,14 @@ class TurningCorner(CornerStage):
 
 def corner_waits(channel: Channel) -> bool:
     """Whether a corner waits for its second move."""
-    return isinstance(channel.head, TurningCorner) and channel.head.waits
+    stage = channel.path.find(TurningCorner)
+    return stage is not None and stage.waits
 
 
 def corner_stage(channel: Channel) -> TurningCorner:
-    """The corner stage at the head of the path, put there when it is first needed."""
-    head = channel.head
-    if not isinstance(head, TurningCorner) or not head.waits:
-        after = head.after if isinstance(head, TurningCorner) else head or channel.table
-        head = TurningCorner(channel, after)
-        channel.put_stage(head)
-    return head
+    """The corner stage of the path: the one that waits for its second move, or a new one."""
+    stage = channel.path.find(TurningCorner)
+    return stage if stage is not None and stage.waits else channel.path.put(TurningCorner(channel))
 
 
 def plan_corner(builder: Builder) -> Callable[[Channel, list[float]], object] | None:

@@ -34,6 +34,7 @@ from polycnc.control.fanuc.turning_strokes import (
     uncompensated_cycle,
 )
 from polycnc.control.fanuc.turning_threads import CHAMFERS, lead_in_force, refuse_corners, start_angle
+from polycnc.control.word_address.radius import active_compensation
 from polycnc.cycles.contour import points, reversal, swapped, swapped_stroke
 from polycnc.cycles.threading import ThreadCuts, thread_passes
 from polycnc.cycles.turning_pattern import repeat_pattern as pattern_strokes
@@ -118,10 +119,11 @@ def end_of_shape(channel: Channel) -> None:
     start: list[float] = section.data["start"]
     if channel.memory.side and not section.data["compensated"]:
         raise channel.control.fail("shape_compensation_open", address="Q")
-    if not is_compensated(channel):
+    stage = active_compensation(channel)
+    if stage is None or not channel.memory.side:
         channel.straight(Kind.RAPID, start, nan)
         return
-    channel.memory.compensation.cancel()
+    stage.cancel()
     channel.straight(Kind.RAPID, start, nan)
     enter_compensation(channel)
 

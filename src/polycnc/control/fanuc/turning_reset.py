@@ -29,7 +29,7 @@ def reset(channel: Channel) -> None:
     cylinder.end_cylinder(channel)
     normal_line.end(channel)
     machine = c.machine
-    channel.head = None
+    channel.path.clear()
     before = channel.mode.codes
     fresh = channel.control.start_codes(channel)
     codes = {**fresh, **{group: before[group] for group in _KEPT}} if clears else dict(before)
@@ -57,7 +57,7 @@ def _clear_memory(channel: Channel, *, clears: bool) -> None:
     memory.locals = [None] * LOCALS
     memory.modal_calls = []
     memory.single_cycle, memory.grinding = {}, {}
-    memory.open_line = memory.shape = memory.compensation = None
+    memory.open_line = memory.shape = None
     # G41 or G42 that stays modal waits for the next offset number (II.5.4.1).
     memory.side = memory.engaged_side = {"G41": 1, "G42": -1}.get(channel.mode["compensation"], 0)
     memory.d = 0

@@ -16,7 +16,7 @@ from polycnc.compensation import CutterCompensation, Plane
 from polycnc.control.fanuc.code_calls import PROGRAM_M
 from polycnc.control.fanuc.turning_comp import SHAPE_KIND
 from polycnc.control.fanuc.turning_coordinates import plane_axes
-from polycnc.control.fanuc.turning_corners import TurningCorner
+from polycnc.control.fanuc.turning_corners import corner_waits
 from polycnc.control.fanuc.turning_tools import nose_radius, nose_tip
 from polycnc.control.word_address import interruption
 from polycnc.control.word_address.path import PLANES
@@ -124,9 +124,9 @@ def read_shape(channel: Channel, first: int, last: int) -> Shape:
     kept = _Kept(channel)
     channel.mode = channel.mode.with_code(GROUP, READING)
     channel.memory.shape, channel.memory.reading_shape = shape, True
-    channel.head = recorder
     try:
-        _run_blocks(channel, level, begin, end)
+        with channel.path.diverted(recorder):
+            _run_blocks(channel, level, begin, end)
     finally:
         kept.put_back(channel)
     shape.moves = [m for m in recorder.moves if m.kind is not Kind.DWELL and (m.center or m.start != m.end)]
@@ -143,8 +143,8 @@ def _run_blocks(channel: Channel, level: Level, begin: int, end: int) -> None:
         step = code.compile(code.lines[index], index)
         level.current, level.index = index, index + 1
         step(channel)
-        if channel.head is not None:
-            channel.head.block()
+        if channel.path.head is not None:
+            channel.path.head.block()
         if channel.level is not level or channel.finished or len(channel.stack) == 0:
             raise channel.control.fail("shape_command", address="P")
         if index == end:
@@ -155,11 +155,11 @@ def _run_blocks(channel: Channel, level: Level, begin: int, end: int) -> None:
 
 def refuse_open_end(channel: Channel) -> None:
     """The last block of a shape may not need the next one for its corner or its end (II.4.7, 4.9)."""
-    head, line = channel.head, channel.memory.open_line
+    line = channel.memory.open_line
     channel.memory.open_line = None
     if line is not None:
         raise channel.control.fail("drawing_increment", address="Q")
-    if isinstance(head, TurningCorner) and head.waits:
+    if corner_waits(channel):
         raise channel.control.fail("shape_ends_in_corner", address="Q")
 
 
@@ -168,7 +168,7 @@ class _Kept:
 
     def __init__(self, channel: Channel) -> None:
         c, memory, level = channel.coordinates, channel.memory, channel.level
-        self.mode, self.feed, self.head = channel.mode, channel.feed, channel.head
+        self.mode, self.feed = channel.mode, channel.feed
         self.position, self.programmed, self.pending = c.position, c.programmed, list(c.pending)
         self.level, self.current, self.index, self.data = level, level.current, level.index, dict(level.data)
         self.stack, self.finished, self.wait = list(channel.stack), channel.finished, channel.wait
@@ -176,7 +176,7 @@ class _Kept:
 
     def put_back(self, channel: Channel) -> None:
         c, level = channel.coordinates, self.level
-        channel.mode, channel.feed, channel.head = self.mode, self.feed, self.head
+        channel.mode, channel.feed = self.mode, self.feed
         c.position, c.programmed, c.pending = self.position, self.programmed, self.pending
         channel.stack[:] = self.stack
         channel.level = level
@@ -228,7 +228,8 @@ def _compensated(channel: Channel, moves: list[Move], plane: Plane) -> list[Move
     """The moves off the contour by the nose: start-up in the first one, square at the end (II.4.2.1)."""
     recorder = Recorder()
     codes = violation_codes(channel.control.alarms)
-    stage = CutterCompensation(plane, channel.control.compensation_policy(channel), codes, recorder)
+    stage = CutterCompensation(plane, channel.control.compensation_policy(channel), codes)
+    stage.after = recorder
     stage.engage(channel.memory.side, nose_radius(channel), nose_tip(channel))
     for move in moves:
         stage.move(replace(move))

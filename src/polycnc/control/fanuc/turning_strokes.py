@@ -5,7 +5,8 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.fanuc.turning_coordinates import drop_vector, plane_axes
+from polycnc.compensation import CutterCompensation
+from polycnc.control.fanuc.turning_coordinates import plane_axes
 from polycnc.control.fanuc.turning_threads import (
     OFF_THREAD,
     ON_CYCLE_THREAD,
@@ -16,7 +17,7 @@ from polycnc.control.fanuc.turning_threads import (
 )
 from polycnc.control.fanuc.turning_tools import nose_radius, nose_tip
 from polycnc.control.word_address.path import PLANES
-from polycnc.control.word_address.radius import suspended
+from polycnc.control.word_address.radius import active_compensation, suspended
 from polycnc.geometry import offset
 from polycnc.toolpath import Kind
 
@@ -97,10 +98,10 @@ def compensated_cycle(channel: Channel, strokes: Sequence[PlaneStroke]) -> None:
     The vector is zero at the start and at the end; the nose stays on the side of the material's outside, whatever
     G41 or G42 say.
     """
-    if not is_compensated(channel):
+    stage = active_compensation(channel)
+    if stage is None or not channel.memory.side:
         emit(channel, strokes)
         return
-    stage = channel.memory.compensation
     leave_compensation(channel)
     cut = offset.line(strokes[0].end, strokes[1].end)
     way = (strokes[2].end[0] - strokes[1].end[0], strokes[2].end[1] - strokes[1].end[1])
@@ -114,17 +115,19 @@ def compensated_cycle(channel: Channel, strokes: Sequence[PlaneStroke]) -> None:
 
 def is_compensated(channel: Channel) -> bool:
     """Whether nose radius compensation is at work."""
-    stage = channel.memory.compensation
-    return stage is not None and stage.active and bool(channel.memory.side)
+    return active_compensation(channel) is not None and bool(channel.memory.side)
 
 
 def leave_compensation(channel: Channel) -> None:
     """The tool stands on the programmed point and compensation is off, until `enter_compensation`."""
-    drop_vector(channel)
-    channel.memory.compensation.discard()
+    stage = active_compensation(channel)
+    if stage is not None:
+        stage.drop_vector()
+        stage.discard()
 
 
 def enter_compensation(channel: Channel) -> None:
     """The next move starts compensation up again."""
-    memory = channel.memory
-    memory.compensation.engage(memory.engaged_side, nose_radius(channel), nose_tip(channel))
+    stage = channel.path.find(CutterCompensation)
+    if stage is not None:
+        stage.engage(channel.memory.engaged_side, nose_radius(channel), nose_tip(channel))

@@ -122,7 +122,6 @@ class Sinumerik:
                 self.write_variable(channel, name, value)
         measuring.watch(channel)
         interrupts.watch(channel)
-        stages.relax(channel)
         init_programs.call(channel)
 
     def begin(self, channel: Channel) -> None:
@@ -227,8 +226,7 @@ class Sinumerik:
         for step in steps:
             step(channel, values)
         if channel.attention:  # as wherever moves pass stages, and in single block operation
-            if channel.head is not None:
-                stages.relax(channel)
+            channel.path.relax()
             if channel.single_block:
                 channel.memory.acted = acts
         for position in ends:

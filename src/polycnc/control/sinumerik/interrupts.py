@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.path import PassingStage
+from polycnc.channel.path import Rank, Stage
 from polycnc.channel.way import Way
 from polycnc.control.sinumerik import arguments, retraction, single_block
 from polycnc.language.sinumerik.calls import call_without_arguments, named_program
@@ -71,11 +71,13 @@ class Interrupted:
     resume_at: float | None = None
 
 
-class Watch(PassingStage):
-    """The first stage of the path while inputs may come. Other stages stand behind it."""
+class Watch(Stage):
+    """The first stage of the path while inputs may come."""
+
+    rank = Rank.INTERRUPTS
+    lasts = True
 
     def __init__(self, channel: Channel) -> None:
-        super().__init__(channel.table)
         self.came: set[int] = set()
         self.running: list[Interrupted] = []
         self._channel = channel
@@ -257,8 +259,7 @@ def watch(channel: Channel) -> None:
     """Let inputs interrupt from now on, if the setup has any."""
     memory: Memory = channel.memory
     if channel.setup.switches.interrupts:
-        memory.watch = Watch(channel)
-        channel.put_stage(memory.watch)
+        memory.watch = channel.path.put(Watch(channel))
 
 
 def running(channel: Channel) -> Interrupted | None:

@@ -11,7 +11,7 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.path import Move, PassingStage
+from polycnc.channel.path import Move, Rank, Stage
 from polycnc.channel.way import Way
 from polycnc.control.sinumerik.positions import shown
 from polycnc.language.sinumerik.values import Axis, Type
@@ -83,11 +83,13 @@ class Job:
         return None if place in self.came else place
 
 
-class Prober(PassingStage):
+class Prober(Stage):
     """The last stage of the path while the setup has probes."""
 
+    rank = Rank.PROBES
+    lasts = True
+
     def __init__(self, channel: Channel) -> None:
-        super().__init__(channel.table)
         self.jobs: list[Job] = []
         self.continuous: dict[int, Job] = {}
         self.stopped: list[float] | None = None
@@ -167,8 +169,7 @@ def watch(channel: Channel) -> None:
     """Follow the probes from now on, if the setup has any."""
     memory: Memory = channel.memory
     if channel.setup.switches.probe:
-        memory.prober = Prober(channel)
-        channel.table = memory.prober
+        memory.prober = channel.path.put(Prober(channel))
 
 
 # ---- words

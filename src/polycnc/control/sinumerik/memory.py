@@ -12,16 +12,14 @@ if TYPE_CHECKING:
     from collections import deque
     from collections.abc import Callable, Mapping
 
-    from polycnc.channel.path import PathStage
     from polycnc.channel.stack import Level
     from polycnc.control.sinumerik.frames import Frames
     from polycnc.control.sinumerik.interrupts import Assignment, Watch
     from polycnc.control.sinumerik.limits import Limit
     from polycnc.control.sinumerik.machine_data import MachineData
     from polycnc.control.sinumerik.measuring import Prober
-    from polycnc.control.sinumerik.protection import Guard, Protection
+    from polycnc.control.sinumerik.protection import Protection
     from polycnc.control.sinumerik.spindles import Spindles
-    from polycnc.control.sinumerik.stages import Stages
     from polycnc.control.sinumerik.tools import Tools
     from polycnc.geometry.frames import Vector
     from polycnc.language.sinumerik.interface import LanguageMemory
@@ -56,8 +54,6 @@ class Memory:
         machine_columns: Column of every axis by the name of its machine axis.
         transverse: Column of the axis that diameter programming is for, -1 for none.
         polar: Pole and polar coordinates.
-        stages: Corner and compensation stages of the active plane, once they were needed.
-        recorder: What catches the moves of a contour that a cycle reads; None while nothing is read.
         previous: Where the last path move came from: its start, centre and normal of an arc or None, and 1.0
             for counter-clockwise; None before the first.
         feed_mode: How F is meant, as the toolpath's feed modes.
@@ -81,8 +77,7 @@ class Memory:
         watch: The stage that interrupt routines begin from; None where the setup has no inputs.
         repos_mode: Point of the last REPOS (`$AC_REPOS_PATH_MODE`), 0 before.
         protection: Protection zones; None before the first.
-        guard: The last stage of the path while protection zones are active.
-        prober: The last stage of the path while the setup has touch probes.
+        prober: The stage that follows touch probes; None where the setup has none.
         measured: Measured work and machine position of an axis by number of the value and column.
         measured_from: Where the running measuring block began.
         triggered: $AC_MEA by probe.
@@ -101,8 +96,6 @@ class Memory:
     machine_columns: Mapping[str, int]
     transverse: int = -1
     polar: Polar = field(default_factory=Polar)
-    stages: Stages | None = None
-    recorder: PathStage | None = None
     previous: tuple[list[float], tuple[Vector, Vector] | None, float] | None = None
     feed_mode: str = "G94"
     modal_corner_feed: float = nan
@@ -125,7 +118,6 @@ class Memory:
     watch: Watch | None = None
     repos_mode: int = 0
     protection: Protection | None = None
-    guard: Guard | None = None
     prober: Prober | None = None
     measured: dict[tuple[int, int], tuple[float, float]] = field(default_factory=dict)
     measured_from: list[float] | None = None

@@ -94,7 +94,7 @@ class SinumerikPlainBlocks:
         """Nothing watches single blocks, holds moves back or follows a block, and the program has been opened."""
         c, code = channel.coordinates, channel.level.code
         return (
-            channel.head is None
+            channel.path.head is None
             and not channel.single_block
             and channel.stroke_zone is None
             and c.direct

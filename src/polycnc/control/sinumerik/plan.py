@@ -363,7 +363,7 @@ def _working_area(channel: Channel, values: Values) -> None:  # noqa: ARG001 - s
 
 
 def _constant_side(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
-    stages.suspend(channel, channel.memory.stages)
+    stages.suspend(channel)
 
 
 def _rules(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
@@ -389,7 +389,7 @@ def _feed_is_settled(channel: Channel) -> bool:
 
 def _contour_is_settled(channel: Channel) -> bool:
     """No compensation is active."""
-    return channel.memory.stages is None or not channel.memory.stages.cutter.active
+    return stages.active_cutter(channel) is None
 
 
 #: When functions of a group that are in force already change nothing.

@@ -12,9 +12,9 @@ from itertools import pairwise
 from math import inf, isnan, nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import PassingStage, Recorder
+from polycnc.channel.path import Rank, Recorder, Stage
 from polycnc.channel.way import Way
-from polycnc.control.sinumerik import arguments, limits, stages, tables
+from polycnc.control.sinumerik import arguments, limits, tables
 from polycnc.control.sinumerik.arguments import Arguments
 from polycnc.control.sinumerik.cycles.contour import sent_away, without_away
 from polycnc.geometry import arcs, zones
@@ -26,9 +26,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from polycnc.channel.channel import Channel
-    from polycnc.channel.path import Move, PathStage
+    from polycnc.channel.path import Move
     from polycnc.control.sinumerik.memory import Memory
-    from polycnc.control.sinumerik.stages import Stages
     from polycnc.geometry.arcs import Point
 
 #: Kinds of zones: of the machine (NPROTDEF) and of the channel (CPROTDEF), with the alarm for running into one.
@@ -75,9 +74,6 @@ class Definition:
     arguments: Arguments
     recorder: Recorder
     position: list[float]
-    table: PathStage
-    head: PathStage | None
-    stages: Stages | None
     feed: float
 
 
@@ -141,10 +137,9 @@ def begin(kind: str) -> Callable[[Channel, Arguments], None]:
             raise AlarmError("PC0009", text="FRAME")
         channel.flush()
         recorder, position = Recorder(), channel.coordinates.position
-        path = channel.table, channel.head, memory.stages
-        state.open = Definition(kind, args, recorder, position, *path, channel.feed)
-        memory.recorder, memory.limits, memory.stages = recorder, (), None
-        channel.table = channel.head = recorder
+        state.open = Definition(kind, args, recorder, position, channel.feed)
+        memory.limits = ()
+        channel.path.divert(recorder)
         channel.coordinates.arrive(sent_away(position, channel.coordinates.geometry))
         channel.feed = channel.feed if channel.feed > 0.0 else 1.0
 
@@ -174,8 +169,7 @@ def leave(channel: Channel) -> None:
         return
     channel.flush()
     memory.protection.open = None
-    memory.recorder, memory.stages = None, definition.stages
-    channel.table, channel.head = definition.table, definition.head
+    channel.path.resume(definition.recorder)
     channel.coordinates.arrive(definition.position)
     if isnan(definition.feed) and channel.feed == 1.0:
         channel.feed = nan
@@ -269,26 +263,20 @@ def switch(kind: str) -> Callable[[Channel, Arguments], None]:
 
 
 def _guard(channel: Channel, wanted: bool) -> None:
-    """Put the guard at the end of the path, or take it away."""
-    memory: Memory = channel.memory
-    if wanted is (memory.guard is not None):
-        return
-    if wanted:
-        memory.guard = Guard(channel, channel.table)
-        channel.table = memory.guard
-    else:
-        assert memory.guard is not None
-        channel.table, memory.guard = memory.guard.after, None
-    if memory.stages is not None:
-        memory.stages.cutter.after = channel.table
-    stages.relax(channel)
+    """Put the guard into the path, or take it out."""
+    if not wanted:
+        channel.path.take(Guard)
+    elif channel.path.find(Guard) is None:
+        channel.path.put(Guard(channel))
 
 
-class Guard(PassingStage):
-    """The last stage of the path while zones are active: refuses moves into them."""
+class Guard(Stage):
+    """Refuses moves into zones while any are active."""
 
-    def __init__(self, channel: Channel, after: PathStage) -> None:
-        super().__init__(after)
+    rank = Rank.ZONES
+    lasts = True
+
+    def __init__(self, channel: Channel) -> None:
         self._channel = channel
 
     def move(self, move: Move) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik import frames, gcodes, limits, pace, protection, stages, tables
+from polycnc.control.sinumerik import frames, gcodes, limits, pace, protection, tables
 from polycnc.control.sinumerik.memory import Polar
 from polycnc.language.sinumerik.nc_frame import NEUTRAL
 
@@ -79,8 +79,8 @@ def reset(channel: Channel) -> None:
     channel.mode = channel.modes.mode(start_codes(channel, memory.data) | _kept_codes(channel, memory.data))
     stop_spindles(memory)
     _reset_edge(channel, memory.data)
-    memory.previous = memory.recorder = None
-    stages.clear(channel)
+    memory.previous = None
+    channel.path.clear()
     memory.polar = Polar()
     memory.sections.clear()
     memory.open_corners.clear()

@@ -110,7 +110,6 @@ def approach(draft: Draft) -> Step | None:
 
     def run(channel: Channel, values: Values) -> None:
         memory: Memory = channel.memory
-        chain = stages.stages(channel)
         start = channel.coordinates.position
         end = target(channel, terms, values)
         compensation = stages.SIDES.get(draft.mode["side"], 0)
@@ -124,12 +123,10 @@ def approach(draft: Draft) -> Step | None:
         place = _place(channel, Kind.RAPID if is_rapid else Kind.FEED, nan if is_rapid else before)
         feed = motion.checked_feed(channel.feed)
         touch = end if names_point else None
-        chain.approach.waiting = Approach(
-            shape, place, start, touch, height, feed, words.infeed_speed(draft, values)
-        )
+        waiting = Approach(shape, place, start, touch, height, feed, words.infeed_speed(draft, values))
         memory.previous = None
         channel.coordinates.arrive(end)
-        chain.into_path(channel)
+        stages.approach(channel).waiting = waiting
 
     return run
 
@@ -148,8 +145,8 @@ def retract(draft: Draft) -> Step | None:
 
     def run(channel: Channel, values: Values) -> None:
         memory: Memory = channel.memory
-        chain = stages.stages(channel)
-        compensation = chain.side if chain.cutter.active else 0
+        cutter = stages.active_cutter(channel)
+        compensation = cutter.side if cutter is not None else 0
         direction = circles.last_direction(channel, columns, axes)
         if draft.mode["smooth_approach_side"] == "G143":
             raise not_supported("G143")

@@ -9,12 +9,11 @@ from dataclasses import dataclass
 from math import isnan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import Move, PassingStage
+from polycnc.channel.path import Move, Rank, Stage
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.path import PathStage
     from polycnc.compensation.plane import Plane
     from polycnc.geometry.arcs import Point
 
@@ -86,11 +85,12 @@ class Approach:
     infeed: float
 
 
-class SmoothApproach(PassingStage):
-    """The stage that holds an approach back; it stands before corners and compensation."""
+class SmoothApproach(Stage):
+    """The stage that holds an approach back."""
 
-    def __init__(self, plane: Plane, after: PathStage) -> None:
-        super().__init__(after)
+    rank = Rank.APPROACH
+
+    def __init__(self, plane: Plane) -> None:
         self.plane = plane
         self.waiting: Approach | None = None
 

@@ -9,15 +9,15 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import PassingStage
+from polycnc.channel.path import Rank, Stage
 from polycnc.geometry.nurbs import nurbs_chords
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from polycnc.channel.path import Move, PathStage
-    from polycnc.toolpath import Event
+    from polycnc.channel.path import Move, PlacedEvent
+    from polycnc.compensation.plane import Plane
 
 TOLERANCE_MM = 0.001
 #: A weight of zero takes a control point away; the curve's formula needs a number.
@@ -25,19 +25,21 @@ _LEAST_WEIGHT = 1e-6
 _SAME = 1e-9
 
 
-class SplineStage(PassingStage):
+class SplineStage(Stage):
     """Collects moves to control points: their parameters are weight, degree and knot distance.
 
     Attributes:
-        after: The next stage.
+        plane: The plane in which the spline began; another one ends it.
         columns: Axes of the spline group; the others move evenly from point to point. None for all.
     """
 
-    def __init__(self, after: PathStage) -> None:
-        super().__init__(after)
+    rank = Rank.SPLINE
+
+    def __init__(self, plane: Plane) -> None:
+        self.plane = plane
         self.columns: frozenset[int] | None = None
         self._held: list[Move] = []
-        self._events: list[tuple[int, Event, int, int, int]] = []
+        self._events: list[tuple[int, PlacedEvent]] = []
 
     @property
     def active(self) -> bool:
@@ -52,12 +54,12 @@ class SplineStage(PassingStage):
             self._finish()
             self.after.move(move)
 
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
+    def event(self, event: PlacedEvent) -> None:
         """An event keeps its place behind the control point of its block."""
         if self._held:
-            self._events.append((len(self._held), event, program, line, context))
+            self._events.append((len(self._held), event))
         else:
-            self.after.event(event, program, line, context)
+            self.after.event(event)
 
     def flush(self) -> None:
         """The spline ends with the last control point that is known."""
@@ -72,13 +74,13 @@ class SplineStage(PassingStage):
         done, before = 0, held[0].start
         for place, point in self._curve(held):
             while events and events[0][0] <= min(done, place):
-                self.after.event(*events.pop(0)[1:])
+                self.after.event(events.pop(0)[1])
             move = held[min(place, len(held) - 1)]
             if any(abs(a - b) > _SAME for a, b in zip(before, point, strict=True)):
                 self.after.move(replace(move, start=before, end=point, parameters=()))
             before, done = point, place + 1
-        for event in events:
-            self.after.event(*event[1:])
+        for _, event in events:
+            self.after.event(event)
 
     def _curve(self, held: list[Move]) -> Iterator[tuple[int, list[float]]]:
         """Points of the curve behind its first one, each with the block that it counts to."""

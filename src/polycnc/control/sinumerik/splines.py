@@ -103,9 +103,7 @@ def control_points(draft: Draft) -> Step | None:
         if degree is not None and order not in DEGREES:
             raise WordAlarm("12560", degree, text="SD")
         end, feed = goal(channel, values), motion.checked_feed(channel.feed)
-        chain = stages.stages(channel)
-        chain.spline.columns = channel.memory.values.get((GROUP, ()))
-        chain.into_path(channel, collects=True)
+        stages.spline(channel).columns = channel.memory.values.get((GROUP, ()))
         motion.special(channel, Kind.SPLINE, end, feed, [pull, order, _parameter(values, distance)])
 
     return run

@@ -1,6 +1,7 @@
-"""The stages of the path: chamfers and roundings first, then cutter radius compensation.
+"""The stages of the plane: splines, smooth approach, chamfers and roundings, cutter radius compensation.
 
-A stage stands in the channel's path only while it has something to do. Source: Fundamentals (CHF, CHR, RND,
+A stage stands in the channel's path only while it has something to do: what commands it puts it there, and behind
+every block `Path.relax` takes out those that are through. Source: Fundamentals (CHF, CHR, RND,
 RNDM, G40 to G42, NORM, KONT, G450, G451).
 """
 
@@ -29,7 +30,6 @@ from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.channel.path import PathStage
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.geometry.arcs import Point
 
@@ -48,6 +48,9 @@ VIOLATIONS = {
 }
 CORNER_VIOLATIONS: dict[CornerViolation, str] = {}
 SIDES = {"G41": 1, "G42": -1}
+#: Stages that work in one plane.
+PlaneStage = SplineStage | SmoothApproach | CornerStage | CutterCompensation
+OF_PLANE: tuple[type[PlaneStage], ...] = (SplineStage, SmoothApproach, CornerStage, CutterCompensation)
 #: From the nose centre to the programmed tip along the plane's second and first axis (G18: X and Z), by
 #: $TC_DP2.
 TIPS = {
@@ -62,85 +65,57 @@ TIPS = {
 }
 
 
-class Stages:
-    """The chain of one channel in one plane."""
-
-    def __init__(self, channel: Channel, plane: str) -> None:
-        self.plane_code = plane
-        self.plane = Plane(*PLANES[plane], channel.coordinates.geometry)
-        self.cutter = CutterCompensation(self.plane, SINUMERIK_NORM_G450, VIOLATIONS, channel.table)
-        self.corner = CornerStage(self.plane, SINUMERIK_CORNERS, CORNER_VIOLATIONS, self.cutter)
-        self.approach = SmoothApproach(self.plane, self.corner)
-        self.spline = SplineStage(self.approach)
-        self.side = 0
-        suspend(channel, self)
-
-    @property
-    def active(self) -> bool:
-        """Whether moves are held back or changed."""
-        return any(stage.active for stage in (self.spline, self.approach, self.corner, self.cutter))
-
-    def into_path(self, channel: Channel, *, collects: bool = False) -> None:
-        """Put the stages that have something to do in front of the path, and no others.
-
-        While a cycle reads a contour, its moves end in the recorder. `collects`: control points of a spline come.
-        """
-        chain: tuple[SplineStage | SmoothApproach | CornerStage | CutterCompensation, ...]
-        chain = (self.spline, self.approach, self.corner, self.cutter)
-        memory: Memory = channel.memory
-        rest = memory.recorder or last(channel)
-        head = self.spline if collects else next((stage for stage in chain if stage.active), rest)
-        _begin_path(channel, head)
+def cutter(channel: Channel) -> CutterCompensation:
+    """The stage of cutter radius compensation, in the path."""
+    change_plane(channel)
+    stage = channel.path.find(CutterCompensation)
+    if stage is None:
+        stage = channel.path.put(CutterCompensation(plane(channel), SINUMERIK_NORM_G450, VIOLATIONS))
+        suspend(channel)
+    return stage
 
 
-def last(channel: Channel) -> PathStage | None:
-    """The last stage of the path, where it is more than writing rows (protection zones, probes)."""
-    return channel.table if channel.table is not channel.rows else None
+def active_cutter(channel: Channel) -> CutterCompensation | None:
+    """The stage that compensates; None while none does."""
+    stage = channel.path.find(CutterCompensation)
+    return stage if stage is not None and stage.active else None
 
 
-def _begin_path(channel: Channel, head: PathStage | None) -> None:
-    """The watch for interrupts stands in front of everything, but while a contour is only read."""
-    memory: Memory = channel.memory
-    watch = memory.watch if memory.recorder is None else None
-    if watch is not None:
-        watch.after = head or channel.table
-    channel.head = watch or head
+def corner(channel: Channel) -> CornerStage:
+    """The stage of chamfers and roundings, in the path."""
+    change_plane(channel)
+    stage = channel.path.find(CornerStage)
+    return stage or channel.path.put(CornerStage(plane(channel), SINUMERIK_CORNERS, CORNER_VIOLATIONS))
 
 
-def clear(channel: Channel) -> None:
-    """Take all stages out of the path but those that watch it (reset)."""
-    memory: Memory = channel.memory
-    memory.stages = None
-    _begin_path(channel, last(channel))
+def approach(channel: Channel) -> SmoothApproach:
+    """The stage that holds a smooth approach back, in the path."""
+    change_plane(channel)
+    return channel.path.find(SmoothApproach) or channel.path.put(SmoothApproach(plane(channel)))
 
 
-def stages(channel: Channel) -> Stages:
-    """The stages for the active plane."""
-    memory: Memory = channel.memory
-    plane = channel.mode["plane"]
-    if memory.stages is None or memory.stages.plane_code != plane:
-        if memory.stages is not None and memory.stages.active:
-            channel.flush()
-        memory.stages = Stages(channel, plane)
-    return memory.stages
+def spline(channel: Channel) -> SplineStage:
+    """The stage that collects control points, in the path."""
+    change_plane(channel)
+    return channel.path.find(SplineStage) or channel.path.put(SplineStage(plane(channel)))
 
 
-def relax(channel: Channel) -> None:
-    """Take stages that have nothing more to do out of the path."""
-    memory: Memory = channel.memory
-    if memory.stages is not None:
-        memory.stages.into_path(channel)
-    else:
-        _begin_path(channel, memory.recorder or last(channel))
+def plane(channel: Channel) -> Plane:
+    """The active plane."""
+    return Plane(*PLANES[channel.mode["plane"]], channel.coordinates.geometry)
 
 
 def change_plane(channel: Channel) -> None:
-    """G17 to G19; alarm 10757 while compensation is active."""
-    memory: Memory = channel.memory
-    if memory.stages is not None and memory.stages.plane_code != channel.mode["plane"]:
-        if memory.stages.cutter.active:
-            raise AlarmError("10757")
-        stages(channel)
+    """G17 to G19: stages of another plane end what they hold; alarm 10757 while compensation is active."""
+    first = PLANES[channel.mode["plane"]][0]
+    found = [stage for kind in OF_PLANE if (stage := channel.path.find(kind)) and stage.plane.u != first]
+    if not found:
+        return
+    if active_cutter(channel) is not None:
+        raise AlarmError("10757")
+    if any(stage.active for stage in found):
+        channel.flush()
+    channel.path.take(*OF_PLANE)
 
 
 def insert(channel: Channel, shape: Shape, size: float, feed: float = nan) -> None:
@@ -148,18 +123,14 @@ def insert(channel: Channel, shape: Shape, size: float, feed: float = nan) -> No
     if size < 0.0:
         raise AlarmError("16500")
     if size > 0.0:
-        chain = stages(channel)
-        chain.corner.insert(shape, size, feed)
-        chain.into_path(channel)
+        corner(channel).insert(shape, size, feed)
 
 
 def round_all(channel: Channel, radius: float, feed: float = nan) -> None:
     """RNDM: round every corner from now on; 0 ends it."""
     if radius < 0.0:
         raise AlarmError("16500")
-    chain = stages(channel)
-    chain.corner.round_all(radius, feed)
-    chain.into_path(channel)
+    corner(channel).round_all(radius, feed)
 
 
 # ---- cutter radius compensation
@@ -182,39 +153,37 @@ def select_side(channel: Channel) -> None:
     memory: Memory = channel.memory
     if memory.tools.edge is None:
         raise AlarmError("10750")
-    chain = stages(channel)
-    side = SIDES[channel.mode["side"]]
-    chain.side = side
-    chain.cutter.policy = policy(channel)
-    chain.cutter.engage(side, radius(memory), tip(channel))
-    chain.into_path(channel)
+    stage = cutter(channel)
+    stage.policy = policy(channel)
+    stage.engage(SIDES[channel.mode["side"]], radius(memory), tip(channel))
 
 
 def leave_contour(channel: Channel) -> None:
     """G40: the next move leads back to the programmed path."""
-    memory: Memory = channel.memory
-    if memory.stages is not None and memory.stages.cutter.active:
-        memory.stages.cutter.cancel()
+    stage = active_cutter(channel)
+    if stage is not None:
+        stage.cancel()
 
 
 def changed_radius(channel: Channel) -> None:
     """Another edge, TOFFR or OFFN while compensation is active."""
-    memory: Memory = channel.memory
-    if memory.stages is not None and memory.stages.cutter.active and channel.mode["side"] != "G40":
-        memory.stages.cutter.change_radius(radius(memory), tip(channel))
+    stage = active_cutter(channel)
+    if stage is not None and channel.mode["side"] != "G40":
+        stage.change_radius(radius(channel.memory), tip(channel))
 
 
 def changed_rules(channel: Channel) -> None:
     """NORM, KONT, G450, G451 while compensation is active."""
-    memory: Memory = channel.memory
-    if memory.stages is not None and memory.stages.cutter.active:
-        memory.stages.cutter.policy = policy(channel)
+    stage = active_cutter(channel)
+    if stage is not None:
+        stage.policy = policy(channel)
 
 
-def suspend(channel: Channel, chain: Stages | None) -> None:
+def suspend(channel: Channel) -> None:
     """CUTCONON, CUTCONOF: blocks keep the vector of the last one, or are compensated themselves again."""
-    if chain is not None:
-        chain.cutter.suspended = channel.mode["constant_side"] == "CUTCONON"
+    stage = channel.path.find(CutterCompensation)
+    if stage is not None:
+        stage.suspended = channel.mode["constant_side"] == "CUTCONON"
 
 
 def radius(memory: Memory) -> float:

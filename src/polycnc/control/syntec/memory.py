@@ -21,11 +21,8 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.syntec.interrupts import Interrupt
     from polycnc.control.syntec.oscillation import Oscillation
-    from polycnc.control.syntec.quiet import QuietStage
     from polycnc.control.syntec.skips import SkipGroup
-    from polycnc.control.syntec.spatial_stage import SpatialStage
     from polycnc.control.syntec.spindles import SpindlePair
-    from polycnc.control.word_address.normal_stage import NormalStage
 
 #: Names of single bits of the PLC interface that setups may give, and the functions that read them.
 BIT_FAMILIES = "IOAC"
@@ -57,10 +54,8 @@ class SyntecMemory(Memory):
         skip_groups: Groups of G31.10 that G31.11 will move; the step behind the last one.
         oscillation: The axis that oscillates; `precise` by G81.2, `was_precise` that there was one, on `precise_axis`.
         virtual_axes: Axes that move with a name that is none of theirs.
-        spatial: Stage of G41.2 in the path; `corner_way` P of G10 L450.
-        quiet: Stage of quiet mode (#1500) in the path.
+        corner_way: P of G10 L450.
         borrow_tries: How often the running G52.2 has waited.
-        normal: Stage of G41.1 in the path.
         diameters: Axes switched by G10.9: programmed in diameter or not.
     """
 
@@ -105,14 +100,11 @@ class SyntecMemory(Memory):
         self.skip_groups_end = 0
         self.diameters: dict[int, bool] = {}
         self.borrow_tries = 0
-        self.quiet: QuietStage | None = None
-        self.spatial: SpatialStage | None = None
         self.corner_way = 0
         self.virtual_axes: dict[str, list[int]] = {}
         self.oscillation: Oscillation | None = None
         self.precise = self.was_precise = False
         self.precise_axis = 0
-        self.normal: NormalStage | None = None
         self.colour = 0
         self.print_file = ""
         self.functions: dict[str, Callable[..., Value]] = functions.bound(self)

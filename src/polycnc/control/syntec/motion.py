@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.syntec import planes
 from polycnc.control.word_address import auxiliary, path, radius, settled, skip
 from polycnc.control.word_address.arcs import emit_arc
+from polycnc.control.word_address.normal_stage import NormalStage
 from polycnc.control.word_address.path import CENTER_WORDS, PLANES
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
@@ -124,7 +125,7 @@ def _frame_is_settled(channel: Channel) -> bool:
 
 def _length_is_settled(channel: Channel) -> bool:
     """G49: as on every control; no direction is led to the path either."""
-    return channel.memory.normal is None and settled.length(channel)
+    return channel.path.find(NormalStage) is None and settled.length(channel)
 
 
 def _has_no_modal_call(channel: Channel) -> bool:

@@ -71,8 +71,7 @@ def start(channel: Channel, words: Words) -> None:
         turns_first,
     )
     channel.flush()
-    memory.normal = NormalStage(direction, channel.head or channel.table)
-    channel.put_stage(memory.normal)
+    channel.path.put(NormalStage(direction))
 
 
 def _rotary_axis(channel: Channel, words: Words, code: str) -> tuple[int, int, float]:
@@ -131,12 +130,10 @@ def cancel(channel: Channel, _words: Words) -> None:
 
 def end(channel: Channel) -> None:
     """Take the stage out of the path."""
-    stage: NormalStage | None = channel.memory.normal
-    if stage is None:
+    if channel.path.find(NormalStage) is None:
         return
     channel.flush()
-    channel.memory.normal = None
-    channel.take_stage(stage)
+    channel.path.take(NormalStage)
     channel.coordinates.arrive(channel.coordinates.position[:])
 
 
@@ -150,7 +147,7 @@ def check_block(builder: Builder) -> None:
             raise fail(FORBIDDEN[row.code], address=row.code)
         if row.code == "G5" and builder.has("P"):
             raise fail("normal_smoothing", address=row.code)
-    stage: NormalStage | None = builder.channel.memory.normal
+    stage = builder.channel.path.find(NormalStage)
     if stage is None:
         return
     name = builder.channel.axes[stage.direction.axis]

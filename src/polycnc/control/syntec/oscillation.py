@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.axis_names import CODES, axis_of_code
 from polycnc.control.syntec.parameters import decimals, has_option
+from polycnc.control.word_address.normal_stage import NormalStage
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -156,7 +157,7 @@ def check_frame(memory: SyntecMemory) -> None:
 
 
 def _refuse_transformations(channel: Channel, words: Words, code: str) -> None:
-    if channel.coordinates.transformation is not None or channel.memory.normal is not None:
+    if channel.coordinates.transformation is not None or channel.path.find(NormalStage) is not None:
         raise words.fail("oscillation_kinematics", code)
 
 

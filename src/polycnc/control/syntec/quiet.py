@@ -4,40 +4,30 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.channel.path import Sink
+
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.channel.path import Move, PathStage
-    from polycnc.toolpath import Event
+    from polycnc.channel.path import PlacedEvent
 
 
-class QuietStage:
+class QuietStage(Sink):
     """Swallows moves; events go on."""
 
-    def __init__(self, after: PathStage) -> None:
-        self.after = after
-
-    def move(self, move: Move) -> None:
-        """Drop a move."""
-
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
+    def event(self, event: PlacedEvent) -> None:
         """Pass an event on."""
-        self.after.event(event, program, line, context)
+        self.after.event(event)
 
-    def block(self) -> None:
-        """Nothing waits here."""
 
-    def flush(self) -> None:
-        """Nothing is held back here."""
+def is_quiet(channel: Channel) -> bool:
+    """Whether quiet mode is on."""
+    return channel.path.find(QuietStage) is not None
 
 
 def switch_quiet(channel: Channel, *, on: bool) -> None:
     """Put the stage into the path, or take it out; the next move then starts from where the axes really are."""
-    memory = channel.memory
-    stage: QuietStage | None = memory.quiet
     channel.flush()
-    if on and stage is None:
-        memory.quiet = QuietStage(channel.head or channel.table)
-        channel.put_stage(memory.quiet)
-    elif stage is not None and not on:
-        memory.quiet = None
-        channel.take_stage(stage)
+    if not on:
+        channel.path.take(QuietStage)
+    elif not is_quiet(channel):
+        channel.path.put(QuietStage())

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec.spatial_stage import ARC_FIRST, INTERSECTION, Corners, SpatialStage
+from polycnc.control.syntec.spatial_stage import ARC_FIRST, INTERSECTION, Corners, Posture, SpatialStage
+from polycnc.control.word_address.normal_stage import NormalStage
 from polycnc.machine.kinematics import Kinematics
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.plan import Builder
     from polycnc.control.word_address.words import Words
-    from polycnc.geometry.frames import Vector
 
 SIDES = {"G41.2": 1, "G42.2": -1, "G41.6": 1, "G42.6": -1}
 BY_VECTOR = ("G41.6", "G42.6")
@@ -34,7 +34,7 @@ FORBIDDEN = {
 
 def is_on(channel: Channel) -> bool:
     """Whether the compensation is active."""
-    return channel.memory.spatial is not None
+    return channel.path.find(SpatialStage) is not None
 
 
 def start(channel: Channel, words: Words) -> None:
@@ -43,37 +43,22 @@ def start(channel: Channel, words: Words) -> None:
     number = words.integer("D")
     memory.d = memory.d if number is None else number
     radius: float = channel.control.radius_value(channel, memory.d)
-    if memory.spatial is not None:
-        memory.spatial.change(SIDES[code], radius)
+    stage = channel.path.find(SpatialStage)
+    if stage is not None:
+        stage.change(SIDES[code], radius)
         return
     if memory.side:
         raise words.fail("spatial_mixed", code)
     _check_start(channel, words, code)
-    kinematics, axes, offsets = (
-        Kinematics.of(channel.machine),
-        channel.axes,
-        list(channel.coordinates.offsets),
-    )
-
-    def tool_at(position: list[float]) -> Vector:
-        angles = {name: value + zero for name, value, zero in zip(axes, position, offsets, strict=True)}
-        return kinematics.tool_on_work(angles)
-
+    c = channel.coordinates
+    posture = Posture(Kinematics.of(channel.machine), channel.axes, tuple(c.offsets))
     channel.flush()
-    memory.spatial = SpatialStage(
-        channel.coordinates.geometry,
-        tool_at,
-        radius,
-        SIDES[code],
-        _corners(channel),
-        channel.head or channel.table,
-    )
-    channel.put_stage(memory.spatial)
+    channel.path.put(SpatialStage(c.geometry, posture, radius, SIDES[code], _corners(channel)))
 
 
 def _check_start(channel: Channel, words: Words, code: str) -> None:
     memory, mode = channel.memory, channel.mode
-    if memory.normal is not None:
+    if channel.path.find(NormalStage) is not None:
         raise words.fail("normal_spatial", code)
     if mode["length"] not in TIP_CODES:
         raise words.fail("spatial_without_tip", code)
@@ -100,12 +85,10 @@ def choose_corners(channel: Channel, words: Words) -> None:
 
 def end(channel: Channel) -> None:
     """G40: the last block ends square on itself, the next one leads back."""
-    stage: SpatialStage | None = channel.memory.spatial
-    if stage is None:
+    if not is_on(channel):
         return
     channel.flush()
-    channel.memory.spatial = None
-    channel.take_stage(stage)
+    channel.path.take(SpatialStage)
 
 
 def check_block(builder: Builder) -> None:

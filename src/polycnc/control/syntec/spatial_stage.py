@@ -10,16 +10,14 @@ from dataclasses import dataclass, replace
 from math import acos, degrees, sqrt
 from typing import TYPE_CHECKING
 
+from polycnc.channel.path import Move, PlacedEvent, Rank, Stage
 from polycnc.geometry.vectors import cross, dot, times
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from polycnc.channel.path import Move, PathStage
     from polycnc.geometry.frames import Vector
-    from polycnc.toolpath import Event
+    from polycnc.machine.kinematics import Kinematics
 
 PARALLEL = 1e-6
 #: So many blocks in a row may not be computable once the first one has moved.
@@ -42,6 +40,20 @@ class Corners:
         return self.way == ARC_FIRST and angle_deg <= self.most_arc_deg
 
 
+@dataclass(frozen=True, slots=True)
+class Posture:
+    """How the tool stands on the work: kinematics, names of the axes, and their zero offsets (mm, degrees)."""
+
+    kinematics: Kinematics
+    axes: tuple[str, ...]
+    offsets: tuple[float, ...]
+
+    def tool_at(self, position: list[float]) -> Vector:
+        """Direction of the tool against the work at a position."""
+        places = zip(self.axes, position, self.offsets, strict=True)
+        return self.kinematics.tool_on_work({name: value + zero for name, value, zero in places})
+
+
 @dataclass(slots=True)
 class _Held:
     """A block whose end waits for the next one: its move, the normal at its end, the tool there, its direction."""
@@ -52,64 +64,65 @@ class _Held:
     tangent: Vector
 
 
-class SpatialStage:
+class SpatialStage(Stage):
     """Offsets straight moves of the tip.
 
     Args:
         geometry: Columns of X, Y, Z.
-        tool_at: Direction of the tool against the work at a position.
+        posture: How the tool stands on the work.
         radius: Offset, mm; negative changes sides.
         side: 1 left, -1 right.
         corners: What happens at outer corners.
-        after: Next stage.
     """
+
+    rank = Rank.SPATIAL_COMPENSATION
 
     def __init__(
         self,
         geometry: tuple[int, int, int],
-        tool_at: Callable[[list[float]], Vector],
+        posture: Posture,
         radius: float,
         side: int,
         corners: Corners,
-        after: PathStage,
     ) -> None:
-        self.after = after
         self.side = side
         self._geometry = geometry
-        self._tool_at = tool_at
+        self._posture = posture
         self._radius = radius
         self._corners = corners
         self._held: _Held | None = None
         self._shift: Vector = (0.0, 0.0, 0.0)
         self._at: list[float] | None = None
         self._idle = 0
-        self._queue: list[Callable[[], None]] = []
+        self._queue: list[Move | PlacedEvent] = []
 
     def move(self, move: Move) -> None:
         """Take the next move."""
         start, end = self._point(move.start), self._point(move.end)
         way = (end[0] - start[0], end[1] - start[1], end[2] - start[2])
-        tool = self._tool_at(move.end)
+        tool = self._posture.tool_at(move.end)
         tangent = _unit(way)
         normal = None if tangent is None else self._normal(tool, tangent)
         if tangent is None or normal is None:
-            self._later(lambda: self._emit(move, self._shift))
+            self._later(move)
             return
         self._idle = 0
         self._join(tangent)
         self._held = _Held(move, normal, tool, tangent)
 
-    def _later(self, act: Callable[[], None]) -> None:
-        """Do something behind the block that waits, or at once where none does."""
+    def _later(self, item: Move | PlacedEvent) -> None:
+        """Pass something on behind the block that waits, or at once where none does."""
+        self._queue.append(item)
         if self._held is None:
-            act()
-        else:
-            self._queue.append(act)
+            self._run_queue()
 
     def _run_queue(self) -> None:
         queue, self._queue = self._queue, []
-        for act in queue:
-            act()
+        for item in queue:
+            if isinstance(item, Move):
+                self._emit(item, self._shift)
+            else:
+                self.after.event(item)
 
     def _join(self, tangent: Vector) -> None:
         """End the block that waits at its corner with one of this direction."""
@@ -180,9 +193,9 @@ class SpatialStage:
         self._release()
         self.side, self._radius = side, radius
 
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
+    def event(self, event: PlacedEvent) -> None:
         """Take an event; it comes behind the block that waits."""
-        self._later(lambda: self.after.event(event, program, line, context))
+        self._later(event)
 
     def block(self) -> None:
         """Count blocks that cannot be computed; a computable one has set the count to zero."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 from polycnc.control.syntec.coordinates import renew_preset_frame
 from polycnc.control.syntec.oscillation import check_frame
 from polycnc.control.syntec.parameters import WORK_SYSTEMS
-from polycnc.control.syntec.quiet import switch_quiet
+from polycnc.control.syntec.quiet import is_quiet, switch_quiet
 from polycnc.control.syntec.variables import Read, Registry, Space, Write, stored
 from polycnc.control.word_address.coordinates import refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL
@@ -149,6 +149,10 @@ def _word(index: int) -> tuple[Read, Write]:
         memory.words[index] = to_long(value)
 
     return read, write
+
+
+def _quiet(memory: SyntecMemory, _offset: int) -> int:
+    return int(is_quiet(memory.channel))
 
 
 def _set_quiet(memory: SyntecMemory, _offset: int, value: Value) -> None:
@@ -293,7 +297,7 @@ SYSTEM_VARIABLES = Registry(
         Space(1401, 1403, _center),
         _by_axis(1411, _position),
         _by_axis(1441, _machine_skip),
-        Space(1500, 1500, lambda memory, _offset: int(memory.quiet is not None), _set_quiet),
+        Space(1500, 1500, _quiet, _set_quiet),
         *(Space(index, index, *_word(index)) for index in (1502, 1504, 1510, 1517, 1610, 1612, 1614, 1820)),
         Space(1506, 1506, _constant(0)),
         Space(1508, 1508, _channel_number),

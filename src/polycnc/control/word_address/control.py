@@ -374,8 +374,8 @@ class WordAddressControl:
         mode, memory, c = channel.mode, channel.memory, channel.coordinates
         diameters = sum(1 << i for i in range(len(channel.axes)) if self.is_diameter(channel, i))
         polar, unrolled = memory.polar, memory.cylinder
-        # A last stage that turns positions into those of the axes leaves nothing to transform.
-        transformation = c.transformation or memory.parallel if channel.table is channel.rows else None
+        # A path that leads the axes leaves nothing to transform.
+        transformation = None if channel.path.leads_axes else c.transformation or memory.parallel
         return Context(
             plane=mode["plane"],
             inch=self.is_inch(mode),

@@ -43,14 +43,14 @@ def compensate_right(channel: Channel, words: Words) -> None:
 
 
 def _force(channel: Channel, words: Words) -> None:
-    direction = _direction(channel, words)
-    if direction is not None:
-        channel.memory.compensation.forced_vector(direction)
+    direction, stage = _direction(channel, words), radius.active_compensation(channel)
+    if direction is not None and stage is not None:
+        stage.forced_vector(direction)
 
 
 def _stage(channel: Channel, words: Words, code: str) -> CutterCompensation:
-    stage: CutterCompensation | None = channel.memory.compensation
-    if stage is None or not stage.active or not channel.memory.side:
+    stage = radius.active_compensation(channel)
+    if stage is None or not channel.memory.side:
         raise words.fail("comp_format", code)
     return stage
 

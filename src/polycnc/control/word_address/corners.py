@@ -10,7 +10,6 @@ from polycnc.control.word_address.path import PLANES
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.channel.path import PathStage
     from polycnc.control.word_address.codes import Step
     from polycnc.control.word_address.plan import Builder
 
@@ -44,29 +43,21 @@ def plan_corner_words(builder: Builder) -> Step | None:
 
 
 def corner_stage(channel: Channel) -> CornerStage:
-    """The channel's corner stage for the active plane, in front of everything else in the path."""
-    memory = channel.memory
+    """The channel's corner stage for the active plane, put into its path when it is first needed."""
     u, v, w = PLANES[channel.mode["plane"]]
-    stage: CornerStage | None = memory.corners
-    if stage is not None and (stage.plane.u, stage.plane.v) == (u, v) and channel.head is stage:
+    stage = channel.path.find(CornerStage)
+    if stage is not None and (stage.plane.u, stage.plane.v) == (u, v):
         return stage
-    if stage is not None and channel.head is stage:
+    if stage is not None:
         stage.flush()
-        channel.head = stage.after
     alarms = channel.control.alarms
     codes = {violation: alarms[mistake] for violation, mistake in MISTAKES.items()}
     plane = Plane(u, v, w, channel.coordinates.geometry)
-    memory.corners = stage = CornerStage(plane, FANUC_CORNERS, codes, channel.head or channel.table)
-    channel.put_stage(stage)
-    return stage
+    return channel.path.put(CornerStage(plane, FANUC_CORNERS, codes))
 
 
-def put_behind_corners(channel: Channel, stage: PathStage) -> None:
-    """Put a stage into the path as the first one behind the corners."""
-    corners: CornerStage | None = channel.memory.corners
-    if corners is not None and channel.head is corners:
-        if corners.active:
-            raise channel.control.fail("corner_no_move")
-        corners.after = stage
-    else:
-        channel.put_stage(stage)
+def refuse_start_up(channel: Channel) -> None:
+    """Compensation may not start up between the two moves of a corner, but where the control's corners let it."""
+    corners = channel.path.find(CornerStage)
+    if corners is not None and corners.active and not corners.policy.start_up_between:
+        raise channel.control.fail("corner_no_move")

@@ -11,6 +11,7 @@ from math import pi
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.path import PLANES
+from polycnc.control.word_address.radius import active_compensation
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -70,7 +71,7 @@ def cylinder(channel: Channel, words: Words) -> None:
     memory.cylinder = Cylinder(axis, radius * pi / 180.0, unrolled_geometry(channel, axis))
     c.transform(memory.cylinder, memory.cylinder.geometry)
     channel.mode = channel.mode.with_code(GROUP, "G7.1")
-    memory.compensation = None
+    _forget_compensation(channel)
     channel.context_changed()
 
 
@@ -102,7 +103,8 @@ def end_cylinder(channel: Channel) -> None:
     if memory.cylinder is None:
         return
     channel.flush()
-    memory.compensation = memory.cylinder = None
+    _forget_compensation(channel)
+    memory.cylinder = None
     channel.mode = channel.mode.with_code(GROUP, "")
     channel.coordinates.transform(None, memory.geometry_before)
     channel.context_changed()
@@ -121,3 +123,10 @@ def unroll(channel: Channel, axis: int, angle_deg: float) -> float:
     """A word of the unrolled axis as a length on the surface, mm."""
     active: Cylinder | None = channel.memory.cylinder
     return angle_deg * active.mm_per_degree if active is not None and active.axis == axis else angle_deg
+
+
+def _forget_compensation(channel: Channel) -> None:
+    """A vector of the other plane means nothing on this one."""
+    stage = active_compensation(channel)
+    if stage is not None:
+        stage.discard()

@@ -8,15 +8,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import PassingStage
-from polycnc.control.word_address.last_stage import put_last, remove_last
+from polycnc.channel.path import Rank, Stage
 from polycnc.geometry import arcs
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.channel.path import Move, PathStage
+    from polycnc.channel.path import Move
     from polycnc.control.word_address.words import Words
 
 #: How far the chords of a sine curve may leave it, mm.
@@ -59,27 +58,30 @@ def switch(channel: Channel, words: Words) -> None:
     end(channel)
     if standing:
         memory.hypothetical = c.transformation = Standing(standing, c.geometry)
-        put_last(channel, StandingStage(memory.hypothetical, channel.rows))
+        channel.path.put(StandingStage(memory.hypothetical))
 
 
 def end(channel: Channel) -> None:
     """Every axis moves again (also at reset)."""
     if channel.memory.hypothetical is None:
         return
-    remove_last(channel)
+    channel.flush()
+    channel.path.take(StandingStage)
     channel.memory.hypothetical = None
     channel.coordinates.transform(None)
 
 
-class StandingStage(PassingStage):
-    """The last stage of the path while axes are hypothetical."""
+class StandingStage(Stage):
+    """Leads the axes while some are hypothetical."""
 
-    def __init__(self, standing: Standing, after: PathStage) -> None:
-        super().__init__(after)
+    rank = Rank.AXES
+    lasts = True
+
+    def __init__(self, standing: Standing) -> None:
         self._standing = standing
 
     def move(self, move: Move) -> None:
-        """Take the next move; see `PathStage`."""
+        """Take the next move; see `Stage`."""
         u, v, w = self._plane(move)
         if move.kind in ARC_KINDS and {u, v} & set(self._standing.axes):
             self._chords(move, (u, v))

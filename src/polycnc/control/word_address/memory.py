@@ -10,14 +10,11 @@ from polycnc.toolpath.context import NO_OVERLAP
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.compensation import CutterCompensation
-    from polycnc.compensation.corner import CornerStage
     from polycnc.control.word_address.cylinder import Cylinder
     from polycnc.control.word_address.drilling import CycleData
     from polycnc.control.word_address.hypothetical_axis import Standing
     from polycnc.control.word_address.interruption import Interruptions
     from polycnc.control.word_address.macro_calls import ModalCall
-    from polycnc.control.word_address.normal_stage import NormalStage
     from polycnc.control.word_address.nurbs import Curve
     from polycnc.control.word_address.planes import ParallelAxes
     from polycnc.control.word_address.polar_interpolation import PolarPlane
@@ -101,8 +98,6 @@ class Memory:
         armed_tapping: What M29 found, until the tapping cycle that it is meant for.
         h: Number of the active length offset; `d` of the radius offset.
         side: Side that G41/G42 ask for: 1, -1, 0 off.
-        compensation: The stage that compensates, once it was needed.
-        corners: The stage that chamfers and rounds corners, once it was needed.
         waited: Seconds that the clocks which a program reads (#3001) have counted.
         cycle_data: What the active drilling cycle remembers.
         intermediate: Intermediate point of the last G28/G30 (programmed coordinates), for G29.
@@ -112,7 +107,6 @@ class Memory:
         cancelled_overrides: Overrides that the program has switched off; `tapping` while a tapping cycle works.
         overlap: How the stroke of a drilling cycle meets the next one (`toolpath.context`).
         hypothetical: Axes that stand while the path moves them (G07).
-        normal_line: The stage that keeps a rotary axis square to the path.
         plane_before: Plane code that the end of one of them brings back; `geometry_before` its axes.
     """
 
@@ -146,8 +140,6 @@ class Memory:
         self.d = 0
         self.side = 0
         self.engaged_side = 0
-        self.compensation: CutterCompensation | None = None
-        self.corners: CornerStage | None = None
         self.contour_control = False
         self.exact_stop_block = False
         self.modal_calls: list[ModalCall] = []
@@ -171,7 +163,6 @@ class Memory:
         self.tapping = False
         self.overlap = NO_OVERLAP
         self.hypothetical: Standing | None = None
-        self.normal_line: NormalStage | None = None
         self.plane_before = "G17"
         self.geometry_before = channel.coordinates.geometry
         self._count = count

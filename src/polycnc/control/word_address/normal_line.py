@@ -11,7 +11,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.last_stage import put_last, remove_last
 from polycnc.control.word_address.normal_stage import CUTS, SAME_DEG, Direction, NormalStage
 from polycnc.control.word_address.path import PLANES
 from polycnc.toolpath import Kind
@@ -74,8 +73,7 @@ def start(channel: Channel, words: Words) -> None:
         turn_feed=turn_feed or None,
         follows=CUTS | {Kind.RAPID},
     )
-    memory.normal_line = NormalStage(direction, channel.rows, preset=numbers.preset)
-    put_last(channel, memory.normal_line)
+    channel.path.put(NormalStage(direction, preset=numbers.preset))
 
 
 def cancel(channel: Channel, _words: Words) -> None:
@@ -85,11 +83,11 @@ def cancel(channel: Channel, _words: Words) -> None:
 
 def end(channel: Channel) -> None:
     """Take the stage out of the path (also at reset)."""
-    stage: NormalStage | None = channel.memory.normal_line
+    stage = channel.path.find(NormalStage)
     if stage is None:
         return
-    remove_last(channel)
-    channel.memory.normal_line = None
+    channel.flush()
+    channel.path.take(NormalStage)
     if stage.at is not None:
         position = channel.coordinates.position[:]
         position[stage.direction.axis] = stage.at
@@ -100,7 +98,7 @@ def check_block(builder: Builder) -> None:
     """Refuse another plane, and G92 of the axis."""
     if builder.before.codes.get(GROUP, OFF) == OFF:
         return
-    stage: NormalStage | None = builder.channel.memory.normal_line
+    stage = builder.channel.path.find(NormalStage)
     if stage is None:
         return
     if PLANES[builder.mode["plane"]][:2] != stage.direction.places:

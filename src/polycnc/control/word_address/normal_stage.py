@@ -10,13 +10,13 @@ from dataclasses import dataclass, replace
 from math import atan2, degrees, hypot, inf
 from typing import TYPE_CHECKING
 
+from polycnc.channel.path import Rank, Stage
 from polycnc.geometry import arcs
 from polycnc.toolpath.kinds import CCW_KINDS, Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.path import Move, PathStage
+    from polycnc.channel.path import Move, PlacedEvent
     from polycnc.geometry.arcs import Point
-    from polycnc.toolpath import Event
 
 CUTS = frozenset((Kind.FEED, Kind.CW, Kind.CCW, Kind.HELIX_CW, Kind.HELIX_CCW))
 SAME_DEG = 1e-9
@@ -113,14 +113,15 @@ class _Way:
         return position
 
 
-class NormalStage:
+class NormalStage(Stage):
     """Turns the rotary axis; positions that it changes are changed in place, so the channel knows them too."""
 
-    def __init__(self, direction: Direction, after: PathStage, *, preset: str = "") -> None:
+    rank = Rank.NORMAL
+
+    def __init__(self, direction: Direction, *, preset: str = "") -> None:
         self.direction = direction
         #: The code that would set the axis' position, which the control refuses.
         self.preset = preset
-        self.after = after
         self._held: Move | None = None
         self._patience = 0
         #: Where the axis stands behind the last move.
@@ -195,10 +196,10 @@ class NormalStage:
         if held is not None:
             self.after.move(held)
 
-    def event(self, event: Event, program: int, line: int, context: int) -> None:
+    def event(self, event: PlacedEvent) -> None:
         """Take an event: a rapid down waits no longer."""
         self.flush_own()
-        self.after.event(event, program, line, context)
+        self.after.event(event)
 
     def block(self) -> None:
         """A block without a cut has passed."""

@@ -39,18 +39,11 @@ class PlainBlocks:
 
     def ready(self, channel: Channel) -> bool:
         """Single blocks are watched; forbidden zones, unrolled surfaces and held moves are the interpreter's."""
-        if channel.single_block or channel.stroke_zone is not None or channel.table is not channel.rows:
+        if channel.single_block or channel.stroke_zone is not None or not channel.path.is_idle:
             return False
         if channel.coordinates.transformation is not None or holds_an_axis(channel):
             return False
-        if not channel.coordinates.direct and not _keeps_circles(channel):
-            return False
-        stage = channel.head
-        while stage is not None and stage is not channel.table:
-            if getattr(stage, "active", True):
-                return False
-            stage = stage.after
-        return True
+        return channel.coordinates.direct or _keeps_circles(channel)
 
     def generation(self, channel: Channel) -> Hashable:
         """Changes when plans are forgotten, and with the conditions on which recipes rest."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from polycnc.compensation import CutterCompensation
 from polycnc.control.word_address import cylinder
 from polycnc.control.word_address.path import PLANES
 
@@ -42,7 +43,8 @@ def choose_axes(channel: Channel, geometry: tuple[int, int, int]) -> None:
 def select_plane(channel: Channel, words: Words) -> None:
     """G17 to G19: another plane than that of an active radius compensation is an alarm."""
     memory, code = channel.memory, channel.mode["plane"]
-    if memory.side and (memory.compensation.plane.u, memory.compensation.plane.v) != PLANES[code][:2]:
+    stage = channel.path.find(CutterCompensation)
+    if memory.side and stage is not None and (stage.plane.u, stage.plane.v) != PLANES[code][:2]:
         raise words.fail("comp_plane", code)
     lay_axes(channel, words)
 

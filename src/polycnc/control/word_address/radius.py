@@ -80,8 +80,8 @@ def cancel_compensation(channel: Channel, words: Words, *, takes_wall: bool = Tr
         words: Words of the block; I J K give the wall behind the last point.
         takes_wall: Whether I J K count.
     """
-    stage = channel.memory.compensation
-    if stage is None or not stage.active:
+    stage = active_compensation(channel)
+    if stage is None:
         return
     _refuse_arc(channel, words)
     channel.memory.side = channel.memory.engaged_side = 0
@@ -104,8 +104,8 @@ def plan_radius_number(builder: Builder) -> Step:
     def change(channel: Channel, values: list[float]) -> None:
         memory = channel.memory
         memory.d = int(values[slot])
-        stage = memory.compensation
-        if stage is not None and stage.active and memory.side:
+        stage = active_compensation(channel)
+        if stage is not None and memory.side:
             stage.change_radius(channel.control.radius_value(channel, memory.d))
 
     return change
@@ -115,8 +115,8 @@ def plan_radius_number(builder: Builder) -> Step:
 def suspended(channel: Channel) -> Iterator[None]:
     """Motion without compensation in between: the vector vanishes, and the next plane motion starts up again."""
     memory = channel.memory
-    stage: CutterCompensation | None = memory.compensation
-    if stage is None or not stage.active:
+    stage = active_compensation(channel)
+    if stage is None:
         yield
         return
     stage.drop_vector()
@@ -135,24 +135,27 @@ def side_on_display(channel: Channel) -> int:
     return -side if mirrors_plane(channel.coordinates.programming, plane) else side
 
 
+def active_compensation(channel: Channel) -> CutterCompensation | None:
+    """The stage of the path that compensates; None while none does."""
+    stage = channel.path.find(CutterCompensation)
+    return stage if stage is not None and stage.active else None
+
+
 def compensation_stage(channel: Channel) -> CutterCompensation:
     """The channel's compensation stage, put into its path when it is first needed."""
-    memory = channel.memory
     u, v, w = PLANES[channel.mode["plane"]]
     geometry = channel.coordinates.geometry
     if geometry[u] < 0 or geometry[v] < 0:
         raise channel.control.fail("plane")
-    stage: CutterCompensation | None = memory.compensation
+    stage = channel.path.find(CutterCompensation)
     if stage is not None and stage.active:
         return stage
     if stage is not None:
         stage.flush()
     policy = channel.control.compensation_policy(channel)
     plane = Plane(u, v, w, geometry)
-    stage = CutterCompensation(plane, policy, violation_codes(channel.control.alarms), channel.table)
-    memory.compensation = stage
-    corners.put_behind_corners(channel, stage)
-    return stage
+    corners.refuse_start_up(channel)
+    return channel.path.put(CutterCompensation(plane, policy, violation_codes(channel.control.alarms)))
 
 
 def place_of_block(channel: Channel) -> Move:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 #: What a reset brings back to its state at power-on. Offsets, common variables, shifts of work coordinate systems,
 #: the tool, S and the direction of the spindle stay.
 CLEARED = (
-    "locals", "wcs", "length_offset", "h", "d", "side", "engaged_side", "compensation", "corners", "modal_calls",
+    "locals", "wcs", "length_offset", "h", "d", "side", "engaged_side", "modal_calls",
     "cycle_data", "intermediate", "interruptions", "armed_tapping", "exact_stop_block", "contour_control",
     "single_cycle", "grinding", "open_line", "shape", "reading_shape", "zone", "stack",
     "mid_point", "tilt", "rotates_work", "scale_factors", "modal_longs", "modal_doubles", "skip_groups",
@@ -39,7 +39,7 @@ def reset(channel: Channel) -> None:
     frames = memory.frames
     frames.scale = frames.mirror = frames.rotation = IDENTITY
     frames.mirrored = {}
-    channel.head = None
+    channel.path.clear()
     channel.mode = channel.modes.mode(channel.control.start_codes(channel))
     channel.coordinates.set_programming(frames.product(), frames.shift)
     channel.coordinates.pending = [0.0] * len(channel.axes)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.coordinates import zero_offsets
+from polycnc.control.word_address.radius import active_compensation
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -38,8 +39,7 @@ def work_offset(channel: Channel) -> bool:
 
 def compensation(channel: Channel) -> bool:
     """G40: no compensation is to be led back from."""
-    stage = channel.memory.compensation
-    return stage is None or not stage.active
+    return active_compensation(channel) is None
 
 
 def frame(channel: Channel) -> bool:

@@ -299,8 +299,8 @@ class Scanner:
             return
         program, context = channel.level.program_number, channel.context_number()
         channel.toolpath.chunk.extend(first, end, program, context, self._views)
-        if channel.head is not None:
-            channel.rows.end = position  # the moves have gone past a stage that had nothing to do
+        if channel.path.head is not None:
+            channel.path.table.end = position  # the moves have gone past a stage that had nothing to do
 
     def _take_state(self, channel: Channel) -> None:
         """Where the blocks have left the channel."""

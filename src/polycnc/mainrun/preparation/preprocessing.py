@@ -186,7 +186,7 @@ class Preprocessing:
     def is_bare(self) -> bool:
         """Whether nothing of what a waiting program does next is prepared, nor read ahead for compensation."""
         done = all(isinstance(item, BlockEnd) for item in self.items)
-        return done and not self.finished and self.channel.head is None
+        return done and not self.finished and self.channel.path.head is None
 
     def intervene(self, program: Program) -> None:
         """Blocks that were typed in come before what the waiting program does next, of which nothing is prepared."""
@@ -259,7 +259,7 @@ class Preprocessing:
             self._end_waits()
             self._close_blocks()
             self.finished = True
-        elif channel.head is None:
+        elif channel.path.head is None:
             self._close_blocks()
         if wait is not None and wait.reason not in PASSING and (wait.reason != "stop" or self._stopped):
             self.waiting = wait

@@ -23,11 +23,10 @@ if TYPE_CHECKING:
     from collections.abc import Container, Generator, Iterator
 
     from polycnc.channel.channel import Channel
-    from polycnc.channel.path import Move, PathStage
+    from polycnc.channel.path import Move
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
     from polycnc.control.sinumerik.memory import Memory
-    from polycnc.control.sinumerik.stages import Stages
     from polycnc.geometry.arcs import Point
 
 #: Before a contour is read the tool is thought this far away, mm: so the first block always is a move, and an axis
@@ -52,18 +51,11 @@ class _State:
     position: list[float]
     feed: float
     saved: Any
-    table: PathStage
-    head: PathStage | None
-    stages: Stages | None
     previous: Any
 
     def restore(self, channel: Channel) -> None:
         """Put everything back."""
         memory: Memory = channel.memory
-        memory.recorder = None
-        memory.stages = self.stages
-        channel.table = self.table
-        channel.head = self.head
         channel.control.restore(channel, self.saved)
         channel.coordinates.arrive(self.position)
         channel.feed = self.feed
@@ -136,21 +128,16 @@ def read(moves: Moves, name: str) -> Generator[None, None, Contour]:
         channel.coordinates.position.copy(),
         channel.feed,
         channel.control.save(channel),
-        channel.table,
-        channel.head,
-        memory.stages,
         memory.previous,
     )
     recorder = Recorder()
     _call(channel, _place(channel, name))
     channel.coordinates.arrive(sent_away(state.position, moves.columns[:2]))
     channel.feed = channel.feed if channel.feed > 0.0 else 1.0
-    memory.stages = None
-    memory.recorder = recorder
-    channel.table = recorder
-    channel.head = recorder
+    channel.path.divert(recorder)
     yield
     channel.flush()
+    channel.path.resume(recorder)
     state.restore(channel)
     if len(recorder.moves) < 2:
         raise AlarmError("61605")
