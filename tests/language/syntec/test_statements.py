@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from polycnc.channel.intervention import NOTHING_BACK
-from polycnc.language.syntec.executable import IsoProgram, MacroProgram, executable
+from polycnc.language.syntec.executable import IsoProgram, MacroProgram, executable, iso_grammar
 from polycnc.language.syntec.values import VACANT
 from polycnc.messages import AlarmError
 from polycnc.program import Program
@@ -16,7 +16,7 @@ class Recorder:
     """Stands for a channel: runs steps and notes the blocks of words."""
 
     def __init__(self, text: str, *, macro: bool = True) -> None:
-        self.code = executable(Program("TEST", text.split("\n")), macro=macro)
+        self.code = executable(Program("TEST", text.split("\n")), iso_grammar(), macro=macro)
         self.blocks: list[tuple[tuple[str, ...], list[float]]] = []
         self.memory: Any = SimpleNamespace(locals={}, functions={})
         self.memory.variable = lambda index: self.memory.locals.get(index, VACANT)

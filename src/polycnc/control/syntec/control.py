@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cached_property
 from math import hypot, inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -36,7 +37,7 @@ from polycnc.control.word_address.numbers import Convert, NumberRules, length_co
 from polycnc.control.word_address.overrides import in_tapping_mode
 from polycnc.control.word_address.polar_interpolation import is_length
 from polycnc.geometry.frames import IDENTITY
-from polycnc.language.syntec import executable
+from polycnc.language.syntec import executable, iso_grammar
 from polycnc.language.syntec.blocks import TypedBlock
 from polycnc.messages import AlarmError
 from polycnc.program import Form
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.words import Words
     from polycnc.geometry.arcs import Point
     from polycnc.language.bulk import Condition
+    from polycnc.language.word_address import Grammar
     from polycnc.machine.motion_settings import MotionSettings
     from polycnc.program import Program
     from polycnc.toolpath import Context
@@ -81,9 +83,14 @@ class SyntecMill(WordAddressControl):
 
     # ---- programs ----------------------------------------------------------------------------------------
 
+    @cached_property
+    def grammar(self) -> Grammar:
+        """How ISO files are written."""
+        return iso_grammar()
+
     def compile(self, program: Program) -> Executable:
         """Make a program ready to run: macro language where its file says so."""
-        return executable(program, macro=program.form is Form.MACRO)
+        return executable(program, self.grammar, macro=program.form is Form.MACRO)
 
     def plain_blocks(self, _channel: Channel) -> SyntecPlainBlocks:
         """What a scanner must know of plain blocks."""

@@ -4,7 +4,7 @@
 `expressions` are compiled with the `functions` and `values` of the language.
 """
 
-from polycnc.language.syntec.executable import IsoProgram, MacroProgram, executable
+from polycnc.language.syntec.executable import IsoProgram, MacroProgram, executable, iso_grammar
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value
 
-__all__ = ["VACANT", "IsoProgram", "MacroProgram", "Text", "Vacant", "Value", "executable"]
+__all__ = ["VACANT", "IsoProgram", "MacroProgram", "Text", "Vacant", "Value", "executable", "iso_grammar"]

@@ -11,7 +11,8 @@ import re
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from polycnc.language.syntec.expressions import ARITHMETIC_RANK, BINARY, Reader, evaluator
+from polycnc.language.expressions.code import sequence
+from polycnc.language.syntec.expressions import ABOVE_COMPARISONS, OPERATORS, Reader
 from polycnc.language.syntec.tokens import Token, fault
 from polycnc.language.syntec.values import DOMAIN, VACANT, Text, storable
 from polycnc.language.word_address.words import WordBlock, code_key, word_key
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
+    from polycnc.language.expressions.code import Code
     from polycnc.language.syntec.expressions import Evaluate
 
 WRONG_SUFFIX = "COR-034"
@@ -120,9 +122,9 @@ class BlockReader(Reader):
     def block(self) -> Step:
         """The words up to the end of the block, which stays unread."""
         keys: list[tuple[str, bool]] = []
-        sources: list[str] = []
+        codes: list[Code] = []
         literal_words: list[tuple[str, float]] = []
-        while not self.at_end() and not (keys and self.next.first and self.next.text != ","):
+        while not self.at_end() and not (keys and self.token.first and self.token.text != ","):
             address = self.address()
             literal = self._literal_word(address)
             if literal is not None:
@@ -130,20 +132,20 @@ class BlockReader(Reader):
                 keys.append((key if value is None else address, value is None))
                 if value is not None:
                     literal_words.append((key, value))
-                    sources.append(self._literal(_typed(key, value)))
+                    codes.append(self.lift(_typed(key, value)))
                 continue
             keys.append((address, False))
-            sources.append(self.expression(ARITHMETIC_RANK))
-        literals = self.take_literals()
-        if len(literal_words) == len(sources):
+            codes.append(self.expression(ABOVE_COMPARISONS))
+        if len(literal_words) == len(codes):
+            self.forget_literals()
             numbers = iter(literal_words)
             signature = tuple(key if fixed else next(numbers)[0] for key, fixed in keys)
             return WordBlock(signature, [value for _, value in literal_words])
-        return TypedBlock(keys, evaluator(f"({''.join(source + ',' for source in sources)})", literals))
+        return TypedBlock(keys, self.evaluator(sequence(codes)))
 
     def at_end(self) -> bool:
         """Whether nothing more of the statement comes."""
-        return self.next.kind == "end" or (self.next.kind == "symbol" and self.next.text == ";")
+        return self.token.kind == "end" or (self.token.kind == "symbol" and self.token.text == ";")
 
     def address(self) -> str:
         """The address of the next word: `X`, `X1` (with `=`), `,R`."""
@@ -155,28 +157,28 @@ class BlockReader(Reader):
             return "," + letter.text
         if token.kind != "letter":
             raise fault(token)
-        if self.next.kind == "number" and self.next.text.isdigit():
-            equals = self.tokens[self.at + 1]
+        if self.token.kind == "number" and self.token.text.isdigit():
+            equals = self.tokens[self.place + 1]
             if equals.kind == "symbol" and equals.text == "=":
                 if token.text in NEVER_INDEXED:
                     raise fault(equals)
                 index = self.take().text
                 self.take()
                 return token.text + index
-        elif self.next.text == "=" and token.text not in NEVER_INDEXED:
+        elif self.token.text == "=" and token.text not in NEVER_INDEXED:
             self.take()
         return token.text
 
     def _literal_word(self, address: str) -> tuple[str, float | None] | None:
         """Key and value of a word with a plain number, None as value for a code; None for an expression."""
-        at = self.at
+        at = self.place
         sign = ""
-        if self.next.kind == "symbol" and self.next.text in ("-", "+"):
+        if self.token.kind == "symbol" and self.token.text in ("-", "+"):
             sign = self.take().text
-        token = self.next
-        following = self.tokens[self.at + 1] if token.kind == "number" else token
+        token = self.token
+        following = self.tokens[self.place + 1] if token.kind == "number" else token
         if token.kind != "number" or token.text[:2] in ("0x", "0X") or self._goes_on(following):
-            self.at = at
+            self.place = at
             return None
         self.take()
         if len(token.text) > MAX_DIGITS:
@@ -191,7 +193,7 @@ class BlockReader(Reader):
         """Whether an operator makes a number part of an expression."""
         if token.kind not in ("symbol", "name") or (token.first and token.text == "/"):
             return False
-        return token.text in BINARY and BINARY[token.text][0] <= ARITHMETIC_RANK
+        return token.text in OPERATORS and OPERATORS[token.text].power > ABOVE_COMPARISONS
 
 
 def _word_key(address: str, number: str) -> str:

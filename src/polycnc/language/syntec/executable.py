@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.snapshot import unchanging
 from polycnc.channel.steps import several
+from polycnc.language.syntec.expressions import syntec_shapes
 from polycnc.language.syntec.layout import NO_SEQUENCE
 from polycnc.language.syntec.statements import StatementReader
 from polycnc.language.syntec.tokens import tokenize
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from polycnc.channel.steps import Step
+    from polycnc.language.expressions.shapes import Shapes
     from polycnc.program import Program
 
 NO_LINE = "COR-018"
@@ -34,12 +36,13 @@ class MacroProgram:
 
     Args:
         program: The text.
+        shapes: Compiled code of the control.
     """
 
-    def __init__(self, program: Program) -> None:
+    def __init__(self, program: Program, shapes: Shapes) -> None:
         self.program = program
         tokens = tokenize(program.lines, macro=True, first_line=program.first_line)
-        self._layout = StatementReader(tokens).read()
+        self._layout = StatementReader(tokens, shapes).read()
         self.steps: Sequence[Step | None] = self._layout.steps
         lines = self._layout.lines
         #: The line of the file at which a step's statement begins. Asked for every row, so it is the list's method.
@@ -115,7 +118,7 @@ class IsoProgram(WordAddressProgram):
         if head:
             line = " " * head.end() + line[head.end() :]
         tokens = tokenize([line], macro=False, first_line=self.line(index))
-        steps = StatementReader(tokens, macro=False).read().steps
+        steps = StatementReader(tokens, self.grammar.shapes, macro=False).read().steps
         if len(steps) <= 1:
             return steps[0] if steps else empty_block
         return several(steps)
@@ -138,20 +141,22 @@ class IsoProgram(WordAddressProgram):
 
 
 #: Mistakes in ISO blocks that the shared lexer can find by itself.
-GRAMMAR = Grammar(
-    alarms={
-        "no_sequence": NO_SEQUENCE,
-        "block_too_long": "COM-005",
-        "too_many_digits": "COM-003",
-        "minus": "COM-003",
-    },
-    max_digits=18,
-)
+_ALARMS = {
+    "no_sequence": NO_SEQUENCE,
+    "block_too_long": "COM-005",
+    "too_many_digits": "COM-003",
+    "minus": "COM-003",
+}
 
 
-def executable(program: Program, *, macro: bool) -> MacroProgram | IsoProgram:
+def iso_grammar() -> Grammar:
+    """How a control's ISO files are written."""
+    return Grammar(_ALARMS, max_digits=18, shapes=syntec_shapes())
+
+
+def executable(program: Program, grammar: Grammar, *, macro: bool) -> MacroProgram | IsoProgram:
     """A program ready to run."""
-    return MacroProgram(program) if macro else IsoProgram(program, GRAMMAR)
+    return MacroProgram(program, grammar.shapes) if macro else IsoProgram(program, grammar)
 
 
 def _in_file(program: Program, line: int, index: int) -> int:

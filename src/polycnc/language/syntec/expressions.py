@@ -1,16 +1,27 @@
-"""Expressions of the macro language, turned into Python source.
+"""Expressions of the macro language, turned into Python code.
 
-Numbers and texts are lifted out of the source (`k[0]`, `k[1]` …), so that all expressions of one shape share
-one compiled function. The source works on `m`, the channel's memory, and `k`, the literals:
+Numbers and texts are lifted out of the code (`n0`, `n1` …), so that all expressions of one shape share one compiled
+function. The code works on `m`, the channel's memory:
 
-    #1 * 2.5 + SIN(#[#3])     m.locals.get(k[0],VACANT)*k[1]+SIN(m.variable(m.locals.get(k[2],VACANT)))
+    #1 * 2.5 + SIN(#[#3])     m.locals.get(n0, VACANT) * n1 + SIN(m.variable(m.locals.get(n2, VACANT)))
 """
 
 from __future__ import annotations
 
+import ast
 from math import isfinite
 from typing import TYPE_CHECKING, Any, Protocol
 
+from polycnc.language.expressions.code import Code, Lifted, call, constant, name, unary
+from polycnc.language.expressions.cursor import Cursor
+from polycnc.language.expressions.operators import (
+    TIGHTEST,
+    Operator,
+    OperatorReader,
+    applied,
+    applied_to_one,
+)
+from polycnc.language.expressions.shapes import Shapes, TooDeepError
 from polycnc.language.syntec import values
 from polycnc.language.syntec.functions import FUNCTIONS
 from polycnc.language.syntec.tokens import Token, fault
@@ -26,9 +37,6 @@ if TYPE_CHECKING:
 
 TOO_COMPLEX = "COM-005"
 NO_SUCH_VARIABLE = "COR-016"
-#: Python's own parser ends at 200 levels of brackets; a level here can cost two.
-MAX_DEPTH = 90
-MAX_OPERATORS = 200
 MAX_LITERAL_DIGITS = 18
 LAST_LOCAL = 400
 
@@ -52,15 +60,15 @@ class MacroMemory(Protocol):
         """`@index := value`."""
 
 
-# ---- compiled shapes -------------------------------------------------------------------------------------
+# ---- what code may call ----------------------------------------------------------------------------------
 
 
-def call(memory: MacroMemory, name: str, *arguments: Value) -> Value:
+def queried(memory: MacroMemory, function: str, *arguments: Value) -> Value:
     """A function that the control executes."""
-    function = memory.functions.get(name)
-    if function is None:
-        raise AlarmError("PC0001", hint="hint.not-supported", code=name)
-    return function(*arguments)
+    found = memory.functions.get(function)
+    if found is None:
+        raise AlarmError("PC0001", hint="hint.not-supported", code=function)
+    return found(*arguments)
 
 
 def app_variable(_memory: MacroMemory, _index: Value) -> Value:
@@ -68,7 +76,7 @@ def app_variable(_memory: MacroMemory, _index: Value) -> Value:
     raise AlarmError(NO_SUCH_VARIABLE, hint="hint.syntec.app-variable")
 
 
-_NAMESPACE: dict[str, Any] = {
+_NAMES: dict[str, object] = {
     "VACANT": VACANT,
     "divide": values.divide,
     "modulo": values.modulo,
@@ -76,266 +84,213 @@ _NAMESPACE: dict[str, Any] = {
     "bit_or": values.bit_or,
     "bit_xor": values.bit_xor,
     "bit_not": values.bit_not,
-    "call": call,
+    "queried": queried,
     "app_variable": app_variable,
     **{name: f.calculate for name, f in FUNCTIONS.items() if f.calculate},
 }
-_compiled: dict[str, Callable[[Any, tuple[Any, ...]], Any]] = {}
 
 
-def compile_source(source: str) -> Callable[[Any, tuple[Any, ...]], Any]:
-    """The function of (memory, literals) for generated source; one for each shape of expression."""
-    function = _compiled.get(source)
-    if function is None:
-        code = compile(f"lambda m, k: {source}", "<macro>", "eval")
-        function = _compiled[source] = eval(code, _NAMESPACE)  # the source is ours, not the user's
-    return function
-
-
-def evaluator(source: str, literals: Sequence[Any]) -> Evaluate:
-    """A function of the channel that gives the value of generated source."""
-    function = compile_source(source)
-    k = tuple(literals)
-    return lambda channel: function(channel.memory, k)
+def syntec_shapes() -> Shapes:
+    """A place for the compiled code of a control's programs."""
+    return Shapes(_NAMES)
 
 
 # ---- reading ---------------------------------------------------------------------------------------------
 
-#: Operators with two operands: rank (a lower one binds closer), and how the source writes them.
-BINARY: dict[str, tuple[int, str]] = {
-    "*": (4, "{}*{}"),
-    "/": (4, "divide({},{})"),
-    "MOD": (4, "modulo({},{})"),
-    "+": (5, "{}+{}"),
-    "-": (5, "{}-{}"),
-    "<": (6, "(+({}<{}))"),
-    ">": (6, "(+({}>{}))"),
-    "<=": (6, "(+({}<={}))"),
-    ">=": (6, "(+({}>={}))"),
-    "=": (7, "(+({}=={}))"),
-    "<>": (8, "(+({}!={}))"),
-    "&": (9, "bit_and({},{})"),
-    "AND": (9, "bit_and({},{})"),
-    "XOR": (10, "bit_xor({},{})"),
-    "OR": (11, "bit_or({},{})"),
+#: Comparisons give 1 or 0.
+COMPARISON = "comparison"
+#: Operators between two operands (operation manual of the macro language); a greater power binds closer.
+OPERATORS = {
+    "*": Operator(8, ast.Mult),
+    "/": Operator(8, "divide"),
+    "MOD": Operator(8, "modulo"),
+    "+": Operator(7, ast.Add),
+    "-": Operator(7, ast.Sub),
+    "<": Operator(6, ast.Lt, COMPARISON),
+    ">": Operator(6, ast.Gt, COMPARISON),
+    "<=": Operator(6, ast.LtE, COMPARISON),
+    ">=": Operator(6, ast.GtE, COMPARISON),
+    "=": Operator(5, ast.Eq, COMPARISON),
+    "<>": Operator(4, ast.NotEq, COMPARISON),
+    "&": Operator(3, "bit_and"),
+    "AND": Operator(3, "bit_and"),
+    "XOR": Operator(2, "bit_xor"),
+    "OR": Operator(1, "bit_or"),
 }
-LOWEST_RANK = 11
+SIGNS = {
+    "-": Operator(TIGHTEST, ast.USub),
+    "+": Operator(TIGHTEST, ast.UAdd),
+    "NOT": Operator(TIGHTEST, "bit_not"),
+}
 #: Bare expressions in words hold arithmetic only; a comparison there needs brackets.
-ARITHMETIC_RANK = 5
+ABOVE_COMPARISONS = 6
+_MEMORY, _VACANT = name("m"), name("VACANT")
 
 
-class Reader:
+class Reader(Cursor[Token], OperatorReader[Token, Code]):
     """A cursor over tokens that reads expressions.
 
-    Attributes:
+    Args:
         tokens: The text, closed by an `end` token.
-        at: Index of the next token.
-        literals: Numbers and texts lifted out of the expressions read since `take_literals`.
+        shapes: Compiled code of the control.
     """
 
-    def __init__(self, tokens: Sequence[Token]) -> None:
-        self.tokens = tokens
-        self.at = 0
-        self.literals: list[Any] = []
-        self._nesting = 0
-        self._operators = 0
+    FIXED = ("symbol", "name")
 
-    # ---- cursor ------------------------------------------------------------------------------------------
-
-    @property
-    def next(self) -> Token:
-        """The next token."""
-        return self.tokens[self.at]
-
-    def take(self) -> Token:
-        """The next token, read; the closing one stays."""
-        token = self.tokens[self.at]
-        if token.kind != "end":
-            self.at += 1
-        return token
-
-    def accept(self, text: str) -> bool:
-        """Read a name or symbol if it comes next."""
-        token = self.tokens[self.at]
-        if token.text == text and token.kind in ("symbol", "name"):
-            self.at += 1
-            return True
-        return False
+    def __init__(self, tokens: Sequence[Token], shapes: Shapes) -> None:
+        Cursor.__init__(self, tokens)
+        OperatorReader.__init__(self)
+        self.shapes = shapes
+        self.literals: list[Value] = []
 
     def expect(self, text: str, code: str = "COM-003") -> Token:
         """Read a name or symbol that must come next."""
-        token = self.next
+        token = self.token
         if not self.accept(text):
             raise fault(token, code)
         return token
 
-    def take_literals(self) -> list[Any]:
-        """The literals lifted out so far; the next expression begins with none."""
+    def forget_literals(self) -> None:
+        """The next expression begins with no literals and outside of all brackets."""
+        self.literals = []
+        self.depth = 0
+
+    def evaluator(self, code: Code) -> Evaluate:
+        """A function of the channel for code that was just read."""
         literals, self.literals = self.literals, []
-        return literals
+        try:
+            function = self.shapes.value("m", code, literals)
+        except TooDeepError:
+            raise self.too_deep() from None
+        return lambda channel: function(channel.memory)
 
-    def evaluator(self, source: str) -> Evaluate:
-        """A function of the channel for source that was just read."""
-        return evaluator(source, self.take_literals())
-
-    def _literal(self, value: Any) -> str:
+    def lift(self, value: Value) -> Lifted:
+        """A literal as a parameter of the code."""
         self.literals.append(value)
-        return f"k[{len(self.literals) - 1}]"
+        return Lifted("n", len(self.literals) - 1)
 
-    # ---- expressions -------------------------------------------------------------------------------------
+    # ---- operators ---------------------------------------------------------------------------------------
 
-    def expression(self, rank: int = LOWEST_RANK) -> str:
-        """Source of an expression of operators up to a rank."""
-        start = self.next
-        self._nesting = self._operators = 0
-        source = self._ranked(rank)
-        if source.count("(") > MAX_DEPTH and _depth(source) > MAX_DEPTH:
-            raise fault(start, TOO_COMPLEX)
-        return source
+    def prefix_ahead(self) -> Operator | None:
+        """A sign or NOT."""
+        token = self.token
+        return SIGNS.get(token.text) if token.kind in self.FIXED else None
 
-    def _ranked(self, rank: int) -> str:
-        """Operands joined by operators up to a rank.
+    def infix_ahead(self) -> Operator | None:
+        """The operator that comes next; a `/` that begins a line is block skip."""
+        token = self.token
+        if token.kind not in self.FIXED or (token.first and token.text == "/"):
+            return None
+        return OPERATORS.get(token.text)
 
-        Only `*`, `+` and `-` become operators of Python, with the same ranks; all others carry brackets.
-        """
-        left = self._operand()
-        while True:
-            token = self.next
-            if token.kind not in ("symbol", "name") or token.text not in BINARY:
-                return left
-            if token.first and token.text == "/":
-                return left  # block skip of the next line
-            own, template = BINARY[token.text]
-            if own > rank:
-                return left
-            self.take()
-            self._operators += 1
-            if self._operators > MAX_OPERATORS:
-                raise fault(token, TOO_COMPLEX)
-            left = template.format(left, self._ranked(own - 1))
+    def take_operator(self) -> Token:
+        """Read the operator."""
+        return self.take()
 
-    def _operand(self) -> str:
-        """A value with its signs."""
-        token = self.take()
-        if token.kind == "symbol" and token.text in ("-", "+"):
-            if self.next.kind == "number":
-                value = number_value(self.take())
-                return self._literal(-value if token.text == "-" else value)
-            self._nest(1)
-            source = self._operand()
-            self._nest(-1)
-            return f"(-{source})" if token.text == "-" else source
-        if token.kind == "name" and token.text == "NOT":
-            self._nest(1)
-            source = self._operand()
-            self._nest(-1)
-            return f"bit_not({source})"
-        return self._primary(token)
+    def signed(self, operator: Operator, _mark: Token, operand: Code) -> Code:
+        """A value with its sign; a number takes it at once."""
+        if operator.gives is ast.UAdd:
+            return operand
+        value = self.literals[operand.place] if isinstance(operand, Lifted) else None
+        if operator.gives is ast.USub and isinstance(operand, Lifted) and isinstance(value, int | float):
+            self.literals[operand.place] = -value
+            return operand
+        return applied_to_one(operator.gives, operand)
 
-    def _nest(self, levels: int) -> None:
-        self._nesting += levels
-        if self._nesting > MAX_DEPTH:
-            raise fault(self.next, TOO_COMPLEX)
+    def joined(self, operator: Operator, _mark: Token, left: Code, right: Code) -> Code:
+        """Two operands."""
+        value = applied(operator.gives, left, right)
+        return unary(ast.UAdd, value) if operator.family == COMPARISON else value
 
-    def _inner(self) -> str:
-        """A whole expression inside brackets."""
-        self._nest(1)
-        source = self._ranked(LOWEST_RANK)
-        self._nest(-1)
-        return source
+    def too_deep(self) -> AlarmError:
+        """An expression that is too complex."""
+        return fault(self.token, TOO_COMPLEX)
 
-    def _primary(self, token: Token) -> str:
+    # ---- operands ----------------------------------------------------------------------------------------
+
+    def operand(self) -> Code:
         """A number, a text, a variable, a function or a bracket."""
+        token = self.take()
         if token.kind == "number":
-            return self._literal(number_value(token))
+            return self.lift(number_value(token))
         if token.kind == "text":
-            return self._literal(Text(token.text[1:-1]))
+            return self.lift(Text(token.text[1:-1]))
         if token.kind == "name":
             return self._named(token)
         if token.kind == "symbol":
             if token.text == "(":
-                return f"({self._bracket(')')})"
+                return self._bracket(")")
             if token.text == "#":
                 return self._variable()
             if token.text == "@":
-                return f"m.register({self.index()})"
+                return call("m.register", self.index())
             if token.text == "[":
                 raise fault(token, hint="hint.syntec.square-bracket")
         raise fault(token)
 
-    def _bracket(self, closing: str) -> str:
+    def _bracket(self, closing: str) -> Code:
         """An expression up to a closing bracket."""
-        source = self._inner()
+        value = self.expression()
         self.expect(closing)
-        return source
+        return value
 
-    def _variable(self) -> str:
+    def _variable(self) -> Code:
         """`#n`, `#[expression]`; the sign is read."""
-        token = self.next
+        token = self.token
         if token.kind == "number" and token.text.isdigit():
             number = number_value(token)
             if number == 0:
                 self.take()
-                return "VACANT"
+                return _VACANT
             if number <= LAST_LOCAL:
                 self.take()
-                return f"m.locals.get({self._literal(number)},VACANT)"
-        return f"m.variable({self.index()})"
+                return call("m.locals.get", self.lift(number), _VACANT)
+        return call("m.variable", self.index())
 
-    def index(self) -> str:
-        """Source of the number behind `#`, `@`, `AR`: digits or an expression in square brackets."""
+    def index(self) -> Code:
+        """Code of the number behind `#`, `@`, `AR`: digits or an expression in square brackets."""
         token = self.take()
         if token.kind == "number":
-            return self._literal(number_value(token))
+            return self.lift(number_value(token))
         if token.kind == "symbol" and token.text == "[":
             return self._bracket("]")
         raise fault(token)
 
-    def _named(self, token: Token) -> str:
+    def _named(self, token: Token) -> Code:
         if token.text in FUNCTIONS:
             return self._call(token)
         if token.text in ("AR", "MAR"):
-            return f"app_variable(m,{self.index()})"
+            return call("app_variable", _MEMORY, self.index())
         raise fault(token)
 
-    def _call(self, token: Token) -> str:
+    def _call(self, token: Token) -> Code:
         """A function with its arguments; `STKTOP` takes its one in square brackets."""
         function = FUNCTIONS[token.text]
-        arguments: list[str] = []
+        arguments: list[Code] = []
         closing = "]" if token.text == "STKTOP" else ")"
         self.expect("[" if closing == "]" else "(")
         while not self.accept(closing):
             if arguments:
                 self.expect(",")
             named = len(arguments) in function.names
-            arguments.append(self._name_argument() if named else self._inner())
+            arguments.append(self._name_argument() if named else self.expression())
             if len(arguments) > function.most:
                 raise fault(token, hint="hint.syntec.argument-count")
         if len(arguments) < function.least:
             raise fault(token, hint="hint.syntec.argument-count")
-        joined = ",".join(arguments)
         if function.calculate:
-            return f"{token.text}({joined})"
-        return f"call(m,'{token.text}'{',' if joined else ''}{joined})"
+            return call(token.text, *arguments)
+        return call("queried", _MEMORY, constant(token.text), *arguments)
 
-    def _name_argument(self) -> str:
+    def _name_argument(self) -> Code:
         """An address or axis name without quotes: `Y`, `X1`."""
         token = self.take()
         if token.kind != "letter":
             raise fault(token)
-        name = token.text
-        if self.next.kind == "number" and self.next.text.isdigit():
-            name += self.take().text
-        return self._literal(Text(name))
-
-
-def _depth(source: str) -> int:
-    """Levels of brackets in generated source."""
-    depth = deepest = 0
-    for char in source:
-        depth += (char == "(") - (char == ")")
-        deepest = max(deepest, depth)
-    return deepest
+        written = token.text
+        if self.token.kind == "number" and self.token.text.isdigit():
+            written += self.take().text
+        return self.lift(Text(written))
 
 
 def number_value(token: Token) -> int | float:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.language.expressions.operators import TIGHTEST
 from polycnc.language.syntec.blocks import BlockReader
 from polycnc.language.syntec.expressions import LAST_LOCAL, number_value
 from polycnc.language.syntec.functions import FUNCTIONS
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.channel.steps import Step
+    from polycnc.language.expressions.shapes import Shapes
     from polycnc.language.syntec.expressions import Evaluate
 
 TOO_COMPLEX, TOO_DEEP = "COM-005", "COM-007"
@@ -58,11 +60,12 @@ class StatementReader(BlockReader):
 
     Args:
         tokens: The text.
+        shapes: Compiled code of the control.
         macro: A file with `%@MACRO`, with block statements; an ISO file has words and assignments only.
     """
 
-    def __init__(self, tokens: Sequence[Token], *, macro: bool = True) -> None:
-        super().__init__(tokens)
+    def __init__(self, tokens: Sequence[Token], shapes: Shapes, *, macro: bool = True) -> None:
+        super().__init__(tokens, shapes)
         self.macro = macro
         self.layout = Layout()
         self._groups: list[Group] = []
@@ -70,14 +73,14 @@ class StatementReader(BlockReader):
 
     def read(self) -> Layout:
         """The layout of the whole text."""
-        while self.next.kind != "end":
-            start, steps = self.at, len(self.layout.steps)
+        while self.token.kind != "end":
+            start, steps = self.place, len(self.layout.steps)
             try:
                 self._statement()
                 if len(self.layout.steps) == steps + 1 and self._filled_line(start):
                     self.layout.fills_line(self.tokens[start].line)
             except AlarmError as error:
-                self.take_literals()
+                self.forget_literals()
                 self.layout.fail(error)
                 self._recover(start)
         while self._groups:
@@ -86,22 +89,22 @@ class StatementReader(BlockReader):
 
     def _recover(self, start: int) -> None:
         """Go on behind a mistake: at the next semicolon or line."""
-        if self.at == start:
+        if self.place == start:
             self.take()
-        while not self.at_end() and not self.next.first:
+        while not self.at_end() and not self.token.first:
             self.take()
         self.accept(";")
 
     def _filled_line(self, start: int) -> bool:
         """Whether the statement from a token on is a block of numbers that has its line for itself."""
-        first, last = self.tokens[start], self.tokens[self.at - 1]
+        first, last = self.tokens[start], self.tokens[self.place - 1]
         closed = last.kind == "plain" or (last.text == ";" and last.line == first.line)
-        return first.first and closed and self.next.first and isinstance(self.layout.steps[-1], WordBlock)
+        return first.first and closed and self.token.first and isinstance(self.layout.steps[-1], WordBlock)
 
     # ---- one statement -----------------------------------------------------------------------------------
 
     def _statement(self) -> None:
-        token = self.next
+        token = self.token
         if token.kind == "plain":
             self.take()
             self._plain(token)
@@ -119,7 +122,7 @@ class StatementReader(BlockReader):
             self.layout.emit(WordBlock((), []), token.line)
             self._close(token)
         else:
-            self._unlabelled(self.next)
+            self._unlabelled(self.token)
 
     def _plain(self, token: Token) -> None:
         sequence, block = self.plain_block(token)
@@ -129,15 +132,15 @@ class StatementReader(BlockReader):
 
     def _skipped_statement(self, levels: int, line: int) -> None:
         """A statement behind `/`; block statements cannot be skipped."""
-        if self.next.text in KINDS or self.next.text in PARTS:
-            raise fault(self.next)
+        if self.token.text in KINDS or self.token.text in PARTS:
+            raise fault(self.token)
         outer, self.layout = self.layout, Layout()
         try:
             if self._at_line_end():
                 self.layout.emit(WordBlock((), []), line)
-                self._close(self.next)
+                self._close(self.token)
             else:
-                self._unlabelled(self.next)
+                self._unlabelled(self.token)
             outer.emit(SkippedBlock(levels, self.layout.steps[0], nothing), line)
         finally:
             self.layout = outer
@@ -146,13 +149,15 @@ class StatementReader(BlockReader):
         """Bit mask of the block skip levels marked here: `/` and `/1` are level 1."""
         levels = 0
         while self.accept("/"):
-            digit = self.next.kind == "number" and self.next.text in "123456789"
+            digit = self.token.kind == "number" and self.token.text in "123456789"
             levels |= 1 << (int(self.take().text) if digit else 1)
         return levels
 
     def _sequence_number(self) -> bool:
         """Read `Nn` if it stands here."""
-        number = self.tokens[self.at + 1] if self.next.kind == "letter" and self.next.text == "N" else None
+        number = (
+            self.tokens[self.place + 1] if self.token.kind == "letter" and self.token.text == "N" else None
+        )
         if number is None or not number.text.isdigit():
             return False
         self.take()
@@ -161,7 +166,7 @@ class StatementReader(BlockReader):
         return True
 
     def _at_line_end(self) -> bool:
-        return self.at_end() or self.next.first
+        return self.at_end() or self.token.first
 
     def _unlabelled(self, token: Token) -> None:
         """A statement by its first token."""
@@ -190,16 +195,15 @@ class StatementReader(BlockReader):
         """The end of a statement: `;`, or a line end where a new statement begins."""
         if self.accept(";"):
             return
-        if not self.next.first:
-            raise fault(self.next)
+        if not self.token.first:
+            raise fault(self.token)
         if self.macro:
             self.layout.unclosed.append(start.line)
 
     def _function(self, token: Token) -> None:
         if not self.macro:
             raise fault(token, hint="hint.syntec.no-macro-header")
-        source = self.expression(0)
-        self.layout.emit(running(self.evaluator(source)), token.line)
+        self.layout.emit(running(self.evaluator(self.expression(TIGHTEST))), token.line)
         self._close(token)
 
     # ---- assignments -------------------------------------------------------------------------------------
@@ -211,7 +215,7 @@ class StatementReader(BlockReader):
             index = self.evaluator(self.index())
             self._becomes()
             return assign_nowhere(index, self.evaluator(self.expression()))
-        number = self.next
+        number = self.token
         if family.text == "#" and number.kind == "number" and number.text.isdigit():
             local = int(number_value(number))
             if 1 <= local <= LAST_LOCAL:
@@ -318,9 +322,9 @@ class StatementReader(BlockReader):
     def _case_label(self, group: Group) -> None:
         """`1:`, `2, 3:`; what stands before leaves the group."""
         if group.late:
-            raise fault(self.next)
+            raise fault(self.token)
         label = Label()
-        self.layout.emit(jump(group.end), self.next.line)
+        self.layout.emit(jump(group.end), self.token.line)
         self.layout.place(label)
         while True:
             token = self.take()
@@ -340,12 +344,12 @@ class StatementReader(BlockReader):
         """`FOR v := a TO b BY s DO`; the limits are worked out at every pass."""
         group = self._open(token)
         missing = group.kind.head_missing
-        at = self.at
+        at = self.place
         self.layout.emit(self._assignment(), token.line)
-        after = self.at
-        self.at = at
+        after = self.place
+        self.place = at
         variable = self._loop_variable()
-        self.at = after
+        self.place = after
         self.expect("TO", missing)
         limit = self.evaluator(self.expression())
         step = self.evaluator(self.expression()) if self.accept("BY") else one
@@ -356,9 +360,9 @@ class StatementReader(BlockReader):
 
     def _loop_variable(self) -> tuple[Evaluate, Callable[[Evaluate], Step]]:
         """How to read the variable of a FOR, and how to write it."""
-        at = self.at
-        read = self.evaluator(self._primary(self.take()))
-        self.at = at
+        at = self.place
+        read = self.evaluator(self.operand())
+        self.place = at
         family = self.take()
         index = self.evaluator(self.index())
         if family.text == "#":
