@@ -97,7 +97,7 @@ def scanner() -> Iterator[Figure]:
     from polycnc.language.bulk.kernels import scan
     from polycnc.language.bulk.scanner import Bulk
     from polycnc.machine import load_machine
-    from polycnc.machine.setup import Setup
+    from polycnc.machine.setup.values import Setup
     from polycnc.program import ProgramStore
     from polycnc.toolpath import Toolpath
 

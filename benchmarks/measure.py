@@ -44,7 +44,7 @@ def interpret(text: str, control_id: str, machine: str, name: str = "MAIN") -> i
     from polycnc.channel.channel import Channel
     from polycnc.control.registry import control
     from polycnc.machine import load_machine
-    from polycnc.machine.setup import Setup
+    from polycnc.machine.setup.values import Setup
     from polycnc.program import ProgramStore
 
     chosen = control(control_id)

@@ -30,11 +30,11 @@ if TYPE_CHECKING:
     from polycnc.channel.waits import Wait
     from polycnc.control.interface import Control
     from polycnc.machine.model import Machine
-    from polycnc.machine.setup import Setup
+    from polycnc.machine.setup.values import Setup
     from polycnc.messages import Alarm
     from polycnc.motion.plan import Plan, ToolTimes
     from polycnc.motion.planner import Planner
-    from polycnc.motion.samples import Sampler, Samples
+    from polycnc.motion.sampling.samples import Sampler, Samples
     from polycnc.program import Program, ProgramStore
     from polycnc.toolpath.table import Chunk
 
@@ -287,7 +287,7 @@ class Session:
 
         When the result is planned to its end (`result.plan`), `close` of what this returns gives the last samples.
         """
-        from polycnc.motion.samples import Sampler
+        from polycnc.motion.sampling.samples import Sampler
 
         result = self.result
         if result.planner is None:
@@ -320,7 +320,7 @@ class Session:
 
 
 def _share_after(channel: Channel, end: list[float], feed: float, seconds: float) -> float | None:
-    from polycnc.motion.timing import share_after
+    from polycnc.motion.sampling.timing import share_after
 
     return share_after(channel, end, feed, seconds)
 
@@ -406,7 +406,7 @@ def _machine_and_setup(
 ) -> tuple[Machine, Setup]:
     """The machine of the call, else that of the setup, else the default; and the setup itself."""
     from polycnc.machine import load_machine
-    from polycnc.machine.setup_file import check_axes, load_setup, parse_setup
+    from polycnc.machine.setup.file import check_axes, load_setup, parse_setup
 
     if setup is None or isinstance(setup, Mapping):
         start = parse_setup(setup)

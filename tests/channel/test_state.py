@@ -13,7 +13,7 @@ from polycnc.channel.channel import Channel
 from polycnc.channel.state import Lifetime, State, end_of, lasting, lifetimes, plain_states
 from polycnc.control.registry import control
 from polycnc.machine import load_machine
-from polycnc.machine.setup import Setup
+from polycnc.machine.setup.values import Setup
 from polycnc.program import ProgramStore
 
 

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from polycnc.cli.run import period_s
+from polycnc.cli.commands.run import period_s
 from tests.cli.console import GOOD
 
 if TYPE_CHECKING:

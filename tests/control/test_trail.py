@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from polycnc.control.fanuc.turning_codes import g_table
+from polycnc.control.fanuc.lathe.codes import g_table
 from polycnc.control.registry import control
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.control.word_address.codes import GCode
+    from polycnc.control.word_address.block.codes import GCode
 
 _CODE = r"G(\d+(?:\.\d+)?)"
 

@@ -57,7 +57,7 @@ def named_in(path: Path) -> set[str]:
 
 @pytest.mark.parametrize("folder", ["cli", "cases", "mainrun", "panel", "session.py"])
 def test_every_text_that_a_folder_asks_for_exists(folder: str) -> None:
-    paths = [SOURCE / folder] if folder.endswith(".py") else sorted((SOURCE / folder).glob("*.py"))
+    paths = [SOURCE / folder] if folder.endswith(".py") else sorted((SOURCE / folder).rglob("*.py"))
     named = set().union(*map(named_in, paths))
     assert named
     assert named - set(OWN) == set()

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from polycnc.motion.samples import Samples
+from polycnc.motion.sampling.samples import Samples
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS, STROKE
 from tests.motion.paths import LATHE, Build
-from tests.motion.test_samples import SOFT, sampled
+from tests.motion.sampling.test_samples import SOFT, sampled
 
 
 def pecks(kind: int, last: int = STROKE) -> Build:

@@ -16,7 +16,7 @@ from polycnc.motion import Settings
 from polycnc.motion.kernels.columns import LENGTH, SPEED2, piece_width
 from polycnc.motion.limits import EXACT_MM, averages
 from polycnc.motion.planner import Planner
-from polycnc.motion.run import Run
+from polycnc.motion.sampling.run import Run
 from polycnc.toolpath import Context, Kind
 from tests.motion.paths import MILL, Build
 from tests.motion.test_limits import UNEVEN, arc, build, line, spiral, spline

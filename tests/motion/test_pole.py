@@ -11,7 +11,7 @@ import polycnc
 from polycnc.machine import load_machine
 from polycnc.mainrun import State
 from polycnc.motion.planner import Planner
-from polycnc.motion.samples import Sampler, Samples
+from polycnc.motion.sampling.samples import Sampler, Samples
 from tests.mainrun.support import power_on
 
 MACHINE = load_machine("lathe-c-transmit")

@@ -18,7 +18,7 @@ from polycnc.motion import Settings
 from polycnc.motion.frames import real_of
 from polycnc.motion.kernels.columns import FORM, ROW, SPEED2, TIMED, piece_width
 from polycnc.motion.planner import Planner
-from polycnc.motion.run import Run
+from polycnc.motion.sampling.run import Run
 from polycnc.motion.transformed import RealAxes
 from polycnc.toolpath import Context, Kind, Toolpath
 from tests.mainrun.support import power_on

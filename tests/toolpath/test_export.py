@@ -122,6 +122,6 @@ def test_parquet_reads_back_as_the_arrow_table(draft: Draft) -> None:
 
 
 def test_every_suffix_that_the_command_line_offers_has_a_writer() -> None:
-    from polycnc.cli.run import TRACES
+    from polycnc.cli.commands.run import TRACES
 
     assert set(WRITERS) == set(TRACES)

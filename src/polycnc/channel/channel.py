@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from polycnc.channel.steps import Step
     from polycnc.geometry.frames import Vector
     from polycnc.machine.model import Axis, Machine
-    from polycnc.machine.setup import Setup
+    from polycnc.machine.setup.values import Setup
     from polycnc.messages import Alarm
     from polycnc.program import Program
     from polycnc.program.store import ProgramStore

@@ -31,7 +31,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 from polycnc.channel.mode import Mode
 from polycnc.geometry.frames import Frame
 from polycnc.machine.model import Machine
-from polycnc.machine.setup import Parameters, Setup
+from polycnc.machine.setup.values import Parameters, Setup
 from polycnc.program import Program
 
 if TYPE_CHECKING:

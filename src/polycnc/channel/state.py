@@ -21,7 +21,7 @@ from dataclasses import MISSING, field, fields, is_dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, overload
 
-from polycnc.machine.setup import Parameters
+from polycnc.machine.setup.values import Parameters
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection

@@ -22,7 +22,7 @@ from polycnc.messages.files import reason_of
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-#: Each command is the module of this name in `polycnc.cli`, which has a Typer `app`.
+#: Each command is the module of this name in `polycnc.cli.commands`, which has a Typer `app`.
 COMMANDS = ("run", "check", "test", "plot", "features", "machines", "alarms", "data", "parameters")
 BAD_USE, INTERRUPTED = 2, 130
 #: Libraries that polycnc can do without, and the extra that brings each.
@@ -38,7 +38,7 @@ class _Commands(TyperGroup):
     def get_command(self, ctx: Any, cmd_name: str) -> Any:  # noqa: ARG002
         if cmd_name not in COMMANDS:
             return None
-        command = typer.main.get_command(import_module(f"polycnc.cli.{cmd_name}").app)
+        command = typer.main.get_command(import_module(f"polycnc.cli.commands.{cmd_name}").app)
         command.name = cmd_name
         return command
 

@@ -1,10 +1,10 @@
 """The control families: code tables, handlers, alarms; each states only how it differs.
 
 `word_address` is what FANUC, MELDAS and SYNTEC share; `fanuc`, `meldas`, `syntec` and `sinumerik` are the
-families. From a code to what it does: the table of codes (`fanuc/milling_codes.py`, `fanuc/turning_codes.py`,
-`meldas/milling_codes.py`, `syntec/codes.py`; on SINUMERIK `gcodes.py` has the groups, `plan.py` the
-functions), then the handler that its row names, whose docstring begins with the code. The head of its module
-names the manual's section.
+families, `hartford` is a machining centre that FANUC and MELDAS drive. From a code to what it does: the table of codes
+(`fanuc/milling/codes.py`, `fanuc/lathe/codes.py`, `meldas/milling_codes.py`, `syntec/codes.py`; on SINUMERIK
+`gcodes.py` has the groups, `block/plan.py` the functions), then the handler that its row names, whose docstring begins
+with the code. The head of its module names the manual's section.
 
 `registry` finds a control by its id, `interface` says what all of them offer; `alarm_text`, `parameters`,
 `data_files` and `tool_change` serve every family.

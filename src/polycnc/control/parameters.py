@@ -8,10 +8,10 @@ from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from polycnc.machine.setup import parameter_key
+from polycnc.machine.setup.values import parameter_key
 
 if TYPE_CHECKING:
-    from polycnc.machine.setup import ParameterKey
+    from polycnc.machine.setup.values import ParameterKey
 
 
 @dataclass(frozen=True, slots=True)

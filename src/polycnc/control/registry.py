@@ -12,10 +12,10 @@ if TYPE_CHECKING:
 #: Control id to module and class.
 _CONTROLS = {
     "syntec-mill": ("polycnc.control.syntec.control", "SyntecMill"),
-    "fanuc-m": ("polycnc.control.fanuc.milling", "FanucMilling"),
+    "fanuc-m": ("polycnc.control.fanuc.milling.control", "FanucMilling"),
     "meldas-m": ("polycnc.control.meldas.milling", "MeldasMilling"),
     "sinumerik-840d": ("polycnc.control.sinumerik.control", "Sinumerik"),
-    "fanuc-0i-tf": ("polycnc.control.fanuc.turning", "FanucTurning"),
+    "fanuc-0i-tf": ("polycnc.control.fanuc.lathe.control", "FanucTurning"),
 }
 
 

@@ -3,15 +3,14 @@
 A machine file: `schema` says what may stand in it, `load` turns it into a `Machine` (`model`), `check` asks
 whether all of it fits together, `render` makes a file again; `places` and `errors` say where a mistake
 stands. `kinematics` leads from axes to the tool, `layout` is what displays must know, `motion_settings` how a
-control leads the axes, `rules` and `plc` are the machine's own controller. A setup: `setup` is what a run
-starts from, `setup_file` reads it, `setup_check` holds it against machine and control, `setup_edit` writes
-into it. `model` and `setup` know nothing about files.
+control leads the axes, `rules` and `plc` are the machine's own controller. `setup/` is what a run starts from.
 """
 
 from polycnc.machine.errors import FileError, MachineFileError, SetupError
 from polycnc.machine.load import builtin_ids, load_machine
 from polycnc.machine.model import Axis, Channel, Joint, Machine, Magazine, MFunction, Solid, Spindle
-from polycnc.machine.setup import (
+from polycnc.machine.setup.file import load_setup, parse_setup
+from polycnc.machine.setup.values import (
     Interrupt,
     Offsets,
     ParameterKey,
@@ -21,7 +20,6 @@ from polycnc.machine.setup import (
     Switches,
     Tool,
 )
-from polycnc.machine.setup_file import load_setup, parse_setup
 
 __all__ = [
     "Axis",

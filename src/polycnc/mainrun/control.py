@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.interface import Control
     from polycnc.machine.model import Machine
-    from polycnc.machine.setup import Setup
+    from polycnc.machine.setup.values import Setup
     from polycnc.mainrun.reading.snapshot import (
         ActiveBlock,
         ChannelSnapshot,

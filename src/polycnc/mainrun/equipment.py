@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.control import registry
 from polycnc.machine import load_machine, load_setup, parse_setup
 from polycnc.machine.model import Machine
-from polycnc.machine.setup import Setup
+from polycnc.machine.setup.values import Setup
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.messages.catalogue import listed
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from polycnc.control.sinumerik import gcodes
-from polycnc.control.sinumerik.frame_codes import FRAME_CODES
-from polycnc.control.sinumerik.plan import BLOCK_MOTIONS, MOTIONS
+from polycnc.control.sinumerik.block.plan import BLOCK_MOTIONS, MOTIONS
+from polycnc.control.sinumerik.frames.codes import FRAME_CODES
 from polycnc.session import open_session
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ import polycnc.language.syntec
 from polycnc.control.registry import control
 from polycnc.control.syntec.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
-from polycnc.control.syntec.functions import FUNCTIONS as EXECUTED
-from polycnc.control.syntec.variables import ARGUMENTS
+from polycnc.control.syntec.macros.functions import FUNCTIONS as EXECUTED
+from polycnc.control.syntec.macros.variables import ARGUMENTS
 from polycnc.language.syntec.functions import FUNCTIONS
 from polycnc.messages import text
 
@@ -28,7 +28,7 @@ MANUAL = (
 SOURCES = [
     path
     for package in (polycnc.control.syntec, polycnc.language.syntec)
-    for path in Path(package.__path__[0]).glob("*.py")
+    for path in Path(package.__path__[0]).rglob("*.py")
 ]
 CODE = re.compile(r'"((?:COM|COR|OP|PC)-?\d{3,4})"')
 HINT = re.compile(r'"(hint\.[a-z.-]+)"')

@@ -16,7 +16,7 @@ from polycnc.language.bulk.kernels import scan as plain_scan
 from polycnc.language.bulk.moves import Columns
 from polycnc.language.bulk.scanner import Bulk
 from polycnc.machine import load_machine
-from polycnc.machine.setup_file import parse_setup
+from polycnc.machine.setup.file import parse_setup
 from polycnc.program import Form, ProgramStore
 
 #: The kernel as it is written, from the first line on.

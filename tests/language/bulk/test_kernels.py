@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from polycnc.control.word_address.numbers import NumberRules, conversion, length_converter
+from polycnc.control.word_address.block.numbers import NumberRules, conversion, length_converter
 from polycnc.geometry import arcs
 from polycnc.language.bulk import layout
 from polycnc.language.bulk.kernels import NO_KEY, read_number, read_rest, read_word

@@ -5,11 +5,11 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.code_calls import CodeCall, CodeCalls
+from polycnc.control.word_address.macro_b.code_calls import CodeCall, CodeCalls
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.machine.setup import Parameters
+    from polycnc.machine.setup.values import Parameters
 
 #: G codes and M codes that no parameter can register.
 NEVER_G = frozenset({0, 5, 65, 66, 67})

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from polycnc.machine.motion_settings import DryRun
 
 if TYPE_CHECKING:
-    from polycnc.machine.setup import Parameters
+    from polycnc.machine.setup.values import Parameters
 
 
 def dry_run(parameters: Parameters) -> DryRun:

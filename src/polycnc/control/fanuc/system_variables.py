@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.subprograms import sequences_of
-from polycnc.control.word_address.variables import Read, SystemRange, Write
+from polycnc.control.word_address.macro_b.subprograms import sequences_of
+from polycnc.control.word_address.macro_b.variables import Read, SystemRange, Write
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.control.word_address.variables import MacroMemory
+    from polycnc.control.word_address.macro_b.variables import MacroMemory
 
 # ---- interface signals ------------------------------------------------------------
 

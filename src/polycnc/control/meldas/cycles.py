@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from polycnc.control.fanuc.milling_cycles import CYCLES, MILLING_DRILLING
-from polycnc.control.word_address.path import FEED_MODES
+from polycnc.control.fanuc.milling.cycles import CYCLES, MILLING_DRILLING
+from polycnc.control.word_address.motion.path import FEED_MODES
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.drilling import CycleData
+    from polycnc.control.word_address.cycles.drilling import CycleData
 
 #: Parameter with the retract or clearance of each pecking cycle, mm (G73 n, G83 n).
 RELIEF_PARAMETERS = {"G73": 8012, "G83": 8013}

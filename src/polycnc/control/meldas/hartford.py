@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from polycnc.control.fanuc.hartford import SHARED_M_CODES, after
-from polycnc.control.word_address.codes import m_table
+from polycnc.control.hartford.m_codes import SHARED_M_CODES, after
+from polycnc.control.word_address.block.codes import m_table
 
 #: Maintenance codes, in MDI only.
 MAINTENANCE = range(31, 37)

@@ -5,25 +5,25 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
-from polycnc.control.fanuc.milling_codes import ADDRESSES, POWER_ON
-from polycnc.control.fanuc.milling_variables import MILLING_VARIABLES
+from polycnc.control.fanuc.milling.codes import ADDRESSES, POWER_ON
+from polycnc.control.fanuc.milling.variables import MILLING_VARIABLES
 from polycnc.control.meldas.alarm_codes import ALARMS
 from polycnc.control.meldas.code_calls import registered_codes
 from polycnc.control.meldas.cycles import DRILLING
 from polycnc.control.meldas.hartford import M_CODES
 from polycnc.control.meldas.milling_codes import G_CODES
-from polycnc.control.word_address.milling import MillingControl
-from polycnc.control.word_address.normal_line import NormalLineParameters
-from polycnc.control.word_address.variables import MacroMemory
+from polycnc.control.word_address.machining_centre import MillingControl
+from polycnc.control.word_address.macro_b.variables import MacroMemory
+from polycnc.control.word_address.transformations.normal_line import NormalLineParameters
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.code_calls import CodeCalls
-    from polycnc.control.word_address.codes import GCode, MCode, Planner
-    from polycnc.control.word_address.drilling import Drilling
-    from polycnc.control.word_address.words import Words
+    from polycnc.control.word_address.block.codes import GCode, MCode, Planner
+    from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.cycles.drilling import Drilling
+    from polycnc.control.word_address.macro_b.code_calls import CodeCalls
     from polycnc.machine.motion_settings import MotionSettings
     from polycnc.messages import AlarmError
 
@@ -45,7 +45,7 @@ class MeldasMilling(MillingControl):
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     drilling: ClassVar[Drilling] = DRILLING
-    plc_files: ClassVar[tuple[str, ...]] = ("fanuc/machine_rules.toml", "meldas/plc.toml")
+    plc_files: ClassVar[tuple[str, ...]] = ("hartford/rules.toml", "meldas/plc.toml")
     REFERENCE_PARAMETERS: ClassVar[dict[int, int]] = {1: 2037, 2: 2038, 3: 2039, 4: 2040}
     ARC_TOLERANCE_PARAMETER: ClassVar[tuple[int, float]] = (1084, 0.1)
     OVERRUN_PARAMETER: ClassVar[int] = 8209

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from polycnc.control.fanuc.milling_codes import ALIASES, ROWS, moves
-from polycnc.control.word_address import (
-    circle_cutting,
-    coordinates,
-    hole_patterns,
-    hypothetical_axis,
-    path_modes,
-    skip,
-    tool_measuring,
-)
-from polycnc.control.word_address.codes import GCode, Order, table, with_aliases
+from polycnc.control.fanuc.milling.codes import ALIASES, ROWS, moves
+from polycnc.control.word_address.block.codes import GCode, Order, table, with_aliases
+from polycnc.control.word_address.coordinates import systems
+from polycnc.control.word_address.cycles import hole_patterns
+from polycnc.control.word_address.motion import circle_cutting, path_modes, skip
+from polycnc.control.word_address.tools import measuring
+from polycnc.control.word_address.transformations import hypothetical_axis
 
 #: Codes of FANUC that the manual's table does not have.
 FOREIGN = frozenset({
@@ -26,20 +22,20 @@ _ROWS = table(
     GCode("G5", handler=path_modes.high_speed_mode, takes="P"),
     moves("G12", circle_cutting.cut_circle_cw, "I D"),
     moves("G13", circle_cutting.cut_circle_ccw, "I D"),
-    moves("G28", coordinates.return_to_reference),
-    moves("G29", coordinates.return_from_reference),
-    moves("G27", coordinates.check_reference),
-    moves("G30", coordinates.return_to_further_reference, "P"),
+    moves("G28", systems.return_to_reference),
+    moves("G29", systems.return_from_reference),
+    moves("G27", systems.check_reference),
+    moves("G30", systems.return_to_further_reference, "P"),
     moves("G31.1", skip.skip_move),
     moves("G31.2", skip.skip_move),
     moves("G31.3", skip.skip_move),
     moves("G34", hole_patterns.circle_of_holes, "I J K"),
     moves("G35", hole_patterns.line_of_holes, "I J K"),
     moves("G36", hole_patterns.arc_of_holes, "I J P K"),
-    moves("G37", tool_measuring.measure_length, "R D"),
+    moves("G37", measuring.measure_length, "R D"),
     moves("G37.1", hole_patterns.grid_of_holes, "I J P K"),
-    moves("G53", coordinates.move_in_machine_system),
-    GCode("G61.1", "path", coordinates.note_context, only_changes=True),
+    moves("G53", systems.move_in_machine_system),
+    GCode("G61.1", "path", systems.note_context, only_changes=True),
     GCode("G7", handler=hypothetical_axis.switch, axis_words=True, order=Order.MOTION),
 )
 G_CODES = with_aliases(_ROWS, ALIASES)

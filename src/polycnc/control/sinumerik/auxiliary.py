@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik import frames, stages, tooth_feed
+from polycnc.control.sinumerik.feed import tooth_feed
+from polycnc.control.sinumerik.frames import memory as frames
+from polycnc.control.sinumerik.tools import stages
 from polycnc.control.tool_change import check_change_points
 
 if TYPE_CHECKING:

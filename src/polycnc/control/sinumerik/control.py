@@ -8,46 +8,34 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.snapshot import unchanging
 from polycnc.control.alarm_text import alarm_catalogue
-from polycnc.control.sinumerik import (
-    access,
-    axis_exchange,
-    coordination,
-    frames,
-    functions,
-    gcodes,
-    init_programs,
-    interrupts,
-    limits,
-    measuring,
-    pace,
-    positions,
-    procedures,
-    protection,
-    single_block,
-    spindle_speed,
-    stages,
-    tables,
-    tolerances,
-    variables_by_name,
-)
-from polycnc.control.sinumerik.dry_run import dry_run
-from polycnc.control.sinumerik.frames import Frames, chain, stored_frames
-from polycnc.control.sinumerik.machine_data import MachineData
+from polycnc.control.sinumerik import gcodes, tables
+from polycnc.control.sinumerik.block import positions, procedures, single_block
+from polycnc.control.sinumerik.block.plain import SinumerikPlainBlocks
+from polycnc.control.sinumerik.block.plan import make_plan
+from polycnc.control.sinumerik.channels import axis_exchange, coordination
+from polycnc.control.sinumerik.data import access, init_programs
+from polycnc.control.sinumerik.data.machine_data import MachineData
+from polycnc.control.sinumerik.feed import pace, spindle_speed, tolerances
+from polycnc.control.sinumerik.feed.dry_run import dry_run
+from polycnc.control.sinumerik.feed.spindles import Spindle, Spindles
+from polycnc.control.sinumerik.frames import memory as frames
+from polycnc.control.sinumerik.frames.memory import Frames, chain, stored_frames
+from polycnc.control.sinumerik.limits import protection, working_area
 from polycnc.control.sinumerik.memory import Memory
-from polycnc.control.sinumerik.plain import SinumerikPlainBlocks
-from polycnc.control.sinumerik.plan import make_plan
 from polycnc.control.sinumerik.reset import reset, start_codes
-from polycnc.control.sinumerik.spindles import Spindle, Spindles
-from polycnc.control.sinumerik.system_variables import SystemVariables
-from polycnc.control.sinumerik.tools import tools_of_setup
+from polycnc.control.sinumerik.signals import interrupts, measuring
+from polycnc.control.sinumerik.tools import stages
+from polycnc.control.sinumerik.tools.memory import tools_of_setup
+from polycnc.control.sinumerik.variables import by_name, functions
+from polycnc.control.sinumerik.variables.registry import SystemVariables
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.executable import SinumerikProgram
-from polycnc.language.sinumerik.initialisation import RESET, initialise
 from polycnc.language.sinumerik.interface import LanguageMemory
-from polycnc.language.sinumerik.nc_frame import GEOMETRY_AXES, NEUTRAL, ctrans
-from polycnc.language.sinumerik.sections import end_of_subprogram
-from polycnc.language.sinumerik.values import Axis, Type
-from polycnc.language.sinumerik.variables import Variable
+from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, ctrans
+from polycnc.language.sinumerik.names.initialisation import RESET, initialise
+from polycnc.language.sinumerik.names.values import Axis, Type
+from polycnc.language.sinumerik.names.variables import Variable
+from polycnc.language.sinumerik.statements.sections import end_of_subprogram
 from polycnc.machine.motion_settings import MotionSettings
 from polycnc.machine.plc import Plc
 from polycnc.messages import AlarmError
@@ -60,9 +48,9 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step as ProgramStep
-    from polycnc.control.sinumerik.block import Values
-    from polycnc.control.sinumerik.plan import Plan
-    from polycnc.control.sinumerik.system_variables import SystemVariable
+    from polycnc.control.sinumerik.block.draft import Values
+    from polycnc.control.sinumerik.block.plan import Plan
+    from polycnc.control.sinumerik.variables.registry import SystemVariable
     from polycnc.language.sinumerik.words import Block
     from polycnc.messages import Catalogue
     from polycnc.program import Program
@@ -115,7 +103,7 @@ class Sinumerik:
         if channel.number == 1:
             memory.tools.stand_in(channel.setup.spindle_tool)
         frames.apply(channel)
-        limits.refresh(channel)
+        working_area.refresh(channel)
         memory.language.macros.update(coordination.names(channel))
         if channel.group is None or channel is channel.group.first:
             for name, value in channel.setup.variables.items():
@@ -284,7 +272,7 @@ class Sinumerik:
     def restore_setting(self, channel: Channel, name: str) -> None:
         """Give a setting or machine datum the values of the setup."""
         channel.memory.data.restore(name)
-        limits.refresh(channel)
+        working_area.refresh(channel)
 
     def restarts(self, channel: Channel) -> bool:
         """Whether GOTOS goes back to the program start (DB21 ff., DBX384.0)."""
@@ -389,11 +377,11 @@ class Sinumerik:
 
     def read_variable(self, channel: Channel, name: str) -> object:
         """The value of a variable as a program would name it (`R1`, `$P_GG[6]`, a user variable)."""
-        return variables_by_name.read(channel, name)
+        return by_name.read(channel, name)
 
     def write_variable(self, channel: Channel, name: str, value: object) -> None:
         """Set a variable as a program would name it."""
-        variables_by_name.write(channel, name, value)
+        by_name.write(channel, name, value)
 
     def variable_names(self, channel: Channel) -> list[str]:
         """Names of all variables that hold something."""

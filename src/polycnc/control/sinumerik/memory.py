@@ -13,14 +13,14 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from polycnc.channel.stack import Level
-    from polycnc.control.sinumerik.frames import Frames
-    from polycnc.control.sinumerik.interrupts import Assignment, Watch
-    from polycnc.control.sinumerik.limits import Limit
-    from polycnc.control.sinumerik.machine_data import MachineData
-    from polycnc.control.sinumerik.measuring import Prober
-    from polycnc.control.sinumerik.protection import Protection
-    from polycnc.control.sinumerik.spindles import Spindles
-    from polycnc.control.sinumerik.tools import Tools
+    from polycnc.control.sinumerik.data.machine_data import MachineData
+    from polycnc.control.sinumerik.feed.spindles import Spindles
+    from polycnc.control.sinumerik.frames.memory import Frames
+    from polycnc.control.sinumerik.limits.protection import Protection
+    from polycnc.control.sinumerik.limits.working_area import Limit
+    from polycnc.control.sinumerik.signals.interrupts import Assignment, Watch
+    from polycnc.control.sinumerik.signals.measuring import Prober
+    from polycnc.control.sinumerik.tools.memory import Tools
     from polycnc.geometry.frames import Vector
     from polycnc.language.sinumerik.interface import LanguageMemory
 

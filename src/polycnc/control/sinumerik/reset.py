@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik import frames, gcodes, limits, pace, protection, tables
+from polycnc.control.sinumerik import gcodes, tables
+from polycnc.control.sinumerik.feed import pace
+from polycnc.control.sinumerik.frames import memory as frames
+from polycnc.control.sinumerik.limits import protection, working_area
 from polycnc.control.sinumerik.memory import Polar
-from polycnc.language.sinumerik.nc_frame import NEUTRAL
+from polycnc.language.sinumerik.names.frame import NEUTRAL
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.machine_data import MachineData
+    from polycnc.control.sinumerik.data.machine_data import MachineData
     from polycnc.control.sinumerik.memory import Memory
 
 #: Groups that a bit of MD20110 keeps over a reset.
@@ -91,6 +94,6 @@ def reset(channel: Channel) -> None:
     memory.frames.programmable = NEUTRAL
     memory.frames.select(gcodes.number_of(channel.mode["zero_offset"]) - 1)
     frames.apply(channel)
-    limits.refresh(channel)
+    working_area.refresh(channel)
     channel.context_changed()
     channel.coordinates.arrive_machine(machine)

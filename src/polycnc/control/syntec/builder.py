@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec import axis_names
-from polycnc.control.word_address.codes import GCode
-from polycnc.control.word_address.plan import Builder
+from polycnc.control.syntec.axis_groups import names
+from polycnc.control.word_address.block.codes import GCode
+from polycnc.control.word_address.block.plan import Builder
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.plan import AxisWord, Plan
     from polycnc.control.word_address.control import WordAddressControl
-    from polycnc.control.word_address.plan import AxisWord, Plan
     from polycnc.program import Program
 
 FIRST_MACRO, LAST_MACRO = 200, 999
@@ -72,7 +72,7 @@ class SyntecBuilder(Builder):
 
     def axis_words(self) -> tuple[AxisWord, ...]:
         """The axis words of the block, those of virtual axes included."""
-        return (*super().axis_words(), *axis_names.virtual_words(self))
+        return (*super().axis_words(), *names.virtual_words(self))
 
     def code_program(self, name: str) -> Program:
         """The program of a registered code."""

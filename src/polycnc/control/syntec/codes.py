@@ -2,47 +2,42 @@
 
 from __future__ import annotations
 
-from polycnc.control.syntec import (
-    alignment,
-    arcs,
-    axis_borrowing,
-    axis_groups,
-    calls,
-    cycles,
-    interrupts,
-    motion,
-    normal_direction,
-    operation,
-    oscillation,
-    planes,
-    polar,
-    skips,
-    smoothing,
-    spatial,
-    spindles,
-    tilted,
-    tip_control,
-    tool_setting,
+from polycnc.control.syntec import cycles, spindles
+from polycnc.control.syntec.axis_groups import borrowing, groups
+from polycnc.control.syntec.coordinates import systems as frames
+from polycnc.control.syntec.coordinates import tool_setting
+from polycnc.control.syntec.five_axes import alignment, normal_direction, spatial, tilted, tip_control
+from polycnc.control.syntec.macros import calls, interrupts
+from polycnc.control.syntec.motion import arcs, moves, operation, oscillation, planes, polar, skips, smoothing
+from polycnc.control.word_address.auxiliary import functions
+from polycnc.control.word_address.block.codes import (
+    MILLING_POWER_ON,
+    GCode,
+    MCode,
+    Order,
+    m_table,
+    not_yet,
+    table,
 )
-from polycnc.control.syntec import coordinates as frames
-from polycnc.control.word_address import auxiliary, coordinates, nurbs, path, path_modes, radius, stroke_check
-from polycnc.control.word_address import frames as base_frames
-from polycnc.control.word_address import length as base_length
-from polycnc.control.word_address.codes import MILLING_POWER_ON, GCode, MCode, Order, m_table, not_yet, table
+from polycnc.control.word_address.coordinates import frames as base_frames
+from polycnc.control.word_address.coordinates import stroke_check, systems
+from polycnc.control.word_address.motion import nurbs, path, path_modes
+from polycnc.control.word_address.tools import length as base_length
+from polycnc.control.word_address.tools import radius
 
 MOTION = Order.MOTION
 
 G_CODES = table(
-    GCode("G0", "motion", planner=motion.plan_rapid, ends="cycle"),
+    GCode("G0", "motion", planner=moves.plan_rapid, ends="cycle"),
     GCode("G1", "motion", planner=path.plan_line, ends="cycle"),
     GCode("G2", "motion", planner=arcs.plan_arc_cw, ends="cycle"),
     GCode("G3", "motion", planner=arcs.plan_arc_ccw, ends="cycle"),
     GCode("G2.4", "motion", planner=arcs.plan_three_point_arc, ends="cycle"),
     GCode("G3.4", "motion", planner=arcs.plan_three_point_arc, ends="cycle"),
     GCode("G6.2", "motion", planner=nurbs.plan_nurbs, ends="cycle"),
-    GCode("G33", "motion", planner=motion.plan_thread, ends="cycle"),
+    GCode("G33", "motion", planner=moves.plan_thread, ends="cycle"),
     GCode("G4", handler=frames.dwell, takes="X P Q", axis_words=True, order=MOTION),
-    GCode("G4.1", handler=axis_groups.meet, takes="P Q", axis_words=True, order=MOTION),
+    GCode("G4.1", handler=groups.meet, takes="P Q", axis_words=True, order=MOTION),
     GCode("G10.6", handler=operation.arm_retract, takes="R F", axis_words=True),
     GCode("G28.1", handler=skips.position_at_sensor, takes="Q R F1 F2", axis_words=True, order=MOTION),
     GCode("G31.10", handler=skips.define_group, takes="Q P", axis_words=True, order=MOTION),
@@ -68,10 +63,10 @@ G_CODES = table(
     GCode("G19", "plane", planes.select_plane),
     GCode("G22", "stroke", frames.stroke_limit_on, takes="I J K", axis_words=True, order=MOTION),
     GCode("G23", "stroke", stroke_check.stroke_check_off),
-    GCode("G28", handler=coordinates.return_to_reference, axis_words=True, order=MOTION),
-    GCode("G29", handler=coordinates.return_from_reference, axis_words=True, order=MOTION),
+    GCode("G28", handler=systems.return_to_reference, axis_words=True, order=MOTION),
+    GCode("G29", handler=systems.return_from_reference, axis_words=True, order=MOTION),
     GCode("G30", handler=frames.return_to_further_reference, takes="P", axis_words=True, order=MOTION),
-    GCode("G31", handler=motion.skip_move, takes="P Q", axis_words=True, order=MOTION),
+    GCode("G31", handler=moves.skip_move, takes="P Q", axis_words=True, order=MOTION),
     GCode("G37", handler=tool_setting.measure_length, takes="R D F P", axis_words=True, order=MOTION),
     GCode("G37.2", handler=tool_setting.measure_into_work_system, takes="K R F P Q", axis_words=True, order=MOTION),
     GCode("G37.3", handler=tool_setting.measure_into_length, takes="H R F P Q", axis_words=True, order=MOTION),
@@ -87,18 +82,18 @@ G_CODES = table(
     GCode("G43.4", "length", tip_control.start, takes="H Q L I", order=Order.LENGTH),
     GCode("G43.5", "length", tip_control.start, takes="H", order=Order.LENGTH),
     GCode("G49", "length", tip_control.cancel, order=Order.LENGTH, ends=normal_direction.NORMAL),
-    GCode("G45", handler=motion.lengthened, takes="D I J K", axis_words=True, order=MOTION),
-    GCode("G46", handler=motion.shortened, takes="D I J K", axis_words=True, order=MOTION),
-    GCode("G47", handler=motion.lengthened_twice, takes="D I J K", axis_words=True, order=MOTION),
-    GCode("G48", handler=motion.shortened_twice, takes="D I J K", axis_words=True, order=MOTION),
+    GCode("G45", handler=moves.lengthened, takes="D I J K", axis_words=True, order=MOTION),
+    GCode("G46", handler=moves.shortened, takes="D I J K", axis_words=True, order=MOTION),
+    GCode("G47", handler=moves.lengthened_twice, takes="D I J K", axis_words=True, order=MOTION),
+    GCode("G48", handler=moves.shortened_twice, takes="D I J K", axis_words=True, order=MOTION),
     GCode("G50", "scaling", base_frames.end_scale),
     GCode("G51", "scaling", base_frames.scale, takes="I J K P", axis_words=True),
     GCode("G50.1", "mirror", base_frames.end_mirror, axis_words=True),
     GCode("G51.1", "mirror", frames.mirror, axis_words=True),
-    GCode("G52", handler=coordinates.set_local_system, axis_words=True),
-    GCode("G52.1", handler=axis_borrowing.release, takes="P Q R", order=MOTION),
-    GCode("G52.2", handler=axis_borrowing.borrow, takes="P Q R I J K", order=MOTION),
-    GCode("G53", handler=motion.move_in_machine_system, takes="P F1 Q", axis_words=True, order=MOTION),
+    GCode("G52", handler=systems.set_local_system, axis_words=True),
+    GCode("G52.1", handler=borrowing.release, takes="P Q R", order=MOTION),
+    GCode("G52.2", handler=borrowing.borrow, takes="P Q R I J K", order=MOTION),
+    GCode("G53", handler=moves.move_in_machine_system, takes="P F1 Q", axis_words=True, order=MOTION),
     GCode("G54", "wcs", frames.select_work_system, takes="P"),
     *(GCode(f"G{number}", "wcs", frames.select_work_system) for number in range(55, 60)),
     *(GCode(f"G59.{number}", "wcs", frames.select_work_system) for number in range(1, 10)),
@@ -118,8 +113,8 @@ G_CODES = table(
     GCode("G53.3", handler=alignment.align_and_position, takes="H P", axis_words=True, order=MOTION),
     GCode("G53.6", handler=alignment.align_about_tip, takes="H P R", order=MOTION),
     GCode("G54.4", handler=tilted.switch_work_rotation, takes="P"),
-    GCode("G70", "unit", coordinates.note_context, only_changes=True),
-    GCode("G71", "unit", coordinates.note_context, only_changes=True),
+    GCode("G70", "unit", systems.note_context, only_changes=True),
+    GCode("G71", "unit", systems.note_context, only_changes=True),
     GCode("G80", "cycle", oscillation.end, ends=oscillation.OSCILLATION),
     GCode("G81.1", oscillation.OSCILLATION, oscillation.start, takes="Q R", axis_words=True, order=MOTION),
     GCode("G81.2", oscillation.OSCILLATION, oscillation.start_precise, takes="P Q R L", order=MOTION),
@@ -133,9 +128,9 @@ G_CODES = table(
     GCode("G91", "distance"),
     GCode("G92", handler=frames.set_position, takes="S", axis_words=True, order=MOTION),
     GCode("G92.1", handler=frames.preset_system, takes="I J K R", axis_words=True, order=MOTION),
-    GCode("G93", "feed", motion.change_feed_mode, order=Order.FEED_MODE),
-    GCode("G94", "feed", motion.change_feed_mode, order=Order.FEED_MODE),
-    GCode("G95", "feed", motion.change_feed_mode, order=Order.FEED_MODE),
+    GCode("G93", "feed", moves.change_feed_mode, order=Order.FEED_MODE),
+    GCode("G94", "feed", moves.change_feed_mode, order=Order.FEED_MODE),
+    GCode("G95", "feed", moves.change_feed_mode, order=Order.FEED_MODE),
     GCode("G96", "surface_speed", spindles.constant_surface_speed, takes="P"),
     GCode("G97", "surface_speed", spindles.end_surface_speed, only_changes=True),
     GCode("G98", "return"),
@@ -146,13 +141,13 @@ G_CODES = table(
 )  # fmt: skip
 
 M_CODES = m_table(
-    MCode(0, after=True, handler=auxiliary.stop, silent=True),
-    MCode(1, after=True, handler=auxiliary.optional_stop, silent=True),
+    MCode(0, after=True, handler=functions.stop, silent=True),
+    MCode(1, after=True, handler=functions.optional_stop, silent=True),
     MCode(2, after=True, handler=calls.end_program),
-    MCode(3, handler=auxiliary.spindle_clockwise),
-    MCode(4, handler=auxiliary.spindle_counter_clockwise),
-    MCode(5, handler=auxiliary.spindle_stop),
-    MCode(6, handler=auxiliary.change_tool),
+    MCode(3, handler=functions.spindle_clockwise),
+    MCode(4, handler=functions.spindle_counter_clockwise),
+    MCode(5, handler=functions.spindle_stop),
+    MCode(6, handler=functions.change_tool),
     MCode(30, after=True, handler=calls.end_program),
     MCode(96, handler=interrupts.interrupts_on, takes="P I Q R L", silent=True),
     MCode(97, handler=interrupts.interrupts_off, silent=True),
@@ -162,11 +157,11 @@ M_CODES = m_table(
 )
 
 ADDRESSES = {
-    "F": motion.plan_feed,
+    "F": moves.plan_feed,
     "S": spindles.plan_speed,
     **{f"S{number}": spindles.plan_named_speed(number) for number in range(1, 11)},
-    "T": auxiliary.plan_tool,
-    "B": auxiliary.plan_second_auxiliary,
+    "T": functions.plan_tool,
+    "B": functions.plan_second_auxiliary,
     "H": base_length.plan_length_number,
     "D": radius.plan_radius_number,
 }

@@ -8,34 +8,24 @@ from math import hypot, inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.compensation.policies import SYNTEC, Policy
-from polycnc.control.syntec import (
-    arcs,
-    axis_borrowing,
-    axis_groups,
-    calls,
-    coordinates,
-    cycles,
-    interrupts,
-    motion,
-    normal_direction,
-    oscillation,
-    polar,
-    quiet,
-    spatial,
-    tilted,
-    tip_control,
-)
+from polycnc.control.syntec import cycles
 from polycnc.control.syntec.alarm_codes import ALARMS, FOREIGN_CODES
+from polycnc.control.syntec.axis_groups import borrowing, groups
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
+from polycnc.control.syntec.coordinates import systems
+from polycnc.control.syntec.five_axes import normal_direction, spatial, tilted, tip_control
+from polycnc.control.syntec.macros import calls, interrupts
 from polycnc.control.syntec.memory import SyntecMemory
+from polycnc.control.syntec.motion import arcs, moves, oscillation, polar, quiet
 from polycnc.control.syntec.parameters import decimals, parameter
 from polycnc.control.syntec.plain import SyntecPlainBlocks
-from polycnc.control.word_address import frames, nurbs
+from polycnc.control.word_address.auxiliary.overrides import in_tapping_mode
+from polycnc.control.word_address.block.numbers import Convert, NumberRules, length_converter
 from polycnc.control.word_address.control import WordAddressControl
-from polycnc.control.word_address.numbers import Convert, NumberRules, length_converter
-from polycnc.control.word_address.overrides import in_tapping_mode
-from polycnc.control.word_address.polar_interpolation import is_length
+from polycnc.control.word_address.coordinates import frames
+from polycnc.control.word_address.motion import nurbs
+from polycnc.control.word_address.transformations.polar_interpolation import is_length
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.syntec import executable, iso_grammar
 from polycnc.language.syntec.blocks import TypedBlock
@@ -49,10 +39,10 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step as ProgramStep
-    from polycnc.control.word_address.codes import GCode, Handler, MCode, Planner, Step
-    from polycnc.control.word_address.drilling import Drilling
-    from polycnc.control.word_address.plan import Builder, Plan
-    from polycnc.control.word_address.words import Words
+    from polycnc.control.word_address.block.codes import GCode, Handler, MCode, Planner, Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.geometry.arcs import Point
     from polycnc.language.bulk import Condition
     from polycnc.language.word_address import Grammar
@@ -73,13 +63,13 @@ class SyntecMill(WordAddressControl):
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
     drilling: ClassVar[Drilling] = cycles.DRILLING
-    FEED_AT_START: ClassVar[float | None] = motion.DEFAULT_FEED["G94"]
+    FEED_AT_START: ClassVar[float | None] = moves.DEFAULT_FEED["G94"]
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z"}
     INCH_CODE: ClassVar[str] = "G70"
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = False
     mdi_intervenes: ClassVar[bool] = False
-    only_context: ClassVar[frozenset[Handler]] = WordAddressControl.only_context | {coordinates.cutting_mode}
-    settled_codes: ClassVar[Mapping[str, Condition]] = motion.SETTLED
+    only_context: ClassVar[frozenset[Handler]] = WordAddressControl.only_context | {systems.cutting_mode}
+    settled_codes: ClassVar[Mapping[str, Condition]] = moves.SETTLED
 
     # ---- programs ----------------------------------------------------------------------------------------
 
@@ -131,10 +121,10 @@ class SyntecMill(WordAddressControl):
         """Power-on state."""
         super().start(channel)
         memory = channel.memory
-        axis_groups.share(channel)
+        groups.share(channel)
         memory.feed_mode = channel.mode["feed"]
         if memory.feed_mode == "G95":
-            channel.feed = motion.DEFAULT_FEED["G95"]
+            channel.feed = moves.DEFAULT_FEED["G95"]
         for number in range(3601, 3611):
             if memory.parameter(number) in calls.NEVER_REGISTERED - {0}:
                 raise self.fail("registered_m", number=number)
@@ -146,7 +136,7 @@ class SyntecMill(WordAddressControl):
         """A main program begins: it has the local variables; a channel of a file with `$n` runs its section."""
         local = channel.memory.locals
         channel.level.locals = local
-        axis_groups.start_others(channel, channel.level.code.program)
+        groups.start_others(channel, channel.level.code.program)
         section = split_channels(channel.level.code.program).get(channel.number)
         if section is not None:
             channel.stack.pop()
@@ -166,7 +156,7 @@ class SyntecMill(WordAddressControl):
         spatial.end(channel)
         polar.leave_plane(channel)
         if not parameter(channel.setup.parameters, 413):
-            coordinates.forget_preset_turn(channel.memory)
+            systems.forget_preset_turn(channel.memory)
         kept = channel.memory.tilt if parameter(channel.setup.parameters, 3014) else IDENTITY
         super().reset(channel)
         channel.memory.posture_frame = parameter(channel.setup.parameters, 3057) == 1
@@ -254,10 +244,10 @@ class SyntecMill(WordAddressControl):
         if builder.mode["cycle"] != "G80":
             return None if step is None else cycles.with_cycle_words(builder, step)
         if step is not None:
-            step = axis_borrowing.guarded(builder, plan, step)
+            step = borrowing.guarded(builder, plan, step)
         before, after = builder.before["motion"], builder.mode["motion"]
         if step is not None and builder.mode["feed"] == "G93" and after in ("G1", "G2", "G3"):
-            step = motion.with_inverse_time(builder, plan, step)
+            step = moves.with_inverse_time(builder, plan, step)
         if step is not None and interrupts.is_on(builder):
             step = interrupts.with_interrupt(builder, plan, step)
         if before in arcs.THREE_POINT_CODES and after not in arcs.THREE_POINT_CODES:
@@ -331,7 +321,7 @@ class SyntecMill(WordAddressControl):
 
     def scale_factors(self, channel: Channel, words: Words) -> tuple[float, float, float]:
         """Factors of G51."""
-        return coordinates.scale_factors(channel, words)
+        return systems.scale_factors(channel, words)
 
     def reference_point(self, channel: Channel, axis: int, number: int) -> float:
         """Machine position of a reference point: 1 the machine zero, 2 to 4 by Pr2801 on, in least units."""

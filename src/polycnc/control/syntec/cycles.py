@@ -5,13 +5,13 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec import spatial
+from polycnc.control.syntec.five_axes import spatial
 from polycnc.control.syntec.parameters import decimals, parameter
-from polycnc.control.word_address import radius
-from polycnc.control.word_address.drilling import DrillCycle, Drilling, is_active, lead_from_feed
-from polycnc.control.word_address.hole_patterns import drill_points, plane_point
-from polycnc.cycles import drilling, hole_patterns
-from polycnc.cycles.drilling import Action, Hole, Stroke
+from polycnc.control.word_address.cycles.drilling import DrillCycle, Drilling, is_active, lead_from_feed
+from polycnc.control.word_address.cycles.hole_patterns import drill_points, plane_point
+from polycnc.control.word_address.tools import radius
+from polycnc.cycles.drilling import holes, patterns
+from polycnc.cycles.drilling.holes import Action, Hole, Stroke
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 
@@ -19,27 +19,27 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.codes import Handler, Step
-    from polycnc.control.word_address.drilling import CycleData
-    from polycnc.control.word_address.numbers import NumberRules
-    from polycnc.control.word_address.plan import Builder
-    from polycnc.control.word_address.words import Words
+    from polycnc.control.word_address.block.codes import Handler, Step
+    from polycnc.control.word_address.block.numbers import NumberRules
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.cycles.drilling import CycleData
     from polycnc.geometry.arcs import Point
 
 #: An incremental bottom counts from the initial level where the page of the cycle says so, else from R.
 CYCLES = {
-    "G73": DrillCycle(drilling.peck_breaking_chips, pecks=True, bottom_from_initial=True),
-    "G74": DrillCycle(drilling.tap, dwells=True, pecks=True, bottom_from_initial=True),
-    "G76": DrillCycle(drilling.bore_and_shift, dwells=True, bottom_from_initial=True),
-    "G81": DrillCycle(drilling.drill),
-    "G82": DrillCycle(drilling.drill, dwells=True, bottom_from_initial=True),
-    "G83": DrillCycle(drilling.peck_clearing_chips, pecks=True, bottom_from_initial=True),
-    "G84": DrillCycle(drilling.tap, dwells=True, pecks=True),
-    "G85": DrillCycle(drilling.bore, bottom_from_initial=True),
-    "G86": DrillCycle(drilling.bore_and_stop, bottom_from_initial=True),
-    "G87": DrillCycle(drilling.bore_back, dwells=True),
-    "G88": DrillCycle(partial(drilling.bore_and_halt, feeds_out=True), dwells=True, bottom_from_initial=True),
-    "G89": DrillCycle(drilling.bore, dwells=True, bottom_from_initial=True),
+    "G73": DrillCycle(holes.peck_breaking_chips, pecks=True, bottom_from_initial=True),
+    "G74": DrillCycle(holes.tap, dwells=True, pecks=True, bottom_from_initial=True),
+    "G76": DrillCycle(holes.bore_and_shift, dwells=True, bottom_from_initial=True),
+    "G81": DrillCycle(holes.drill),
+    "G82": DrillCycle(holes.drill, dwells=True, bottom_from_initial=True),
+    "G83": DrillCycle(holes.peck_clearing_chips, pecks=True, bottom_from_initial=True),
+    "G84": DrillCycle(holes.tap, dwells=True, pecks=True),
+    "G85": DrillCycle(holes.bore, bottom_from_initial=True),
+    "G86": DrillCycle(holes.bore_and_stop, bottom_from_initial=True),
+    "G87": DrillCycle(holes.bore_back, dwells=True),
+    "G88": DrillCycle(partial(holes.bore_and_halt, feeds_out=True), dwells=True, bottom_from_initial=True),
+    "G89": DrillCycle(holes.bore, dwells=True, bottom_from_initial=True),
 }
 TAPPING = ("G74", "G84")
 #: Pr4020: direction off the wall after the oriented stop, as geometry axis and sense.
@@ -163,14 +163,14 @@ def circle_of_holes(channel: Channel, words: Words) -> None:
     count = _count(words, "K", signed=True)
     radius = _length(words, "I", positive=True)
     start = words.angle("J") or 0.0
-    _drill(channel, hole_patterns.circle(plane_point(channel, words), radius, start, count))
+    _drill(channel, patterns.circle(plane_point(channel, words), radius, start, count))
 
 
 def line_of_holes(channel: Channel, words: Words) -> None:
     """G135 X Y I J K: K holes with pitch I along angle J (2.69)."""
     count = _count(words, "K")
     pitch, angle = _length(words, "I"), words.angle("J") or 0.0
-    _drill(channel, hole_patterns.line(plane_point(channel, words), pitch, angle, count))
+    _drill(channel, patterns.line(plane_point(channel, words), pitch, angle, count))
 
 
 def arc_of_holes(channel: Channel, words: Words) -> None:
@@ -178,14 +178,14 @@ def arc_of_holes(channel: Channel, words: Words) -> None:
     count = _count(words, "K")
     radius = _length(words, "I", positive=True)
     start, pitch = words.angle("J") or 0.0, words.angle("P") or 0.0
-    _drill(channel, hole_patterns.arc(plane_point(channel, words), radius, start, pitch, count))
+    _drill(channel, patterns.arc(plane_point(channel, words), radius, start, pitch, count))
 
 
 def grid_of_holes(channel: Channel, words: Words) -> None:
     """G137.1 X Y I P J K: P holes along X, pitch I, and K along Y, pitch J, row by row to and fro (2.71)."""
     columns, rows = _count(words, "P"), _count(words, "K")
     pitches = _length(words, "I"), _length(words, "J")
-    _drill(channel, hole_patterns.grid(plane_point(channel, words), pitches, columns, rows))
+    _drill(channel, patterns.grid(plane_point(channel, words), pitches, columns, rows))
 
 
 def _count(words: Words, address: str, *, signed: bool = False) -> int:

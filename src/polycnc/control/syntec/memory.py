@@ -5,10 +5,10 @@ from __future__ import annotations
 from random import Random
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec import functions
+from polycnc.control.syntec.macros import functions
+from polycnc.control.syntec.macros.system_variables import SYSTEM_VARIABLES
+from polycnc.control.syntec.macros.variables import Globals, Locals, is_local, put
 from polycnc.control.syntec.parameters import decimals, is_diameter, parameter
-from polycnc.control.syntec.system_variables import SYSTEM_VARIABLES
-from polycnc.control.syntec.variables import Globals, Locals, is_local, put
 from polycnc.control.word_address.memory import Memory
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.syntec.expressions import NO_SUCH_VARIABLE
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.syntec.interrupts import Interrupt
-    from polycnc.control.syntec.oscillation import Oscillation
-    from polycnc.control.syntec.skips import SkipGroup
+    from polycnc.control.syntec.macros.interrupts import Interrupt
+    from polycnc.control.syntec.motion.oscillation import Oscillation
+    from polycnc.control.syntec.motion.skips import SkipGroup
     from polycnc.control.syntec.spindles import SpindlePair
 
 #: Names of single bits of the PLC interface that setups may give, and the functions that read them.

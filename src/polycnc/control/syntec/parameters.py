@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from polycnc.machine.setup import Parameters
+    from polycnc.machine.setup.values import Parameters
 
 DELIVERED: dict[int, int] = {
     17: 2,  # input unit: 2 is 0.001 mm

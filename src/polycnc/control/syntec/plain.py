@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.plain import PlainBlocks
+from polycnc.control.word_address.block.plain import PlainBlocks
 from polycnc.language.bulk import Spelling
 from polycnc.language.syntec.blocks import MAX_DIGITS
 

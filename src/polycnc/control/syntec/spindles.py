@@ -14,9 +14,9 @@ from polycnc.language.bulk import Note, declare
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.syntec.memory import SyntecMemory
-    from polycnc.control.word_address.codes import Planner, Step
-    from polycnc.control.word_address.plan import Builder
-    from polycnc.control.word_address.words import Words
+    from polycnc.control.word_address.block.codes import Planner, Step
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.words import Words
 
 GEOMETRY_AXES = 3
 #: Axis name codes (Pr321): the hundreds are the letter, the last two digits the index, 0 for none.

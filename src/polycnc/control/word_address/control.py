@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from polycnc.channel.intervention import TYPED_IN, TakesBack
 from polycnc.channel.snapshot import unchanging
 from polycnc.control.alarm_text import alarm_catalogue
-from polycnc.control.word_address import coordinates, frames, path
-from polycnc.control.word_address.codes import GCode, MCode
-from polycnc.control.word_address.drilling import Drilling, give_way, plan_drilling
+from polycnc.control.word_address.block.codes import GCode, MCode
+from polycnc.control.word_address.block.numbers import Convert, NumberRules, angle_converter, length_converter
+from polycnc.control.word_address.block.plain import PlainBlocks
+from polycnc.control.word_address.block.plan import Builder, Plan
+from polycnc.control.word_address.coordinates import frames, systems
+from polycnc.control.word_address.cycles.drilling import Drilling, give_way, plan_drilling
 from polycnc.control.word_address.memory import Memory
-from polycnc.control.word_address.numbers import Convert, NumberRules, angle_converter, length_converter
-from polycnc.control.word_address.plain import PlainBlocks
-from polycnc.control.word_address.plan import Builder, Plan
+from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.reset import reset
 from polycnc.geometry.arcs import radius_mismatch
 from polycnc.language.bulk import Spelling
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step as ProgramStep
-    from polycnc.control.word_address.codes import Handler, Planner, Step
+    from polycnc.control.word_address.block.codes import Handler, Planner, Step
     from polycnc.control.word_address.memory import ToolOffset
     from polycnc.geometry.arcs import Point
     from polycnc.language.bulk import Condition
@@ -80,7 +81,7 @@ class WordAddressControl:
     addresses: ClassVar[Mapping[str, Planner]] = {}
     power_on: ClassVar[Mapping[str, str]] = {}
     alarms: ClassVar[Mapping[str, str]] = {}
-    only_context: ClassVar[frozenset[Handler]] = frozenset((coordinates.note_context,))
+    only_context: ClassVar[frozenset[Handler]] = frozenset((systems.note_context,))
     settled_codes: ClassVar[Mapping[str, Condition]] = {}
     foreign_codes: ClassVar[Mapping[str, str]] = {}
     drilling: ClassVar[Drilling] = Drilling({})
@@ -176,7 +177,7 @@ class WordAddressControl:
             channel.memory.tool = channel.memory.next_tool = int(channel.setup.spindle_tool)
         if self.FEED_AT_START is not None:
             channel.feed = self.FEED_AT_START
-        coordinates.refresh_zero(channel)
+        systems.refresh_zero(channel)
         for name, value in channel.setup.variables.items():
             try:
                 self.write_variable(channel, name, value)

@@ -10,16 +10,16 @@ from polycnc.toolpath.context import NO_OVERLAP
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.cylinder import Cylinder
-    from polycnc.control.word_address.drilling import CycleData
-    from polycnc.control.word_address.hypothetical_axis import Standing
-    from polycnc.control.word_address.interruption import Interruptions
-    from polycnc.control.word_address.macro_calls import ModalCall
-    from polycnc.control.word_address.nurbs import Curve
-    from polycnc.control.word_address.planes import ParallelAxes
-    from polycnc.control.word_address.polar_interpolation import PolarPlane
+    from polycnc.control.word_address.cycles.drilling import CycleData
+    from polycnc.control.word_address.macro_b.interruption import Interruptions
+    from polycnc.control.word_address.macro_b.macro_calls import ModalCall
+    from polycnc.control.word_address.motion.nurbs import Curve
+    from polycnc.control.word_address.motion.planes import ParallelAxes
+    from polycnc.control.word_address.transformations.cylinder import Cylinder
+    from polycnc.control.word_address.transformations.hypothetical_axis import Standing
+    from polycnc.control.word_address.transformations.polar_interpolation import PolarPlane
     from polycnc.geometry.frames import Vector
-    from polycnc.machine.setup import Tool
+    from polycnc.machine.setup.values import Tool
 
 #: Name of the offset that is added to every work coordinate system.
 EXTERNAL = "EXT"

@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address import cylinder, hypothetical_axis, normal_line, polar_interpolation
-from polycnc.control.word_address.coordinates import refresh_zero
+from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.transformations import (
+    cylinder,
+    hypothetical_axis,
+    normal_line,
+    polar_interpolation,
+)
 from polycnc.geometry.frames import IDENTITY
 
 if TYPE_CHECKING:

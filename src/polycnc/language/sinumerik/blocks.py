@@ -4,25 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.language.sinumerik import (
-    calls,
-    definitions,
-    files,
-    flow,
-    keywords,
-    redefinitions,
-    rights,
-    runtime,
-    vocabulary,
-)
+from polycnc.language.sinumerik import keywords, runtime
 from polycnc.language.sinumerik.emitter import Emitter, provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, syntax
 from polycnc.language.sinumerik.expressions import ExpressionReader
 from polycnc.language.sinumerik.lexer import Token, prefix_of, tokenize
+from polycnc.language.sinumerik.names import rights, vocabulary
+from polycnc.language.sinumerik.names.places import SystemPlace
+from polycnc.language.sinumerik.names.values import INT_MAX, INT_MIN, Type
+from polycnc.language.sinumerik.names.variables import Array, Reference, define
 from polycnc.language.sinumerik.nc_words import WordReader
-from polycnc.language.sinumerik.places import SystemPlace
-from polycnc.language.sinumerik.values import INT_MAX, INT_MIN, Type
-from polycnc.language.sinumerik.variables import Array, Reference, define
+from polycnc.language.sinumerik.statements import calls, definitions, files, flow, redefinitions
 from polycnc.language.sinumerik.words import WordShape, block_of
 
 if TYPE_CHECKING:
@@ -31,8 +23,8 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
     from polycnc.language.sinumerik.executable import SinumerikProgram
-    from polycnc.language.sinumerik.places import Place
-    from polycnc.language.sinumerik.scope import Scope
+    from polycnc.language.sinumerik.names.places import Place
+    from polycnc.language.sinumerik.names.scope import Scope
 
 
 class CompiledBlock(NamedTuple):

@@ -14,20 +14,20 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.snapshot import unchanging
 from polycnc.channel.steps import forget_steps, kept_steps
-from polycnc.language.sinumerik import rights
 from polycnc.language.sinumerik.blocks import CompiledBlock, compile_block, compile_text, expanded
-from polycnc.language.sinumerik.definition_files import load_definitions
-from polycnc.language.sinumerik.definitions import NO_HEADER, Header, read_header
 from polycnc.language.sinumerik.emitter import Emitter
 from polycnc.language.sinumerik.errors import NcSyntaxError
 from polycnc.language.sinumerik.expressions import ExpressionReader
 from polycnc.language.sinumerik.joining import Joiner
-from polycnc.language.sinumerik.labels import Labels
 from polycnc.language.sinumerik.lexer import Token, prefix_of, tokenize
+from polycnc.language.sinumerik.names import rights
+from polycnc.language.sinumerik.names.definition_files import load_definitions
+from polycnc.language.sinumerik.names.scope import Scope
 from polycnc.language.sinumerik.place import fail
-from polycnc.language.sinumerik.scope import Scope
 from polycnc.language.sinumerik.shapes import Shapes
-from polycnc.language.sinumerik.structures import Structure, structures_of
+from polycnc.language.sinumerik.statements.definitions import NO_HEADER, Header, read_header
+from polycnc.language.sinumerik.statements.labels import Labels
+from polycnc.language.sinumerik.statements.structures import Structure, structures_of
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.errors import NcSyntaxError, syntax
-from polycnc.language.sinumerik.values import Type
+from polycnc.language.sinumerik.names.values import Type
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.language.sinumerik.emitter import Emitter
     from polycnc.language.sinumerik.lexer import Token
-    from polycnc.language.sinumerik.scope import Scope
+    from polycnc.language.sinumerik.names.scope import Scope
 
 
 class Expr(NamedTuple):

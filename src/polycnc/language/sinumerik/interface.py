@@ -9,9 +9,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from polycnc.channel.channel import Channel
-    from polycnc.language.sinumerik.initialisation import FirstValues
-    from polycnc.language.sinumerik.values import Axis, Type
-    from polycnc.language.sinumerik.variables import Variable
+    from polycnc.language.sinumerik.names.initialisation import FirstValues
+    from polycnc.language.sinumerik.names.values import Axis, Type
+    from polycnc.language.sinumerik.names.variables import Variable
     from polycnc.language.sinumerik.words import Block
 
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.steps import Step
     from polycnc.language.sinumerik.emitter import Emitter
-    from polycnc.language.sinumerik.structures import Structure
+    from polycnc.language.sinumerik.statements.structures import Structure
 
     #: Gives the code of a block that has been run and may join, else None.
     Source = Callable[[int], Emitter | None]

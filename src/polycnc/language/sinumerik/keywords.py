@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from polycnc.language.sinumerik.values import Type
+from polycnc.language.sinumerik.names.values import Type
 
 TYPE_LETTERS = {
     "I": Type.INT,

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.language.sinumerik import keywords, rights
+from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
-from polycnc.language.sinumerik.values import Axis, Type
+from polycnc.language.sinumerik.names import rights
+from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.words import WordAlarm, WordShape, block_of
 from polycnc.messages import AlarmError
 

@@ -24,10 +24,10 @@ from math import (
 )
 from typing import TYPE_CHECKING, Any
 
-from polycnc.language.sinumerik import nc_frame
 from polycnc.language.sinumerik.errors import arithmetic
 from polycnc.language.sinumerik.lexer import number_of
-from polycnc.language.sinumerik.values import (
+from polycnc.language.sinumerik.names import frame as nc_frame
+from polycnc.language.sinumerik.names.values import (
     Axis,
     Type,
     char_of_text,
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.language.sinumerik.interface import LanguageMemory
-    from polycnc.language.sinumerik.nc_frame import NcFrame
+    from polycnc.language.sinumerik.names.frame import NcFrame
 
 #: Comparisons take values as equal that differ by no more than this part of the greater one (1.5).
 near = partial(isclose, rel_tol=1e-12)

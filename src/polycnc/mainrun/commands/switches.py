@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.machine.model import Axis
     from polycnc.machine.motion_settings import DryRun
-    from polycnc.machine.setup import Switches as SetupSwitches
+    from polycnc.machine.setup.values import Switches as SetupSwitches
     from polycnc.mainrun.commands.permission import Permission
     from polycnc.mainrun.execution.operation import Operation
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from polycnc.channel.waits import Wait
     from polycnc.control.interface import Control
     from polycnc.machine.model import Machine
-    from polycnc.machine.setup import Setup
+    from polycnc.machine.setup.values import Setup
     from polycnc.mainrun.commands.programs import Programs
     from polycnc.mainrun.execution.clock import Clock
     from polycnc.mainrun.preparation.items import Rates

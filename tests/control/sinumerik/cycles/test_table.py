@@ -35,7 +35,7 @@ def test_a_parameter_is_of_one_kind() -> None:
 
 def test_every_alarm_of_the_cycles_has_a_text() -> None:
     folder = Path(str(polycnc.control.sinumerik.cycles.__file__)).parent
-    sources = [path.read_text(encoding="utf-8") for path in folder.glob("*.py")]
+    sources = [path.read_text(encoding="utf-8") for path in folder.rglob("*.py")]
     raised = {code for source in sources for code in re.findall(r'"(6[12]\d{3})"', source)}
     assert len(raised) > 20
     assert raised <= set(Sinumerik().catalogue)

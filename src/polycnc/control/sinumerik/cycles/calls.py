@@ -10,11 +10,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import Level
-from polycnc.control.sinumerik import auxiliary, stages
+from polycnc.control.sinumerik import auxiliary
 from polycnc.control.sinumerik.cycles.arguments import Arguments
 from polycnc.control.sinumerik.cycles.table import CYCLES
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.language.sinumerik.sections import count_levels, end_of_subprogram
+from polycnc.control.sinumerik.tools import stages
+from polycnc.language.sinumerik.statements.sections import count_levels, end_of_subprogram
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.channel.path import Recorder
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.cycles.contour import Contour, Piece
+from polycnc.cycles.turning.contour import Contour, Piece
 from polycnc.geometry import offset
-from polycnc.language.sinumerik.calls import call_section, call_without_arguments, named_program
+from polycnc.language.sinumerik.statements.calls import call_section, call_without_arguments, named_program
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import CCW_KINDS

@@ -10,9 +10,9 @@ from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.cycles.levels import Levels, levels, sign
 from polycnc.control.sinumerik.cycles.moves import Moves
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.cycles import deep_hole as deep
-from polycnc.cycles import drilling
-from polycnc.cycles.drilling import Action, Stroke
+from polycnc.cycles.drilling import deep_hole as deep
+from polycnc.cycles.drilling import holes
+from polycnc.cycles.drilling.holes import Action, Stroke
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -133,7 +133,7 @@ def drill(channel: Channel, a: Arguments) -> Iterator[None]:
     found = levels_of_drill(moves, a)
     if found is not None:
         dwell = pause(a["DTB"], a.digit("_AMODE", 1))
-        yield from perform(moves, drilling.drill(found.hole(dwell)), Acts(channel.feed))
+        yield from perform(moves, holes.drill(found.hole(dwell)), Acts(channel.feed))
 
 
 def bore(channel: Channel, a: Arguments) -> Iterator[None]:
@@ -141,7 +141,7 @@ def bore(channel: Channel, a: Arguments) -> Iterator[None]:
     moves = Moves(channel)
     found = levels(moves, a)
     if found is not None:
-        yield from perform(moves, drilling.bore(found.hole(a["DTB"])), Acts(channel.feed))
+        yield from perform(moves, holes.bore(found.hole(a["DTB"])), Acts(channel.feed))
 
 
 def ream(channel: Channel, a: Arguments) -> Iterator[None]:
@@ -151,7 +151,7 @@ def ream(channel: Channel, a: Arguments) -> Iterator[None]:
     if found is not None:
         into, out = a["FFR"] or channel.feed, a["RFF"] or channel.feed
         dwell = pause(a["DTB"], a.digit("_AMODE", 1))
-        yield from perform(moves, drilling.bore(found.hole(dwell), out / into), Acts(into))
+        yield from perform(moves, holes.bore(found.hole(dwell), out / into), Acts(into))
 
 
 def _direction(a: Arguments, name: str = "SDIR") -> int:
@@ -183,7 +183,7 @@ def bore_and_lift(channel: Channel, a: Arguments) -> Iterator[None]:
 
     acts = Acts(channel.feed, spindle=spindle, shift=(a["RPA"], a["RPO"], a["RPAP"]))
     dwell = pause(a["DTB"], a.digit("_AMODE", 1))
-    yield from perform(moves, drilling.bore_and_lift(found.hole(dwell)), acts)
+    yield from perform(moves, holes.bore_and_lift(found.hole(dwell)), acts)
 
 
 def bore_and_halt(channel: Channel, a: Arguments) -> Iterator[None]:
@@ -194,7 +194,7 @@ def bore_and_halt(channel: Channel, a: Arguments) -> Iterator[None]:
     if found is not None:
         _turning(moves, direction)
         acts = Acts(channel.feed, spindle=lambda _value: moves.turn(0))
-        yield from perform(moves, drilling.bore_and_leave_standing(found.hole(a["DTB"])), acts)
+        yield from perform(moves, holes.bore_and_leave_standing(found.hole(a["DTB"])), acts)
 
 
 # ---- deep holes

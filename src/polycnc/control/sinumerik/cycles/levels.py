@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.cycles.drilling import Hole
+from polycnc.cycles.drilling.holes import Hole
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

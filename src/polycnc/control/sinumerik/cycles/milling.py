@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.moves import Moves, require_tool
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.cycles import pockets, slots
-from polycnc.cycles.mill_stroke import SAME_MM, MillStroke, Place
-from polycnc.cycles.pockets import Insertion, Pocket
+from polycnc.cycles.milling import pockets, slots
+from polycnc.cycles.milling.pockets import Insertion, Pocket
+from polycnc.cycles.milling.stroke import SAME_MM, MillStroke, Place
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 

@@ -9,14 +9,16 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik import circles, motion, tables
+from polycnc.control.sinumerik import tables
+from polycnc.control.sinumerik.motion import circles
+from polycnc.control.sinumerik.motion import moves as motion
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.feed.spindles import Spindle
     from polycnc.control.sinumerik.memory import Memory
-    from polycnc.control.sinumerik.spindles import Spindle
     from polycnc.geometry.arcs import Point
 
 #: M functions of the directions of a spindle.

@@ -6,9 +6,9 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.moves import Moves
-from polycnc.cycles import hole_patterns
+from polycnc.cycles.drilling import patterns
 from polycnc.geometry.frames import cos_sin_deg
-from polycnc.language.sinumerik.calls import call_modal
+from polycnc.language.sinumerik.statements.calls import call_modal
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -69,9 +69,7 @@ def circle(channel: Channel, a: Arguments) -> Iterator[None]:
     if abs(pitch) * (count - 1) >= TURN:
         raise AlarmError("61106")
     center = (a["CPA"], a["CPO"])
-    yield from visit(
-        moves, a, hole_patterns.arc(center, abs(a["RAD"]), a["STA1"], pitch or TURN / count, count)
-    )
+    yield from visit(moves, a, patterns.arc(center, abs(a["RAD"]), a["STA1"], pitch or TURN / count, count))
 
 
 def grid(channel: Channel, a: Arguments) -> Iterator[None]:
@@ -88,11 +86,11 @@ def grid(channel: Channel, a: Arguments) -> Iterator[None]:
     u, v = moves.point
     near = min(corners, key=lambda cell: hypot(_place(a, *cell)[0] - u, _place(a, *cell)[1] - v))
     if a.digit("_VARI", 0) == 1:
-        cells = hole_patterns.frame_cells(columns, rows)
+        cells = patterns.frame_cells(columns, rows)
     elif abs(a["_DIS1"]) <= abs(a["_DIS2"]):
-        cells = hole_patterns.meander_cells(columns, rows)
+        cells = patterns.meander_cells(columns, rows)
     else:
-        cells = [(i, j) for j, i in hole_patterns.meander_cells(rows, columns)]
+        cells = [(i, j) for j, i in patterns.meander_cells(rows, columns)]
     yield from visit(moves, a, (_place(a, abs(near[0] - i), abs(near[1] - j)) for i, j in cells))
 
 

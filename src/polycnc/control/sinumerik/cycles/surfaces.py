@@ -19,10 +19,12 @@ from polycnc.control.sinumerik.cycles.milling import (
 )
 from polycnc.control.sinumerik.cycles.moves import Moves, require_tool
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.cycles import facing, path_milling, spigots, thread_milling
-from polycnc.cycles.contour import parallel, turned_round
-from polycnc.cycles.mill_stroke import SAME_MM, Place, steps
-from polycnc.cycles.path_milling import Approach, PathMilling, Way
+from polycnc.cycles.milling import contour as path_milling
+from polycnc.cycles.milling import facing, spigots
+from polycnc.cycles.milling import thread as thread_milling
+from polycnc.cycles.milling.contour import Approach, PathMilling, Way
+from polycnc.cycles.milling.stroke import SAME_MM, Place, steps
+from polycnc.cycles.turning.contour import parallel, turned_round
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

@@ -12,11 +12,13 @@ from __future__ import annotations
 from math import inf, nan
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.control.sinumerik import auxiliary, frames, motion, tables
+from polycnc.control.sinumerik import auxiliary, tables
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.frame_codes import crots
+from polycnc.control.sinumerik.frames import memory as frames
+from polycnc.control.sinumerik.frames.codes import crots
+from polycnc.control.sinumerik.motion import moves
 from polycnc.geometry.frames import IDENTITY, Frame, rotation
-from polycnc.language.sinumerik.nc_frame import GEOMETRY_AXES, NEUTRAL, NcFrame
+from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, NcFrame
 from polycnc.machine.kinematics import Kinematics
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -222,7 +224,7 @@ def _turn(channel: Channel, record: Record, angles: dict[str, float]) -> None:
     end = coordinates.position.copy()
     for name, column in zip(record.axes, record.columns, strict=True):
         end[column] += angles[name] - machine[column]
-    motion.line(channel, Kind.RAPID, end, nan)
+    moves.line(channel, Kind.RAPID, end, nan)
 
 
 def _carry(channel: Channel, kinematics: Kinematics, angles: dict[str, float]) -> None:
@@ -271,7 +273,7 @@ def _to_limits(channel: Channel, axes: tuple[int, ...]) -> None:
         limit = _range(channel, column)[1] if stored is None else float(stored)
         if limit < inf:
             machine[column] = limit
-    motion.line(channel, Kind.RAPID, coordinates.from_machine(machine), nan)
+    moves.line(channel, Kind.RAPID, coordinates.from_machine(machine), nan)
 
 
 def _range(channel: Channel, column: int) -> tuple[float, float]:
@@ -310,4 +312,4 @@ def _along_tool(channel: Channel, kinematics: Kinematics, way: float | None) -> 
         for column, part in zip(coordinates.geometry, direction, strict=True):
             if column >= 0:
                 machine[column] += way * part
-        motion.line(channel, Kind.RAPID, coordinates.from_machine(machine), nan)
+        moves.line(channel, Kind.RAPID, coordinates.from_machine(machine), nan)

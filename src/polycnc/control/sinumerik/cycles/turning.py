@@ -7,18 +7,18 @@ from itertools import pairwise
 from math import ceil, copysign
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik import stages
 from polycnc.control.sinumerik.cycles.contour import read
 from polycnc.control.sinumerik.cycles.drilling import METRIC_PITCHES, pitch
 from polycnc.control.sinumerik.cycles.milling import feed_of
 from polycnc.control.sinumerik.cycles.moves import Moves, require_tool
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.tools import DP_TIP
-from polycnc.cycles import thread_turning
-from polycnc.cycles.contour import Contour, parallel, shifted, swapped, swapped_stroke, turned_round
-from polycnc.cycles.plane_stroke import PlaneStroke
-from polycnc.cycles.stock_removal import Removal, remove
-from polycnc.cycles.thread_turning import Thread
+from polycnc.control.sinumerik.tools import stages
+from polycnc.control.sinumerik.tools.memory import DP_TIP
+from polycnc.cycles.turning import thread_chain as thread_turning
+from polycnc.cycles.turning.contour import Contour, parallel, shifted, swapped, swapped_stroke, turned_round
+from polycnc.cycles.turning.stock_removal import Removal, remove
+from polycnc.cycles.turning.stroke import PlaneStroke
+from polycnc.cycles.turning.thread_chain import Thread
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 

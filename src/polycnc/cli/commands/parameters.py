@@ -1,0 +1,163 @@
+"""`polycnc parameters`: the parameters of a control by number, with meaning and value; set in a setup."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from polycnc.cli import options
+from polycnc.cli.console import fail, say
+from polycnc.messages import text
+from polycnc.messages.catalogue import listed
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from polycnc.control.parameters import KnownParameter
+    from polycnc.machine.setup.values import ParameterKey, Parameters
+
+app = typer.Typer(add_completion=False, rich_markup_mode=None, help=text("help.parameters"))
+
+
+@app.callback()
+def parameters(_lang: options.Lang = None) -> None:
+    """Parameters of a control."""
+
+
+@app.command(name="list", help=text("help.parameters.list"))
+def list_parameters(
+    control: options.Control = None, setup: options.Setup = None, _lang: options.Lang = None
+) -> int:
+    """One parameter a line: number, value, meaning."""
+    known = _known(control)
+    if isinstance(known, int):
+        return known
+    values = _values(setup)
+    for parameter in known:
+        shown = " ".join(_shown(parameter, values))
+        say(f"{parameter.name:9} {shown:12} {_meaning(parameter)}")
+    return 0
+
+
+@app.command(name="show", help=text("help.parameters.show"))
+def show_parameter(
+    number: Annotated[str, typer.Argument(metavar="NUMBER")],
+    control: options.Control = None,
+    setup: options.Setup = None,
+    _lang: options.Lang = None,
+) -> int:
+    """A parameter, or all bits of a number."""
+    known = _known(control)
+    if isinstance(known, int):
+        return known
+    wanted = number.strip().upper()
+    found = [p for p in known if wanted in (p.name, p.name.partition("#")[0], p.name.zfill(len(wanted)))]
+    if not found:
+        return fail(text("parameters.unknown", control=control, number=number), 2)
+    values = _values(setup)
+    for parameter in found:
+        say(f"{parameter.name} {_meaning(parameter)}")
+        if parameter.delivered is not None:
+            say(f"  {text('parameters.delivered')}: {parameter.delivered:g}")
+        given = list(_given(parameter, values))
+        if given:
+            say(f"  {text('parameters.in-setup')}: {' '.join(given)}")
+    return 0
+
+
+@app.command(name="set", help=text("help.parameters.set"))
+def set_parameters(
+    assignments: Annotated[list[str], typer.Argument(metavar="NUMBER=VALUE…")],
+    setup: options.Setup = Path("setup.yaml"),
+    control: options.Control = None,
+    _lang: options.Lang = None,
+) -> int:
+    """Write parameters into a setup; none of them if one is wrong."""
+    from polycnc.cli.output import write_whole
+    from polycnc.machine.setup import edit
+
+    known = _known(control)
+    if isinstance(known, int):
+        return known
+    path = setup or Path("setup.yaml")
+    if not edit.is_writable(path):
+        return fail(text("data.setup-form", setup=path), 2)
+    names = {parameter.key for parameter in known}
+    values: dict[str, float] = {}
+    for word in assignments:
+        name, equals, value = (part.strip() for part in word.partition("="))
+        reason = _refused(word, name, value, names) if equals else text("parameters.form", word=word)
+        if reason:
+            return fail(reason, 2)
+        number = float(value)
+        values[name] = int(number) if number.is_integer() else number
+    document = edit.read_document(path)
+    edit.merge(document, {"parameters": values})
+    write_whole(path, edit.document_text(document, str(path)))
+    return 0
+
+
+def _refused(word: str, name: str, value: str, names: set[ParameterKey]) -> str:
+    """Why an assignment cannot be taken over; empty where it can."""
+    from polycnc.machine.setup.values import parameter_key
+
+    try:
+        key = parameter_key(name)
+    except ValueError:
+        return text("parameters.form", word=word)
+    if key._replace(axis=None) not in names:
+        return text("parameters.unknown", control="", number=name).removeprefix(": ")
+    try:
+        number = float(value)
+    except ValueError:
+        return text("parameters.value", word=word, value=value)
+    if not abs(number) < float("inf"):
+        return text("parameters.value", word=word, value=value)
+    return text("parameters.bit", word=word) if key.bit is not None and number not in (0.0, 1.0) else ""
+
+
+def _known(control: str | None) -> tuple[KnownParameter, ...] | int:
+    """The list of a control, or the exit status after saying why there is none."""
+    from polycnc.control import registry
+    from polycnc.control.parameters import known_parameters
+
+    if control is None or control not in registry.ids():
+        known = listed(registry.ids())
+        message = "session.control-wanted" if control is None else "session.control-unknown"
+        return fail(text(message, control=control, known=known), 2)
+    found = known_parameters(registry.control(control))
+    return found or fail(text("parameters.none", control=control), 2)
+
+
+def _values(setup: Path | None) -> Parameters:
+    from polycnc.machine import Parameters, load_setup
+
+    return Parameters() if setup is None else load_setup(setup).parameters
+
+
+def _meaning(parameter: KnownParameter) -> str:
+    from polycnc.messages.catalogue import language
+
+    unit = f" [{parameter.unit}]" if parameter.unit else ""
+    return parameter.texts[language()] + unit
+
+
+def _shown(parameter: KnownParameter, values: Parameters) -> Iterator[str]:
+    """The values of the setup, else the delivered one."""
+    given = list(_given(parameter, values))
+    if given:
+        yield from given
+    else:
+        yield "-" if parameter.delivered is None else f"{parameter.delivered:g}"
+
+
+def _given(parameter: KnownParameter, values: Parameters) -> Iterator[str]:
+    """The values that a setup gives, with the axis in front where it names one."""
+    wanted = parameter.key
+    for key, value in values.items():
+        if key.id == wanted.id and key.bit == wanted.bit:
+            yield f"{key.axis}={value}" if key.axis else str(value)
+        elif key.id == wanted.id and key.bit is None and wanted.bit is not None and isinstance(value, int):
+            yield str(value >> wanted.bit & 1)

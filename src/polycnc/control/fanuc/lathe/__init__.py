@@ -1,0 +1,10 @@
+"""The FANUC 0i-TF Plus lathe (`fanuc-0i-tf`).
+
+`control` states what it is, `codes` has its tables; `memory`, `reset`, `variables` (of the system), `auxiliary`
+(dwell, surface speed …), `balance` (two turrets at once). `parameters.toml` has the parameters.
+
+    motion/        threads, corners, lines by drawing dimensions
+    coordinates/   coordinate systems, limits of travel
+    tools/         T and offsets, nose radius, G10, measuring, offset screens
+    cycles/        single, repetitive, drilling and grinding cycles
+"""

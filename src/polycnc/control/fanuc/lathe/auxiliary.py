@@ -1,0 +1,101 @@
+"""Small codes of the lathe: dwell, surface speed, spindle watch, rigid tapping, largest increment."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from polycnc.control.fanuc.lathe.cycles import grinding
+from polycnc.control.word_address.auxiliary import functions
+from polycnc.control.word_address.block.plan import NOT_YET
+from polycnc.language.bulk import Note, declare, declared
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.words import Words
+
+
+def output_while_moving(_channel: Channel, _words: Words) -> None:
+    """G50.9: auxiliary functions at a point of the way; not executed yet."""
+    raise AlarmError(NOT_YET, address="G50.9", hint="hint.not-supported", code="G50.9")
+
+
+def dwell(channel: Channel, words: Words) -> None:
+    """G04 X, U (seconds) or P (milliseconds); spindle revolutions under G99 with 3405#1 DWL.
+
+    Behind a line whose end lies in the next block (II.4.9) it waits for that line.
+    """
+    line = channel.memory.open_line
+    if line is None:
+        _dwell(channel, words)
+    else:
+        line.behind.append((channel.level.current, partial(_dwell, channel, words)))
+
+
+def _dwell(channel: Channel, words: Words) -> None:
+    if not (channel.memory.parameters.bit(3405, 1) and channel.mode["feed"] == "G99"):
+        functions.dwell(channel, words)
+        return
+    thousandths = words.integer("P") if "P" in words else None
+    if thousandths is not None:
+        channel.dwell(revolutions=thousandths / 1000.0)
+        return
+    for address in ("X", "U"):
+        if address in words:
+            value = words.typed(address) or 0.0
+            channel.dwell(revolutions=value / 1000.0 if words.form(address) == "" else value)
+            return
+
+
+def wait_for_blocks(channel: Channel, _words: Words) -> None:
+    """G04.1: blocks behind are taken in when those in front have ended."""
+    channel.flush()
+    channel.synchronise()
+
+
+def plan_spindle_speed(builder: Builder) -> Step:
+    """S: a whole number without sign."""
+    slot, form = builder.slots["S"]
+    if form not in ("", "#"):
+        raise builder.control.fail("point", address="S")
+    set_speed = functions.plan_spindle_speed(builder)
+
+    def checked(channel: Channel, values: list[float]) -> None:
+        if values[slot] < 0.0:
+            raise channel.control.fail("minus", address="S")
+        set_speed(channel, values)
+
+    return checked if declared(set_speed) is None else declare(checked, Note(slot, lowest=0.0))
+
+
+def plan_second_auxiliary(builder: Builder) -> Step | None:
+    """B: second auxiliary function; in a grinding cycle it is a word of the cycle."""
+    if builder.mode["motion"] in grinding.CODES:
+        return None
+    return functions.plan_second_auxiliary(builder)
+
+
+def surface_speed(channel: Channel, words: Words) -> None:
+    """G96 S [P]: P is the controlled axis whose work coordinate is the diameter, 0 for that of 3770.
+
+    Beside an M code, or with 3703#3 MPP, P names the spindle instead.
+    """
+    names_spindle = words.plan.m_codes or channel.memory.parameters.bit(3703, 3)
+    if "P" in words and not names_spindle:
+        axis = words.integer("P") or 0
+        if not 0 <= axis <= len(channel.axes):
+            raise words.fail("surface_axis", "P")
+    channel.context_changed()
+
+
+def switch_by_q(_channel: Channel, words: Words) -> None:
+    """G05.4 Q1, Q0: another current loop of the drives; the path is unchanged."""
+    if words.integer("Q") not in (0, 1):
+        raise words.fail("preview_value", "Q")
+
+
+def note_fluctuation(_channel: Channel, _words: Words) -> None:
+    """G26 P Q R I: the spindle's speed is watched; an ideal spindle never leaves the window."""

@@ -1,0 +1,115 @@
+"""Balance cutting G68 and G69: the turrets of several paths cut from both sides at once (0i-TF Plus II.7.1).
+
+Paths wait for each other at G68 and at G69, and between them at every block that cuts: they start it together. With
+the program O0001 of the first path, path 2 starts O0001.P-2 (as files of several paths are named), or PATH2/O0001.
+A path without a program is not waited for: so the program of one turret can be proved alone.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.fanuc.lathe.cycles.single import CYCLES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.words import Words
+
+GROUP = "turret_mirror"
+#: Wait marks: where the paths switch balance cutting on and off, and where they cut.
+ON, OFF, CUT = 68, 69, 1
+RAPID, LINE = "G0", "G1"
+
+
+def is_available(channel: Channel) -> bool:
+    """Whether G68 is balance cutting here: several paths and 8137#0 NVC = 0; else it mirrors a turret."""
+    return len(channel.machine.channels) > 1 and not channel.setup.parameters.bit(8137, 0)
+
+
+def start_paths(channel: Channel) -> None:
+    """Cycle start: with the first path the others start their programs of the same name."""
+    group = channel.group
+    if group is None or channel is not group.first:
+        return
+    for other in channel.machine.channels:
+        if other.number == channel.number:
+            continue
+        store, name = channel.store, channel.level.code.program.name
+        program = store.find_name(f"{name}.P-{other.number}") or store.find_name(f"PATH{other.number}/{name}")
+        if program is not None and not group.is_running(other.number):
+            group.select(other.number, program)
+            group.start(other.number)
+
+
+def begin(channel: Channel, words: Words) -> None:
+    """G68 [P]: wait for G68 of the other paths; from here on they cut together. Without P: paths 1 and 2."""
+    _check_alone(words, "P")
+    memory = channel.memory
+    if memory.balanced:
+        return
+    memory.balanced = _paths(channel, words)
+    _meet(channel, ON, memory.balanced)
+
+
+def end(channel: Channel, words: Words) -> None:
+    """G69: wait for G69 of the other paths; every path cuts by itself again."""
+    _check_alone(words, "")
+    memory = channel.memory
+    paths, memory.balanced = memory.balanced, frozenset()
+    if paths:
+        _meet(channel, OFF, paths)
+
+
+def together(builder: Builder, plan: Plan, move: Step | None) -> Step | None:
+    """The step of a cutting block: balanced paths start it together. Rapids and blocks without travel do not wait."""
+    motion = builder.mode["motion"]
+    if move is None or builder.mode[GROUP] != "G68" or not is_available(builder.channel):
+        return move
+    if (motion == RAPID and builder.mode["cycle"] == "G80") or not (plan.axis_words or motion in CYCLES):
+        return move
+
+    def cut(channel: Channel, values: list[float]) -> None:
+        before = list(channel.coordinates.position)
+        move(channel, values)
+        if motion != LINE or channel.coordinates.position != before:
+            _meet(channel, CUT, channel.memory.balanced)
+
+    return cut
+
+
+def _paths(channel: Channel, words: Words) -> frozenset[int]:
+    """The paths that P names: as a sum of 2^(n-1), or as digits (8103#1 MWP); PS0163 for a wrong one."""
+    value = words.integer("P")
+    if value is None:
+        return frozenset({1, 2})
+    if channel.setup.parameters.bit(8103, 1):
+        digits = [int(digit) for digit in str(abs(value))]
+    else:
+        digits = [n + 1 for n in range(abs(value).bit_length()) if abs(value) >> n & 1]
+    paths = frozenset(digits)
+    known = {each.number for each in channel.machine.channels}
+    if value < 0 or len(paths) < max(len(digits), 2) or not paths <= known or channel.number not in paths:
+        raise words.fail("turret_form", "P")
+    return paths
+
+
+def _check_alone(words: Words, allowed: str) -> None:
+    """G68 and G69 stand alone in their block (PS0163)."""
+    plan = words.plan
+    foreign = [address for address in plan.slots if address not in allowed]
+    if foreign or len(plan.order) > 1 + len(plan.slots):
+        raise words.fail("turret_form", foreign[0] if foreign else plan.order[0])
+
+
+def _meet(channel: Channel, mark: int, paths: Iterable[int]) -> None:
+    group = channel.group
+    if group is None:
+        return
+    others = [number for number in paths if number != channel.number and group.is_selected(number)]
+    if others:
+        channel.flush()
+        group.meet(channel, mark, others)

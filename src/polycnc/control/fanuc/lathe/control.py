@@ -1,0 +1,370 @@
+"""FANUC Series 0i-TF Plus lathe (control id `fanuc-0i-tf`)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, ClassVar
+
+from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES, HINTED_WORDS
+from polycnc.control.fanuc.code_calls import PROGRAM_M, registered_codes
+from polycnc.control.fanuc.lathe import auxiliary, balance
+from polycnc.control.fanuc.lathe import reset as turning_reset
+from polycnc.control.fanuc.lathe.codes import (
+    ADDRESSES,
+    M_CODES,
+    POWER_ON,
+    g_table,
+    missing_codes,
+    written_codes,
+)
+from polycnc.control.fanuc.lathe.coordinates import limits, systems
+from polycnc.control.fanuc.lathe.cycles import drilling, intervention, repetitive, shape, single, tapping
+from polycnc.control.fanuc.lathe.memory import TurningMemory
+from polycnc.control.fanuc.lathe.motion import drawing, threads
+from polycnc.control.fanuc.lathe.tools import data_input, files, nose_radius, offsets
+from polycnc.control.fanuc.lathe.variables import TURNING_VARIABLES
+from polycnc.control.fanuc.operation import dry_run
+from polycnc.control.word_address.block.codes import MCode
+from polycnc.control.word_address.macro_b import code_calls, interruption
+from polycnc.control.word_address.macro_b.custom_macro import CustomMacroControl
+from polycnc.control.word_address.motion import path
+from polycnc.control.word_address.transformations import normal_line
+from polycnc.control.word_address.transformations.normal_line import NormalLineParameters
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.intervention import TakesBack
+    from polycnc.channel.stack import Level
+    from polycnc.channel.steps import Step as ProgramStep
+    from polycnc.compensation.policies import Policy
+    from polycnc.control.data_files import DataFiles
+    from polycnc.control.word_address.block.codes import GCode, Handler, Planner, Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.cycles.drilling import Drilling
+    from polycnc.control.word_address.macro_b.code_calls import CodeCalls
+    from polycnc.language.bulk import Condition
+    from polycnc.machine.motion_settings import MotionSettings
+    from polycnc.messages import AlarmError
+    from polycnc.toolpath import Context
+
+
+class FanucTurning(CustomMacroControl):
+    """FANUC 0i-TF Plus: G code systems A, B and C, diameters, turning cycles, tool offsets by T."""
+
+    id: ClassVar[str] = "fanuc-0i-tf"
+    alarm_files: ClassVar[tuple[str, ...]] = ("fanuc/alarms.toml",)
+    default_machine: ClassVar[str] = "lathe2"
+    m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
+    only_context: ClassVar[frozenset[Handler]] = CustomMacroControl.only_context | {auxiliary.surface_speed}
+    settled_codes: ClassVar[Mapping[str, Condition]] = systems.SETTLED
+    addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
+    power_on: ClassVar[Mapping[str, str]] = POWER_ON
+    alarms: ClassVar[Mapping[str, str]] = {
+        **ALARMS,
+        "comp_skip": "PS0035",
+        "comp_no_avoidance": "PS5446",
+        "comp_avoidance_dangerous": "PS5447",
+        "comp_avoidance_interferes": "PS5448",
+    }
+    foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
+    data_files: ClassVar[DataFiles] = files
+    parameter_file: ClassVar[str] = "fanuc/lathe/parameters.toml"
+    EXTENDED_WORK_SYSTEMS: ClassVar[int] = 48
+    DIAMETER_PROGRAMMING: ClassVar[bool] = True
+    POINT_IN_WHOLE_NUMBERS: ClassVar[bool] = False
+    POLAR_CODES: ClassVar[frozenset[str]] = CustomMacroControl.POLAR_CODES | {"G98", "G99"}
+    REFUSED_ON_CYLINDER: ClassVar[frozenset[str]] = CustomMacroControl.REFUSED_ON_CYLINDER | {
+        "G50",
+        "G90",
+        "G94",
+    }
+    NORMAL_LINE_PARAMETERS: ClassVar[NormalLineParameters] = NormalLineParameters(
+        5480, 5481, 5482, 5483, preset="G50"
+    )
+    INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z", "H": "C"}
+    LATER_AXIS_WORD_COUNTS: ClassVar[bool] = True
+
+    # ---- state -----------------------------------------------------------------------------------------------
+
+    def system(self, channel: Channel) -> str:
+        """The G code system, A, B or C (3401#6 GSB, #7 GSC)."""
+        bit = channel.setup.parameters.bit
+        return "C" if bit(3401, 7) else "B" if bit(3401, 6) else "A"
+
+    def g_table(self, channel: Channel) -> Mapping[str, GCode]:
+        """The G codes as programs of this channel write them."""
+        bit = channel.setup.parameters.bit
+        table = g_table(
+            self.system(channel),
+            circular_thread=bool(bit(3405, 3)),
+            grinding=bool(bit(5106, 0)),
+            series_15=drilling.drills_in_series_15(channel),
+            balance=balance.is_available(channel),
+            missing=missing_codes(channel.setup.parameters),
+        )
+        return self.with_calls(channel, table)
+
+    def code_calls(self, channel: Channel) -> CodeCalls:
+        """Codes registered by 6050 to 6089 and 6001#5."""
+        return registered_codes(channel)
+
+    def written_code(self, channel: Channel, group: str) -> str:
+        """The active code of a modal group as the program writes it."""
+        code = channel.mode[group]
+        return written_codes(self.system(channel)).get((group, code), code)
+
+    def motion_settings(self, channel: Channel) -> MotionSettings:
+        """1401#1 LRP: rapids run on a line, else every axis by itself; what acts on a rigid tap (5203#4, 5200#6).
+
+        7001#0 MIT: manual intervention and return.
+        """
+        bit = channel.setup.parameters.bit
+        return replace(
+            super().motion_settings(channel),
+            rapid_by_axis=not bit(1401, 1),
+            taps_overridden=bool(bit(5203, 4)),
+            taps_held=bool(bit(5200, 6)),
+            returns_to_path=bool(bit(7001, 0)),
+            dry_run=dry_run(channel.setup.parameters),
+        )
+
+    def stays_at_end(self, channel: Channel, code: int) -> bool:
+        """3404#5 M02, 3404#4 M30: the program is not rewound to its top."""
+        return bool(channel.setup.parameters.bit(3404, 4 if code == 30 else 5))
+
+    def make_memory(self, channel: Channel) -> TurningMemory:
+        """Offsets, tools and variables."""
+        return TurningMemory(channel, TURNING_VARIABLES)
+
+    def start(self, channel: Channel) -> None:
+        """Power-on state; positions of the setup are those of the displays, X in diameter."""
+        super().start(channel)
+        machine = channel.coordinates.machine
+        shown = [channel.memory.radius_of(i, value) for i, value in enumerate(machine)]
+        channel.coordinates.arrive_machine(shown)
+        limits.at_power_on(channel)
+        channel.memory.feed_code, channel.memory.plane = channel.mode["feed"], channel.mode["plane"]
+        balance.start_paths(channel)
+
+    def begin(self, channel: Channel) -> None:
+        """Cycle start: further paths start with the first one."""
+        super().begin(channel)
+        balance.start_paths(channel)
+
+    def reset(self, channel: Channel) -> None:
+        """The state after reset, and after the end of a program."""
+        turning_reset.reset(channel)
+
+    def halts(self, channel: Channel, level: Level, step: ProgramStep) -> bool:
+        """Single block halts behind the first block that is no thread (II.3.1)."""
+        if channel.memory.thread_step == level.current and channel.mode["motion"] in offsets.THREADS:
+            return False
+        return super().halts(channel, level, step)
+
+    def start_codes(self, channel: Channel) -> dict[str, str]:
+        """Code of every modal group at power-on (3402)."""
+        bit = channel.setup.parameters.bit
+        codes = dict(self.power_on)
+        if bit(3402, 0):
+            codes["motion"] = "G1"
+        if bit(3402, 1):
+            codes["plane"] = "G17"
+        elif bit(3402, 2):
+            codes["plane"] = "G19"
+        if bit(3402, 3) and self.system(channel) != "A":
+            codes["distance"] = "G91"
+        if bit(3402, 4, default=1):
+            codes["feed"] = "G98"
+        if bit(3402, 7):
+            codes["stroke"] = "G23"
+        if bit(0, 2):
+            codes["unit"] = "G20"
+        return codes
+
+    # ---- axes and numbers ------------------------------------------------------------------------------------
+
+    def is_diameter(self, channel: Channel, axis: int) -> bool:
+        """Whether words of an axis are diameters (1006#3 DIA; delivered: X)."""
+        data = channel.axis_data[axis]
+        delivered = int(data.diameter)
+        polar = channel.memory.polar if channel.memory is not None else None
+        if polar is not None and axis == polar.linear and not channel.setup.parameters.bit(5450, 0):
+            return False
+        return bool(channel.setup.parameters.bit(1006, 3, channel.axes[axis], delivered)) and not data.rotary
+
+    def feed_factor(self, builder: Builder, form: str, mode: str) -> float:
+        """F without a point: also feeds per minute count 0.01 inch (II.4.5.1, "unit of F")."""
+        if (
+            form == ""
+            and mode == "G94"
+            and builder.inch
+            and not self.number_rules(builder.channel).calculator
+        ):
+            return 0.01
+        return super().feed_factor(builder, form, mode)
+
+    def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
+        """X/U, Z/W, Y/V, C/H in system A; G90/G91 in B and C."""
+        if self.system(channel) != "A":
+            index = channel.axis_index.get(address)
+            return None if index is None else (index, builder.mode["distance"] == "G91")
+        return super().axis_of_address(channel, address, builder)
+
+    def reference_point(self, channel: Channel, axis: int, number: int) -> float:
+        """Machine position of a reference point; the parameter of a diameter axis is a diameter."""
+        name = channel.axes[axis]
+        shown = channel.setup.parameters.get(self.REFERENCE_PARAMETERS[number], name)
+        if isinstance(shown, int | float):
+            return float(channel.memory.radius_of(axis, float(shown)))
+        return channel.axis_data[axis].reference_points[number - 1]
+
+    def context(self, channel: Channel) -> Context:
+        """The context that holds now, with what threads and taps keep from the operator."""
+        context = threads.locked(channel, super().context(channel))
+        memory = channel.memory
+        if memory.tapping or memory.overlap != context.overlap:
+            return replace(
+                context, feed_hold=context.feed_hold and not memory.tapping, overlap=memory.overlap
+            )
+        return context
+
+    # ---- motion ----------------------------------------------------------------------------------------------
+
+    def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
+        """Parameter blocks of G10 L52; programs called by codes."""
+        normal_line.check_block(builder)
+        return data_input.plan_parameter_block(builder, plan) or super().call_by_code(builder, plan)
+
+    def check_nesting(self, channel: Channel, kind: str) -> None:
+        """As everywhere; the shape that G70 runs calls no program at all (II.4.2.8)."""
+        if channel.level.kind == nose_radius.SHAPE_KIND:
+            raise self.fail("shape_command", address="P")
+        super().check_nesting(channel, kind)
+
+    def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
+        """The step of the active motion code, or of the active drilling cycle; balanced paths start it together.
+
+        An interruption may cut it, but for the shape that G70 runs (II.4.2.8).
+        """
+        motion = self._motion_step(builder, plan)
+        if motion is not None:
+            motion = shape.interruptible(builder, motion)
+        return balance.together(builder, plan, motion)
+
+    def _motion_step(self, builder: Builder, plan: Plan) -> Step | None:
+        if builder.mode["cycle"] != "G80":
+            return systems.without_rotation(drilling.plan(builder, plan))
+        tapping.plan_waiting(builder, plan)
+        drilling.give_way(builder)
+        motion = builder.mode["motion"]
+        row = next(code for code in self.g_table(builder.channel).values() if _is_motion(code, motion))
+        step = row.planner(builder, plan) if row.planner is not None else None
+        if step is not None and motion in single.CYCLES:
+            step = systems.without_rotation(step)
+        return threads.plan_way_off(builder, nose_radius.plan_travel(builder, plan, step))
+
+    def modal_changes(self, rows: list[GCode]) -> Iterator[tuple[str, str]]:
+        """A motion code in the block of a tap cancels the tap, wherever it stands (II.4.5.1, "cancel")."""
+        yield from super().modal_changes(rows)
+        if any(row.code in tapping.TAPS for row in rows) and any(row.ends for row in rows):
+            yield "cycle", self.power_on["cycle"]
+
+    def takes_back(self, builder: Builder, plan: Plan) -> TakesBack:
+        """What a block takes back of a manual intervention."""
+        return intervention.takes_back(builder) or super().takes_back(builder, plan)
+
+    def before_motion(self, builder: Builder, plan: Plan) -> list[Step]:
+        """A turning cycle begins where the tool was before it was moved by hand."""
+        return intervention.plan_return(builder, plan)
+
+    def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
+        """Modal macro calls; words of single cycles that a one-shot code clears."""
+        repetitive.check_block(builder, plan)
+        further = (
+            shape.plan_note(builder, plan),
+            single.plan_clearing(builder),
+            tapping.plan_leaving(builder),
+            drawing.plan_check(builder, plan),
+        )
+        return [*super().after_motion(builder, plan), *(step for step in further if step is not None)]
+
+    def end_of_program(self, channel: Channel) -> None:
+        """The shape of G70 ends with its last block; every other text as usual."""
+        if channel.level.kind == nose_radius.SHAPE_KIND:
+            repetitive.end_of_shape(channel)
+        else:
+            super().end_of_program(channel)
+
+    def plan_arc_without_center(self, builder: Builder, plan: Plan) -> Step | None:
+        """G02/G03 without R, I, K: a straight line; PS0022 by 3403#5 CIR."""
+        if builder.channel.setup.parameters.bit(3403, 5):
+            raise self.fail("no_center", address=builder.mode["motion"])
+        return path.plan_line(builder, plan)
+
+    def plan_corner(self, builder: Builder) -> Callable[[Channel, list[float]], object] | None:
+        """Chamfer and corner R, or a vector given by I and K within compensation."""
+        return nose_radius.plan_line_words(builder)
+
+    def untaken(self, address: str, builder: Builder) -> AlarmError:
+        """The alarm for a word that nothing takes: drawing dimensions beside a code that allows none have their own."""
+        if drawing.is_word(address) and drawing.is_on(builder):
+            return self.fail("drawing_increment", address=address)
+        return self.fail("address", address=address, word=address, hint=HINTED_WORDS.get(address, ""))
+
+    # ---- drilling, spindle, M --------------------------------------------------------------------------------
+
+    def drilling_rules(self, channel: Channel) -> Drilling:
+        """The drilling cycles of the chosen format."""
+        return drilling.rules(channel)
+
+    def packs_repeats(self, channel: Channel) -> bool:
+        """In the Series 15 format the last four digits of P count, and L has the repeats (II.6.2)."""
+        return not drilling.is_series_15(channel)
+
+    def spindle_slot(self, builder: Builder) -> int | None:
+        """P beside S or M names the spindle (3703#3 MPP, or the builder's), where no code takes it."""
+        if not builder.has("P"):
+            return None
+        names_spindle = builder.m_codes or builder.channel.setup.parameters.bit(3703, 3)
+        if any(
+            ("P" in row.takes and not (row.code == "G96" and names_spindle)) or row.takes == "*"
+            for row in builder.codes
+        ):
+            return None
+        if any("P" in self.m_code(number).takes for number in builder.m_codes):
+            return None
+        if builder.mode["cycle"] != "G80" or not (builder.m_codes or builder.has("S")):
+            return None
+        builder.take("P")
+        return builder.slot("P")
+
+    def m_row(self, builder: Builder, number: int) -> MCode:
+        """The row of an M code in a block; clamp codes of drilling blocks belong to the cycle."""
+        if builder.mode["cycle"] != "G80" and drilling.is_clamp(builder.channel, number):
+            return MCode(number, handler=drilling.note_clamp(number), silent=True)
+        called = code_calls.m_row(builder, number)
+        if called is not None:
+            return called
+        if builder.mode.codes.get(shape.GROUP) == shape.READING and number not in PROGRAM_M:
+            return MCode(number, silent=True)
+        return interruption.m_code(builder.channel, number) or self.m_code(number)
+
+    # ---- offsets ---------------------------------------------------------------------------------------------
+
+    def radius_value(self, channel: Channel, _number: int) -> float:
+        """Nose radius of the active offset, mm."""
+        return offsets.nose_radius(channel)
+
+    def nose_tip(self, channel: Channel) -> tuple[float, float]:
+        """Way from the nose centre to the imaginary tip, in units of the radius."""
+        return offsets.nose_tip(channel)
+
+    def compensation_policy(self, channel: Channel) -> Policy:
+        """Rules of nose radius compensation by 5003, 5008, 5010, 19607, 19625."""
+        return nose_radius.policy(channel)
+
+
+def _is_motion(code: GCode, motion: str) -> bool:
+    return code.group == "motion" and code.code == motion

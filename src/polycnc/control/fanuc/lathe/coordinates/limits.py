@@ -1,0 +1,177 @@
+"""Where the lathe may not go: stroke limits, forbidden zone, barrier, largest increments (G22, G23, G91.1, 1320 ff)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import inf
+from typing import TYPE_CHECKING
+
+from polycnc.control.fanuc.lathe.coordinates.barrier import barrier, is_described
+from polycnc.control.word_address.coordinates.stroke_check import StrokeZone
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.interface import Zone
+    from polycnc.control.word_address.block.words import Words
+
+#: Parameters of stored stroke checks 1, 2 and 3: upper and lower limits.
+TRAVEL, ZONE, INNER_ZONE = (1320, 1321), (1322, 1323), (1324, 1325)
+
+
+def at_power_on(channel: Channel) -> None:
+    """What parameters forbid before any program speaks."""
+    if channel.mode["stroke"] == "G22":
+        channel.memory.zone = barrier(channel) or _zone_of_parameters(channel)
+    renew_zones(channel)
+
+
+def stroke_check_on(channel: Channel, words: Words) -> None:
+    """G22 X Z I K: stored stroke check 2 in machine coordinates; values of a diameter axis are diameters.
+
+    The zone stays stored: a G22 without words brings back the one of the last words.
+    """
+    memory = channel.memory
+    memory.programmed_zone = _zone_of_words(channel, words) or memory.programmed_zone
+    # The barrier takes the place of stored stroke checks 2 and 3 (III.2.2).
+    memory.zone = barrier(channel) or memory.programmed_zone or _zone_of_parameters(channel)
+    renew_zones(channel)
+
+
+def stroke_check_off(channel: Channel, _words: Words) -> None:
+    """G23: no forbidden zone."""
+    channel.memory.zone = None
+    renew_zones(channel)
+
+
+def limit_increment(channel: Channel, words: Words) -> None:
+    """G91.1: largest increment of each named axis in one block; 0 ends the check."""
+    limits = channel.memory.increment_limits
+    for axis, value, _ in words.axes():
+        limits[axis] = abs(value)
+    for axis in [axis for axis, limit in limits.items() if not limit]:
+        del limits[axis]
+    renew_zones(channel)
+
+
+def renew_zones(channel: Channel) -> None:
+    """Let the channel check every move against what is forbidden now."""
+    memory = channel.memory
+    travel = _travel(channel)
+    zones: list[Zone] = []
+    if memory.increment_limits:
+        zones.append(IncrementCheck(dict(memory.increment_limits)))
+    if travel:
+        zones.append(TravelCheck(travel))
+    if memory.zone is not None:
+        zones.append(memory.zone)
+    inner = None if is_described(channel) else _zone_3(channel)
+    if inner is not None:
+        zones.append(inner)
+    channel.stroke_zone = Zones(tuple(zones)) if zones else None
+
+
+def _zone_of_words(channel: Channel, words: Words) -> StrokeZone | None:
+    upper = {axis: value for axis, value, _ in words.axes()}
+    named: list[tuple[int, float, float]] = []
+    for letter, axis in zip("IJK", channel.coordinates.geometry, strict=True):
+        low = words.length(letter, diameter=axis >= 0 and channel.control.is_diameter(channel, axis))
+        if (low is None) != (axis not in upper):
+            raise words.fail("address", letter)
+        if low is not None:
+            named.append((axis, low, upper[axis]))
+    return _zone(channel, named)
+
+
+def _zone_of_parameters(channel: Channel) -> StrokeZone | None:
+    """Stored stroke check 2 of the axes that 1310#0 names, with the limits of 1322 and 1323."""
+    return _zone(channel, _limits(channel, ZONE, bit=0))
+
+
+def _zone_3(channel: Channel) -> StrokeZone | None:
+    """Stored stroke check 3, always on: the inside of 1324 and 1325, of the axes that 1310#1 names."""
+    zone = _zone(channel, _limits(channel, INNER_ZONE, bit=1))
+    return None if zone is None else replace(zone, inside=True, number=3)
+
+
+def _limits(channel: Channel, numbers: tuple[int, int], bit: int) -> list[tuple[int, float, float]]:
+    parameters = channel.memory.parameters
+    return [
+        (i, *(channel.memory.radius_of(i, parameters.number(number, axis)) for number in reversed(numbers)))
+        for i, axis in enumerate(channel.axes)
+        if parameters.bit(1310, bit, axis)
+    ]
+
+
+def _zone(channel: Channel, named: list[tuple[int, float, float]]) -> StrokeZone | None:
+    if not named:
+        return None
+    axes = tuple(axis for axis, _, _ in named)
+    lows, highs = tuple(min(a, b) for _, a, b in named), tuple(max(a, b) for _, a, b in named)
+    return StrokeZone(lows, highs, axes, inside=not channel.memory.parameters.bit(1300, 0))
+
+
+def _travel(channel: Channel) -> dict[int, tuple[float, float]]:
+    """Stored stroke check 1: limits by parameter, where the setup gives them."""
+    parameters = channel.memory.parameters
+    found: dict[int, tuple[float, float]] = {}
+    for i, axis in enumerate(channel.axes):
+        high, low = (parameters.get(number, axis) for number in TRAVEL)
+        if isinstance(high, int | float) or isinstance(low, int | float):
+            found[i] = (
+                channel.memory.radius_of(i, float(low)) if isinstance(low, int | float) else -inf,
+                channel.memory.radius_of(i, float(high)) if isinstance(high, int | float) else inf,
+            )
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class Zones:
+    """Several things to check, in order."""
+
+    zones: tuple[Zone, ...]
+
+    def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:
+        """The alarm of the first one that is violated."""
+        for zone in self.zones:
+            zone.check(channel, machine, straight=straight)
+
+    def check_point(self, channel: Channel, machine: list[float]) -> None:
+        """The same for a point of a curve."""
+        for zone in self.zones:
+            zone.check_point(channel, machine)
+
+
+@dataclass(frozen=True, slots=True)
+class IncrementCheck:
+    """The largest increment of axes in one block."""
+
+    limits: Mapping[int, float]
+
+    def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:  # noqa: ARG002
+        """The control's alarm for a longer way of an axis."""
+        here = channel.coordinates.machine
+        for axis, limit in self.limits.items():
+            if abs(machine[axis] - here[axis]) > limit + 1e-9:
+                raise channel.control.fail("increment_limit", address=channel.axes[axis])
+
+    def check_point(self, channel: Channel, machine: list[float]) -> None:
+        """What counts is the end of the block."""
+
+
+@dataclass(frozen=True, slots=True)
+class TravelCheck:
+    """Limits of the travel of axes, machine coordinates."""
+
+    limits: Mapping[int, tuple[float, float]]
+
+    def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:  # noqa: ARG002
+        """The control's alarm for a target beyond a limit."""
+        for axis, (low, high) in self.limits.items():
+            if not low - 1e-9 <= machine[axis] <= high + 1e-9:
+                raise channel.control.over_travel(channel.axes[axis], 1 if machine[axis] > high else -1)
+
+    def check_point(self, channel: Channel, machine: list[float]) -> None:
+        """The same for a point of a curve."""
+        self.check(channel, machine, straight=False)

@@ -1,0 +1,301 @@
+"""Drilling cycles of the lathe: face and side, Series 15 format, clamping of C (0i-TF Plus II.4.3, 4.5, 6.5)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from typing import TYPE_CHECKING
+
+from polycnc.control.fanuc.lathe.cycles import tapping
+from polycnc.control.word_address.cycles import drilling as base
+from polycnc.control.word_address.cycles.drilling import DrillCycle, Drilling, Halts
+from polycnc.control.word_address.motion.path import PLANES
+from polycnc.cycles.drilling import holes, lathe
+from polycnc.cycles.drilling.lathe import Joint
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.mode import Mode
+    from polycnc.control.word_address.block.codes import Handler, Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.words import Words
+    from polycnc.cycles.drilling.holes import Cycle, Hole, Stroke
+
+#: K, or L in the Series 15 format, is a whole number up to this one (II.4.3).
+MOST_REPEATS = 9999
+BORE = partial(holes.bore, out=2.0)
+#: Cycles with their axis: the face is drilled along Z, the side along X (II.4.3).
+NORMAL_CYCLES = ("G83", "G83.5", "G83.6", "G84", "G85", "G87", "G87.5", "G87.6", "G88", "G89")
+#: Series 15 format (II.6.5).
+SERIES_15_CYCLES = ("G81", "G82", "G83", "G83.1", "G84", "G84.2", "G85", "G89")
+_RELIEF = {
+    "G83.1": 5114,
+    "G83.5": 5114,
+    "G87.5": 5114,
+    "G83.6": 5115,
+    "G87.6": 5115,
+    "G84": 5213,
+    "G88": 5213,
+    "G84.2": 5213,
+}
+
+
+def is_series_15(channel: Channel) -> bool:
+    """Whether programs are in the Series 15 format (0001#1 FCV)."""
+    return bool(channel.setup.parameters.bit(1, 1))
+
+
+def drills_in_series_15(channel: Channel) -> bool:
+    """Whether drilling is in that format too. 5102#3 F16: drilling stays in the normal format, with repeats by L."""
+    return is_series_15(channel) and not channel.setup.parameters.bit(5102, 3)
+
+
+@dataclass(frozen=True, slots=True)
+class _Choice:
+    """What parameters choose among the drilling cycles."""
+
+    series_15: bool
+    repeats_by_l: bool
+    clears_chips: bool
+    taps_clear: bool
+    absolute_r: bool
+    diameter_r: bool
+
+
+def rules(channel: Channel) -> Drilling:
+    """The drilling cycles by the channel's parameters."""
+    bit = channel.setup.parameters.bit
+    series_15 = drills_in_series_15(channel)
+    return _rules(
+        _Choice(
+            series_15,
+            repeats_by_l=is_series_15(channel),
+            clears_chips=bool(bit(5101, 2)),
+            taps_clear=bool(bit(5200, 5)),
+            absolute_r=series_15 and bool(bit(5102, 6)),
+            diameter_r=series_15 and bool(bit(5102, 7)),
+        )
+    )
+
+
+@cache
+def _rules(choice: _Choice) -> Drilling:
+    common = Drilling(
+        {},
+        r_is_increment=not choice.absolute_r,
+        r_as_axis=choice.diameter_r,
+        by_r=True,
+        repeats="L" if choice.repeats_by_l else "K",
+        most_repeats=MOST_REPEATS,
+        triggers="R",
+        least_increments="Q",
+        axis=_axis,
+        relief=_relief,
+        largest_override=tapping.largest_override,
+        turn=_turn,
+        dress=_dress,
+        halts=_halts,
+        overlaps=_overlaps_hole,
+    )
+    peck: Cycle = holes.peck_clearing_chips if choice.clears_chips else holes.peck_breaking_chips
+    tap: Cycle = lathe.tap_clearing_chips if choice.taps_clear else lathe.tap
+    if choice.series_15:
+        cycles = {
+            "G81": DrillCycle(holes.drill),
+            "G82": DrillCycle(holes.drill, dwells=True),
+            "G83": DrillCycle(holes.peck_clearing_chips, pecks=True, dwells=True, once="P"),
+            "G83.1": DrillCycle(holes.peck_breaking_chips, pecks=True, dwells=True, once="P"),
+            "G84": DrillCycle(tap, dwells=True, once="P"),
+            "G84.2": DrillCycle(tap, dwells=True, pecks=True, once="P"),
+            "G85": DrillCycle(BORE),
+            "G89": DrillCycle(BORE, dwells=True),
+        }
+        return replace(common, cycles=cycles, kept=("R", "P", "Q", ",D", "J"))
+    face = {
+        "G83": DrillCycle(peck, dwells=True, pecks=True, axis="Z"),
+        "G83.5": DrillCycle(holes.peck_breaking_chips, dwells=True, pecks=True, axis="Z"),
+        "G83.6": DrillCycle(holes.peck_clearing_chips, dwells=True, pecks=True, axis="Z"),
+        "G85": DrillCycle(BORE, dwells=True, axis="Z"),
+    }
+    side = {"G87": "G83", "G87.5": "G83.5", "G87.6": "G83.6", "G89": "G85"}
+    taps = dict.fromkeys(("G84", "G88"), DrillCycle(tap, dwells=True, pecks=True))
+    cycles = {**face, **{code: replace(face[like], axis="X") for code, like in side.items()}, **taps}
+    pecks = ("G83", "G83.5", "G83.6", "G87", "G87.5", "G87.6")
+    cycles.update({code: replace(cycles[code], once="Q") for code in pecks})
+    return replace(common, cycles=cycles, kept=("R", "P", "Q", ",D", "J"))
+
+
+def _axis(builder: Builder) -> int:
+    """The axis of the block's cycle where its row names none."""
+    return _free_axis(builder.channel, builder.mode, is_rigid=tapping.taps_rigidly(builder))
+
+
+def _free_axis(channel: Channel, mode: Mode, *, is_rigid: bool) -> int:
+    """Taps: Z (G84) or X (G88); rigid ones by 5209#0 RTX the plane's first or second axis (II.4.3, 4.5.1).
+
+    Series 15: Z, or the axis on the plane by 5101#0 FXY.
+    """
+    plane, geometry = PLANES[mode["plane"]], channel.coordinates.geometry
+    if drills_in_series_15(channel):
+        return geometry[plane[2] if channel.setup.parameters.bit(5101, 0) else 2]
+    is_face = mode["cycle"] == "G84"
+    if channel.setup.parameters.bit(5209, 0) or not is_rigid:
+        return geometry[2 if is_face else 0]
+    return geometry[plane[0 if is_face else 1]]
+
+
+def _drilling_axis(builder: Builder, mode: Mode) -> int:
+    """The axis along which the cycle of a modal state drills; -1 without a cycle."""
+    cycle = rules(builder.channel).cycles.get(mode["cycle"])
+    if cycle is None:
+        return -1
+    if cycle.axis:
+        return builder.channel.axis_index[cycle.axis]
+    return _free_axis(builder.channel, mode, is_rigid=tapping.taps_rigidly(builder))
+
+
+def _relief(channel: Channel, code: str) -> float:
+    """Retract or clearance between pecks: `,D`, else the cycle's parameter, mm."""
+    data = channel.memory.cycle_data
+    if ",D" in data:
+        amount: float = data.amount(",D")
+        return amount
+    number = _RELIEF.get(code)
+    if number is None:
+        clears = channel.memory.parameters.bit(5101, 2) or drills_in_series_15(channel)
+        number = 5115 if clears else 5114
+    clearance: float = channel.memory.parameters.number(number)
+    return clearance
+
+
+def plan(builder: Builder, plan: Plan) -> Step:
+    """A block while a drilling cycle is active."""
+    tapping.check_block(
+        builder, _drilling_axis(builder, builder.before), _drilling_axis(builder, builder.mode)
+    )
+    _check_plane(builder)
+    return _along_parallel(builder, plan) or base.plan_drilling(builder, plan)
+
+
+def _check_plane(builder: Builder) -> None:
+    """A plane code while a cycle is active: both axes of the plane exist, or 5103#3 PNA lets it pass (II.6.5)."""
+    channel = builder.channel
+    if not drills_in_series_15(channel) or channel.setup.parameters.bit(5103, 3):
+        return
+    if not any(row.group == "plane" for row in builder.codes):
+        return
+    geometry = channel.coordinates.geometry
+    if any(geometry[i] < 0 for i in PLANES[builder.mode["plane"]][:2]):
+        raise builder.control.fail("plane", address=builder.mode["plane"])
+
+
+def _along_parallel(builder: Builder, plan: Plan) -> Step | None:
+    """Series 15 with 5101#0 FXY: a parallel axis (1022) named in the cycle's block drills in place of the basic one."""
+    channel = builder.channel
+    if not (drills_in_series_15(channel) and channel.setup.parameters.bit(5101, 0)):
+        return None
+    third = PLANES[builder.mode["plane"]][2]
+    if not any(row.group == "cycle" for row in builder.codes):
+        return None
+    axis = next(
+        (w.axis for w in plan.axis_words if channel.control.axis_role(channel, w.axis) == third + 5), -1
+    )
+    if axis < 0:
+        return None
+
+    def choose(channel: Channel) -> None:
+        geometry = list(channel.coordinates.geometry)
+        geometry[third] = axis
+        channel.coordinates.geometry = (geometry[0], geometry[1], geometry[2])
+
+    choose(channel)
+    drill = base.plan_drilling(builder, plan)
+
+    def run(channel: Channel, values: list[float]) -> None:
+        choose(channel)
+        drill(channel, values)
+
+    return run
+
+
+def give_way(builder: Builder) -> None:
+    """A cycle code that a motion code of its block cancels."""
+    base.give_way(builder)
+
+
+# ---- spindle ---------------------------------------------------------------------------------------------------
+
+
+def _turn(channel: Channel, direction: int) -> None:
+    """A reversal goes to the machine as M03 or M04, by 5105#3 M5T with M05 in front; rigid tapping sends none."""
+    memory = channel.memory
+    base.turn_spindle(channel, direction)
+    if tapping.is_rigid(channel):
+        return
+    if memory.parameters.bit(5105, 3):
+        channel.event("m", code=5)
+    if direction:
+        channel.event("m", code=3 if direction > 0 else 4)
+
+
+# ---- what the machine adds ---------------------------------------------------------------------------------------
+
+
+def _dress(channel: Channel, code: str, hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
+    """Clamping of the C axis about the hole, and the speed of a rigid tap on its way out."""
+    if code in tapping.TAPS:
+        tapping.check(channel, channel.memory.cycle_data)
+        strokes = lathe.with_extraction(strokes, hole, tapping.extraction(channel))
+    else:
+        strokes = lathe.overlapping(strokes, hole, _apart(channel))
+    clamp = channel.memory.clamp
+    if clamp:
+        seconds = channel.memory.parameters.number(5111) / 1000.0
+        strokes = lathe.clamped(strokes, clamp, _unclamp(channel, clamp), seconds)
+    return strokes
+
+
+def _apart(channel: Channel) -> frozenset[Joint]:
+    """Joints of strokes at which the axes come to rest (1681#0 to #5; II.4.4, 6.6)."""
+    bit = channel.memory.parameters.bit
+    return frozenset(joint for joint in Joint if bit(1681, joint))
+
+
+def _overlaps_hole(channel: Channel, code: str) -> bool | None:
+    """Whether the way over a hole and the one to R overlap; taps know no overlap."""
+    return None if code in tapping.TAPS else Joint.HOLE not in _apart(channel)
+
+
+def _halts(channel: Channel, code: str) -> Halts:
+    """Single block halts over the hole, on R and at the end; in rigid tapping by 5200#6 FHD behind every action."""
+    rigid = code in tapping.TAPS and tapping.is_rigid(channel)
+    return Halts.ALL if rigid and channel.memory.parameters.bit(5200, 6) else Halts.APPROACH
+
+
+def is_clamp(channel: Channel, number: int) -> bool:
+    """Whether an M code clamps the C axis in a drilling block (5110; with 5161#4 also 13544)."""
+    parameters = channel.setup.parameters
+    if drills_in_series_15(channel) or not number:
+        return False
+    codes = [int(parameters.number(5110))]
+    if parameters.bit(5161, 4):
+        codes.append(int(parameters.number(13544)))
+    return number in codes
+
+
+def _unclamp(channel: Channel, clamp: int) -> int:
+    parameters = channel.memory.parameters
+    if not parameters.bit(5161, 4):
+        return clamp + 1
+    return int(parameters.number(13543 if clamp == int(parameters.number(5110)) else 13545))
+
+
+def note_clamp(number: int) -> Handler:
+    """The handler of a clamp code: it holds until the cycle ends."""
+
+    def note(channel: Channel, _words: Words) -> None:
+        channel.memory.clamp = number
+
+    return note

@@ -1,0 +1,285 @@
+"""Shapes of G70 to G73: the blocks from P to Q, read ahead by running them with the tool held (II.4.2.8).
+
+The control reads a shape by interpreting its blocks, macro statements included. So does polycnc: they run in a
+modal state of their own (`shape` = `reading`), in which F, S, T and M do nothing, and their moves are caught before
+they reach the toolpath. Then everything is put back, and the cycle cuts along the moves.
+"""
+
+from __future__ import annotations
+
+from copy import copy
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+from polycnc.channel.path import Recorder
+from polycnc.compensation import CutterCompensation, Plane
+from polycnc.control.fanuc.code_calls import PROGRAM_M
+from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
+from polycnc.control.fanuc.lathe.motion.corners import corner_waits
+from polycnc.control.fanuc.lathe.tools.nose_radius import SHAPE_KIND
+from polycnc.control.fanuc.lathe.tools.offsets import nose_radius, nose_tip
+from polycnc.control.word_address.macro_b import interruption
+from polycnc.control.word_address.motion.path import PLANES
+from polycnc.control.word_address.tools.radius import violation_codes
+from polycnc.cycles.turning.contour import Contour, Piece
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.path import Move
+    from polycnc.channel.stack import Level
+    from polycnc.channel.steps import Step as BlockStep
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
+
+#: Group and codes of the modal state in which the blocks of a shape are read for a cycle, or run by G70.
+GROUP, READING, FINISHING = "shape", "reading", "finishing"
+MAX_SHAPE_BLOCKS = 10_000
+#: Ways below this are none.
+SAME_MM = 1e-9
+_INFEED_CODES = ("G0", "G1")
+_ALLOWED = frozenset({"G0", "G1", "G2", "G3"})
+#: One-shot codes and macro calls.
+_REFUSED_GROUPS = frozenset({"", "macro"})
+
+
+@dataclass(slots=True)
+class Shape:
+    """What was read.
+
+    Attributes:
+        moves: Its moves, the infeed first.
+        start: Programmed point in front of it.
+        first_axes: Axes that the first block names, and `first_ways` those that it moves.
+        first_code: G0 or G1 of the first block; empty where it has none.
+        end: Step of the last block.
+    """
+
+    moves: list[Move] = field(default_factory=list)
+    start: list[float] = field(default_factory=list)
+    first_axes: frozenset[int] | None = None
+    first_ways: frozenset[int] = frozenset()
+    first_code: str = ""
+    end: int = 0
+
+
+def is_within(builder: Builder) -> bool:
+    """Whether a block belongs to a shape that is being read, or that G70 runs."""
+    return builder.mode.codes.get(GROUP) in (READING, FINISHING)
+
+
+def plan_note(builder: Builder, plan: Plan) -> Step | None:
+    """A step that tells the reader about a block; only in the plans of shapes that are being read.
+
+    A block of a shape, read or run by G70, holds nothing but lines, arcs, dwells and macro statements (II.4.2.8).
+    """
+    if not is_within(builder):
+        return None
+    if builder.mode["motion"] not in _ALLOWED:
+        raise builder.control.fail("shape_command", address=builder.mode["motion"])
+    refused = next((r for r in builder.codes if r.group in _REFUSED_GROUPS and r.code != "G4"), None)
+    if refused is not None:
+        raise builder.control.fail("shape_command", address=refused.code)
+    if PROGRAM_M.intersection(builder.m_codes):
+        raise builder.control.fail("shape_command", address="M")
+    if builder.mode.codes[GROUP] != READING:
+        return None
+    codes = [row.code for row in builder.codes if row.group == "motion"]
+    axes = frozenset(word.axis for word in plan.axis_words)
+    code = codes[-1] if codes and codes[-1] in _INFEED_CODES else ""
+
+    def note(channel: Channel, _values: list[float]) -> None:
+        shape: Shape | None = channel.memory.shape
+        if shape is not None and shape.first_axes is None:
+            shape.first_axes, shape.first_code = axes, code
+            ends = channel.coordinates.programmed
+            shape.first_ways = frozenset(
+                axis for axis in axes if abs(ends[axis] - shape.start[axis]) > SAME_MM
+            )
+
+    return note
+
+
+def section_steps(channel: Channel, code: Any, first: int, last: int) -> tuple[int, int]:
+    """First and last step of a shape. No other block of the program may have its numbers (II.4.2.8).
+
+    A shape holds no further cycle: its blocks might lead back into it without end.
+    """
+    if channel.level.kind == SHAPE_KIND:
+        raise channel.control.fail("shape_command", address="P")
+    begin = code.find_sequence(first, channel.level.current, "no_shape_start")
+    end = code.find_sequence(last, begin - 1, "no_shape_end")
+    for number, address in ((first, "P"), (last, "Q")):
+        if len(code.sequence_places(number)) > 1:
+            raise channel.control.fail("shape_number_twice", address=address, number=number)
+    return begin, end
+
+
+def read_shape(channel: Channel, first: int, last: int) -> Shape:
+    """Read the blocks from sequence number `first` to `last` of the running program."""
+    level = channel.level
+    code: Any = level.code
+    begin, end = section_steps(channel, code, first, last)
+    shape, recorder = Shape(start=channel.coordinates.programmed[:], end=end), Recorder()
+    kept = _Kept(channel)
+    channel.mode = channel.mode.with_code(GROUP, READING)
+    channel.memory.shape, channel.memory.reading_shape = shape, True
+    try:
+        with channel.path.diverted(recorder):
+            _run_blocks(channel, level, begin, end)
+    finally:
+        kept.put_back(channel)
+    shape.moves = [m for m in recorder.moves if m.kind is not Kind.DWELL and (m.center or m.start != m.end)]
+    return shape
+
+
+def _run_blocks(channel: Channel, level: Level, begin: int, end: int) -> None:
+    code: Any = level.code
+    level.index = begin
+    for _ in range(MAX_SHAPE_BLOCKS):
+        index = level.index
+        if index >= len(code.lines):
+            break
+        step = code.compile(code.lines[index], index)
+        level.current, level.index = index, index + 1
+        step(channel)
+        if channel.path.head is not None:
+            channel.path.head.block()
+        if channel.level is not level or channel.finished or len(channel.stack) == 0:
+            raise channel.control.fail("shape_command", address="P")
+        if index == end:
+            refuse_open_end(channel)
+            return
+    raise channel.control.fail("no_shape_end", address="Q")
+
+
+def refuse_open_end(channel: Channel) -> None:
+    """The last block of a shape may not need the next one for its corner or its end (II.4.7, 4.9)."""
+    line = channel.memory.open_line
+    channel.memory.open_line = None
+    if line is not None:
+        raise channel.control.fail("drawing_increment", address="Q")
+    if corner_waits(channel):
+        raise channel.control.fail("shape_ends_in_corner", address="Q")
+
+
+class _Kept:
+    """What reading must not change."""
+
+    def __init__(self, channel: Channel) -> None:
+        c, memory, level = channel.coordinates, channel.memory, channel.level
+        self.mode, self.feed = channel.mode, channel.feed
+        self.position, self.programmed, self.pending = c.position, c.programmed, list(c.pending)
+        self.level, self.current, self.index, self.data = level, level.current, level.index, dict(level.data)
+        self.stack, self.finished, self.wait = list(channel.stack), channel.finished, channel.wait
+        self.memory = {name: copy(getattr(memory, name)) for name in _MEMORY_FIELDS}
+
+    def put_back(self, channel: Channel) -> None:
+        c, level = channel.coordinates, self.level
+        channel.mode, channel.feed = self.mode, self.feed
+        c.position, c.programmed, c.pending = self.position, self.programmed, self.pending
+        channel.stack[:] = self.stack
+        channel.level = level
+        level.current, level.index = self.current, self.index
+        level.data.clear()
+        level.data.update(self.data)
+        channel.finished, channel.wait = self.finished, self.wait
+        for name, value in self.memory.items():
+            setattr(channel.memory, name, value)
+        channel.memory.reading_shape, channel.memory.shape = False, None
+        channel.context_changed()
+
+
+_MEMORY_FIELDS = (
+    "spindle_speed",
+    "spindle_direction",
+    "tool",
+    "next_tool",
+    "feed_code",
+    "side",
+    "d",
+    "single_cycle",
+)
+
+
+def contour_of(channel: Channel, shape: Shape, *, as_written: bool = False) -> Contour:
+    """The shape as edges of the plane, after nose radius compensation where that is active, or `as_written`."""
+    first, second = plane_axes(channel)
+    u, v, w = PLANES[channel.mode["plane"]]
+    plane = Plane(u, v, w, channel.coordinates.geometry)
+    for move in shape.moves:
+        if any(
+            s != e
+            for i, (s, e) in enumerate(zip(move.start, move.end, strict=True))
+            if i not in (first, second)
+        ):
+            raise channel.control.fail("shape_command", address="P")
+    is_compensated = channel.memory.side and not as_written
+    moves = _compensated(channel, shape.moves, plane) if is_compensated else shape.moves
+    contour: Contour = []
+    for move in moves:
+        edge = plane.edge(move)
+        if edge is not None and (edge.length > 0.0):
+            contour.append(Piece(edge, move.kind is Kind.RAPID))
+    return contour
+
+
+def _compensated(channel: Channel, moves: list[Move], plane: Plane) -> list[Move]:
+    """The moves off the contour by the nose: start-up in the first one, square at the end (II.4.2.1)."""
+    recorder = Recorder()
+    codes = violation_codes(channel.control.alarms)
+    stage = CutterCompensation(plane, channel.control.compensation_policy(channel), codes)
+    stage.after = recorder
+    stage.engage(channel.memory.side, nose_radius(channel), nose_tip(channel))
+    for move in moves:
+        stage.move(replace(move))
+        stage.block()
+    stage.flush()
+    return recorder.moves
+
+
+class Section:
+    """The blocks of a shape as a program of its own: G70 runs them once, as they are written."""
+
+    def __init__(self, code: Any, begin: int, end: int) -> None:
+        self.code = code
+        self.program = code.program
+        self.begin, self.end = begin, end
+        self.steps: tuple[BlockStep | None, ...] = ()
+
+    def step(self, index: int) -> BlockStep | None:
+        """The step of a block; None behind the last one of the shape, an alarm where a jump has left it."""
+        if index == self.end + 1:
+            return None
+        if not self.begin <= index <= self.end:
+            return _outside
+        step: BlockStep = self.code.compile(self.code.lines[index], index)
+        return step
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.code, name)
+
+
+def _outside(channel: Channel) -> None:
+    raise channel.control.fail("shape_command", address="P")
+
+
+def end_finishing(channel: Channel) -> None:
+    """Behind the last block of the shape that G70 runs any command is allowed again."""
+    codes = dict(channel.mode.codes)
+    codes.pop(GROUP, None)
+    channel.mode = channel.modes.mode(codes)
+
+
+def interruptible(builder: Builder, motion: Step) -> Step:
+    """A motion that an interruption macro may cut, where it belongs to no shape of G70 to G73 (II.4.2.8)."""
+    if builder.mode.codes.get(GROUP) == READING:
+        return motion
+    cut = interruption.interruptible(builder, motion)
+    if cut is motion:
+        return motion
+
+    def move(channel: Channel, values: list[float]) -> None:
+        (motion if channel.level.kind == SHAPE_KIND else cut)(channel, values)
+
+    return move

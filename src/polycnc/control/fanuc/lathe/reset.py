@@ -1,0 +1,93 @@
+"""The lathe after RESET and after M02, M30: what 3402#6 CLR and its companions leave (II.2, II.5.1.3)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.fanuc.lathe import balance
+from polycnc.control.fanuc.lathe.coordinates import limits
+from polycnc.control.fanuc.lathe.cycles import single
+from polycnc.control.fanuc.lathe.tools import offsets
+from polycnc.control.word_address.macro_b.variables import LOCALS
+from polycnc.control.word_address.transformations import cylinder, normal_line, polar_interpolation
+from polycnc.geometry.frames import IDENTITY
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+
+#: Groups that a reset never touches.
+_KEPT = ("unit", "stroke")
+#: Groups that every reset brings back.
+_CLEARED = (
+    polar_interpolation.GROUP, cylinder.GROUP, normal_line.GROUP, "shape", "macro", "calls", "data_input"
+)  # fmt: skip
+
+
+def reset(channel: Channel) -> None:
+    """Clear state (CLR = 1): power-on codes but for units and stroke check; reset state (0): modal codes stay."""
+    memory, c = channel.memory, channel.coordinates
+    bit = memory.parameters.bit
+    clears = bool(bit(3402, 6))
+    polar_interpolation.leave_polar(channel)
+    cylinder.end_cylinder(channel)
+    normal_line.end(channel)
+    machine = c.machine
+    channel.path.clear()
+    before = channel.mode.codes
+    fresh = channel.control.start_codes(channel)
+    codes = {**fresh, **{group: before[group] for group in _KEPT}} if clears else dict(before)
+    codes.update({group: fresh[group] for group in _CLEARED if group in fresh})
+    codes.pop("shape", None)
+    if clears and bit(3407, 2):
+        codes["cycle"] = before["cycle"]
+    if before["motion"] in single.CYCLES and (not clears or bit(3406, 1)):
+        codes["motion"] = "G1"
+    channel.mode = channel.modes.mode(codes)
+    _clear_memory(channel, clears=clears)
+    _cancel_offsets(channel, wear=bool(bit(5006, 3)), geometry=bool(bit(5003, 7)))
+    memory.plane = codes["plane"]
+    offsets.refresh(channel)
+    c.set_programming(memory.frames.product(), memory.frames.shift)
+    c.pending = [0.0] * len(channel.axes)
+    c.owes = False
+    c.arrive_machine(machine)
+    limits.renew_zones(channel)
+    channel.context_changed()
+
+
+def _clear_memory(channel: Channel, *, clears: bool) -> None:
+    memory = channel.memory
+    memory.locals = [None] * LOCALS
+    memory.modal_calls = []
+    memory.single_cycle, memory.grinding = {}, {}
+    memory.open_line = memory.shape = None
+    # G41 or G42 that stays modal waits for the next offset number (II.5.4.1).
+    memory.side = memory.engaged_side = {"G41": 1, "G42": -1}.get(channel.mode["compensation"], 0)
+    memory.d = 0
+    memory.reading_shape = False
+    memory.thread_lock, memory.thread_held, memory.thread_retracts = "", False, False
+    memory.retract_axes = frozenset()
+    if memory.balanced:
+        # Balance cutting always ends (II.7.1), whatever becomes of other modal codes.
+        memory.balanced = frozenset()
+        channel.mode = channel.mode.with_code(balance.GROUP, "G69")
+    if channel.mode["cycle"] == "G80":
+        memory.cycle_data, memory.clamp = None, 0
+    if clears:
+        memory.wcs = "G54"
+        memory.frames.rotation = memory.frames.mirror = memory.frames.turret = IDENTITY
+        memory.frames.mirrored = {}
+    if memory.parameters.bit(1202, 3):
+        memory.local_shift = [0.0] * len(channel.axes)
+
+
+def _cancel_offsets(channel: Channel, *, wear: bool, geometry: bool) -> None:
+    """5006#3 LVC ends movement and wear, 5003#7 TGC geometry that shifts."""
+    memory = channel.memory
+    if wear:
+        memory.frames.offset = [0.0] * len(channel.axes)
+        memory.tool_shift = list(memory.geometry_shift)
+        memory.offset_active = memory.d = 0
+    if geometry and not memory.parameters.bit(5002, 4):
+        memory.tool_shift = [s - g for s, g in zip(memory.tool_shift, memory.geometry_shift, strict=True)]
+        memory.geometry_shift = [0.0] * len(channel.axes)

@@ -1,0 +1,162 @@
+"""Nose radius compensation of the lathe: G40 to G42, G38, G39, and I, K vectors (0i-TF Plus II.5.2 to 5.4)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from polycnc.compensation.policies import FANUC_A, Approach, Policy
+from polycnc.control.fanuc.lathe.motion import corners
+from polycnc.control.word_address.motion.path import PLANES
+from polycnc.control.word_address.tools import radius
+from polycnc.geometry.offset import Joint, Outer
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.words import Words
+
+LINES = frozenset({"G0", "G1"})
+#: Kind of the program level in which G70 runs a shape.
+SHAPE_KIND = "shape"
+
+
+def policy(channel: Channel) -> Policy:
+    """The rules that the parameters choose."""
+    parameters = channel.memory.parameters
+    bit = parameters.bit
+    return replace(
+        FANUC_A,
+        approach=Approach.CORNER if bit(5003, 0) else Approach.SQUARE,
+        shifts_without_motion=bool(bit(5003, 1)),
+        outer=Outer(90.0, Joint.ARC) if bit(19607, 2) else FANUC_A.outer,
+        read_blocks=min(max(int(parameters.number(19625, default=3)), 3), 8),
+        least_move_mm=parameters.number(5010, default=0.001),
+        checks_direction=not (bit(5008, 3) or bit(5008, 1)),
+        checks_arcs=not bit(5008, 3),
+        avoids=bool(bit(19607, 5)),
+        dares=bool(bit(19607, 6)),
+    )
+
+
+def left(channel: Channel, words: Words) -> None:
+    """G41: the nose is left of the contour."""
+    _engage(channel, words, radius.compensate_left)
+
+
+def right(channel: Channel, words: Words) -> None:
+    """G42: the nose is right of the contour."""
+    _engage(channel, words, radius.compensate_right)
+
+
+def _engage(channel: Channel, words: Words, engage: Callable[[Channel, Words], None]) -> None:
+    memory = channel.memory
+    if not _takes(channel, words, starts=True):
+        return
+    if channel.setup.switches.mode == "mdi" and memory.parameters.bit(5008, 4):
+        raise words.fail("comp_in_mdi", channel.mode["compensation"])
+    memory.d = memory.offset_active
+    engage(channel, words)
+    stage = radius.active_compensation(channel)
+    if stage is not None and not memory.d:
+        # Number 0 has no offset: start-up waits for another one.
+        stage.cancel()
+
+
+def cancel(channel: Channel, words: Words) -> None:
+    """G40, with the direction of the wall behind the last point in I, J, K; without motion by 5000#3 GNI only."""
+    if not _takes(channel, words, starts=False):
+        return
+    takes_wall = bool(words.axes() or channel.memory.parameters.bit(5000, 3))
+    radius.cancel_compensation(channel, words, takes_wall=takes_wall)
+
+
+def _takes(channel: Channel, words: Words, *, starts: bool) -> bool:
+    """Whether a G40 to G42 acts; in the shape of a cycle it depends (II.4.2.1).
+
+    There it is an alarm as delivered. 5106#2 NT1: G71 to G73 pass over it. #3 NT2: they do so too, and G70 takes
+    it, if G41 or G42 stands in the first block and compensation was off before.
+    """
+    bit, level = channel.memory.parameters.bit, channel.level
+    finishing = not channel.memory.reading_shape
+    if finishing and level.kind != SHAPE_KIND:
+        return True
+    if finishing and bit(5106, 3):
+        if starts and (level.current != level.entry or level.data["compensated"]):
+            raise words.fail("shape_command", channel.mode["compensation"])
+        return True
+    if bit(5106, 2) or (bit(5106, 3) and not finishing):
+        return False
+    code = channel.mode["compensation"]
+    raise channel.control.fail("shape_command", address=code, hint="hint.shape-compensation", code=code)
+
+
+def hold_vector(channel: Channel, _words: Words) -> None:
+    """G38: the block in front ends square on itself, and this block keeps that vector."""
+    stage = radius.active_compensation(channel)
+    if stage is not None:
+        stage.hold_vector()
+
+
+def corner_arc(channel: Channel, words: Words) -> None:
+    """G39 [I K]: an arc about the corner; no motion in its block."""
+    stage = radius.active_compensation(channel)
+    if stage is not None:
+        stage.corner_arc(radius.place_of_block(channel), _direction(channel, words))
+
+
+def _direction(channel: Channel, words: Words) -> tuple[float, float] | None:
+    """The direction that I, J, K give in the plane, None without."""
+    u, v, _ = PLANES[channel.mode["plane"]]
+    direction = (words.length("IJK"[u]) or 0.0, words.length("IJK"[v]) or 0.0)
+    return None if direction == (0.0, 0.0) else direction
+
+
+def plan_travel(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
+    """A straight block whose axis words give no way: the block in front ends square on itself (II.5.2.5).
+
+    A block with G39 may have no axis words at all (II.5.6).
+    """
+    if plan.axis_words and any(row.code == "G39" for row in builder.codes):
+        raise builder.control.fail("corner_arc_moves", address="G39")
+    if step is None or not plan.axis_words or builder.mode["motion"] not in LINES:
+        return step
+    if builder.mode["compensation"] == "G40":
+        return step
+
+    def run(channel: Channel, values: list[float]) -> None:
+        before = channel.coordinates.position[:]
+        step(channel, values)
+        stage = radius.active_compensation(channel)
+        if stage is not None and channel.coordinates.position == before:
+            stage.end_square()
+
+    return run
+
+
+def plan_line_words(builder: Builder) -> Callable[[Channel, list[float]], object] | None:
+    """What I, J, K, R, C and the comma words of a G00 or G01 block ask for: a corner shape or a vector."""
+    if builder.mode["motion"] not in LINES:
+        return None
+    bit = builder.channel.setup.parameters.bit
+    # I, J, K are chamfers where that function is there and takes them (II.4.7).
+    chamfers = bit(8134, 2, default=1) and not bit(3453, 0) and not bit(3405, 4)
+    if chamfers or builder.mode["compensation"] == "G40" or any(row.code == "G40" for row in builder.codes):
+        return corners.plan_corner(builder)
+    u, v, _ = PLANES[builder.mode["plane"]]
+    letters = ("IJK"[u], "IJK"[v])
+    if not any(builder.has(letter) for letter in letters):
+        return corners.plan_corner(builder)
+    builder.take(*letters)
+    words = [(builder.slot(a), builder.length(a) if builder.has(a) else None) for a in letters]
+
+    def force(channel: Channel, values: list[float]) -> None:
+        stage = radius.active_compensation(channel)
+        if stage is not None:
+            direction = [0.0 if s is None else (c(values[s]) if c else values[s]) for s, c in words]
+            stage.forced_vector((direction[0], direction[1]))
+
+    return force

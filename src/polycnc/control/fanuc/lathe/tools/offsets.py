@@ -1,0 +1,305 @@
+"""T on a lathe: turret and offset in one word, and how an offset acts (0i-TF Plus II.5.1).
+
+An offset has two parts, geometry and wear. Each acts in one of two ways, as parameter 5002 says: it *moves* the
+programmed point (the display then holds it), or it *shifts* the coordinate system (the display changes, the axes stay).
+"""
+
+from __future__ import annotations
+
+from math import nan
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.tool_change import check_change_points
+from polycnc.control.word_address.block.plan import NOT_YET
+from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.macro_b.code_calls import calls_by_tool
+from polycnc.control.word_address.motion.path import PLANES
+from polycnc.control.word_address.tools.radius import compensation_stage, side_on_display
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.words import Words
+
+#: Direction from the nose centre to the imaginary tip, along the plane's first and second axis (II.5.2.2).
+TIPS = {1: (1, 1), 2: (-1, 1), 3: (-1, -1), 4: (1, -1), 5: (1, 0), 6: (0, 1), 7: (-1, 0), 8: (0, -1)}
+THREADS = frozenset({"G32", "G34", "G35", "G36"})
+_ARCS = frozenset({"G2", "G3"})
+#: One-shot codes beside which a T is allowed.
+_BESIDE_T = frozenset({"G50", "G71", "G72", "G73"})
+_MEASURING = frozenset({"G36", "G37", "G37.1", "G37.2"})
+MAX_OFFSETS = 999
+
+
+def plan_tool(builder: Builder) -> Step | None:
+    """T: turret position and offset number in one word; the offset acts with the block's motion.
+
+    None where T calls a program instead (6001#5).
+    """
+    if calls_by_tool(builder):
+        return None
+    control, mode = builder.control, builder.mode
+    slot, form = builder.slots["T"]
+    if form not in ("", "#"):
+        raise control.fail("point", address="T")
+    if any(row.code == "G10" for row in builder.codes):
+        raise control.fail("g10_format", address="T")
+    if any(row.code == "G50.9" for row in builder.codes):
+        raise control.fail("moving_output", address="T")
+    if any(row.code in _MEASURING for row in builder.codes):
+        raise control.fail("measure_h", address="T")
+    if any(row.group == "" and row.code not in _BESIDE_T for row in builder.codes):
+        raise control.fail("tool_with_one_shot", address="T")
+    named = bool(builder.axis_words())
+    one_shot = named and any(row.axis_words for row in builder.codes)
+    moves = named and not one_shot
+    arc = mode["motion"] in _ARCS and moves
+    starts_or_ends = arc and mode["compensation"] != "G40"
+    third = builder.channel.coordinates.geometry[PLANES[mode["plane"]][2]]
+    helix = arc and any(word.axis == third for word in builder.axis_words())
+
+    def select(channel: Channel, values: list[float]) -> None:
+        memory = channel.memory
+        if memory.reading_shape:
+            return
+        tool, number = split_tool_word(channel, values[slot])
+        if tool != memory.tool:
+            check_change_points(channel)
+        memory.tool = memory.next_tool = tool
+        memory.tool_word = int(values[slot])
+        channel.context_changed()
+        channel.event("t", tool=tool)
+        if number is None:
+            return
+        if helix:
+            raise control.fail("offset_in_thread", address="T")
+        if starts_or_ends and (number == 0) != (memory.offset_active == 0):
+            raise control.fail("comp_arc_start", address="T")
+        select_offset(channel, number, tool)
+        if not moves and not one_shot:
+            move_by_offset(channel)
+
+    return select
+
+
+def split_tool_word(channel: Channel, value: float) -> tuple[int, int | None]:
+    """The code sent to the turret and the offset number; None where the tool has no offset in it (5040#3)."""
+    parameters = channel.memory.parameters
+    number = int(value)
+    if number != value or number < 0:
+        raise channel.control.fail("point" if number != value else "minus", address="T")
+    longest = int(parameters.number(3032, default=0))
+    if longest and len(str(number)) > longest:
+        raise channel.control.fail("too_many_digits", address="T")
+    if parameters.bit(5040, 3):
+        return number, None
+    tool, offset = divmod(number, 10 ** offset_digits(channel))
+    return tool, offset
+
+
+def offset_digits(channel: Channel) -> int:
+    """How many last digits of T are the offset number (5028; 0: as many as the offset sets need)."""
+    parameters = channel.memory.parameters
+    digits = int(parameters.number(5028, default=0))
+    if 1 <= digits <= 3:
+        return digits
+    sets = int(parameters.number(5024, default=0)) or 99
+    return 1 if sets < 10 else 2 if sets < 100 else 3
+
+
+def select_offset(channel: Channel, number: int, tool: int) -> None:
+    """Make an offset number the active one; number 0 cancels. Not in a thread (II.3.1)."""
+    if channel.mode["motion"] in THREADS:
+        raise channel.control.fail("offset_in_thread", address="T")
+    if not 0 <= number <= (int(channel.memory.parameters.number(5024)) or MAX_OFFSETS):
+        raise channel.control.fail("offset_number", address="T")
+    _refuse_rotation(channel)
+    memory = channel.memory
+    memory.offset_active = number
+    by_tool = memory.parameters.bit(5002, 1) and not memory.common_offsets
+    memory.geometry_active = 0 if not number else tool if by_tool else number
+    apply_offset(channel, cancels=number == 0)
+    renew_nose(channel)
+
+
+def _refuse_rotation(channel: Channel) -> None:
+    """No offset within a rotation, and none that shifts within a mirror (II.5.1.5, 5.9)."""
+    memory = channel.memory
+    if not memory.frames.rotates:
+        return
+    bit = memory.parameters.bit
+    shifts = not memory.common_offsets and (bit(5002, 2) or not bit(5002, 4))
+    if shifts:
+        raise channel.control.fail("offset_in_thread", address="T")
+    if not memory.frames.rotation.is_identity:
+        raise channel.control.fail("in_rotation", address="T")
+
+
+def apply_offset(channel: Channel, *, cancels: bool = False) -> None:
+    """Let the active offset act: a shift at once, a movement with the next motion."""
+    memory = channel.memory
+    moves, shifts = offset_parts(channel, cancels=cancels)
+    memory.tool_shift = shifts
+    refresh(channel)
+    memory.frames.offset = moves
+    c = channel.coordinates
+    if not memory.parameters.bit(5002, 6):
+        if c.owes:
+            # A suspended offset is not in the position: there is nothing of it to take back.
+            c.programmed = _sum(c.programmed, c.pending)
+            c.pending, c.owes = [0.0] * len(channel.axes), False
+        c.set_programming(memory.frames.product(), memory.frames.shift, stays=False)
+        return
+    before = c.programmed
+    c.set_programming(memory.frames.product(), memory.frames.shift)
+    c.pending = [p + old - new for p, old, new in zip(c.pending, before, c.programmed, strict=True)]
+    c.owes = any(c.pending)
+
+
+def offset_parts(channel: Channel, *, cancels: bool = False) -> tuple[list[float], list[float]]:
+    """The active offset as movement and as shift of each axis, by 5002#2 (wear) and #4 (geometry)."""
+    memory = channel.memory
+    bit = memory.parameters.bit
+    wear = memory.turning_offset(memory.offset_active).wear if memory.offset_active else {}
+    geometry = geometry_values(channel) if memory.geometry_active else {}
+    wear_part = _by_axis(channel, wear)
+    geometry_part = _by_axis(channel, geometry)
+    nothing = [0.0] * len(channel.axes)
+    geometry_moves = bit(5002, 4)
+    if not geometry_moves:
+        if cancels and not bit(5002, 5):
+            # LGC = 0: offset number 0 leaves a shift by geometry as it is.
+            geometry_part = memory.geometry_shift
+        memory.geometry_shift = geometry_part
+    wear_moves = memory.common_offsets or not bit(5002, 2)
+    moves = _sum(wear_part if wear_moves else nothing, geometry_part if geometry_moves else nothing)
+    shifts = _sum(nothing if wear_moves else wear_part, nothing if geometry_moves else geometry_part)
+    return moves, shifts
+
+
+def _by_axis(channel: Channel, values: dict[str, float]) -> list[float]:
+    """The offsets of all axes; that of Y where the function is there (8132#1 YOF), on the axis that 5043 names."""
+    parameters = channel.memory.parameters
+    offsets = [0.0 if axis == "Y" else values.get(axis, 0.0) for axis in channel.axes]
+    named = channel.memory.y_offset_axis
+    if named >= 0:
+        offsets[named] = values.get("Y", 0.0) if parameters.bit(8132, 1, default=1) else 0.0
+    return offsets
+
+
+def _sum(a: list[float], b: list[float]) -> list[float]:
+    return [x + y for x, y in zip(a, b, strict=True)]
+
+
+def geometry_values(channel: Channel) -> dict[str, float]:
+    """Geometry of the active number, with the second geometry where the machine's signals ask for it (II.5.1.4)."""
+    memory = channel.memory
+    offset = memory.turning_offset(memory.geometry_active)
+    values = dict(offset.geometry)
+    if memory.signals.get("G2SLC"):
+        for axis, value in offset.second.items():
+            if memory.signals.get(f"G2{axis}"):
+                values[axis] = values.get(axis, 0.0) + value
+    return values
+
+
+def move_by_offset(channel: Channel) -> None:
+    """A T block without motion moves the axes by the change of the offset (5002#6 = 0)."""
+    c = channel.coordinates
+    if channel.memory.parameters.bit(5002, 6):
+        return
+    end = c.to_position(c.programmed)
+    if end == c.position:
+        return
+    rapid = channel.mode["motion"] == "G0"
+    if not rapid and not channel.feed > 0.0:
+        raise channel.control.fail("no_feed")
+    channel.straight(Kind.RAPID if rapid else Kind.FEED, end, nan if rapid else channel.feed, c.programmed)
+    c.set_programming(c.programming, c.shift)
+
+
+def refresh(channel: Channel) -> None:
+    """Work out the zero of the display anew: work offsets, shifts, tool."""
+    memory = channel.memory
+    memory.length_offset = _sum(memory.tool_shift, memory.work_shift)
+    refresh_zero(channel)
+
+
+def renew_nose(channel: Channel) -> None:
+    """Another offset number under G41 or G42: the next block has its radius and tip; 0 cancels (II.5.3, 5.4.1)."""
+    memory = channel.memory
+    before, memory.d = memory.d, memory.offset_active
+    if not memory.side:
+        return
+    stage = compensation_stage(channel)
+    if not memory.d:
+        stage.cancel()
+    elif before and stage.active:
+        stage.change_radius(nose_radius(channel), nose_tip(channel))
+    else:
+        stage.policy = channel.control.compensation_policy(channel)
+        stage.engage(side_on_display(channel), nose_radius(channel), nose_tip(channel))
+
+
+def nose_radius(channel: Channel) -> float:
+    """Nose radius of the active offset: geometry and wear, mm."""
+    memory = channel.memory
+    if not memory.offset_active:
+        return 0.0
+    wear: float = memory.turning_offset(memory.offset_active).radius_wear
+    geometry: float = memory.turning_offset(memory.geometry_active).radius if memory.geometry_active else 0.0
+    return wear + geometry
+
+
+def nose_tip(channel: Channel) -> tuple[float, float]:
+    """Way from the nose centre to the imaginary tip in units of the radius (5002#7: whose tip number)."""
+    memory = channel.memory
+    by_wear = memory.common_offsets or memory.parameters.bit(5002, 7)
+    number = memory.offset_active if by_wear else memory.geometry_active
+    first, second = TIPS.get(memory.turning_offset(number).tip, (0, 0)) if number else (0, 0)
+    return (float(first), float(second))
+
+
+def offset_changed(channel: Channel) -> None:
+    """A written offset acts from the next T, or from the next move (5002#4, #6; III.2.1.1), or now (5001#6)."""
+    memory = channel.memory
+    bit = memory.parameters.bit
+    at_next_move = bit(5002, 6) and (memory.common_offsets or bit(5002, 4))
+    if bit(5001, 6) or at_next_move:
+        _refuse_rotation(channel)
+        apply_offset(channel)
+
+
+def select_by_code(channel: Channel, words: Words) -> None:
+    """G43.7 D: the offset of an ATC-type lathe (5040#3 TCT = 1; II.5.7)."""
+    _select_by_code(channel, words, "G43.7", is_length=bool(channel.memory.parameters.bit(5040, 4)))
+
+
+def select_by_length_code(channel: Channel, words: Words) -> None:
+    """G43, G44: what G43.7 is where 5040#4 TLG exchanges their meaning; else tool length offset."""
+    _select_by_code(channel, words, "G43", is_length=not channel.memory.parameters.bit(5040, 4))
+
+
+def _select_by_code(channel: Channel, words: Words, code: str, *, is_length: bool) -> None:
+    if not channel.memory.parameters.bit(5040, 3):
+        raise words.fail("atc_not_chosen", code)
+    if is_length:
+        raise AlarmError(NOT_YET, address=code, hint="hint.not-supported", code=code)
+    number: Any = words.integer("D")
+    if number is None:
+        return
+    select_offset(channel, number, number)
+    if not words.axes():
+        move_by_offset(channel)
+
+
+def cancel_by_code(channel: Channel, words: Words) -> None:
+    """G49: the offset of an ATC-type lathe ends."""
+    if not channel.memory.parameters.bit(5040, 3):
+        return
+    select_offset(channel, 0, 0)
+    if not words.axes():
+        move_by_offset(channel)

@@ -1,0 +1,1 @@
+"""The FANUC machining centre (`fanuc-m`): `control`, `codes` (its tables), `cycles` (drilling), `variables`."""

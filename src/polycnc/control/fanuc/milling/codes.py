@@ -1,0 +1,197 @@
+"""G table and addresses of the FANUC machining centre (Hartford manual §13.2; FANUC macro B)."""
+
+from __future__ import annotations
+
+from functools import wraps
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
+from polycnc.control.word_address.auxiliary import functions
+from polycnc.control.word_address.auxiliary.interlocks import guarded_speed, guarded_step, nothing
+from polycnc.control.word_address.block.codes import (
+    MILLING_POWER_ON,
+    GCode,
+    Order,
+    not_yet,
+    table,
+    with_aliases,
+)
+from polycnc.control.word_address.coordinates import frames, stroke_check, systems
+from polycnc.control.word_address.cycles.drilling import is_active
+from polycnc.control.word_address.macro_b import code_calls, macro_calls, parameter_input
+from polycnc.control.word_address.motion import nurbs, path, path_modes, planes, position_offset, skip, thread
+from polycnc.control.word_address.tools import corner_vectors, data_input, length, measuring, radius
+from polycnc.control.word_address.transformations import (
+    cylinder,
+    normal_line,
+    polar_interpolation,
+    tilted_plane,
+    tool_center_point,
+)
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Handler, Step
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.words import Words
+
+
+def outside_cycles(code: str, handler: Handler, takes: str = "") -> GCode:
+    """A row of a code that a drilling cycle refuses (PS0044)."""
+
+    @wraps(handler)
+    def act(channel: Channel, words: Words) -> None:
+        if is_active(channel):
+            raise words.fail("cycle_reference", code)
+        handler(channel, words)
+
+    return moves(code, act, takes)
+
+
+def tool_length(handler: Handler) -> Handler:
+    """A length code; it ends tool centre point control."""
+
+    @wraps(handler)
+    def act(channel: Channel, words: Words) -> None:
+        tool_center_point.end_following(channel)
+        handler(channel, words)
+
+    return act
+
+
+def moves(code: str, handler: Handler, takes: str = "", **fields: Any) -> GCode:
+    """A row of a one-shot code that takes the axis words of its block."""
+    return GCode(code, handler=handler, takes=takes, axis_words=True, order=Order.MOTION, **fields)
+
+
+#: Second ways to write codes.
+ALIASES = {"G107": "G7.1", "G112": "G12.1", "G113": "G13.1"}
+ROWS = table(
+    GCode("G0", "motion", ends="cycle", planner=path.plan_rapid),
+    GCode("G1", "motion", ends="cycle", planner=path.plan_line),
+    GCode("G2", "motion", ends="cycle", planner=path.plan_arc_cw),
+    GCode("G3", "motion", ends="cycle", planner=path.plan_arc_ccw),
+    GCode("G6.2", "motion", ends="cycle", planner=nurbs.plan_nurbs),
+    moves("G4", functions.dwell, "X P U"),
+    GCode("G5", handler=path_modes.high_speed_machining, takes="P"),
+    GCode("G5.1", handler=path_modes.contour_control, takes="Q R"),
+    GCode("G8", handler=path_modes.advance_preview, takes="P"),
+    GCode("G9", handler=path_modes.exact_stop_block),
+    moves("G10", data_input.input_data, "L P R"),
+    GCode("G11", handler=parameter_input.end),
+    GCode("G15", "polar"),
+    GCode("G16", "polar", frames.start_polar),
+    GCode("G7.1", handler=cylinder.cylinder, axis_words=True, order=Order.MOTION),
+    GCode("G12.1", polar_interpolation.GROUP, polar_interpolation.start_polar),
+    GCode("G13.1", polar_interpolation.GROUP, polar_interpolation.end_polar),
+    GCode("G17", "plane", planes.select_plane),
+    GCode("G18", "plane", planes.select_plane),
+    GCode("G19", "plane", planes.select_plane),
+    GCode("G20", "unit", systems.note_context, only_changes=True),
+    GCode("G21", "unit", systems.note_context, only_changes=True),
+    GCode(
+        "G22", "stroke", stroke_check.stroke_check_on, takes="I J K", axis_words=True, order=Order.MOTION
+    ),
+    GCode("G23", "stroke", stroke_check.stroke_check_off),
+    GCode("G25", "fluctuation"),
+    GCode("G26", "fluctuation", takes="P Q R I"),
+    outside_cycles("G27", systems.check_reference),
+    outside_cycles("G28", systems.return_to_reference),
+    outside_cycles("G29", systems.return_from_reference),
+    outside_cycles("G30", systems.return_to_further_reference, "P"),
+    moves("G31", skip.skip_move, "P"),
+    GCode("G33", "motion", ends="cycle", planner=thread.plan_thread),
+    moves("G37", measuring.measure_length, "H"),
+    GCode("G38", handler=corner_vectors.hold_vector, takes="I J K", order=Order.COMPENSATION),
+    GCode("G39", handler=corner_vectors.corner_arc, takes="I J K", order=Order.COMPENSATION),
+    GCode("G40.1", normal_line.GROUP, normal_line.cancel),
+    GCode("G41.1", normal_line.GROUP, normal_line.start),
+    GCode("G42.1", normal_line.GROUP, normal_line.start),
+    GCode("G40", "compensation", radius.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
+    GCode("G41", "compensation", corner_vectors.compensate_left, takes="D I J K", order=Order.COMPENSATION),
+    GCode("G42", "compensation", corner_vectors.compensate_right, takes="D I J K", order=Order.COMPENSATION),
+    GCode("G43", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
+    GCode("G44", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
+    GCode("G43.4", "length", tool_center_point.start_following, takes="H", order=Order.LENGTH),
+    GCode("G43.5", "length", tool_center_point.start_following, takes="H", order=Order.LENGTH),
+    *(moves(code, position_offset.offset_move, "D I J K R", idle_in_cycle=True) for code in position_offset.TIMES),
+    GCode("G49", "length", tool_length(length.cancel_length), order=Order.LENGTH),
+    GCode("G50", "scaling", frames.end_scale),
+    GCode("G51", "scaling", frames.scale, takes="I J K P", axis_words=True),
+    GCode("G50.1", "mirror", frames.end_mirror, axis_words=True),
+    GCode("G51.1", "mirror", frames.mirror, axis_words=True),
+    GCode("G52", handler=systems.set_local_system, axis_words=True),
+    moves("G53", systems.move_in_machine_system_absolute),
+    GCode("G54", "wcs", systems.select_work_offset, takes="P"),
+    GCode("G54.1", "wcs", systems.select_work_offset, takes="P"),
+    *(GCode(f"G{number}", "wcs", systems.select_work_offset) for number in range(55, 60)),
+    moves("G60", position_offset.position_one_way),
+    GCode("G61", "path", systems.note_context, only_changes=True),
+    GCode("G62", "path", systems.note_context, only_changes=True),
+    GCode("G63", "path", systems.note_context, only_changes=True),
+    GCode("G64", "path", systems.note_context, only_changes=True),
+    GCode("G65", handler=macro_calls.call_macro, takes="*", axis_words=True, order=Order.CALL),
+    GCode("G66", "macro", macro_calls.start_modal_call, takes="*", axis_words=True, order=Order.CALL),
+    GCode("G66.1", "macro", macro_calls.start_modal_call, takes="*", axis_words=True, order=Order.CALL),
+    GCode("G67", "macro", macro_calls.end_modal_call),
+    GCode("G68", "rotation", frames.rotate, takes="R", axis_words=True),
+    GCode("G68.2", "rotation", tilted_plane.tilt_plane, takes="P Q I J K", axis_words=True),
+    GCode("G53.1", handler=tilted_plane.align_tool, takes="P", order=Order.MOTION),
+    GCode("G53.6", handler=tilted_plane.align_tool_about_tip, takes="P", order=Order.MOTION),
+    GCode("G69", "rotation", tilted_plane.end_tilt),
+    GCode("G80", "cycle"),
+    *(GCode(code, "cycle") for code in MILLING_DRILLING.cycles),
+    GCode("G90", "distance"),
+    GCode("G91", "distance"),
+    moves("G92", systems.set_position_or_limit, "S"),
+    moves("G92.1", systems.preset_system),
+    GCode("G93", "feed", systems.forget_feed, order=Order.FEED_MODE),
+    GCode("G94", "feed", systems.forget_feed, order=Order.FEED_MODE, only_changes=True),
+    GCode("G95", "feed", systems.forget_feed, order=Order.FEED_MODE, only_changes=True),
+    GCode("G96", "surface_speed", systems.note_context, takes="P"),
+    GCode("G97", "surface_speed", systems.note_context, only_changes=True),
+    GCode("G98", "return"),
+    GCode("G99", "return"),
+    not_yet(
+        "G5.4", "G54.2", "G54.4", "G68.3", "G68.4", "G10.9",
+    ),
+)  # fmt: skip
+G_CODES = with_aliases(ROWS, ALIASES)
+
+
+def plan_guarded_speed(builder: Builder) -> Step:
+    """S, unless the machine refuses it now."""
+    return guarded_speed(functions.plan_spindle_speed(builder), builder)
+
+
+def plan_guarded_tool(builder: Builder) -> Step:
+    """T, or the call that it makes, unless the machine refuses it now."""
+    control: Any = builder.control
+    step = code_calls.plan_tool_or_call(builder)
+    return guarded_step(step or nothing, ("T_CODE",), control.plc)
+
+
+def plan_guarded_index(builder: Builder) -> Step:
+    """B as the second auxiliary function, unless the machine refuses it now."""
+    control: Any = builder.control
+    return guarded_step(functions.plan_second_auxiliary(builder), ("B_CODE",), control.plc)
+
+
+ADDRESSES = {
+    "F": functions.plan_feed,
+    "S": plan_guarded_speed,
+    "T": plan_guarded_tool,
+    "B": plan_guarded_index,
+    "H": length.plan_length_number,
+    "D": radius.plan_radius_number,
+}
+
+POWER_ON = MILLING_POWER_ON | {
+    "fluctuation": "G25",
+    polar_interpolation.GROUP: "G13.1",
+    cylinder.GROUP: "",
+    normal_line.GROUP: normal_line.OFF,
+    "calls": macro_calls.ALL_CALLS,
+    "interruption": "M97",
+    "data_input": "G11",
+}

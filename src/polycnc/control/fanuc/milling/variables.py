@@ -1,0 +1,176 @@
+"""System variables of FANUC and MELDAS machining centres: offsets by number, work systems, modal groups, positions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.fanuc.system_variables import (
+    COMMON_VARIABLES,
+    axis_at,
+    modal_rows,
+    nothing,
+    position_rows,
+)
+from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.macro_b.variables import Read, Registry, SystemRange, Write
+from polycnc.control.word_address.memory import EXTERNAL
+from polycnc.control.word_address.tools.length import renew_length
+
+if TYPE_CHECKING:
+    from polycnc.control.word_address.macro_b.variables import MacroMemory
+
+# ---- tool offsets ------------------------------------------------------------
+
+
+def _tool_field(field: str) -> tuple[Read, Write]:
+    def read(m: MacroMemory, i: int) -> float:
+        return m.to_program_unit(getattr(m.offset_number(i + 1), field))
+
+    def write(m: MacroMemory, i: int, value: float | None, _text: str) -> None:
+        setattr(m.offset_number(i + 1), field, m.from_program_unit(value))
+        renew_length(m.channel)
+
+    return read, write
+
+
+def _rows_tools() -> list[SystemRange]:
+    return [
+        SystemRange(2001, 2200, *_tool_field("length_wear")),
+        SystemRange(2201, 2400, *_tool_field("length")),
+        SystemRange(10001, 10999, *_tool_field("length_wear"), name="_OFSHW"),
+        SystemRange(11001, 11999, *_tool_field("length"), name="_OFSHG"),
+        SystemRange(12001, 12999, *_tool_field("radius_wear"), name="_OFSDW"),
+        SystemRange(13001, 13999, *_tool_field("radius"), name="_OFSDG"),
+    ]
+
+
+# ---- work offsets ------------------------------------------------------------
+
+
+def _work_offset(name: str) -> tuple[Read, Write]:
+    def read(m: MacroMemory, i: int) -> float:
+        return m.to_program_unit(m.work_offset(name)[axis_at(m, i)])
+
+    def write(m: MacroMemory, i: int, value: float | None, _text: str) -> None:
+        m.work_offset(name)[axis_at(m, i)] = m.from_program_unit(value)
+        refresh_zero(m.channel)
+
+    return read, write
+
+
+def _rows_work_offsets() -> list[SystemRange]:
+    rows: list[SystemRange] = []
+    names = [EXTERNAL, "G54", "G55", "G56", "G57", "G58", "G59"]
+    for i, name in enumerate(names):
+        rows.append(
+            SystemRange(
+                5201 + 20 * i, 5220 + 20 * i, *_work_offset(name), name="_WZCMN" if not i else f"_WZ{name}"
+            )
+        )
+    for axis in range(4):
+        for i, name in enumerate(names):
+            read, write = _work_offset(name)
+            number = 2500 + 100 * axis + i
+            rows.append(SystemRange(number, number, _shifted(read, axis), _shifted_write(write, axis)))
+    for p in range(1, 301):
+        pair = _work_offset(f"G54.1 P{p}")
+        if p <= 48:
+            rows.append(SystemRange(7001 + 20 * (p - 1), 7020 + 20 * (p - 1), *pair))
+        rows.append(SystemRange(14001 + 20 * (p - 1), 14020 + 20 * (p - 1), *pair, name=f"_WZP{p}"))
+    return rows
+
+
+def _shifted(read: Read, axis: int) -> Read:
+    return lambda m, _i: read(m, axis)
+
+
+def _shifted_write(write: Write, axis: int) -> Write:
+    return lambda m, _i, value, text: write(m, axis, value, text)
+
+
+# ---- modal information and positions ------------------------------------------------------------
+
+#: Modal groups in the order of #4001 to #4030 (machining centres).
+MILLING_GROUPS = {1: "motion", 2: "plane", 3: "distance", 4: "stroke", 5: "feed", 6: "unit", 7: "compensation",
+                  8: "length", 9: "cycle", 10: "return", 11: "scaling", 12: "macro", 13: "surface_speed", 14: "wcs",
+                  15: "path", 16: "rotation", 17: "polar", 22: "mirror"}  # fmt: skip
+
+
+def _modal(group: str) -> Read:
+    return lambda m, _i: float(m.channel.mode[group][1:])
+
+
+def _interrupted(group: str) -> Read:
+    """A modal code of the block that an interruption macro has cut."""
+
+    def read(m: MacroMemory, _i: int) -> float | None:
+        running = m.interruptions.running if m.interruptions is not None else []
+        return float(running[-1].mode[group][1:]) if running else None
+
+    return read
+
+
+def _extended(m: MacroMemory, _i: int) -> float:
+    return float(m.wcs[7:]) if m.wcs.startswith("G54.1 P") else 0.0
+
+
+def _rows_modal(first: int) -> list[SystemRange]:
+    words: dict[int, Read] = {
+        102: nothing,
+        107: lambda m, _i: float(m.d),
+        108: nothing,
+        111: lambda m, _i: float(m.h),
+        120: lambda m, _i: float(m.next_tool),
+        130: _extended,
+    }
+    return modal_rows(first, {n: _modal(group) for n, group in MILLING_GROUPS.items()}, words)
+
+
+def modal_names() -> dict[str, tuple[int, int]]:
+    """Names of modal information: `_BUFG[g]` of the blocks before, `_ACTG` of the running one, `_INTG` interrupted."""
+    words = {"B": 102, "D": 107, "E": 108, "F": 109, "H": 111, "M": 113, "N": 114, "O": 115, "S": 119, "T": 120,
+             "WZP": 130}  # fmt: skip
+    names: dict[str, tuple[int, int]] = {}
+    for prefix, first in (("_BUF", 4000), ("_ACT", 4200), ("_INT", 4400)):
+        names[prefix + "G"] = (first + 1, first + 30)
+        names |= {prefix + word: (first + number, first + number) for word, number in words.items()}
+    return names
+
+
+def _end_point(m: MacroMemory, i: int) -> float:
+    """Work coordinates of the block end, as programmed."""
+    return m.to_program_unit(m.channel.coordinates.position[axis_at(m, i)])
+
+
+def _machine(m: MacroMemory, i: int) -> float:
+    """Machine position now."""
+    return m.to_program_unit(m.channel.coordinates.machine[axis_at(m, i)])
+
+
+def _work_with_length(m: MacroMemory, i: int) -> float:
+    """Work position now: machine position less work zero, the tool length not taken off."""
+    axis = axis_at(m, i)
+    return m.to_program_unit(m.channel.coordinates.position[axis] + m.length_offset[axis])
+
+
+def _skip(m: MacroMemory, i: int) -> float:
+    """Where the last G31 ended; as the work position, with the tool length in it."""
+    axis = axis_at(m, i)
+    position = m.skip_position or m.channel.coordinates.position
+    return m.to_program_unit(position[axis] + m.length_offset[axis])
+
+
+def _length(m: MacroMemory, i: int) -> float:
+    return m.to_program_unit(m.length_offset[axis_at(m, i)])
+
+
+MILLING_VARIABLES = Registry(
+    COMMON_VARIABLES
+    + _rows_modal(4000)
+    + _rows_modal(4200)
+    + [SystemRange(4400 + n, 4400 + n, _interrupted(group)) for n, group in MILLING_GROUPS.items()]
+    + position_rows(_end_point, _machine, _work_with_length, _skip, _length, nothing, nothing)
+    + _rows_work_offsets()
+    + _rows_tools(),
+    modal_names(),
+)

@@ -1,0 +1,52 @@
+"""Arguments of predefined procedures, checked: the language hands them over as they were written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from polycnc.language.sinumerik.names.values import Axis
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+
+#: Arguments as the language hands them over, None for one that is left out; and what they are handed to.
+Arguments = tuple[Any, ...]
+Procedure = Callable[["Channel", Arguments], None]
+
+
+def real(value: Any) -> float:
+    """A number; alarm 12330 for anything else."""
+    if isinstance(value, (int, float)):
+        return float(value)
+    raise AlarmError("12330", text=_shown(value))
+
+
+def whole(value: Any) -> int:
+    """A whole number; alarm 12330 for anything else."""
+    number = real(value)
+    if number != int(number):
+        raise AlarmError("12330", text=_shown(value))
+    return int(number)
+
+
+def column(channel: Channel, value: Any) -> int:
+    """Column of an axis; alarm 12040 for anything else, 12050 for an axis that the channel does not have."""
+    if not isinstance(value, Axis):
+        raise AlarmError("12040", text=_shown(value))
+    found: int = channel.memory.column(value.name)
+    return found
+
+
+def spindle(value: Any) -> int | None:
+    """Number of a spindle, by number or identifier; None where it is left out."""
+    if value is None:
+        return None
+    if isinstance(value, Axis) and value.name[:1] == "S" and value.name[1:].isdigit():
+        return int(value.name[1:])
+    return whole(value)
+
+
+def _shown(value: Any) -> str:
+    return value.name if isinstance(value, Axis) else str(value)

@@ -1,0 +1,195 @@
+"""Plain blocks of SINUMERIK: what their steps do, told as data for the scanner.
+
+A block is plain if it compiles to one call of the control with numbers only, and every step of its plan says what it
+does (`language.bulk.declare`): the motion functions and dimensions of its head, F, and a straight line or an arc.
+"""
+
+from __future__ import annotations
+
+import re
+from math import inf
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.sinumerik.block.positions import AxisTerm, Way
+from polycnc.control.sinumerik.limits.working_area import MACHINE
+from polycnc.language.bulk import Conditions, Conversion, Recipe, SetFeed, Spelling, Straight, Target, Word
+from polycnc.language.bulk import Way as Reading
+from polycnc.language.bulk.layout import CR_FORM, FIRST_CODE, FORMS
+from polycnc.language.sinumerik.words import Block
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+from polycnc.toolpath.kinds import CCW_KINDS
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable, Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.mode import Mode
+    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.language.bulk.scanner import LastMoves
+    from polycnc.language.sinumerik.executable import SinumerikProgram
+
+SPELLING = Spelling(
+    max_digits=15, semicolon_comments=True, equals=True, forms_count=False, cr_radius=True,
+    blank_lines_are_blocks=False,
+)  # fmt: skip
+#: The statement of a block whose values are its own numbers.
+_VALUE = r"(?:n\d+|\([-+]n\d+\)|float\(\([-+]n\d+\)\)), "
+_EXECUTE = re.compile(rf"if o\d+\(channel, o\d+, \(((?:{_VALUE})*)\)\): call_modal\(channel\)")
+_NUMBER = re.compile(r"n(\d+)")
+
+
+# ---- what steps say of themselves
+
+
+def targets(terms: Sequence[AxisTerm]) -> tuple[Target, ...] | None:
+    """Axis words as data; None for the ways of rotary axes and coded positions."""
+    if any(term.coded or term.way not in (Way.ABSOLUTE, Way.INCREMENTAL) for term in terms):
+        return None
+    return tuple(
+        Target(
+            term.position,
+            Conversion(Reading.TIMES, 1.0, term.factor),
+            term.column,
+            term.way is Way.INCREMENTAL,
+        )
+        for term in terms
+    )
+
+
+def straight(terms: Sequence[AxisTerm], *, rapid: bool = False) -> Straight | None:
+    """A straight line as data; None where its axis words cannot be told."""
+    told = targets(terms)
+    if told is None:
+        return None
+    absolute = not any(target.incremental for target in told)
+    return Straight(rapid, told, absolute=absolute, skips_tiny=True)
+
+
+def feed(position: int, factor: float) -> SetFeed:
+    """F as data: zero and less are no feed, or an alarm."""
+    return SetFeed(length(position, factor), positive=True)
+
+
+def length(position: int, factor: float) -> Word:
+    """A word with a factor as data."""
+    return Word(position, Conversion(Reading.TIMES, 1.0, factor))
+
+
+# ---- what the scanner asks
+
+
+class SinumerikPlainBlocks:
+    """What the scanner asks of a SINUMERIK control.
+
+    The modal state of a shape is the mode and the program: names may mean something else in another one.
+    """
+
+    spelling = SPELLING
+
+    def __init__(self) -> None:
+        self._conditions = Conditions()
+
+    def ready(self, channel: Channel) -> bool:
+        """Nothing watches single blocks, holds moves back or follows a block, and the program has been opened."""
+        c, code = channel.coordinates, channel.level.code
+        return (
+            channel.path.head is None
+            and not channel.single_block
+            and channel.stroke_zone is None
+            and c.direct
+            and c.transformation is None
+            and channel.memory.language.modal_call is None
+            and getattr(code, "is_open", False)
+        )
+
+    def generation(self, channel: Channel) -> Hashable:
+        """Changes when plans are forgotten, with names that a program gives a meaning, and with conditions."""
+        code: Any = channel.level.code
+        language, scope = channel.memory.language, code.scope_of(channel)
+        macros = len(language.macros), len(scope.macros)
+        names = macros, len(scope.variables), len(language.global_variables)
+        return channel.modes.generation, names, self._conditions.hold(channel)
+
+    def state(self, channel: Channel) -> tuple[Mode, object]:
+        """The modal state in the running program."""
+        return channel.mode, channel.level.code
+
+    def enter(self, channel: Channel, state: tuple[Mode, object]) -> None:
+        """Another modal state."""
+        channel.mode = state[0]
+
+    def owes(self, channel: Channel) -> bool:
+        """Whether incremental words are owed a change of offsets."""
+        return channel.coordinates.owes
+
+    def limits(self, channel: Channel) -> Sequence[tuple[float, float]]:
+        """The machine's travel, software limit switches and the working area, whichever is narrower."""
+        memory: Memory = channel.memory
+        if not memory.limits:
+            return channel.limits
+        ranges = list(channel.limits) or [(float("-inf"), float("inf"))] * len(channel.axes)
+        for limit in memory.limits:
+            if limit.system != MACHINE:
+                return [(inf, -inf)] * len(ranges)  # in another system only the interpreter can look
+            low, high = ranges[limit.column]
+            ranges[limit.column] = max(low, limit.low), min(high, limit.high)
+        return ranges
+
+    def tolerance(self, channel: Channel) -> float:
+        """MD21000, mm."""
+        return float(channel.memory.data.number("$MC_CIRCLE_ERROR_CONST"))
+
+    def moved(self, channel: Channel, last: LastMoves) -> None:
+        """Where the last move came from, for CT."""
+        memory: Memory = channel.memory
+        kind = Kind(last.kind)
+        if kind in (Kind.RAPID, Kind.FEED):
+            memory.previous = (last.came_from, None, 0.0)
+        else:
+            x, y, z, i, j, k, *_ = last.curve
+            sense = 1.0 if kind in CCW_KINDS else -1.0
+            memory.previous = (last.came_from, ((x, y, z), (i, j, k)), sense)
+
+    def recipe(self, channel: Channel, keys: Sequence[int], _line: str) -> Recipe | None:
+        """What the plan of a shape does, if all of it can be told."""
+        code: Any = channel.level.code
+        try:
+            block = _block(code, channel, keys)
+            if block is None:
+                return None
+            if not block.codes and not block.words:
+                return Recipe((channel.mode, code))
+            plan = channel.mode.plans.get(block) or channel.control.plan(channel, block)
+        except AlarmError:
+            return None  # the interpreter comes to the same block and raises it
+        if plan.shared or plan.ends:
+            return None
+        recipe = self._conditions.recipe(channel, plan.steps, channel.mode)
+        return None if recipe is None else recipe._replace(next_state=(recipe.next_state, code))
+
+
+def _block(code: SinumerikProgram, channel: Channel, keys: Sequence[int]) -> Block | None:
+    """The block that the interpreter would run, if its functions and words are those that the scanner has read."""
+    emitter = code.compiled(channel.level.index, channel).emitter
+    plain = not (emitter.uses_locals or emitter.uses_main or emitter.uses_stop or emitter.branch)
+    if plain and not emitter.lines:
+        return _EMPTY if not keys else None
+    statement = _EXECUTE.fullmatch(emitter.lines[0]) if len(emitter.lines) == 1 else None
+    if not plain or statement is None:
+        return None
+    block = next((each for each in emitter.objects if isinstance(each, Block)), None)
+    if block is None or list(map(int, _NUMBER.findall(statement[1]))) != list(range(len(block.words))):
+        return None
+    codes = [f"G{key - FIRST_CODE}" for key in keys if key >= FIRST_CODE]
+    addresses = [_address(key) for key in keys if key < FIRST_CODE]
+    words = [word.address if word.index is None and not word.modifier else "" for word in block.words]
+    return block if codes == list(block.codes) and addresses == words else None
+
+
+_EMPTY = Block((), ())
+
+
+def _address(key: int) -> str:
+    letter, form = divmod(key, FORMS)
+    return "CR" if form == CR_FORM else chr(ord("A") + letter)

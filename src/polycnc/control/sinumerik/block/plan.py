@@ -1,0 +1,426 @@
+"""How a block acts in a modal state: worked out once, kept in `mode.plans[block]`, run many times.
+
+Order within a block: modal functions; words in the order typed (F, S, T, D, M …); side of the tool and
+corners; motion, or what a function of group 2 or 3 does; stops. A program end comes last of all.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from math import nan
+from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.control.sinumerik import auxiliary, gcodes, tables
+from polycnc.control.sinumerik.block import words
+from polycnc.control.sinumerik.block.draft import Draft, Step
+from polycnc.control.sinumerik.block.positions import axis_diameters
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.feed import spindle_speed
+from polycnc.control.sinumerik.frames import codes as frame_codes
+from polycnc.control.sinumerik.frames import memory as frames
+from polycnc.control.sinumerik.limits import working_area
+from polycnc.control.sinumerik.motion import circles, moves, repositioning, splines
+from polycnc.control.sinumerik.signals import measuring
+from polycnc.control.sinumerik.tools import smooth_approach, stages
+from polycnc.language.bulk import Enter, Idle, Note, declare
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.mode import Mode
+    from polycnc.control.sinumerik.block.draft import Values
+    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.language.bulk import Condition
+    from polycnc.language.sinumerik.words import Block
+
+#: Path motion by the function of group 1.
+MOTIONS: dict[str, Callable[[Draft], Step | None]] = {
+    "G0": moves.rapid,
+    "G1": moves.linear,
+    "G2": circles.circle,
+    "G3": circles.circle,
+    "CIP": circles.through_point,
+    "ASPLINE": splines.through_points,
+    "BSPLINE": splines.control_points,
+    "CSPLINE": splines.through_points,
+    "POLY": splines.polynomial,
+    "CT": circles.tangential,
+    "G33": moves.thread,
+    "G34": moves.thread,
+    "G35": moves.thread,
+    "G331": moves.tap,
+    "G332": moves.tap,
+}
+#: Functions of group 2.
+BLOCK_MOTIONS: dict[str, Callable[[Draft], Step | None]] = {
+    "G4": moves.dwell,
+    "G63": moves.tap_with_chuck,
+    "G74": moves.reference_point,
+    "G75": moves.fixed_point,
+    "G751": moves.fixed_point,
+    **dict.fromkeys(repositioning.FUNCTIONS, repositioning.reposition),
+    **dict.fromkeys(smooth_approach.APPROACHES, smooth_approach.approach),
+    **dict.fromkeys(smooth_approach.RETRACTIONS, smooth_approach.retract),
+}
+LINEAR = frozenset(("G0", "G1"))
+
+
+class Plan(NamedTuple):
+    """What a block does.
+
+    Attributes:
+        steps: In order.
+        acts: Something happens on the machine: motion, dwell, auxiliary functions.
+        calls: A modal subprogram (MCALL) follows the block.
+        ends: Places of the M words, which may end the program.
+        shared: Axes that the block moves and that other channels can use as well, by their columns.
+    """
+
+    steps: tuple[Step, ...]
+    acts: bool
+    calls: bool
+    ends: tuple[int, ...]
+    shared: tuple[int, ...] = ()
+
+
+def make_plan(channel: Channel, block: Block) -> Plan:
+    """Work out a block in the present modal state.
+
+    Raises:
+        AlarmError: 12060 for two functions of one group, 12470 for an unknown one, PC0001 for one that is not
+            executed, and what the functions find wrong with their words.
+    """
+    codes = _codes(block)
+    modal = [(name, code) for name, code in codes.items() if gcodes.BY_NAME[name].is_modal]
+    mode = _axis_diameters(channel, block, _kept_feed(channel.mode, channel.mode.with_codes(modal)), codes)
+    draft = Draft(channel, block, mode, codes)
+    if mode is not channel.mode or any(name in IN_CONTEXT for name, _ in modal):
+        draft.steps.append(_enter(mode, modal, changes=mode is not channel.mode))
+    draft.steps += [_effect(EFFECTS, channel.mode, name, code) for name, code in modal if name in EFFECTS]
+    own = _own_function(draft)
+    moving = _motion(draft) if own is None and "frame" not in codes and "block_motion" not in codes else None
+    ends = _words(draft)
+    # A retraction ends compensation itself, behind its line or arc.
+    leaves = codes.get("block_motion") in smooth_approach.RETRACTIONS and codes.get("side") == "G40"
+    late = [(name, code) for name, code in modal if name in LATE_EFFECTS and not (leaves and name == "side")]
+    draft.steps += [_effect(LATE_EFFECTS, channel.mode, name, code) for name, code in late]
+    measures = measuring.measure(draft)
+    if measures is not None:
+        draft.steps.append(measures[0])
+    in_spline = mode["motion"] in splines.SPLINES
+    check = splines.positioned(draft) if in_spline else None
+    draft.steps += [check] if check is not None else []
+    draft.steps += moves.positioning(draft)
+    if measures is not None:
+        draft.steps.append(measures[1])
+    for step in (own, moving):
+        if step is not None:
+            draft.steps += _around(draft, step)
+    if measures is not None:
+        draft.steps.append(measures[2])
+    for position, word in draft.open_words():
+        if word.address in AXIS_DIAMETERS:
+            continue
+        raise words.misplaced(word, position)
+    draft.steps += [_stop(position) for position in ends]
+    if in_spline:
+        draft.steps.append(splines.count_blocks(draft, is_point=moving is not None))
+    calls = moving is not None or (mode["motion"] in LINEAR and _is_bare_motion(block, codes))
+    acts = bool(block.words) and "frame" not in codes
+    return Plan(tuple(draft.steps), acts, calls and own is None, tuple(ends), _shared(draft))
+
+
+def _shared(draft: Draft) -> tuple[int, ...]:
+    """Columns of the axes that a block moves, where other channels can use them as well."""
+    if not draft.memory.shares_axes or "frame" in draft.codes:
+        return ()
+    names = (str(w.index) if w.address in ("POS", "POSA") else w.address for w in draft.block.words)
+    tables_of_names = (draft.memory.columns, draft.memory.machine_columns)
+    return tuple({table[name] for name in names for table in tables_of_names if name in table})
+
+
+#: Words that choose a diameter function for one axis; empty: that of the channel again.
+AXIS_DIAMETERS = {
+    "DIAMONA": "DIAMON",
+    "DIAMOFA": "DIAMOF",
+    "DIAM90A": "DIAM90",
+    "DIACYCOFA": "DIAMOF",
+    "DIAMCHANA": "",
+}
+
+
+def _kept_feed(before: Mode, mode: Mode) -> Mode:
+    """The mode with the feed type that G962 and G972 keep."""
+    if mode["feed"] in tables.KEEP_FEED and before["feed"] not in tables.KEEP_FEED:
+        return mode.with_code("feed_kept", before["feed"])
+    return mode
+
+
+def _axis_diameters(channel: Channel, block: Block, mode: Mode, codes: dict[str, str]) -> Mode:
+    """The mode after DIAMONA[axis] and the like; a function of the channel takes the transverse axis back."""
+    memory: Memory = channel.memory
+    chosen = axis_diameters(mode)
+    if "diameter" in codes:
+        chosen.pop(memory.transverse, None)
+    for word in block.words:
+        if word.address in AXIS_DIAMETERS:
+            column = memory.column(str(word.index))
+            chosen.pop(column, None)
+            if AXIS_DIAMETERS[word.address]:
+                chosen[column] = AXIS_DIAMETERS[word.address]
+    text = " ".join(f"{column}:{function}" for column, function in sorted(chosen.items()))
+    return mode.with_code("axis_diameters", text) if text != mode["axis_diameters"] else mode
+
+
+def _codes(block: Block) -> dict[str, str]:
+    """The functions of a block by group."""
+    codes: dict[str, str] = {}
+    for code in block.codes:
+        group = gcodes.GROUP_OF.get(code)
+        if group is None:
+            raise AlarmError("12470", text=code)
+        if code in gcodes.NOT_EXECUTED:
+            raise not_supported(code)
+        if group.name in codes:
+            raise AlarmError("12060", text=code)
+        codes[group.name] = code
+    return codes
+
+
+def _is_bare_motion(block: Block, codes: dict[str, str]) -> bool:
+    """G0 or G1 without axes, or S or F alone: MCALL acts on them too (job planning 1.25.3.4)."""
+    return codes.get("motion") in LINEAR or bool(block.words and all(w.address in "SF" for w in block.words))
+
+
+def _enter(mode: Mode, modal: list[tuple[str, str]], *, changes: bool) -> Step:
+    """A step that brings the modal state about."""
+    matters = not modal or any(name in IN_CONTEXT for name, _ in modal)
+
+    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+        channel.mode = mode
+        if matters:
+            channel.context_changed()
+
+    if not changes:
+        return declare(run, Idle())
+    return declare(run, (Enter(mode), Note()) if matters else Enter(mode))
+
+
+def _effect(effects: Mapping[str, Step], before: Mode, name: str, code: str) -> Step:
+    """What a modal function does beside being active; one that is in force already may change nothing."""
+    if before[name] != code or name not in SETTLED:
+        return effects[name]
+    return declare(partial(effects[name]), Idle(SETTLED[name]))
+
+
+def _own_function(draft: Draft) -> Step | None:
+    """The step of a function of group 2 or 3, which takes its words before all others."""
+    if "frame" in draft.codes:
+        if "block_motion" in draft.codes:
+            raise AlarmError("12120", text=draft.codes["frame"])
+        return frame_codes.FRAME_CODES[draft.codes["frame"]](draft)
+    code = draft.codes.get("block_motion")
+    return BLOCK_MOTIONS[code](draft) if code is not None else None
+
+
+def _motion(draft: Draft) -> Step | None:
+    """The path motion of a block, if it has any."""
+    maker = MOTIONS.get(draft.mode["motion"])
+    if maker is None:
+        raise not_supported(draft.mode["motion"])
+    _check_side(draft)
+    if draft.mode["open_line"] and _may_move(draft) and not draft.has("ANG"):
+        raise AlarmError("12080", text="ANG")
+    if draft.mode["motion"] not in LINEAR and not _may_move(draft):
+        return None
+    if draft.mode["motion"] in LINEAR and draft.has("PO"):
+        return splines.straight_to_ends(draft)
+    return maker(draft)
+
+
+def _may_move(draft: Draft) -> bool:
+    """Whether a block has any word of which motion could be made; without one, no axis need exist."""
+    return any(
+        word.address in draft.memory.columns or word.address in words.COMPANIONS
+        for _, word in draft.open_words()
+    )
+
+
+def _check_side(draft: Draft) -> None:
+    """G41, G42 and G40 stand in blocks with G0 or G1 (10753, 10754), if the block moves at all."""
+    side = draft.codes.get("side")
+    if side is None or draft.mode["motion"] in LINEAR or not _may_move(draft):
+        return
+    active = draft.channel.mode["side"] != "G40"
+    if side != "G40" and not active:
+        raise AlarmError("10753")
+    if side == "G40" and active:
+        raise AlarmError("10754")
+
+
+def _words(draft: Draft) -> list[int]:
+    """Make steps of the words beside motion; gives the places of the M words."""
+    ends = []
+    for position, word in draft.open_words():
+        if word.address in words.WORDS and draft.is_open(position):
+            draft.close(position)
+            draft.steps.append(words.make(draft, position, word))
+            if word.address == "M" and word.index is None:
+                ends.append(position)
+    return ends
+
+
+def _stop(position: int) -> Step:
+    def run(channel: Channel, values: Values) -> None:
+        auxiliary.after_motion(channel, words.whole(values, position))
+
+    return run
+
+
+def _around(draft: Draft, step: Step) -> list[Step]:
+    """The motion with what holds for this block alone: suppressed frames, exact stop."""
+    suppression = draft.codes.get("suppression")
+    steps = [step]
+    if suppression is not None:
+        steps = [_suppress(suppression), *steps, _suppress("")]
+    if "block_exact_stop" in draft.codes:
+        steps = [_exact_stop(True), *steps, _exact_stop(False)]
+    return steps
+
+
+def _suppress(code: str) -> Step:
+    """Frames off for a block, and back; what incremental words are still owed does not change."""
+
+    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+        frames.apply(channel, code)
+
+    return run
+
+
+def _exact_stop(on: bool) -> Step:
+    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+        channel.memory.exact_stop_block = on
+        channel.context_changed()
+
+    return run
+
+
+# ---- what modal functions do beside being active
+
+
+def _zero_offset(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    """G500, G54 …: the stored frame becomes active."""
+    memory: Memory = channel.memory
+    number = gcodes.number_of(channel.mode["zero_offset"]) - 1
+    if number >= len(memory.frames.settable):
+        raise AlarmError("12470", text=channel.mode["zero_offset"])
+    memory.frames.select(number)
+    frames.changed(channel)
+
+
+def _plane(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    """G17, G18, G19: tool lengths change their axes."""
+    stages.change_plane(channel)
+    auxiliary.tool_changed(channel)
+
+
+def _feed_type(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    """Group 15: another kind of feed needs a new F; G97 keeps the speed that G96 had."""
+    memory: Memory = channel.memory
+    feed = tables.feed_type(channel.mode)
+    spindle_speed.change_of_feed_type(channel, feed.surface_speed, channel.mode["feed"])
+    if feed.mode != memory.feed_mode:
+        channel.feed = nan
+        memory.feed_mode = feed.mode
+
+
+def _diameter(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    """DIAMON, DIAM90: only with a transverse axis (16510)."""
+    if channel.mode["diameter"] in ("DIAMON", "DIAM90") and channel.memory.transverse < 0:
+        raise AlarmError("16510")
+
+
+def _side(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    if channel.mode["side"] == "G40":
+        stages.leave_contour(channel)
+    else:
+        stages.select_side(channel)
+    channel.context_changed()
+
+
+def _working_area(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    working_area.refresh(channel)
+
+
+def _constant_side(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    stages.suspend(channel)
+
+
+def _rules(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    stages.changed_rules(channel)
+
+
+def _lengths_are_settled(channel: Channel) -> bool:
+    """The plane gives the tool the lengths that it has."""
+    tools, data = channel.memory.tools, channel.memory.data
+    before = tools.lengths
+    tools.assign_lengths(channel.mode["plane"], data)
+    after, tools.lengths = tools.lengths, before
+    return bool(after == before) and frames.is_settled(channel)
+
+
+def _feed_is_settled(channel: Channel) -> bool:
+    """The kind of feed is the one in force, its spindle has what it needs and no speed to keep from G96."""
+    memory, code = channel.memory, channel.mode["feed"]
+    feed = tables.feed_type(channel.mode)
+    in_force = bool(feed.mode == memory.feed_mode)
+    return in_force and spindle_speed.is_settled(channel, feed.surface_speed, code)
+
+
+def _contour_is_settled(channel: Channel) -> bool:
+    """No compensation is active."""
+    return stages.active_cutter(channel) is None
+
+
+#: When functions of a group that are in force already change nothing.
+SETTLED: dict[str, Condition] = {
+    "zero_offset": frames.is_settled,
+    "plane": _lengths_are_settled,
+    "feed": _feed_is_settled,
+    **dict.fromkeys(("approach", "corner", "side"), _contour_is_settled),
+}
+#: Right after the modal state has changed.
+EFFECTS: dict[str, Step] = {
+    "zero_offset": _zero_offset,
+    "plane": _plane,
+    "feed": _feed_type,
+    "diameter": _diameter,
+    "working_area": _working_area,
+    "working_area_wcs": _working_area,
+}
+#: After the words of the block: the tool is that of the block's own T and D.
+LATE_EFFECTS: dict[str, Step] = {
+    "approach": _rules,
+    "corner": _rules,
+    "side": _side,
+    "constant_side": _constant_side,
+}
+#: Groups that a context of the toolpath tells of.
+IN_CONTEXT = frozenset(
+    (
+        "plane",
+        "zero_offset",
+        "units",
+        "feed",
+        "diameter",
+        "path_mode",
+        "exact_stop",
+        "side",
+        "dynamics",
+        "acceleration",
+        "rapid",
+        "curve_feed",
+    )
+)

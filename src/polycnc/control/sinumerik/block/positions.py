@@ -1,0 +1,186 @@
+"""From the axis words of a block to its target: dimensions, units, diameters, and the ways of rotary axes.
+
+Source: Fundamentals (G90/G91, AC, IC, DC, ACP, ACN, G70/G71, G700/G710, DIAMON, DIAM90, DAC, DIC, RAC, RIC).
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from polycnc.control.sinumerik.motion import indexing
+from polycnc.geometry.units import INCH_MM
+from polycnc.language.sinumerik.names.values import Axis
+from polycnc.language.sinumerik.words import WordAlarm
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.mode import Mode
+    from polycnc.control.sinumerik.memory import Memory
+
+TURN = 360.0
+
+
+class Way(Enum):
+    """How the value of an axis word leads to a target."""
+
+    ABSOLUTE = "AC"
+    INCREMENTAL = "IC"
+    SHORTEST = "DC"
+    POSITIVE = "ACP"
+    NEGATIVE = "ACN"
+    MODULO = "modulo"
+
+
+class AxisTerm(NamedTuple):
+    """An axis word of a block, worked out for a modal state.
+
+    Attributes:
+        position: Which word of the block.
+        column: Which axis of the channel.
+        way: How the value is meant.
+        factor: From the programmed value to mm (radius) or degrees.
+        coded: CAC, CIC … for a coded position, else empty.
+    """
+
+    position: int
+    column: int
+    way: Way
+    factor: float
+    coded: str = ""
+
+
+#: For each modifier: the way it asks for, and whether the value is a diameter (None: as the modal state
+#: says).
+_MODIFIERS: dict[str, tuple[Way, bool | None]] = {
+    "AC": (Way.ABSOLUTE, None),
+    "IC": (Way.INCREMENTAL, None),
+    "DC": (Way.SHORTEST, None),
+    "ACP": (Way.POSITIVE, None),
+    "ACN": (Way.NEGATIVE, None),
+    "DAC": (Way.ABSOLUTE, True),
+    "DIC": (Way.INCREMENTAL, True),
+    "RAC": (Way.ABSOLUTE, False),
+    "RIC": (Way.INCREMENTAL, False),
+}
+#: Alarm for a modifier of rotary axes on an axis that has none of their ways.
+_ROTARY_ONLY = {"DC": "16800", "ACP": "16810", "ACN": "16820"}
+
+
+def length_factor(mode: Mode) -> float:
+    """From a programmed length to mm."""
+    return INCH_MM if mode["units"] in ("G70", "G700") else 1.0
+
+
+SHOWS_DIAMETERS = ("DIAMON", "DIAM90")
+
+
+def axis_diameters(mode: Mode) -> dict[int, str]:
+    """Diameter functions of single axes (DIAMONA …) by column."""
+    pairs = (entry.split(":") for entry in mode["axis_diameters"].split())
+    return {int(column): function for column, function in pairs}
+
+
+def diameter_function(mode: Mode, column: int, transverse: int) -> str:
+    """DIAMON, DIAM90 or DIAMOF as it holds for an axis: its own, or that of the channel on the transverse axis."""
+    own = axis_diameters(mode).get(column)
+    return own if own is not None else mode["diameter"] if column == transverse else "DIAMOF"
+
+
+def is_diameter(mode: Mode, way: Way, column: int, transverse: int) -> bool:
+    """Whether a value of an axis is a diameter."""
+    function = diameter_function(mode, column, transverse)
+    return function == "DIAMON" or (function == "DIAM90" and way is not Way.INCREMENTAL)
+
+
+def axis_term(
+    channel: Channel, mode: Mode, position: int, column: int, modifier: str, *, path: bool = True
+) -> AxisTerm:
+    """Work out an axis word. `path` is false for words that are no positions (offsets): always radius.
+
+    Raises:
+        WordAlarm: 12020 for a modifier that axis words do not have, 16800 to 16820 for the way of a rotary
+            axis on a linear one.
+    """
+    memory: Memory = channel.memory
+    axis = channel.axis_data[column]
+    diameter: bool | None = None
+    if not modifier:
+        way = Way.INCREMENTAL if mode["dimensions"] == "G91" else Way.ABSOLUTE
+    elif modifier in _MODIFIERS:
+        way, diameter = _MODIFIERS[modifier]
+    elif modifier in indexing.WAYS:
+        return axis_term(channel, mode, position, column, indexing.WAYS[modifier])._replace(coded=modifier)
+    else:
+        raise WordAlarm("12020", position, text=modifier)
+    if modifier in _ROTARY_ONLY and not axis.rotary:
+        raise WordAlarm(_ROTARY_ONLY[modifier], position, axis=channel.axes[column])
+    if axis.rotary:
+        if way is Way.ABSOLUTE and axis.modulo:
+            way = Way.MODULO
+        return AxisTerm(position, column, way, 1.0)
+    factor = length_factor(mode)
+    if diameter is None:
+        diameter = is_diameter(mode, way, column, memory.transverse)
+    if path and diameter:
+        factor *= 0.5
+    return AxisTerm(position, column, way, factor)
+
+
+def number(values: tuple[Any, ...], position: int) -> float:
+    """The value of a word as a number; alarm 12150 for a text, an axis or a frame."""
+    value = values[position]
+    if value.__class__ is float:
+        return value
+    if isinstance(value, (int, float)):
+        return float(value)
+    raise WordAlarm("12150", position, text=str(value.name if isinstance(value, Axis) else value))
+
+
+def target(channel: Channel, terms: Sequence[AxisTerm], values: tuple[Any, ...]) -> list[float]:
+    """The target of a block in work coordinates of all axes; axes without a word stay where they are."""
+    coordinates = channel.coordinates
+    end = coordinates.position.copy()
+    owed = coordinates.pending
+    for term in terms:
+        value = number(values, term.position) * term.factor
+        column = term.column
+        if term.coded:
+            value = indexing.position(channel, column, term.coded, number(values, term.position))
+        if term.way is Way.ABSOLUTE:
+            end[column] = value
+        elif term.way is Way.INCREMENTAL:
+            end[column] += owed[column] + value
+        else:
+            end[column] = _rotary_target(end[column], value, term)
+        owed[column] = 0.0
+    return end
+
+
+def _rotary_target(now: float, value: float, term: AxisTerm) -> float:
+    """Target of a modulo rotary axis; without DC, ACP or ACN it stays within the turn in which it stands.
+
+    Raises:
+        WordAlarm: 16830 for an angle outside 0 to 360 with DC, ACP or ACN.
+    """
+    base = now - now % TURN
+    if term.way is Way.MODULO:
+        return base + value
+    if not 0.0 <= value < TURN:
+        raise WordAlarm("16830", term.position)
+    way = (value - now) % TURN
+    if (term.way is Way.SHORTEST and way > TURN / 2) or (term.way is Way.NEGATIVE and way > 0.0):
+        way -= TURN
+    return now + way
+
+
+def shown(channel: Channel, column: int, value: float, *, work: bool = True) -> float:
+    """A position as a program reads it: in diameter, inches under G700, modulo axes within a turn."""
+    axis = channel.axis_data[column]
+    if axis.rotary:
+        return value % 360.0 if axis.modulo else value
+    if work and is_diameter(channel.mode, Way.ABSOLUTE, column, channel.memory.transverse):
+        value *= 2.0
+    return value / INCH_MM if channel.mode["units"] == "G700" else value

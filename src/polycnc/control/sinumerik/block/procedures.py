@@ -1,0 +1,230 @@
+"""Predefined procedures: MSG, STOPRE, SETMS, WAITP, PRESETON and the rest of those that act on the control.
+
+Source: Fundamentals (MSG, SETMS, WAITS, FGROUP, BRISKA …), job planning 5.5 (PRESETON), 14.9 (SETAL).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.block.arguments import Arguments
+from polycnc.control.sinumerik.channels import axis_exchange, coordination
+from polycnc.control.sinumerik.data import archive
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.feed import axis_settings, spindle_speed
+from polycnc.control.sinumerik.limits import protection, working_area
+from polycnc.control.sinumerik.motion import splines
+from polycnc.control.sinumerik.signals import interrupts, retraction, sections
+from polycnc.control.sinumerik.tools import d_numbers
+from polycnc.language.sinumerik.names.frame import NEUTRAL
+from polycnc.language.sinumerik.names.initialisation import NEW_CONFIGURATION, initialise
+from polycnc.messages import Alarm, AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.memory import Memory
+
+
+#: SETAL: thousands of alarm numbers that are shown without stopping the program (job planning 14.9).
+SHOWN_ONLY = frozenset((62, 67, 68, 69))
+
+
+def run(channel: Channel, name: str, args: Arguments) -> None:
+    """Run a procedure; PC0001 for one that is not executed."""
+    procedure = PROCEDURES.get(name)
+    if procedure is None:
+        raise not_supported(name)
+    procedure(channel, args)
+
+
+def message(channel: Channel, args: Arguments) -> None:
+    """MSG(text): shown until the next one; MSG() takes it away."""
+    channel.event("message", text=str(args[0]) if args and args[0] is not None else "")
+
+
+def preprocessing_stop(channel: Channel, _args: Arguments) -> None:
+    """STOPRE: everything held back is written and executed before the next block is read."""
+    channel.flush()
+    channel.synchronise()
+
+
+def set_alarm(channel: Channel, args: Arguments) -> None:
+    """SETAL(number, text): an alarm of the program; some numbers are only shown."""
+    number = args[0] if args else None
+    if not isinstance(number, int) or not 60000 <= number <= 69999:
+        raise AlarmError("14020", text="SETAL")
+    text = str(args[1]) if len(args) > 1 and args[1] is not None else f"SETAL({number})"
+    if number // 1000 not in SHOWN_ONLY:
+        raise AlarmError(str(number), detail=text)
+    program = channel.level.code.program
+    channel.alarms.append(
+        Alarm(
+            channel.control.id,
+            str(number),
+            program.name,
+            channel.line,
+            detail=text,
+            file=str(program.path or ""),
+        )
+    )
+    channel.event("alarm", code=str(number), line=channel.line, column=0, program=program.name)
+
+
+def set_master_spindle(channel: Channel, args: Arguments) -> None:
+    """SETMS(n): the master spindle; SETMS alone returns to that of the machine data."""
+    spindles = channel.memory.spindles
+    number = arguments.spindle(args[0]) if args else None
+    number = spindles.default_master if number is None else number
+    spindles.get(number)
+    spindles.master = number
+    channel.context_changed()
+
+
+def position_control(on: bool) -> Callable[[Channel, Arguments], None]:
+    """SPCON, SPCOF: the named spindles, or the master spindle, in position control."""
+
+    def switch(channel: Channel, args: Arguments) -> None:
+        for number in args or (None,):
+            channel.memory.spindles.get(arguments.spindle(number)).controlled = on
+
+    return switch
+
+
+def wait_for_axes(channel: Channel, args: Arguments) -> None:
+    """WAITP(axis, …): positioning axes stand at their targets when their block is written."""
+    for axis in args:
+        arguments.column(channel, axis)
+
+
+def wait_for_spindles(channel: Channel, args: Arguments) -> None:
+    """WAITS(n, …): spindles stand at their positions."""
+    for number in args:
+        channel.memory.spindles.get(arguments.spindle(number))
+
+
+def preset(channel: Channel, args: Arguments) -> None:
+    """PRESETON(machine axis, value, …): the axis stands where it is and shows another machine position."""
+    if not args or len(args) % 2:
+        raise AlarmError("14020", text="PRESETON")
+    coordinates = channel.coordinates
+    machine = coordinates.machine
+    for axis, value in zip(args[::2], args[1::2], strict=True):
+        machine[arguments.column(channel, axis)] = arguments.real(value)
+    coordinates.arrive_machine(machine)
+
+
+def dynamics(name: str) -> Callable[[Channel, Arguments], None]:
+    """BRISKA, SOFTA, DRIVEA, JERKA: acceleration of single axes, kept for the motion planner."""
+
+    def keep(channel: Channel, args: Arguments) -> None:
+        memory: Memory = channel.memory
+        for axis in args:
+            column = arguments.column(channel, axis)
+            memory.values["acceleration", (channel.axes[column],)] = name
+
+    return keep
+
+
+def path_group(channel: Channel, args: Arguments) -> None:
+    """FGROUP(axis, …): the axes whose way the path feed is for; none for those of the machine data."""
+    memory: Memory = channel.memory
+    memory.values["FGROUP", ()] = tuple(arguments.column(channel, axis) for axis in args)
+    channel.context_changed()
+
+
+def renumber(channel: Channel, args: Arguments) -> None:
+    """SETDNO(t, ce, d) without use of its status."""
+    if len(args) != 3 or None in args:
+        raise AlarmError("14020", text="SETDNO")
+    d_numbers.set_number(channel, args)
+
+
+def new_configuration(channel: Channel, _args: Arguments) -> None:
+    """NEWCONF: machine data that the program has written act; variables with INICF begin anew."""
+    channel.flush()
+    memory: Memory = channel.memory
+    working_area.refresh(channel)
+    initialise(channel, NEW_CONFIGURATION, keep_values=memory.data.keeps_first_values)
+
+
+def transformation_off(channel: Channel, _args: Arguments) -> None:
+    """TRAFOOF: no transformation is active; the frame of transformations goes as well."""
+    channel.memory.frames.system["$P_TRAFRAME"] = NEUTRAL
+
+
+def workpiece(channel: Channel, args: Arguments) -> None:
+    """WORKPIECE(…): the blank that pictures show; WORKPIECE() takes it away. No motion."""
+    channel.memory.values["WORKPIECE", ()] = args or None
+
+
+def channel_data(channel: Channel, args: Arguments) -> None:
+    """CHANDATA(n): in a program it only makes sure that the channel is the right one (job planning 2.2)."""
+    if len(args) != 1 or arguments.whole(args[0]) != channel.number:
+        raise AlarmError("14020", text="CHANDATA")
+
+
+def section_of_program(channel: Channel, args: Arguments) -> None:
+    """SEFORM(name, level, icon): a section for the step editor; the name is kept for the operator interface."""
+    if len(args) != 3 or not isinstance(args[0], str) or not isinstance(args[2], str):
+        raise AlarmError("14020", text="SEFORM")
+    arguments.whole(args[1])
+    channel.memory.values["SEFORM", ()] = args[0]
+
+
+def editor_mark(_channel: Channel, _args: Arguments) -> None:
+    """GROUP_BEGIN, GROUP_END, GROUP_ADDEND: marks of the editor."""
+
+
+def no_overlay(_channel: Channel, _args: Arguments) -> None:
+    """DRFOF, CORROF: there is no overlaid motion to take away."""
+
+
+PROCEDURES: dict[str, Callable[[Channel, Arguments], None]] = {
+    "MSG": message,
+    "STOPRE": preprocessing_stop,
+    "SETAL": set_alarm,
+    "SETMS": set_master_spindle,
+    "SPCON": position_control(True),
+    "SPCOF": position_control(False),
+    "WAITP": wait_for_axes,
+    "WAITS": wait_for_spindles,
+    "PRESETON": preset,
+    "BRISKA": dynamics("BRISK"),
+    "SOFTA": dynamics("SOFT"),
+    "DRIVEA": dynamics("DRIVE"),
+    "JERKA": dynamics("JERK"),
+    "FGROUP": path_group,
+    "FPR": spindle_speed.feed_source,
+    "FPRAON": spindle_speed.axis_feed_source,
+    "FPRAOF": spindle_speed.axis_feed_source_off,
+    "GWPSON": spindle_speed.wheel_speed(on=True),
+    "GWPSOF": spindle_speed.wheel_speed(on=False),
+    "DELAYFSTON": sections.begin(sections.STOP_DELAY),
+    "DELAYFSTOF": sections.end(sections.STOP_DELAY),
+    "IPTRLOCK": sections.begin(sections.POINTER_LOCK),
+    "IPTRUNLOCK": sections.end(sections.POINTER_LOCK),
+    **{name: axis_settings.motion_end(name) for name in axis_settings.MOTION_ENDS},
+    "SETDNO": renumber,
+    "DZERO": d_numbers.invalidate,
+    "DELDL": d_numbers.delete_additive,
+    "NEWCONF": new_configuration,
+    "CHANDATA": channel_data,
+    "SEFORM": section_of_program,
+    "TRAFOOF": transformation_off,
+    "DRFOF": no_overlay,
+    "WORKPIECE": workpiece,
+    "GROUP_BEGIN": editor_mark,
+    "GROUP_END": editor_mark,
+    "GROUP_ADDEND": editor_mark,
+    "CORROF": no_overlay,
+    **interrupts.PROCEDURES,
+    **coordination.PROCEDURES,
+    **axis_exchange.PROCEDURES,
+    **retraction.PROCEDURES,
+    **splines.PROCEDURES,
+    **protection.PROCEDURES,
+    **archive.PROCEDURES,
+}

@@ -1,0 +1,500 @@
+"""Words beside motion: F, S, T, D, M, H and the addresses that set something for later blocks.
+
+A maker takes one word of a draft and gives the step that it is. `WORDS` says which address has which maker.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import nan, pi
+from typing import TYPE_CHECKING
+
+from polycnc.compensation.corner import Shape
+from polycnc.control.sinumerik import auxiliary, tables
+from polycnc.control.sinumerik.block import plain
+from polycnc.control.sinumerik.block.draft import axis_column
+from polycnc.control.sinumerik.block.positions import length_factor, number
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.feed import axis_settings, spindle_speed, tolerances, tooth_feed
+from polycnc.control.sinumerik.motion import moves
+from polycnc.control.sinumerik.signals import retraction
+from polycnc.control.sinumerik.tools import stages
+from polycnc.geometry.units import INCH_MM
+from polycnc.language.bulk import Note, declare
+from polycnc.language.sinumerik.names.values import Axis
+from polycnc.language.sinumerik.words import WordAlarm
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.block.draft import Draft, Step, Values
+    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.language.sinumerik.words import WordShape
+
+Maker = Callable[["Draft", int, "WordShape"], "Step"]
+
+
+# ---- feed
+
+
+def feed(draft: Draft, position: int, shape: WordShape) -> Step:
+    """F: path feed in the units of the feed type; F0 is no feed."""
+    if shape.index is not None:
+        raise not_supported(f"F[{shape.index}]")
+    if draft.mode["feed"] == "G931":
+        return _travel_time(position)
+    factor = moves.feed_factor(draft)
+    polynomial = shape.modifier == "FPO"
+
+    def run(channel: Channel, values: Values) -> None:
+        # FPO(end, quadratic, cubic): the feed at the end of the block is the modal one.
+        value = number(values[position], 0) if polynomial else number(values, position)
+        if value < 0.0:
+            raise WordAlarm("14800", position)
+        channel.feed = value * factor or nan
+
+    return run if polynomial else declare(run, plain.feed(position, factor))
+
+
+def _travel_time(position: int) -> Step:
+    """F under G931: seconds for the block; the toolpath keeps the inverse."""
+
+    def run(channel: Channel, values: Values) -> None:
+        value = number(values, position)
+        channel.feed = 1.0 / value if value > 0.0 else nan
+
+    return run
+
+
+def axis_feed(draft: Draft, position: int, shape: WordShape) -> Step:
+    """FA[axis]: feed of a positioning axis, modal; alarm 10861 for zero, 14810 below."""
+    column = axis_column(draft, position, shape)
+    factor = (INCH_MM if draft.mode["units"] == "G700" else 1.0) / tables.MINUTE
+
+    def run(channel: Channel, values: Values) -> None:
+        value = number(values, position) * factor
+        if value <= 0.0:
+            raise WordAlarm("14810" if value < 0.0 else "10861", position, axis=channel.axes[column])
+        channel.memory.feeds[column] = value
+
+    return run
+
+
+# ---- spindle
+
+
+def spindle_number(shape: WordShape, position: int) -> int | None:
+    """The spindle that an extension names; None for the master spindle."""
+    index = shape.index
+    if index is None or isinstance(index, int):
+        return index
+    if isinstance(index, Axis) and index.name[:1] == "S" and index.name[1:].isdigit():
+        return int(index.name[1:])
+    raise WordAlarm("12030", position, text=str(index))
+
+
+def speed(draft: Draft, position: int, shape: WordShape) -> Step:
+    """S: rpm, or m/min under constant cutting speed; alarm 16763 below zero."""
+    wanted = spindle_number(shape, position)
+    surface = tables.feed_type(draft.mode).surface_speed
+
+    def run(channel: Channel, values: Values) -> None:
+        spindle = channel.memory.spindles.get(wanted)
+        value = number(values, position)
+        if value < 0.0:
+            raise WordAlarm("16763", position, axis=f"S{spindle.number}")
+        if spindle.has_wheel_speed:
+            spindle_speed.set_wheel_speed(channel, spindle, value)
+        elif surface and spindle.number == channel.memory.spindles.master:
+            spindle.cutting_speed = value
+        else:
+            spindle.speed = value
+        channel.context_changed()
+        channel.event("s", speed=value, spindle=spindle.number)
+
+    return declare(run, Note(position, lowest=0.0, condition=_has_master)) if wanted is None else run
+
+
+def _has_master(channel: Channel) -> bool:
+    return channel.memory.spindles.master in channel.memory.spindles.all
+
+
+def speed_limit(_draft: Draft, position: int, shape: WordShape) -> Step:
+    """LIMS: highest speed under G96, G961 and G97; alarm 14820 below zero."""
+    wanted = spindle_number(shape, position)
+
+    def run(channel: Channel, values: Values) -> None:
+        value = number(values, position)
+        if value < 0.0:
+            raise WordAlarm("14820", position)
+        spindle = channel.memory.spindles.get(wanted)
+        spindle_speed.set_limit(channel, spindle_speed.SURFACE_LIMIT, spindle, value)
+
+    return run
+
+
+def spindle_position(_draft: Draft, position: int, shape: WordShape) -> Step:
+    """SPOS, SPOSA: the spindle turns to an angle and stays in position control."""
+    wanted = spindle_number(shape, position)
+
+    def run(channel: Channel, values: Values) -> None:
+        spindle = channel.memory.spindles.get(wanted)
+        value = number(values, position)
+        if shape.modifier in ("DC", "ACP", "ACN") and not 0.0 <= value < tables.TURN:
+            raise WordAlarm("16830", position)
+        spindle.position = (value + (spindle.position if shape.modifier == "IC" else 0.0)) % tables.TURN
+        spindle.controlled = True
+        spindle.direction = 0
+        channel.context_changed()
+
+    return run
+
+
+# ---- tool
+
+
+def tool(_draft: Draft, position: int, shape: WordShape) -> Step:
+    """T: the tool of a number or a name; MD22550 says whether it is loaded now or with M6."""
+    spindle_number(shape, position)
+
+    def run(channel: Channel, values: Values) -> None:
+        memory: Memory = channel.memory
+        wanted = values[position]
+        if not isinstance(wanted, str):
+            wanted = number(values, position)
+            if wanted != int(wanted) or wanted < 0:
+                raise WordAlarm("17190", position, tool=f"{wanted:g}")
+        selected = 0 if wanted == 0 else memory.tools.find(wanted).number
+        channel.event("t", tool=wanted if isinstance(wanted, str) else int(wanted))
+        memory.tools.selected = selected
+        if memory.data.integer("$MC_TOOL_CHANGE_MODE") == 0:
+            auxiliary.load_tool(channel)
+
+    return run
+
+
+def edge(_draft: Draft, position: int, _shape: WordShape) -> Step:
+    """D: the cutting edge; D0 takes all tool offsets away."""
+
+    def run(channel: Channel, values: Values) -> None:
+        value = number(values, position)
+        if value != int(value) or not 0 <= value <= 32000:
+            raise WordAlarm("14090", position)
+        memory: Memory = channel.memory
+        if memory.data.integer("$MC_TOOL_CHANGE_MODE") and memory.tools.selected != memory.tools.active:
+            memory.tools.next_edge = int(value)
+            return
+        memory.tools.select_edge(int(value))
+        auxiliary.tool_changed(channel)
+
+    return run
+
+
+def additive_offset(_draft: Draft, position: int, _shape: WordShape) -> Step:
+    """DL: additive offset of the active edge, 1 to 6; 0 and a new D take it away."""
+
+    def run(channel: Channel, values: Values) -> None:
+        value = number(values, position)
+        if value not in range(7):
+            raise WordAlarm("12560", position, text="DL")
+        channel.memory.tools.additive = int(value)
+        auxiliary.tool_changed(channel)
+
+    return run
+
+
+def added_length(draft: Draft, position: int, shape: WordShape) -> Step:
+    """TOFFL, TOFFL[n]: addition to length n of the active edge."""
+    index = shape.index if shape.index is not None else 1
+    if index not in (1, 2, 3):
+        raise WordAlarm("12400", position, text="TOFFL")
+    which = int(str(index)) - 1
+    factor = length_factor(draft.mode)
+
+    def run(channel: Channel, values: Values) -> None:
+        channel.memory.tools.added_lengths[which] = number(values, position) * factor
+        auxiliary.tool_changed(channel)
+
+    return run
+
+
+def added_on_axis(draft: Draft, position: int, shape: WordShape) -> Step:
+    """TOFF[axis]: addition along a geometry axis."""
+    column = axis_column(draft, position, shape)
+    geometry = draft.channel.coordinates.geometry
+    if column not in geometry:
+        raise WordAlarm("16410", position, axis=draft.channel.axes[column])
+    factor = length_factor(draft.mode)
+
+    def run(channel: Channel, values: Values) -> None:
+        channel.memory.tools.added_on_axes[geometry.index(column)] = number(values, position) * factor
+        auxiliary.tool_changed(channel)
+
+    return run
+
+
+def added_radius(draft: Draft, position: int, _shape: WordShape) -> Step:
+    """TOFFR: addition to the tool radius."""
+    factor = length_factor(draft.mode)
+
+    def run(channel: Channel, values: Values) -> None:
+        channel.memory.tools.added_radius = number(values, position) * factor
+        stages.changed_radius(channel)
+        channel.context_changed()
+
+    return run
+
+
+def allowance(draft: Draft, position: int, _shape: WordShape) -> Step:
+    """OFFN: allowance to the contour."""
+    factor = length_factor(draft.mode)
+
+    def run(channel: Channel, values: Values) -> None:
+        channel.memory.allowance_mm = number(values, position) * factor
+        stages.changed_radius(channel)
+
+    return run
+
+
+def disc(_draft: Draft, position: int, _shape: WordShape) -> Step:
+    """DISC: how far the transition arc of G450 is raised, 0 to 100 (at most MD20220)."""
+
+    def run(channel: Channel, values: Values) -> None:
+        memory: Memory = channel.memory
+        highest = memory.data.number("$MC_CUTCOM_MAX_DISC")
+        memory.disc = min(max(number(values, position), 0.0), highest)
+        stages.changed_rules(channel)
+
+    return run
+
+
+# ---- corners
+
+
+def corner(shape_of_corner: Shape) -> Maker:
+    """CHF, CHR, RND: what is put between this block and the next one; FRC is its feed."""
+
+    def make(draft: Draft, position: int, _shape: WordShape) -> Step:
+        own_feed = draft.take("FRC")
+        opens_line = draft.opens_line
+        factor = length_factor(draft.mode)
+        feed_factor = moves.feed_factor(draft)
+
+        def run(channel: Channel, values: Values) -> None:
+            memory: Memory = channel.memory
+            inserted = (
+                memory.modal_corner_feed if own_feed is None else number(values, own_feed) * feed_factor
+            )
+            size = number(values, position) * factor
+            if opens_line:
+                memory.open_corners.append(lambda: stages.insert(channel, shape_of_corner, size, inserted))
+            else:
+                stages.insert(channel, shape_of_corner, size, inserted)
+
+        return run
+
+    return make
+
+
+def modal_rounding(draft: Draft, position: int, _shape: WordShape) -> Step:
+    """RNDM: round every corner, 0 ends it."""
+    factor = length_factor(draft.mode)
+
+    def run(channel: Channel, values: Values) -> None:
+        stages.round_all(channel, number(values, position) * factor, channel.memory.modal_corner_feed)
+
+    return run
+
+
+def modal_corner_feed(draft: Draft, position: int, _shape: WordShape) -> Step:
+    """FRCM: feed of every chamfer and rounding, 0 for the path feed."""
+    factor = moves.feed_factor(draft)
+
+    def run(channel: Channel, values: Values) -> None:
+        channel.memory.modal_corner_feed = number(values, position) * factor or nan
+
+    return run
+
+
+# ---- settings
+
+
+def rounding_distance(draft: Draft, position: int, shape: WordShape) -> Step:
+    """ADIS, ADISPOS: distance before and after a corner in which G641 rounds."""
+    factor = length_factor(draft.mode)
+    attribute = "rounding_mm" if shape.address == "ADIS" else "rapid_rounding_mm"
+
+    def run(channel: Channel, values: Values) -> None:
+        value = number(values, position) * factor
+        if value < 0.0:
+            raise WordAlarm("12560", position, text=shape.address)
+        setattr(channel.memory, attribute, value)
+        channel.context_changed()
+
+    return run
+
+
+def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
+    """OVR, OVRRAP, OVRA[axis], ACC[axis], VELOLIM[axis] …: per cent, for the motion planner (`pace.py`)."""
+    name = str(shape.index) if shape.index is not None else ""
+
+    def run(channel: Channel, values: Values) -> None:
+        value = number(values, position)
+        if not 0.0 < value <= 200.0:
+            raise WordAlarm("12560", position, text=shape.address)
+        channel.memory.percent[shape.address, name] = value
+        channel.context_changed()
+
+    return run
+
+
+def cutting_rate(_draft: Draft, position: int, _shape: WordShape) -> Step:
+    """SVC: cutting rate of the tool, m/min; the speed follows from its radius. Alarm 10750 without one."""
+
+    def run(channel: Channel, values: Values) -> None:
+        memory: Memory = channel.memory
+        radius = memory.tools.radius
+        if radius <= 0.0:
+            raise AlarmError("10750")
+        spindle = memory.spindles.get()
+        spindle.speed = number(values, position) * tables.MM_PER_M / (2.0 * pi * radius)
+        channel.context_changed()
+        channel.event("s", speed=spindle.speed, spindle=spindle.number)
+
+    return run
+
+
+def kept(_draft: Draft, position: int, shape: WordShape) -> Step:
+    """DITS, DITE, DILF: paths of acceleration and of retraction on an interruption; no effect on the path."""
+
+    def run(channel: Channel, values: Values) -> None:
+        channel.memory.values[shape.address, ()] = number(values, position)
+
+    return run
+
+
+def path_feed_of_axis(draft: Draft, position: int, shape: WordShape) -> Step:
+    """FGREF, FL: reference radius of a rotary axis, limit of a synchronous axis; for the motion planner (`pace.py`)."""
+    column = axis_column(draft, position, shape)
+    factor = length_factor(draft.mode) if shape.address == "FGREF" else moves.feed_factor(draft)
+
+    def run(channel: Channel, values: Values) -> None:
+        value = number(values, position) * factor
+        if value <= 0.0:
+            raise WordAlarm("12560", position, text=shape.address)
+        channel.memory.values[shape.address, (column,)] = value
+        channel.context_changed()
+
+    return run
+
+
+def auxiliary_h(_draft: Draft, position: int, _shape: WordShape) -> Step:
+    """H: auxiliary function to the PLC."""
+
+    def run(channel: Channel, values: Values) -> None:
+        value = number(values, position)
+        channel.event("h", code=int(value) if value == int(value) else value)
+
+    return run
+
+
+def m_function(_draft: Draft, position: int, shape: WordShape) -> Step:
+    """M: what acts before the motion of its block."""
+    spindle = spindle_number(shape, position)
+
+    def run(channel: Channel, values: Values) -> None:
+        auxiliary.before_motion(channel, whole(values, position), spindle)
+
+    return run
+
+
+def whole(values: Values, position: int) -> int:
+    """The value of a word as a whole number; alarm 12150 for a fraction."""
+    value = number(values, position)
+    if value != int(value):
+        raise WordAlarm("12150", position, text=f"{value:g}")
+    return int(value)
+
+
+def tool_carrier(_draft: Draft, position: int, _shape: WordShape) -> Step:
+    """TCARR: 0 takes the tool carrier away; others are not executed."""
+
+    def run(_channel: Channel, values: Values) -> None:
+        if number(values, position) != 0.0:
+            raise not_supported("TCARR")
+
+    return run
+
+
+_PERCENT = ("OVR", "OVRRAP", "OVRA", "ACC", "ACCLIMA", "VELOLIM", "VELOLIMA", "JERKLIM", "JERKLIMA")
+WORDS: dict[str, Maker] = {
+    "F": feed,
+    "FZ": tooth_feed.tooth_feed,
+    "FA": axis_feed,
+    "S": speed,
+    "LIMS": speed_limit,
+    "SPOS": spindle_position,
+    "SPOSA": spindle_position,
+    "T": tool,
+    "D": edge,
+    "M": m_function,
+    "H": auxiliary_h,
+    "TOFFL": added_length,
+    "TOFF": added_on_axis,
+    "TOFFR": added_radius,
+    "OFFN": allowance,
+    "DISC": disc,
+    "CHF": corner(Shape.CHAMFER_LENGTH),
+    "CHR": corner(Shape.CHAMFER),
+    "RND": corner(Shape.ROUNDING),
+    "RNDM": modal_rounding,
+    "FRCM": modal_corner_feed,
+    "ADIS": rounding_distance,
+    "ADISPOS": rounding_distance,
+    "TCARR": tool_carrier,
+    "SVC": cutting_rate,
+    "FGREF": path_feed_of_axis,
+    "FL": path_feed_of_axis,
+    "DL": additive_offset,
+    "SCPARA": axis_settings.parameter_set,
+    "ADISPOSA": axis_settings.end_window,
+    "CTOL": tolerances.tolerance,
+    "OTOL": tolerances.tolerance,
+    "ATOL": tolerances.tolerance,
+    "ALF": retraction.direction_code,
+    "POLF": retraction.retraction_position,
+    **dict.fromkeys(("DITS", "DITE", "DILF"), kept),
+    **dict.fromkeys(_PERCENT, percentage),
+}
+#: Addresses that take an extension or an index, and those that take something round their value.
+_EXTENDED = """
+S M H T D F FA LIMS SPOS SPOSA TOFFL TOFF OVRA ACC ACCLIMA VELOLIM VELOLIMA JERKLIM JERKLIMA SCPARA ATOL
+FGREF FL POLF ADISPOSA
+"""
+EXTENDED = frozenset(_EXTENDED.split())
+MODIFIED = {
+    **dict.fromkeys(("SPOS", "SPOSA"), frozenset(("AC", "IC", "DC", "ACP", "ACN"))),
+    **dict.fromkeys(("M", "H"), frozenset(("QU",))),
+    "F": frozenset(("FPO",)),
+    "POLF": frozenset(("AC", "IC")),
+}
+#: Words that only mean something together with others; alone they are a mistake of the block.
+COMPANIONS = frozenset(
+    "I J K I1 J1 K1 IP CR AR TURN AP RP RPL ANG SF FB FRC FP DISR DISCL FAD DISPR PO PW SD PL".split()  # noqa: SIM905 - a table
+)
+
+
+def make(draft: Draft, position: int, shape: WordShape) -> Step:
+    """The step of a word; 12400 for an index that its address does not take, 12020 for what stands round its value."""
+    if shape.index is not None and shape.address not in EXTENDED:
+        raise WordAlarm("12400", position, text=shape.address)
+    if shape.modifier and shape.modifier not in MODIFIED.get(shape.address, ()):
+        raise WordAlarm("12020", position, text=shape.modifier)
+    return WORDS[shape.address](draft, position, shape)
+
+
+def misplaced(shape: WordShape, position: int) -> AlarmError:
+    """The alarm for a word that nothing in its block takes."""
+    if shape.address in COMPANIONS:
+        return WordAlarm("12080", position, text=shape.address)
+    return not_supported(shape.address)

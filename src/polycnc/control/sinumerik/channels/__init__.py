@@ -1,0 +1,1 @@
+"""Several channels: `coordination` (INIT, WAITM …), `axis_exchange` (GET, RELEASE), `link_memory` (`$A_DLB`)."""

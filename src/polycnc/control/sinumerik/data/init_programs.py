@@ -1,0 +1,57 @@
+"""Initialisation programs: those of the workpiece, and those that an archive puts into the working memory.
+
+On the first start of a selected program the init program of its workpiece runs once in front of it: `<workpiece>_INI`,
+or with MD11280 = 1 the files that have the name of the program. Init files of an archive that name no directory belong
+to the working memory and are read in at power-on; what `_N_INITIAL_INI` does not contain takes its standard value,
+machine data excepted (job planning 2.1, 2.2).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.language.sinumerik.names.frame import NEUTRAL
+from polycnc.program.names import WORKING_MEMORY, WORKPIECE
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.program import Program
+
+INITIAL = "_N_INITIAL_INI"
+#: Types of files with the name of the program that MD11280 = 1 runs.
+TYPES = ("INI", "SEA", "GUD", "RPA", "UFR", "TOA")
+
+
+def call(channel: Channel) -> None:
+    """Let the init programs run in front of the main program, those of the working memory first."""
+    programs = [*channel.store.programs_in(WORKING_MEMORY), *_of_workpiece(channel)]
+    if any(program.name == INITIAL for program in programs):
+        _standard_values(channel)
+    for program in reversed(programs):
+        channel.push(program, kind="sub", local=[])
+
+
+def _of_workpiece(channel: Channel) -> Iterator[Program]:
+    main = channel.stack[0].code.program
+    if not main.directory.endswith(WORKPIECE):
+        return
+    memory: Memory = channel.memory
+    if memory.data.integer("$MN_WPD_INI_MODE"):
+        names = [f"{main.name.rpartition('_')[0]}_{type_}" for type_ in TYPES]
+    else:
+        names = [main.directory.rpartition("/")[2].removesuffix(WORKPIECE) + "_INI"]
+    here = {program.name: program for program in channel.store.programs_in(main.directory)}
+    yield from (here[name] for name in names if name in here)
+
+
+def _standard_values(channel: Channel) -> None:
+    """Before INITIAL_INI: no tools, no zero offsets, delivered setting data; machine data stay."""
+    memory: Memory = channel.memory
+    frames = memory.frames
+    frames.settable[:] = [NEUTRAL] * len(frames.settable)
+    frames.base[:] = [NEUTRAL] * len(frames.base)
+    memory.tools.tools.clear()
+    memory.data.forget_settings()

@@ -1,0 +1,106 @@
+"""Settings of single axes: when one counts as arrived (FINEA, IPOBRKA, ADISPOSA), SCPARA (job planning 4.11, 4.12)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
+from polycnc.control.sinumerik.block.draft import axis_column
+from polycnc.control.sinumerik.block.positions import number
+from polycnc.control.sinumerik.signals.sections import Row
+from polycnc.language.sinumerik.names.values import Axis, Type
+from polycnc.language.sinumerik.words import WordAlarm
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.block.draft import Draft, Step, Values
+    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.language.sinumerik.words import WordShape
+
+
+#: $AA_MOTEND for each criterion; without one it is that of exact stop fine.
+MOTION_ENDS = {"FINEA": 1, "COARSEA": 2, "IPOENDA": 3, "IPOBRKA": 4}
+#: ADISPOSA: no window, one about the set position, one about the actual position.
+WINDOW_MODES = (0, 1, 2)
+PARAMETER_SETS = range(1, 7)
+
+
+def motion_end(name: str) -> Procedure:
+    """FINEA, COARSEA, IPOENDA, IPOBRKA: when a positioning axis counts as arrived."""
+
+    def run(channel: Channel, args: Arguments) -> None:
+        # IPOBRKA takes an axis and a percentage, the others take axes.
+        axes = args[:1] if name == "IPOBRKA" else args
+        if not axes:
+            raise AlarmError("12040", text=name)
+        for axis in axes:
+            channel.memory.values["MOTEND", (arguments.column(channel, axis),)] = MOTION_ENDS[name]
+        if name == "IPOBRKA" and len(args) > 1:
+            _set_braking_share(channel, axes[0], args[1])
+
+    return run
+
+
+def _set_braking_share(channel: Channel, axis: Axis, value: Any) -> None:
+    """IPOBRKA(axis, percent): where in the braking ramp the block changes; 100 is its beginning (SD43600)."""
+    percent = arguments.real(value)
+    if not 0.0 <= percent <= 100.0:
+        raise AlarmError("12560", text="IPOBRKA")
+    channel.memory.data.write("$SA_IPOBRAKE_BLOCK_EXCHANGE", (axis,), percent)
+
+
+def end_window(draft: Draft, position: int, shape: WordShape) -> Step:
+    """ADISPOSA[axis]=(mode,size): with IPOBRKA, the axis must also be within a window of its end (SD43610)."""
+    column = axis_column(draft, position, shape)
+
+    def run(channel: Channel, values: Values) -> None:
+        listed = values[position]
+        if not isinstance(listed, tuple) or not 1 <= len(listed) <= 2 or listed[0] not in WINDOW_MODES:
+            raise WordAlarm("12560", position, text="ADISPOSA")
+        channel.memory.values["ADISPOSA", (column,)] = int(listed[0])
+        if len(listed) > 1:
+            channel.memory.data.write("$SA_ADISPOSA_VALUE", (channel.axes[column],), float(listed[1]))
+
+    return run
+
+
+def _motion_end(channel: Channel, indices: Arguments) -> int:
+    """$AA_MOTEND: 5 and 6 where IPOBRKA has a window as well."""
+    end: int = of_axis("$AA_MOTEND", "MOTEND", MOTION_ENDS["FINEA"])(channel, indices)
+    if end == MOTION_ENDS["IPOBRKA"]:
+        end += of_axis("$AA_MOTEND", "ADISPOSA", 0)(channel, indices)
+    return end
+
+
+def parameter_set(draft: Draft, position: int, shape: WordShape) -> Step:
+    """SCPARA[axis]: servo parameter set 1 to 6."""
+    column = axis_column(draft, position, shape)
+
+    def run(channel: Channel, values: Values) -> None:
+        value = number(values, position)
+        if value not in PARAMETER_SETS:
+            raise WordAlarm("12560", position, text="SCPARA")
+        channel.memory.values["SCPARA", (column,)] = int(value)
+
+    return run
+
+
+def of_axis(name: str, key: str, default: int) -> Callable[[Channel, Arguments], Any]:
+    """How a variable with an axis as its index is read: what is kept under a key, else the default."""
+
+    def read(channel: Channel, indices: Arguments) -> Any:
+        if len(indices) != 1 or not isinstance(indices[0], Axis):
+            raise AlarmError("12400", text=name)
+        memory: Memory = channel.memory
+        return memory.values.get((key, (memory.column(indices[0].name),)), default)
+
+    return read
+
+
+AXIS_VARIABLES: dict[str, Row] = {
+    "$AA_MOTEND": (Type.INT, _motion_end, None, True),
+    "$AA_SCPAR": (Type.INT, of_axis("$AA_SCPAR", "SCPARA", 1), None, True),
+}

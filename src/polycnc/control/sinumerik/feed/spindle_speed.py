@@ -1,0 +1,155 @@
+"""Constant cutting speed: what G96 needs, and the speed that G97 keeps. Constant speed of a grinding wheel.
+
+Source: Fundamentals (G96, G961, G962, G97, G971, G972, LIMS; GWPSON, GWPSOF; FPR, FPRAON, FPRAOF).
+"""
+
+from __future__ import annotations
+
+import re
+from math import inf, pi
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.block.arguments import Arguments
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.tables import MINUTE, MM_PER_M
+from polycnc.language.sinumerik.names.values import Axis
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.feed.spindles import Spindle
+    from polycnc.control.sinumerik.memory import Memory
+
+#: Setting data of spindles: lowest speed (G25 S), highest speed (G26 S), highest under constant cutting speed (LIMS).
+LOWEST, HIGHEST = "$SA_SPIND_MIN_VELO_G25", "$SA_SPIND_MAX_VELO_G26"
+SURFACE_LIMIT = "$SA_SPIND_MAX_VELO_LIMS"
+DATA = frozenset((LOWEST, HIGHEST, SURFACE_LIMIT))
+#: Feed types under which LIMS acts.
+SURFACE_LIMITED = frozenset(("G96", "G961", "G962", "G97", "G971", "G972"))
+_SPINDLE = re.compile(r"S\d+")
+KEEPS_SPEED = frozenset(("G97", "G971", "G972", "G973"))
+
+
+def change_of_feed_type(channel: Channel, surface_speed: bool, code: str) -> None:
+    """Enter or leave constant cutting speed; alarm 10870 for a channel without transverse axis."""
+    memory: Memory = channel.memory
+    if surface_speed and memory.transverse < 0:
+        raise AlarmError("10870")
+    spindle = memory.spindles.all.get(memory.spindles.master)
+    if spindle is not None and code in KEEPS_SPEED and spindle.cutting_speed:
+        limit = highest(memory, spindle, "G96")
+        spindle.speed = speed_at(channel, spindle.cutting_speed, limit)
+
+
+def set_limit(channel: Channel, datum: str, spindle: Spindle, speed: float) -> None:
+    """G25 S, G26 S, LIMS: write the setting datum of a spindle."""
+    channel.memory.data.write(datum, (f"S{spindle.number}",), speed)
+    channel.context_changed()
+
+
+def highest(memory: Memory, spindle: Spindle, feed: str) -> float:
+    """The highest speed of a spindle under a function of group 15, rpm."""
+    name = f"S{spindle.number}"
+    limit = memory.data.number(HIGHEST, name)
+    if feed in SURFACE_LIMITED:
+        limit = min(limit, memory.data.number(SURFACE_LIMIT, name) or limit)
+    return limit
+
+
+def turning_speed(memory: Memory, spindle: Spindle, feed: str) -> float:
+    """What a spindle turns with: its programmed speed within the limits; 0 stays 0."""
+    lowest = memory.data.number(LOWEST, f"S{spindle.number}")
+    return min(max(spindle.speed, lowest), highest(memory, spindle, feed)) if spindle.speed > 0.0 else 0.0
+
+
+def is_settled(channel: Channel, surface_speed: bool, code: str) -> bool:
+    """Whether the kind of feed that is in force would change nothing and not alarm when it is written again.
+
+    S words under G97 do not change a cutting speed, so what holds stays.
+    """
+    memory: Memory = channel.memory
+    if surface_speed:
+        return memory.transverse >= 0
+    spindle = memory.spindles.all.get(memory.spindles.master)
+    return code not in KEEPS_SPEED or spindle is None or not spindle.cutting_speed
+
+
+def speed_at(channel: Channel, cutting_speed: float, limit: float) -> float:
+    """Speed (rpm) for a cutting speed (m/min) where the transverse axis stands, at most the limit."""
+    diameter = 2.0 * abs(channel.coordinates.position[channel.memory.transverse])
+    return min(limit, MM_PER_M * cutting_speed / (pi * diameter)) if diameter > 0.0 else limit
+
+
+# ---- grinding wheels
+
+
+def wheel_speed(on: bool) -> Callable[[Channel, Arguments], None]:
+    """GWPSON(T), GWPSOF(T): S is the speed of the wheel's circumference; of the active tool without a number."""
+
+    def switch(channel: Channel, args: Arguments) -> None:
+        memory: Memory = channel.memory
+        tools = memory.tools
+        number = arguments.whole(args[0]) if args and args[0] is not None else tools.active
+        if on and number != tools.active:
+            raise not_supported(f"GWPSON({number})")
+        if on and tools.radius <= 0.0:
+            raise AlarmError("10750")
+        memory.spindles.get().has_wheel_speed = on
+
+    return switch
+
+
+def set_wheel_speed(channel: Channel, spindle: Spindle, speed: float) -> None:
+    """S in m/s: the revolutions that it takes, at most $TC_TPG6 rpm and $TC_TPG7 m/s where the tool names them."""
+    tools = channel.memory.tools
+    if tools.radius <= 0.0:
+        raise AlarmError("10750")
+    data = tools.tools[tools.active].values
+    fastest = min(speed, data.get("$TC_TPG7", 0.0) or inf)
+    revolutions = MINUTE * MM_PER_M * fastest / (2.0 * pi * tools.radius)
+    spindle.speed = min(revolutions, data.get("$TC_TPG6", 0.0) or inf)
+
+
+# ---- feed per revolution
+
+
+def feed_source(channel: Channel, args: Arguments) -> None:
+    """FPR(spindle): the spindle that a feed per revolution follows; FPR() for the master spindle again.
+
+    PC0001 for an axis.
+    """
+    memory: Memory = channel.memory
+    memory.feed_source = 0
+    if args:
+        memory.feed_source = memory.spindles.get(_source(args[0])).number
+    channel.context_changed()
+
+
+def axis_feed_source(channel: Channel, args: Arguments) -> None:
+    """FPRAON(axis, spindle, …): feeds of positioning axes per revolution of a spindle (SD43300).
+
+    12330 for an axis without its spindle.
+    """
+    if len(args) % 2:
+        raise AlarmError("12330", text="FPRAON")
+    for axis, source in zip(args[::2], args[1::2], strict=True):
+        number = channel.memory.spindles.get(_source(source)).number
+        name = channel.axes[arguments.column(channel, axis)]
+        channel.memory.data.write("$SA_ASSIGN_FEED_PER_REV_SOURCE", (name,), number)
+
+
+def axis_feed_source_off(channel: Channel, args: Arguments) -> None:
+    """FPRAOF(axis, …): their feeds are per minute again."""
+    for axis in args:
+        name = channel.axes[arguments.column(channel, axis)]
+        channel.memory.data.write("$SA_ASSIGN_FEED_PER_REV_SOURCE", (name,), 0)
+
+
+def _source(value: Any) -> int | None:
+    """The spindle that an argument names; PC0001 for an axis."""
+    if isinstance(value, Axis) and not _SPINDLE.fullmatch(value.name):
+        raise not_supported(f"FPR({value.name})")
+    return arguments.spindle(value)

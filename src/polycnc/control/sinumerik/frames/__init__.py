@@ -1,0 +1,1 @@
+"""Frames: `memory` (stored and active ones), `codes` (TRANS …), `variables` (`$P_UIFR` …), `adding` (ADDFRAME)."""

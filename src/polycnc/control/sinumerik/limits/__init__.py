@@ -1,0 +1,1 @@
+"""Where the axes may not go: `working_area` (limits, WALIMON), `protection` (zones), `calcposi` (free distances)."""

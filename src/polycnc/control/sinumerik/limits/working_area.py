@@ -1,0 +1,147 @@
+"""Software limit switches and working areas: targets beyond them raise an alarm before anything moves.
+
+Source: Fundamentals (G25, G26, WALIMON, WALIMOF; WALCS0 to WALCS10), machine data 36100 and 36110, setting data 43400
+to 43430, `$P_WORKAREA_CS_…`.
+"""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from polycnc.control.sinumerik import gcodes
+from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.frames.memory import chain
+from polycnc.language.sinumerik.names.values import Type
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.memory import Memory
+
+Row = tuple[
+    Type, "Callable[[Channel, tuple[Any, ...]], Any]", "Callable[[Channel, tuple[Any, ...], Any], None]"
+]
+
+SWITCH, WORKING_AREA, WORK_SYSTEM_AREA = "10720", "10730", "10735"
+_SLACK = 1e-6
+#: Data that limits are made of.
+DATA = frozenset(
+    (
+        "$SA_WORKAREA_PLUS_ENABLE",
+        "$SA_WORKAREA_MINUS_ENABLE",
+        "$SA_WORKAREA_LIMIT_PLUS",
+        "$SA_WORKAREA_LIMIT_MINUS",
+    )
+)
+
+
+#: Coordinate systems: the machine's, and those of $P_WORKAREA_CS_COORD_SYSTEM, workpiece and settable zero.
+MACHINE, WORK, SETTABLE = 0, 1, 3
+GROUPS = range(1, 11)
+AREA = "$P_WORKAREA_CS_"
+
+
+class Limit(NamedTuple):
+    """The range of an axis in one of the coordinate systems, and the alarm for a target outside it."""
+
+    column: int
+    low: float
+    high: float
+    alarm: str
+    system: int = MACHINE
+
+
+def refresh(channel: Channel) -> None:
+    """Work out the limits that hold now; only those that setup or program gave a value."""
+    memory: Memory = channel.memory
+    data = memory.data
+    limits = []
+    for column, name in enumerate(channel.axes):
+        minus, plus = (f"$MA_POS_LIMIT_{side}{_pair(channel, column, side)}" for side in ("MINUS", "PLUS"))
+        low = data.number(minus, name) if data.is_set(minus, name) else -inf
+        high = data.number(plus, name) if data.is_set(plus, name) else inf
+        limits.append(Limit(column, low, high, SWITCH))
+        if channel.mode["working_area"] == "WALIMON":
+            below, above = (
+                bool(data.number(f"$SA_WORKAREA_{side}_ENABLE", name)) for side in ("MINUS", "PLUS")
+            )
+            low = data.number("$SA_WORKAREA_LIMIT_MINUS", name) if below else -inf
+            high = data.number("$SA_WORKAREA_LIMIT_PLUS", name) if above else inf
+            limits.append(Limit(column, low, high, WORKING_AREA))
+    limits += _of_work_system(channel)
+    memory.limits = tuple(limit for limit in limits if limit.low > -inf or limit.high < inf)
+
+
+def _of_work_system(channel: Channel) -> list[Limit]:
+    """WALCS1 to WALCS10: the ranges of a group, in the system that the group names."""
+    values = channel.memory.values
+    group = gcodes.number_of(channel.mode["working_area_wcs"]) - 1
+    if group == 0:
+        return []
+    limits = []
+    for column in range(len(channel.axes)):
+        low, high = (
+            float(values.get((f"{AREA}LIMIT_{side}", (group, column)), 0.0))
+            if values.get((f"{AREA}{side}_ENABLE", (group, column)), False)
+            else beyond
+            for side, beyond in (("MINUS", -inf), ("PLUS", inf))
+        )
+        system = int(values.get((f"{AREA}COORD_SYSTEM", (group,)), WORK))
+        limits.append(Limit(column, low, high, WORK_SYSTEM_AREA, system))
+    return limits
+
+
+def _area(name: str, type_: Type, *, of_axis: bool) -> Row:
+    """A variable of the working areas in the workpiece system: by group, and by axis."""
+
+    def place(channel: Channel, indices: tuple[Any, ...]) -> tuple[int, ...]:
+        if len(indices) != 1 + of_axis:
+            raise AlarmError("12400", text=name)
+        group = arguments.whole(indices[0])
+        if group not in GROUPS:
+            raise AlarmError("17020", text=name, index=group)
+        return (group, arguments.column(channel, indices[1])) if of_axis else (group,)
+
+    def read(channel: Channel, indices: tuple[Any, ...]) -> Any:
+        empty = {Type.BOOL: False, Type.INT: WORK}.get(type_, 0.0)
+        return channel.memory.values.get((name, place(channel, indices)), empty)
+
+    def write(channel: Channel, indices: tuple[Any, ...], value: Any) -> None:
+        if name.endswith("COORD_SYSTEM") and value not in (WORK, SETTABLE):
+            raise AlarmError("12560", text=name)
+        channel.memory.values[name, place(channel, indices)] = value
+        refresh(channel)
+
+    return type_, read, write
+
+
+AREA_VARIABLES: dict[str, Row] = {
+    f"{AREA}COORD_SYSTEM": _area(f"{AREA}COORD_SYSTEM", Type.INT, of_axis=False),
+    **{
+        f"{AREA}{name}": _area(f"{AREA}{name}", type_, of_axis=True)
+        for side in ("PLUS", "MINUS")
+        for name, type_ in ((f"{side}_ENABLE", Type.BOOL), (f"LIMIT_{side}", Type.REAL))
+    },
+}
+
+
+def _pair(channel: Channel, column: int, side: str) -> str:
+    """Which of the two limit switches the PLC has chosen: nothing for the first, `2` for the second."""
+    bit = {"MINUS": 2, "PLUS": 3}[side]
+    return "2" if channel.setup.switches.plc.get(f"DB{31 + column}.DBX12.{bit}") else ""
+
+
+def check(channel: Channel, end: list[float]) -> None:
+    """Refuse a target beyond a limit: 10720 for a software limit switch, 10730 and 10735 for working areas."""
+    memory: Memory = channel.memory
+    systems = {MACHINE: channel.coordinates.to_machine(end), WORK: end}
+    if any(limit.system == SETTABLE for limit in memory.limits):
+        systems[SETTABLE] = channel.coordinates.image(chain(memory.frames.inner()).frame, end)
+    for limit in memory.limits:
+        value = systems[limit.system][limit.column]
+        if value < limit.low - _SLACK or value > limit.high + _SLACK:
+            side = "-" if value < limit.low else "+"
+            raise AlarmError(limit.alarm, axis=channel.axes[limit.column], side=side)

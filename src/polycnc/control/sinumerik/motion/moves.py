@@ -1,0 +1,506 @@
+"""Motion of a block: rapid, straight, threads, tapping, dwell, reference and fixed points, positioning axes.
+
+Source: Fundamentals (G0, G1, G4, G33 to G35, G331/G332, G63, G74, G75, POS, POSA, ANG, AP, RP).
+"""
+
+from __future__ import annotations
+
+from math import cos, isnan, nan, radians, sin, tan
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.sinumerik import tables
+from polycnc.control.sinumerik.block import plain
+from polycnc.control.sinumerik.block.positions import AxisTerm, Way, axis_term, length_factor, number, target
+from polycnc.control.sinumerik.limits import working_area
+from polycnc.geometry.units import INCH_MM
+from polycnc.language.bulk import declare
+from polycnc.language.sinumerik.names.values import Axis
+from polycnc.language.sinumerik.words import WordAlarm
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.block.draft import Draft, Step, Values
+    from polycnc.control.sinumerik.memory import Memory
+
+#: Ways shorter than this (mm, degrees) are none: rounding left by frames.
+SAME_MM = 1e-9
+
+
+# ---- straight lines
+
+
+def rapid(draft: Draft) -> Step | None:
+    """G0: rapid traverse; the row names a feed only if the block does."""
+    straight = None if draft.has("AP", "RP", "ANG") else plain.straight(draft.axis_terms(), rapid=True)
+    goal = goal_of(draft)
+    if goal is None:
+        return None
+    names_feed = draft.has("F")
+
+    def run(channel: Channel, values: Values) -> None:
+        line(channel, Kind.RAPID, goal(channel, values), channel.feed if names_feed else nan)
+
+    return run if straight is None else declare(run, straight._replace(names_feed=names_feed))
+
+
+def linear(draft: Draft) -> Step | None:
+    """G1: straight with path feed; FB for the block's own feed."""
+    block_feed = draft.take("FB")
+    if block_feed is None and not draft.has("AP", "RP", "ANG"):
+        return _plain_linear(draft)
+    goal = goal_of(draft)
+    if goal is None:
+        return None
+    factor = feed_factor(draft)
+
+    def run(channel: Channel, values: Values) -> None:
+        feed = channel.feed if block_feed is None else number(values, block_feed) * factor
+        line(channel, Kind.FEED, goal(channel, values), checked_feed(feed))
+
+    return run
+
+
+def _plain_linear(draft: Draft) -> Step | None:
+    """G1 with axis words alone; where all are absolute, in one function with F: most blocks of most programs."""
+    terms = draft.take_axes()
+    if not terms:
+        return None
+    if any(term.way is not Way.ABSOLUTE or term.coded for term in terms):
+        return _incremental_linear(terms)
+    places = [(term.position, term.column, term.factor) for term in terms]
+    own_feed = draft.take_plain("F") if draft.mode["feed"] != "G931" else None
+    feed_place, feed_to_internal = -1 if own_feed is None else own_feed, feed_factor(draft)
+
+    def run(channel: Channel, values: Values) -> None:
+        if feed_place >= 0:
+            value = values[feed_place]
+            if value.__class__ is not float:
+                value = number(values, feed_place)
+            if value < 0.0:
+                raise WordAlarm("14800", feed_place)
+            channel.feed = value * feed_to_internal or nan
+        coordinates = channel.coordinates
+        start = coordinates.position
+        end = start.copy()
+        moves = False
+        for position, column, factor in places:
+            value = values[position]
+            if value.__class__ is not float:
+                value = number(values, position)
+            value *= factor
+            if not moves and not -SAME_MM < value - end[column] < SAME_MM:
+                moves = True
+            end[column] = value
+        if coordinates.owes:
+            for _, column, _ in places:
+                coordinates.pending[column] = 0.0
+        feed = channel.feed
+        if not feed > 0.0:
+            raise AlarmError("10860")
+        if moves:
+            memory: Memory = channel.memory
+            if memory.limits:
+                working_area.check(channel, end)
+            memory.previous = (start, None, 0.0)
+            channel.straight(Kind.FEED, end, feed)
+
+    own = () if own_feed is None else (plain.feed(own_feed, feed_to_internal),)
+    return declare(run, (*own, plain.straight(terms)))
+
+
+def _incremental_linear(terms: list[AxisTerm]) -> Step:
+    def run(channel: Channel, values: Values) -> None:
+        line(channel, Kind.FEED, target(channel, terms, values), checked_feed(channel.feed))
+
+    told = plain.straight(terms)
+    return run if told is None else declare(run, told)
+
+
+def feed_factor(draft: Draft) -> float:
+    """From a programmed feed to internal units, for the feed type and units of the block."""
+    inch = INCH_MM if draft.mode["units"] == "G700" else 1.0
+    return tables.feed_type(draft.mode).factor * inch
+
+
+def checked_feed(feed: float) -> float:
+    """The feed of a path move; alarm 10860 without one."""
+    if isnan(feed) or feed <= 0.0:
+        raise AlarmError("10860")
+    return feed
+
+
+def line(channel: Channel, kind: Kind, end: list[float], feed: float) -> None:
+    """Move straight to a point; remembers where the move came from, for CT."""
+    start = channel.coordinates.position
+    if any(abs(a - b) > SAME_MM for a, b in zip(end, start, strict=True)):
+        memory: Memory = channel.memory
+        if memory.limits:
+            working_area.check(channel, end)
+        memory.previous = (start, None, 0.0)
+        channel.straight(kind, end, feed)
+
+
+Goal = Any
+
+
+def goal_of(draft: Draft) -> Goal | None:
+    """How a block's end point follows from its words: axis words, polar coordinates, or a contour angle.
+
+    None if the block names no end point.
+    """
+    angle, radius = draft.take_shape("AP", "AC", "IC"), draft.take_shape("RP", "AC", "IC")
+    contour_angle = draft.take("ANG")
+    terms = draft.take_axes()
+    if contour_angle is not None:
+        return _contour_angle(draft, terms, contour_angle)
+    if angle is not None or radius is not None:
+        return _polar(draft, terms, angle, radius)
+    if not terms:
+        return None
+    if all(term.way is Way.ABSOLUTE and not term.coded for term in terms):
+        return _absolute([(term.position, term.column, term.factor) for term in terms])
+
+    def goal(channel: Channel, values: Values) -> list[float]:
+        return target(channel, terms, values)
+
+    return goal
+
+
+def _absolute(places: list[tuple[int, int, float]]) -> Goal:
+    """The common case: all words absolute."""
+
+    def goal(channel: Channel, values: Values) -> list[float]:
+        coordinates = channel.coordinates
+        end = coordinates.position.copy()
+        owed = coordinates.pending
+        for position, column, factor in places:
+            value = values[position]
+            if value.__class__ is not float:
+                value = number(values, position)
+            end[column] = value * factor
+            owed[column] = 0.0
+        return end
+
+    return goal
+
+
+def _polar(draft: Draft, terms: list[AxisTerm], angle: Any, radius: Any) -> Goal:
+    """AP and RP about the pole in the plane; the third axis by its own word."""
+    columns = plane_columns(draft)
+    if any(term.column in columns[:2] for term in terms):
+        raise AlarmError("14280")
+
+    def goal(channel: Channel, values: Values) -> list[float]:
+        end = target(channel, terms, values)
+        u, v = polar_point(draft, channel, values, angle, radius)
+        end[columns[0]], end[columns[1]] = u, v
+        return end
+
+    return goal
+
+
+def polar_point(
+    draft: Draft, channel: Channel, values: Values, angle: Any, radius: Any
+) -> tuple[float, float]:
+    """The plane point that AP and RP name; both are modal.
+
+    Raises:
+        AlarmError: 14200 for a negative radius, 14210 for an angle beyond 360 degrees, 14280 without any
+            radius.
+    """
+    memory: Memory = channel.memory
+    polar = memory.polar
+    incremental = draft.mode["dimensions"] == "G91"
+    if angle is not None:
+        value = number(values, angle[0])
+        if abs(value) > tables.TURN:
+            raise WordAlarm("14210", angle[0])
+        relative = angle[1].modifier == "IC" or (incremental and angle[1].modifier != "AC")
+        polar.angle = polar.angle + value if relative else value
+    if radius is not None:
+        value = number(values, radius[0]) * length_factor(draft.mode)
+        polar.radius = polar.radius + value if radius[1].modifier == "IC" else value
+    if isnan(polar.radius):
+        raise AlarmError("14280")
+    if polar.radius < 0.0:
+        raise AlarmError("14200")
+    i, j, _ = tables.PLANES[draft.mode["plane"]]
+    turned = radians(polar.angle)
+    return polar.pole[i] + polar.radius * cos(turned), polar.pole[j] + polar.radius * sin(turned)
+
+
+def plane_columns(draft: Draft) -> tuple[int, int, int]:
+    """Columns of the plane's first, second and third axis.
+
+    Raises:
+        AlarmError: 12050 if the channel has no axis there.
+    """
+    geometry = draft.channel.coordinates.geometry
+    i, j, k = tables.PLANES[draft.mode["plane"]]
+    for index in (i, j):
+        if geometry[index] < 0:
+            raise AlarmError("12050", axis="XYZ"[index])
+    return geometry[i], geometry[j], geometry[k]
+
+
+def _contour_angle(draft: Draft, terms: list[AxisTerm], position: int) -> Goal:
+    """ANG: the angle of a straight line to the first axis of the plane.
+
+    With one coordinate the other one follows. Without any, the line ends where that of the next block begins, which
+    tells its end point and its own angle.
+    """
+    columns = plane_columns(draft)
+    given = [term.column for term in terms if term.column in columns[:2]]
+    if not given and not draft.mode["open_line"]:
+        return _open_line(draft, position)
+    if len(given) == 2 and draft.mode["open_line"]:
+        return _meeting_lines(draft, terms, position, columns)
+    if len(given) != 1:
+        raise WordAlarm("12080", position, text="ANG")
+
+    def goal(channel: Channel, values: Values) -> list[float]:
+        start = channel.coordinates.position
+        end = target(channel, terms, values)
+        slope = tan(radians(number(values, position)))
+        u, v = columns[:2]
+        if given[0] == u:
+            end[v] = start[v] + (end[u] - start[u]) * slope
+        elif abs(slope) < SAME_MM:
+            raise WordAlarm("14040", position)
+        else:
+            end[u] = start[u] + (end[v] - start[v]) / slope
+        return end
+
+    return goal
+
+
+def _open_line(draft: Draft, position: int) -> Goal:
+    """A line of which only the angle is known yet."""
+    draft.opens_line = True
+
+    def goal(channel: Channel, values: Values) -> list[float]:
+        channel.memory.open_line = number(values, position)
+        channel.mode = channel.mode.with_code("open_line", "ANG")
+        return channel.coordinates.position
+
+    return goal
+
+
+def _meeting_lines(draft: Draft, terms: list[AxisTerm], position: int, columns: tuple[int, int, int]) -> Goal:
+    """The second of two lines: the first one is moved to where both meet, before this block does anything else."""
+    kind = Kind.RAPID if draft.mode["motion"] == "G0" else Kind.FEED
+    u, v = columns[:2]
+
+    def first_line(channel: Channel, values: Values) -> None:
+        memory: Memory = channel.memory
+        start = channel.coordinates.position
+        end = target(channel, terms, values)
+        a, b = radians(memory.open_line), radians(number(values, position))
+        across = sin(b - a)
+        if abs(across) < SAME_MM:
+            raise WordAlarm("14040", position)
+        # From start along a and from the end back along b to one point: cross products with direction b.
+        way = ((end[u] - start[u]) * sin(b) - (end[v] - start[v]) * cos(b)) / across
+        corner = start.copy()
+        corner[u], corner[v] = start[u] + way * cos(a), start[v] + way * sin(a)
+        channel.mode = channel.mode.with_code("open_line", "")
+        for insert in memory.open_corners:
+            insert()
+        memory.open_corners = []
+        feed = channel.feed if kind is Kind.RAPID else checked_feed(channel.feed)
+        line(channel, kind, corner, nan if kind is Kind.RAPID else feed)
+
+    draft.steps.append(first_line)
+    return lambda channel, values: target(channel, terms, values)
+
+
+# ---- threads and tapping
+
+
+def lead_of(draft: Draft) -> Any:
+    """The thread lead that I, J, K give: of the axis with the longest way; 16720 for none or zero."""
+    factor = length_factor(draft.mode)
+    leads = [(i, draft.take(letter)) for i, letter in enumerate("IJK")]
+    given = [(i, position) for i, position in leads if position is not None]
+
+    def lead(channel: Channel, values: Values, end: list[float]) -> float:
+        coordinates = channel.coordinates
+        ways = [
+            (
+                abs(end[column] - coordinates.position[column])
+                if (column := coordinates.geometry[i]) >= 0
+                else 0.0,
+                p,
+            )
+            for i, p in given
+        ]
+        value = number(values, max(ways)[1]) * factor if ways else 0.0
+        if value == 0.0:
+            raise AlarmError("16720")
+        return value
+
+    return lead
+
+
+def thread(draft: Draft) -> Step | None:
+    """G33: thread with constant lead; SF is the start angle. G34, G35: F changes the lead per revolution."""
+    lead = lead_of(draft)
+    start_angle = draft.take("SF")
+    change = draft.take("F") if draft.mode["motion"] in ("G34", "G35") else None
+    sign, factor = -1.0 if draft.mode["motion"] == "G35" else 1.0, length_factor(draft.mode)
+    goal = goal_of(draft)
+    if goal is None:
+        return None
+
+    def run(channel: Channel, values: Values) -> None:
+        end = goal(channel, values)
+        angle = number(values, start_angle) if start_angle is not None else 0.0
+        if not 0.0 <= angle < tables.TURN:
+            raise AlarmError("16730")
+        parameters = [lead(channel, values, end), angle]
+        if change is not None:
+            parameters.append(sign * number(values, change) * factor)
+        special(channel, Kind.THREAD, end, nan, parameters)
+
+    return run
+
+
+def tap(draft: Draft) -> Step | None:
+    """G331 in and G332 out: rigid tapping; a negative lead is a left-hand thread."""
+    lead = lead_of(draft)
+    goal = goal_of(draft)
+    if goal is None:
+        return None
+
+    def run(channel: Channel, values: Values) -> None:
+        end = goal(channel, values)
+        special(channel, Kind.TAP, end, nan, [lead(channel, values, end)])
+
+    return run
+
+
+def tap_with_chuck(draft: Draft) -> Step | None:
+    """G63: one tapping block with compensating chuck; the lead is the feed per revolution."""
+    goal = goal_of(draft)
+    if goal is None:
+        return None
+
+    def run(channel: Channel, values: Values) -> None:
+        feed = checked_feed(channel.feed)
+        memory: Memory = channel.memory
+        speed = memory.spindles.get().speed
+        lead = feed if memory.feed_mode == "G95" else feed * tables.MINUTE / speed if speed else 0.0
+        special(channel, Kind.TAP, goal(channel, values), feed, [lead])
+
+    return run
+
+
+def special(channel: Channel, kind: Kind, end: list[float], feed: float, parameters: list[float]) -> None:
+    """A straight move with curve parameters."""
+    start = channel.coordinates.position
+    memory: Memory = channel.memory
+    if any(abs(a - b) > SAME_MM for a, b in zip(end, start, strict=True)):
+        if memory.limits:
+            working_area.check(channel, end)
+        memory.previous = (start, None, 0.0)
+        channel.curve(kind, end, feed, parameters=parameters)
+
+
+# ---- blocks with a function of group 2
+
+
+def dwell(draft: Draft) -> Step | None:
+    """G4: F seconds or S revolutions of the master spindle; the modal F and S stay."""
+    seconds, revolutions = draft.take("F"), draft.take_shape("S")
+
+    def run(channel: Channel, values: Values) -> None:
+        channel.dwell(
+            seconds=number(values, seconds) if seconds is not None else 0.0,
+            revolutions=number(values, revolutions[0]) if revolutions is not None else 0.0,
+        )
+
+    return run
+
+
+def reference_point(draft: Draft) -> Step | None:
+    """G74: machine axes go to their reference points; the values are ignored."""
+    columns = [column for _, column in draft.take_machine_axes()]
+    columns += [term.column for term in draft.take_axes()]
+
+    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - values are ignored by the function
+        points = {column: channel.axis_data[column].reference_points[0] for column in columns}
+        _to_machine(channel, Kind.REF, points)
+
+    return run
+
+
+def fixed_point(draft: Draft) -> Step | None:
+    """G75: machine axes go to fixed point FP (MD30600) in rapid; G751 over an intermediate point first."""
+    number_position = draft.take("FP")
+    columns = [column for _, column in draft.take_machine_axes()]
+    via = goal_of(draft) if draft.codes.get("block_motion") == "G751" else None
+
+    def run(channel: Channel, values: Values) -> None:
+        memory: Memory = channel.memory
+        if via is not None:
+            line(channel, Kind.RAPID, via(channel, values), nan)
+        point = int(number(values, number_position)) if number_position is not None else 1
+        points = {
+            column: memory.data.number("$MA_FIX_POINT_POS", point - 1, channel.axes[column])
+            for column in columns
+        }
+        _to_machine(channel, Kind.RAPID, points)
+
+    return run
+
+
+def _to_machine(channel: Channel, kind: Kind, points: dict[int, float]) -> None:
+    """Move some axes to machine positions, the others stay."""
+    coordinates = channel.coordinates
+    machine = coordinates.machine
+    for column, value in points.items():
+        machine[column] = value
+    line(channel, kind, coordinates.from_machine(machine), nan)
+
+
+# ---- positioning axes
+
+
+def positioning(draft: Draft) -> list[Step]:
+    """POS, POSA, POSP: axes that move with their own feed beside the path; they give no row (FA is their feed)."""
+    steps = []
+    for position, word in draft.open_words():
+        if word.address not in ("POS", "POSA", "POSP"):
+            continue
+        draft.close(position)
+        if not isinstance(word.index, Axis):
+            raise WordAlarm("12040", position, text=str(word.index))
+        column = draft.memory.column(word.index.name)
+        term = axis_term(draft.channel, draft.mode, position, column, word.modifier)
+        steps.append(_in_parts(term) if word.address == "POSP" else _position_axis(term))
+    return steps
+
+
+def _in_parts(term: AxisTerm) -> Step:
+    """POSP[axis]=(end, part, mode): as POS, in parts; 12560 for a mode but 0 and 1, a part without length."""
+    whole = _position_axis(term)
+
+    def run(channel: Channel, values: Values) -> None:
+        listed = values[term.position]
+        if not isinstance(listed, tuple) or len(listed) != 3 or listed[2] not in (0, 1) or listed[1] <= 0:
+            raise WordAlarm("12560", term.position, text="POSP")
+        whole(channel, (*values[: term.position], float(listed[0]), *values[term.position + 1 :]))
+
+    return run
+
+
+def _position_axis(term: AxisTerm) -> Step:
+    def run(channel: Channel, values: Values) -> None:
+        end = target(channel, (term,), values)
+        if channel.memory.limits:
+            working_area.check(channel, end)
+        channel.coordinates.arrive(end)
+
+    return run

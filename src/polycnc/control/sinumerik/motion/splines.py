@@ -1,0 +1,311 @@
+"""Splines and polynomials: ASPLINE, BSPLINE, CSPLINE, SPLINEPATH, POLY, POLYPATH (job planning 4.2, 4.3, 4.6).
+
+A and C splines go through every programmed point: one `spline` row for each, and between the rows the curve is the
+planner's. The control points of a B spline and the coefficients of a polynomial give curves of their own, which are cut
+into chords.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.block.positions import AxisTerm, axis_term, length_factor, number, target
+from polycnc.control.sinumerik.motion import moves
+from polycnc.control.sinumerik.motion.spline_stage import TOLERANCE_MM
+from polycnc.control.sinumerik.tools import stages
+from polycnc.language.sinumerik.names.values import Axis
+from polycnc.language.sinumerik.words import WordAlarm
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.block.draft import Draft, Step, Values
+
+LARGEST_WEIGHT, DEGREES, STANDARD_DEGREE = 3.0, (2, 3), 3
+LEAST_PARAMETER, LARGEST_PARAMETER = 0.0001, 99999.9999
+LARGEST_GROUP = 8
+#: Without SPLINEPATH the first three axes of the channel are bent.
+LEAST_GROUP = 3
+MAX_COEFFICIENTS = 5
+#: Chords of a polynomial at most, and the points at which its denominator is looked at.
+MAX_CHORDS, SAMPLES = 4096, 1000
+#: Keys of `memory.values`.
+GROUP, INTERPOLATED = "SPLINEPATH", "POLYPATH"
+
+
+# ---- splines
+
+SPLINES = ("ASPLINE", "BSPLINE", "CSPLINE")
+#: Points of the spline that 10 blocks need at least; C splines: MD20160 and one more (4.2).
+WINDOW, LEAST_POINTS = 10, {"ASPLINE": 4, "BSPLINE": 6}
+_WINDOW = "spline blocks", ()
+
+
+def count_blocks(draft: Draft, *, is_point: bool) -> Step:
+    """A block while a spline is active: PC0007 if too few of the last ten have been points of it."""
+    code = draft.mode["motion"]
+    begins = draft.channel.mode["motion"] != code
+    datum = draft.memory.data.integer("$MC_CUBIC_SPLINE_BLOCKS")
+    least = LEAST_POINTS.get(code, datum + 1)
+
+    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+        before = [] if begins else channel.memory.values.get(_WINDOW, [])
+        last = [*before, is_point][-WINDOW:]
+        channel.memory.values[_WINDOW] = last
+        if len(last) == WINDOW and sum(last) < least:
+            raise AlarmError("PC0007", code=code, count=sum(last), least=least)
+
+    return run
+
+
+def positioned(draft: Draft) -> Step | None:
+    """PC0008 for a positioning axis that belongs to the active spline."""
+    words = [word for _, word in draft.open_words() if word.address in ("POS", "POSA")]
+    columns = [draft.memory.column(word.index.name) for word in words if isinstance(word.index, Axis)]
+    if not columns:
+        return None
+
+    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+        group = channel.memory.values.get((GROUP, ()), range(LEAST_GROUP))
+        for column in columns:
+            if column in group:
+                raise AlarmError("PC0008", axis=channel.axes[column])
+
+    return run
+
+
+def through_points(draft: Draft) -> Step | None:
+    """ASPLINE, CSPLINE: the next point of the curve."""
+    goal = moves.goal_of(draft)
+    if goal is None:
+        return None
+
+    def run(channel: Channel, values: Values) -> None:
+        moves.line(channel, Kind.SPLINE, goal(channel, values), moves.checked_feed(channel.feed))
+
+    return run
+
+
+def control_points(draft: Draft) -> Step | None:
+    """BSPLINE: the next control point; PW is its weight, SD the degree, PL the knot distance."""
+    weight, degree, distance = draft.take("PW"), draft.take("SD"), draft.take("PL")
+    goal = moves.goal_of(draft)
+    if goal is None:
+        return None
+
+    def run(channel: Channel, values: Values) -> None:
+        pull = number(values, weight) if weight is not None else 1.0
+        if weight is not None and not 0.0 <= pull <= LARGEST_WEIGHT:
+            raise WordAlarm("12560", weight, text="PW")
+        order = number(values, degree) if degree is not None else STANDARD_DEGREE
+        if degree is not None and order not in DEGREES:
+            raise WordAlarm("12560", degree, text="SD")
+        end, feed = goal(channel, values), moves.checked_feed(channel.feed)
+        stages.spline(channel).columns = channel.memory.values.get((GROUP, ()))
+        moves.special(channel, Kind.SPLINE, end, feed, [pull, order, _parameter(values, distance)])
+
+    return run
+
+
+def _parameter(values: Values, position: int | None) -> float:
+    """PL: length of the parameter interval, 1 without it; alarm 12560 outside its range."""
+    if position is None:
+        return 1.0
+    value = number(values, position)
+    if not LEAST_PARAMETER <= value <= LARGEST_PARAMETER:
+        raise WordAlarm("12560", position, text="PL")
+    return value
+
+
+def spline_group(channel: Channel, args: tuple[Any, ...]) -> None:
+    """SPLINEPATH(1, axis, …): the axes that a spline bends; the others move evenly with the path."""
+    if len(args) < 2 or args[0] != 1 or len(args) - 1 > LARGEST_GROUP:
+        raise AlarmError("14020", text="SPLINEPATH")
+    columns = frozenset(arguments.column(channel, axis) for axis in args[1:])
+    channel.memory.values[GROUP, ()] = columns
+
+
+# ---- polynomials
+
+
+class Polynomial(NamedTuple):
+    """What a block says of one axis.
+
+    Attributes:
+        position: Place of the word.
+        term: How its end point is meant.
+    """
+
+    position: int
+    term: AxisTerm
+
+
+class Curve(NamedTuple):
+    """A polynomial of one axis, lowest coefficient first, and whether the denominator divides it."""
+
+    column: int
+    coefficients: list[float]
+    divided: bool
+
+
+def polynomial(draft: Draft) -> Step | None:
+    """POLY: PO[axis]=(end,a2,a3,a4,a5), axis=PO(…), PO[]=(b_end,b2,…), PL; plain axes move evenly."""
+    length = draft.take("PL")
+    polynomials, denominator = _take_polynomials(draft)
+    terms = draft.take_axes()
+    if not polynomials and not terms:
+        return None
+    factor = length_factor(draft.mode)
+
+    def run(channel: Channel, values: Values) -> None:
+        feed = moves.checked_feed(channel.feed)
+        end = _end(channel, terms, polynomials, values)
+        interval = _parameter(values, length)
+        if "AXES" not in channel.memory.values.get((INTERPOLATED, ()), ("AXES",)):
+            moves.line(channel, Kind.FEED, end, feed)
+            return
+        below = _denominator(values, denominator, interval)
+        start = channel.coordinates.position
+        curves = []
+        for column, term in enumerate(_by_column(polynomials, len(end))):
+            divided = denominator is not None and column in channel.coordinates.geometry
+            higher = [] if term is None else [float(a) * factor for a in _list(values, term.position)[1:]]
+            scale = _at(below, interval) if divided else 1.0
+            straight = term is None and not divided
+            lifted = [] if straight else higher
+            curves.append(
+                Curve(column, _coefficients(start[column], end[column] * scale, lifted, interval), divided)
+            )
+        kind = Kind.SPLINE if polynomials else Kind.FEED
+        for point in _chords(curves, below, start, end, interval):
+            moves.line(channel, kind, point, feed)
+
+    return run
+
+
+def straight_to_ends(draft: Draft) -> Step | None:
+    """Coefficients without POLY: the end points are approached in a straight line."""
+    draft.take("PL")
+    polynomials, _ = _take_polynomials(draft)
+    terms = draft.take_axes()
+    kind = Kind.RAPID if draft.mode["motion"] == "G0" else Kind.FEED
+
+    def run(channel: Channel, values: Values) -> None:
+        end = _end(channel, terms, polynomials, values)
+        moves.line(channel, kind, end, moves.checked_feed(channel.feed))
+
+    return run
+
+
+def _take_polynomials(draft: Draft) -> tuple[list[Polynomial], int | None]:
+    """The words `PO[axis]=` and `axis=PO(…)`, and the place of `PO[]=`."""
+    found: list[Polynomial] = []
+    denominator = None
+    for position, word in draft.open_words():
+        name = word.index.name if isinstance(word.index, Axis) else ""
+        if word.address == "PO" and word.index == "":
+            denominator = position
+        elif word.address == "PO" or (word.modifier == "PO" and word.address in draft.memory.columns):
+            if word.address == "PO" and not name:
+                raise WordAlarm("12040", position, text=str(word.index or ""))
+            column = draft.memory.column(name or word.address)
+            way = word.modifier if word.address == "PO" else ""
+            found.append(Polynomial(position, axis_term(draft.channel, draft.mode, position, column, way)))
+        else:
+            continue
+        draft.close(position)
+    return found, denominator
+
+
+def _list(values: Values, position: int) -> tuple[Any, ...]:
+    """The numbers of a PO word; alarm 12560 for too many."""
+    value = values[position]
+    numbers = value if isinstance(value, tuple) else (value,)
+    if not 1 <= len(numbers) <= MAX_COEFFICIENTS:
+        raise WordAlarm("12560", position, text="PO")
+    if any(not isinstance(each, (int, float)) for each in numbers):
+        raise WordAlarm("12150", position, text="PO")
+    return numbers
+
+
+def _end(
+    channel: Channel, terms: Sequence[AxisTerm], polynomials: Sequence[Polynomial], values: Values
+) -> list[float]:
+    """The target of a block: a polynomial's end point stands for the value of its axis."""
+    ends = tuple(value[0] if isinstance(value, tuple) and value else value for value in values)
+    return target(channel, [*terms, *(each.term for each in polynomials)], ends)
+
+
+def _by_column(polynomials: Sequence[Polynomial], count: int) -> list[Polynomial | None]:
+    by_column = {each.term.column: each for each in polynomials}
+    return [by_column.get(column) for column in range(count)]
+
+
+def _coefficients(start: float, end: float, higher: Sequence[float], length: float) -> list[float]:
+    """Of 1, p, p² …: from `start` at 0 to `end` at `length`; the higher ones are given."""
+    lifted = sum(a * length ** (k + 2) for k, a in enumerate(higher))
+    return [start, (end - start - lifted) / length, *higher]
+
+
+def _at(coefficients: Sequence[float], p: float) -> float:
+    value = 0.0
+    for coefficient in reversed(coefficients):
+        value = value * p + coefficient
+    return value
+
+
+def _denominator(values: Values, position: int | None, length: float) -> list[float]:
+    """The polynomial that divides the geometry axes; 1 at the start. Alarm 12560 if it becomes zero on the way."""
+    if position is None:
+        return [1.0]
+    end, *higher = (float(b) for b in _list(values, position))
+    below = _coefficients(1.0, end, higher, length)
+    if min(_at(below, length * k / SAMPLES) for k in range(SAMPLES + 1)) <= 0.0:
+        raise WordAlarm("12560", position, text="PO[]")
+    return below
+
+
+def _chords(
+    curves: Sequence[Curve], below: Sequence[float], start: list[float], end: list[float], length: float
+) -> list[list[float]]:
+    """Points of the curve, halved until it stays within the tolerance of the chords; the last one is the end."""
+    if all(len(curve.coefficients) == 2 for curve in curves) and len(below) == 1:
+        return [end]
+
+    def at(p: float) -> list[float]:
+        point = start.copy()
+        for curve in curves:
+            value = _at(curve.coefficients, p)
+            point[curve.column] = value / _at(below, p) if curve.divided else value
+        return point
+
+    chords = 2
+    while True:
+        points = [at(length * k / (2 * chords)) for k in range(2 * chords + 1)]
+        if chords >= MAX_CHORDS or _deviation(points) <= TOLERANCE_MM:
+            return [*points[2:-1:2], end]
+        chords *= 2
+
+
+def _deviation(points: Sequence[Sequence[float]]) -> float:
+    """Greatest distance, along an axis, of the odd points from the middle of their neighbours."""
+    gaps: list[float] = [
+        abs(half - 0.5 * (a + b))
+        for k in range(0, len(points) - 2, 2)
+        for a, half, b in zip(*points[k : k + 3], strict=True)
+    ]
+    return max(gaps)
+
+
+def polynomial_groups(channel: Channel, args: tuple[Any, ...]) -> None:
+    """POLYPATH("AXES", "VECT"): which axes coefficients are for; none without arguments."""
+    if any(group not in ("AXES", "VECT") for group in args):
+        raise AlarmError("14020", text="POLYPATH")
+    channel.memory.values[INTERPOLATED, ()] = args
+
+
+PROCEDURES = {"SPLINEPATH": spline_group, "POLYPATH": polynomial_groups}

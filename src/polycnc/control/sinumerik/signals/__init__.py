@@ -1,0 +1,1 @@
+"""What inputs do: `measuring` (MEAS), `interrupts` (SETINT), `retraction` (LIFTFAST), `sections` without stops."""

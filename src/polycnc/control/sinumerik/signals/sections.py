@@ -1,0 +1,53 @@
+"""Sections of a program: DELAYFSTON to DELAYFSTOF, IPTRLOCK to IPTRUNLOCK (job planning 8.4, 8.5).
+
+A section ends with the program level that began it; inside it, beginning again and ending on a deeper level have no
+effect.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
+from polycnc.language.sinumerik.names.values import Type
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+
+Row = tuple[Type, Callable[["Channel", Arguments], Any], None, bool]
+
+STOP_DELAY, POINTER_LOCK = "DELAYFST", "IPTRLOCK"
+
+
+def begin(section: str) -> Procedure:
+    """DELAYFSTON, IPTRLOCK: the section begins, unless one is open."""
+
+    def run(channel: Channel, _args: Arguments) -> None:
+        if not is_open(channel, section):
+            channel.memory.sections[section] = channel.level
+
+    return run
+
+
+def end(section: str) -> Procedure:
+    """DELAYFSTOF, IPTRUNLOCK: the section ends, on the level that began it."""
+
+    def run(channel: Channel, _args: Arguments) -> None:
+        if channel.memory.sections.get(section) is channel.level:
+            del channel.memory.sections[section]
+
+    return run
+
+
+def is_open(channel: Channel, section: str) -> bool:
+    """Whether a section is open: its level has not ended."""
+    level = channel.memory.sections.get(section)
+    return any(level is each for each in channel.stack)
+
+
+SECTION_VARIABLES: dict[str, Row] = {
+    "$P_DELAYFST": (Type.INT, lambda channel, _indices: int(is_open(channel, STOP_DELAY)), None, False),
+    "$AC_DELAYFST": (Type.INT, lambda channel, _indices: int(is_open(channel, STOP_DELAY)), None, True),
+    "$P_IPTRLOCK": (Type.BOOL, lambda channel, _indices: is_open(channel, POINTER_LOCK), None, False),
+}

@@ -1,0 +1,221 @@
+"""Smooth approach and retraction: G147, G247, G347 and G148, G248, G348 (Fundamentals, SAR).
+
+A contour is reached and left along a straight line, a quarter or a half circle that touches it:
+
+    P0 --in the plane, at the height of P0--> P1 --down--> P2 --FAD--> P3 --line or arc--> P4, start of the contour
+
+P2 lies DISCL above the machining plane. With G341 the way P2 to P3 goes down to the plane and P3 to P4 lies in it;
+with G340 P3 is P2, and P3 to P4 is a slope or a helix. A retraction is the same backwards.
+
+DISR is the distance of the tool's edge from the contour for lines, and the radius of the tool centre's path for arcs.
+What is handed on is the contour P3 to P4 of the programmed side; radius compensation moves it as any other contour.
+As its direction is that of the contour's first move, an approach waits for that move.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isnan, nan
+from typing import TYPE_CHECKING
+
+from polycnc.channel.path import Move
+from polycnc.control.sinumerik import tables
+from polycnc.control.sinumerik.block.positions import length_factor, number, target
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.motion import circles, moves
+from polycnc.control.sinumerik.tools import stages
+from polycnc.control.sinumerik.tools.smooth_stage import (
+    APPROACHES,
+    LINES,
+    RETRACTIONS,
+    Approach,
+    Shape,
+    with_value,
+)
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.block.draft import Draft, Step, Values
+    from polycnc.control.sinumerik.memory import Memory
+
+__all__ = ["APPROACHES", "RETRACTIONS", "approach", "retract"]
+
+
+@dataclass(slots=True)
+class Words:
+    """The words of a block, worked out.
+
+    Attributes:
+        distance: Place of DISR.
+        clearance: Place of DISCL and whether it is absolute, or None.
+        infeed: Place of FAD, or None.
+    """
+
+    distance: int | None
+    clearance: tuple[int, bool] | None
+    infeed: int | None
+
+    @classmethod
+    def take(cls, draft: Draft) -> Words:
+        """Take DISR, DISCL and FAD."""
+        distance = draft.take("DISR")
+        height = draft.take_shape("DISCL", "AC")
+        infeed = draft.take_shape("FAD", "PM", "PR")
+        if infeed is not None:
+            mode = tables.feed_type(draft.mode).mode
+            if infeed[1].modifier not in ("", {"G94": "PM", "G95": "PR"}.get(mode, "")):
+                raise not_supported(f"FAD={infeed[1].modifier}")
+        clearance = (height[0], height[1].modifier == "AC") if height is not None else None
+        return cls(distance, clearance, infeed[0] if infeed is not None else None)
+
+    def shape(
+        self, draft: Draft, channel: Channel, values: Values, compensation: int, tangent_side: int
+    ) -> Shape:
+        """The line or arc; alarm 10742 without DISR or with one that is not positive."""
+        if self.distance is None:
+            raise AlarmError("10742")
+        size = number(values, self.distance) * length_factor(draft.mode)
+        if size <= 0.0:
+            raise AlarmError("10742")
+        side = {"G141": 1, "G142": -1, "G143": tangent_side}.get(
+            draft.mode["smooth_approach_side"], compensation
+        )
+        side = side or 1
+        radius = stages.radius(channel.memory)
+        code = draft.codes["block_motion"]
+        if code in LINES:
+            size += radius if compensation and radius > 0.0 else 0.0
+        else:
+            size += radius * compensation * side
+        return Shape(code, size, side, draft.mode["smooth_approach_path"] == "G341")
+
+    def height(self, draft: Draft, values: Values, far: float, plane: float) -> float:
+        """Height of P2; alarm 10741 if it does not lie between the start and the machining plane."""
+        if self.clearance is None:
+            return plane
+        value = number(values, self.clearance[0]) * length_factor(draft.mode)
+        height = value if self.clearance[1] else plane + (value if far >= plane else -value)
+        if not min(far, plane) - moves.SAME_MM <= height <= max(far, plane) + moves.SAME_MM:
+            raise AlarmError("10741")
+        return height
+
+    def infeed_speed(self, draft: Draft, values: Values) -> float:
+        """FAD in internal units; NaN without one."""
+        return number(values, self.infeed) * moves.feed_factor(draft) if self.infeed is not None else nan
+
+
+# ---- the two kinds of blocks
+
+
+def approach(draft: Draft) -> Step | None:
+    """G147, G247, G347: approach; P4 is the block's own point in the plane, or that of the next move."""
+    words = Words.take(draft)
+    terms = draft.take_axes()
+    columns = moves.plane_columns(draft)
+    names_point = any(term.column in columns[:2] for term in terms)
+    draft.steps.append(_remember_feed)
+
+    def run(channel: Channel, values: Values) -> None:
+        memory: Memory = channel.memory
+        start = channel.coordinates.position
+        end = target(channel, terms, values)
+        compensation = stages.SIDES.get(draft.mode["side"], 0)
+        if draft.mode["smooth_approach_side"] == "G143":
+            raise not_supported("G143")
+        shape = words.shape(draft, channel, values, compensation, 0)
+        third = columns[2]
+        height = words.height(draft, values, start[third], end[third]) if third >= 0 else 0.0
+        is_rapid = draft.mode["motion"] == "G0"
+        before = channel.feed if isnan(memory.feed_before) else memory.feed_before
+        place = _place(channel, Kind.RAPID if is_rapid else Kind.FEED, nan if is_rapid else before)
+        feed = moves.checked_feed(channel.feed)
+        touch = end if names_point else None
+        waiting = Approach(shape, place, start, touch, height, feed, words.infeed_speed(draft, values))
+        memory.previous = None
+        channel.coordinates.arrive(end)
+        stages.approach(channel).waiting = waiting
+
+    return run
+
+
+# ---- retraction
+
+
+def retract(draft: Draft) -> Step | None:
+    """G148, G248, G348: retraction; G40 in its block ends compensation behind the line or arc."""
+    words = Words.take(draft)
+    terms = draft.take_axes()
+    columns = moves.plane_columns(draft)
+    axes = tables.PLANES[draft.mode["plane"]]
+    names_point = any(term.column in columns[:2] for term in terms)
+    draft.steps.append(_remember_feed)
+
+    def run(channel: Channel, values: Values) -> None:
+        memory: Memory = channel.memory
+        cutter = stages.active_cutter(channel)
+        compensation = cutter.side if cutter is not None else 0
+        direction = circles.last_direction(channel, columns, axes)
+        if draft.mode["smooth_approach_side"] == "G143":
+            raise not_supported("G143")
+        shape = words.shape(draft, channel, values, compensation, 0)
+        start = channel.coordinates.position
+        end = target(channel, terms, values)
+        u, v, third = columns
+        touch = (start[u], start[v])
+        old = channel.feed if isnan(memory.feed_before) else memory.feed_before
+        far = shape.far_end(touch, direction)
+        height = words.height(draft, values, end[third], start[third]) if third >= 0 else 0.0
+        point = start.copy()
+        point[u], point[v] = far
+        if third >= 0 and not shape.in_plane:
+            point[third] = height
+        center = shape.center(touch, direction)
+        if center is None:
+            moves.line(channel, Kind.FEED, point, moves.checked_feed(old))
+        else:
+            circles.arc(channel, columns, axes, point, center, moves.checked_feed(old), shape.ccw)
+        if draft.codes.get("side") == "G40":
+            stages.leave_contour(channel)
+            channel.context_changed()
+        _away(channel, draft, third, point, end if names_point else None, height, end, words, values)
+
+    return run
+
+
+def _away(
+    channel: Channel,
+    draft: Draft,
+    third: int,
+    point: list[float],
+    goal: list[float] | None,
+    height: float,
+    end: list[float],
+    words: Words,
+    values: Values,
+) -> None:
+    """From the end of the line or arc up to the height of P0, and to P0 in the plane."""
+    is_rapid = draft.mode["motion"] == "G0"
+    kind, feed = (Kind.RAPID, nan) if is_rapid else (Kind.FEED, moves.checked_feed(channel.feed))
+    if third >= 0:
+        infeed = words.infeed_speed(draft, values)
+        slow = (kind, feed) if isnan(infeed) else (Kind.FEED, infeed)
+        moves.line(channel, slow[0], with_value(point, third, height), slow[1])
+        moves.line(channel, kind, with_value(point, third, end[third]), feed)
+    if goal is not None:
+        moves.line(channel, kind, goal, feed)
+
+
+# ---- helpers
+
+
+def _remember_feed(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    """The feed before the block's own F: it holds for the part of the way that belongs to the block before."""
+    channel.memory.feed_before = channel.feed
+
+
+def _place(channel: Channel, kind: Kind, feed: float) -> Move:
+    position = channel.coordinates.position
+    number_ = channel.level.program_number
+    return Move(kind, position, position, feed, number_, channel.line, channel.context_number())

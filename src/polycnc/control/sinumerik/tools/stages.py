@@ -1,0 +1,201 @@
+"""The stages of the plane: splines, smooth approach, chamfers and roundings, cutter radius compensation.
+
+A stage stands in the channel's path only while it has something to do: what commands it puts it there, and behind
+every block `Path.relax` takes out those that are through. Source: Fundamentals (CHF, CHR, RND,
+RNDM, G40 to G42, NORM, KONT, G450, G451).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import nan
+from typing import TYPE_CHECKING
+
+from polycnc.compensation.corner import SINUMERIK_CORNERS, CornerStage, CornerViolation, Shape
+from polycnc.compensation.cutter import CutterCompensation
+from polycnc.compensation.plane import Plane
+from polycnc.compensation.policies import (
+    SINUMERIK_KONT_G450,
+    SINUMERIK_KONT_G451,
+    SINUMERIK_NORM_G450,
+    SINUMERIK_NORM_G451,
+    Policy,
+    Violation,
+)
+from polycnc.control.sinumerik.motion.spline_stage import SplineStage
+from polycnc.control.sinumerik.tables import PLANES
+from polycnc.control.sinumerik.tools.memory import DP_TIP
+from polycnc.control.sinumerik.tools.smooth_stage import SmoothApproach
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.geometry.arcs import Point
+
+POLICIES = {
+    ("NORM", "G450"): SINUMERIK_NORM_G450,
+    ("NORM", "G451"): SINUMERIK_NORM_G451,
+    ("KONT", "G450"): SINUMERIK_KONT_G450,
+    ("KONT", "G451"): SINUMERIK_KONT_G451,
+}
+VIOLATIONS = {
+    Violation.ARC_START: "10753",
+    Violation.ARC_CANCEL: "10754",
+    Violation.NO_AVOIDANCE: "10751",
+    Violation.AVOIDANCE_DANGEROUS: "10751",
+    Violation.AVOIDANCE_INTERFERES: "10751",
+}
+CORNER_VIOLATIONS: dict[CornerViolation, str] = {}
+SIDES = {"G41": 1, "G42": -1}
+#: Stages that work in one plane.
+PlaneStage = SplineStage | SmoothApproach | CornerStage | CutterCompensation
+OF_PLANE: tuple[type[PlaneStage], ...] = (SplineStage, SmoothApproach, CornerStage, CutterCompensation)
+#: From the nose centre to the programmed tip along the plane's second and first axis (G18: X and Z), by
+#: $TC_DP2.
+TIPS = {
+    1: (1.0, 1.0),
+    2: (1.0, -1.0),
+    3: (-1.0, -1.0),
+    4: (-1.0, 1.0),
+    5: (0.0, 1.0),
+    6: (1.0, 0.0),
+    7: (0.0, -1.0),
+    8: (-1.0, 0.0),
+}
+
+
+def cutter(channel: Channel) -> CutterCompensation:
+    """The stage of cutter radius compensation, in the path."""
+    change_plane(channel)
+    stage = channel.path.find(CutterCompensation)
+    if stage is None:
+        stage = channel.path.put(CutterCompensation(plane(channel), SINUMERIK_NORM_G450, VIOLATIONS))
+        suspend(channel)
+    return stage
+
+
+def active_cutter(channel: Channel) -> CutterCompensation | None:
+    """The stage that compensates; None while none does."""
+    stage = channel.path.find(CutterCompensation)
+    return stage if stage is not None and stage.active else None
+
+
+def corner(channel: Channel) -> CornerStage:
+    """The stage of chamfers and roundings, in the path."""
+    change_plane(channel)
+    stage = channel.path.find(CornerStage)
+    return stage or channel.path.put(CornerStage(plane(channel), SINUMERIK_CORNERS, CORNER_VIOLATIONS))
+
+
+def approach(channel: Channel) -> SmoothApproach:
+    """The stage that holds a smooth approach back, in the path."""
+    change_plane(channel)
+    return channel.path.find(SmoothApproach) or channel.path.put(SmoothApproach(plane(channel)))
+
+
+def spline(channel: Channel) -> SplineStage:
+    """The stage that collects control points, in the path."""
+    change_plane(channel)
+    return channel.path.find(SplineStage) or channel.path.put(SplineStage(plane(channel)))
+
+
+def plane(channel: Channel) -> Plane:
+    """The active plane."""
+    return Plane(*PLANES[channel.mode["plane"]], channel.coordinates.geometry)
+
+
+def change_plane(channel: Channel) -> None:
+    """G17 to G19: stages of another plane end what they hold; alarm 10757 while compensation is active."""
+    first = PLANES[channel.mode["plane"]][0]
+    found = [stage for kind in OF_PLANE if (stage := channel.path.find(kind)) and stage.plane.u != first]
+    if not found:
+        return
+    if active_cutter(channel) is not None:
+        raise AlarmError("10757")
+    if any(stage.active for stage in found):
+        channel.flush()
+    channel.path.take(*OF_PLANE)
+
+
+def insert(channel: Channel, shape: Shape, size: float, feed: float = nan) -> None:
+    """CHF, CHR, RND: a chamfer or rounding after the move of this block; alarm 16500 for a negative size."""
+    if size < 0.0:
+        raise AlarmError("16500")
+    if size > 0.0:
+        corner(channel).insert(shape, size, feed)
+
+
+def round_all(channel: Channel, radius: float, feed: float = nan) -> None:
+    """RNDM: round every corner from now on; 0 ends it."""
+    if radius < 0.0:
+        raise AlarmError("16500")
+    corner(channel).round_all(radius, feed)
+
+
+# ---- cutter radius compensation
+
+
+def policy(channel: Channel) -> Policy:
+    """The rules that hold now: approach, corner, and the limits of the machine data."""
+    memory: Memory = channel.memory
+    mode = channel.mode
+    rules = POLICIES[mode["approach"], mode["corner"]]
+    outer = replace(rules.outer, disc_percent=memory.disc)
+    if mode["corner"] == "G451":
+        outer = replace(outer, intersection_limit_deg=memory.data.number("$MC_CUTCOM_CORNER_LIMIT"))
+    idle = memory.data.integer("$MC_CUTCOM_MAXNUM_DUMMY_BLOCKS")
+    return replace(rules, outer=outer, read_blocks=idle + 2)
+
+
+def select_side(channel: Channel) -> None:
+    """G41, G42: the contour begins with the next move; alarm 10750 without a tool edge."""
+    memory: Memory = channel.memory
+    if memory.tools.edge is None:
+        raise AlarmError("10750")
+    stage = cutter(channel)
+    stage.policy = policy(channel)
+    stage.engage(SIDES[channel.mode["side"]], radius(memory), tip(channel))
+
+
+def leave_contour(channel: Channel) -> None:
+    """G40: the next move leads back to the programmed path."""
+    stage = active_cutter(channel)
+    if stage is not None:
+        stage.cancel()
+
+
+def changed_radius(channel: Channel) -> None:
+    """Another edge, TOFFR or OFFN while compensation is active."""
+    stage = active_cutter(channel)
+    if stage is not None and channel.mode["side"] != "G40":
+        stage.change_radius(radius(channel.memory), tip(channel))
+
+
+def changed_rules(channel: Channel) -> None:
+    """NORM, KONT, G450, G451 while compensation is active."""
+    stage = active_cutter(channel)
+    if stage is not None:
+        stage.policy = policy(channel)
+
+
+def suspend(channel: Channel) -> None:
+    """CUTCONON, CUTCONOF: blocks keep the vector of the last one, or are compensated themselves again."""
+    stage = channel.path.find(CutterCompensation)
+    if stage is not None:
+        stage.suspended = channel.mode["constant_side"] == "CUTCONON"
+
+
+def radius(memory: Memory) -> float:
+    """Distance of the tool centre from the contour, mm."""
+    return memory.tools.radius + memory.allowance_mm
+
+
+def tip(channel: Channel) -> Point:
+    """From the nose centre to the programmed tip in units of the radius; zero for milling tools."""
+    memory: Memory = channel.memory
+    edge = memory.tools.edge
+    if edge is None or not edge.is_turning:
+        return (0.0, 0.0)
+    second, first = TIPS.get(int(edge.values[DP_TIP]), (0.0, 0.0))
+    return (first, second)

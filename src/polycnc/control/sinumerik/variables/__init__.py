@@ -1,0 +1,1 @@
+"""System variables: `registry`, `known` (names that exist), `by_name` (for reports), `functions` of the state."""

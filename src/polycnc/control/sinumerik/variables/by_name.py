@@ -1,0 +1,83 @@
+"""Variables by the names that programs use (`R1`, `FIELD[2,0]`, `$P_GG[6]`), for reports, cases and setups.
+
+A name is read as an expression of the main program, so it means what it means there.
+"""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from polycnc.language.sinumerik.blocks import BlockCompiler
+from polycnc.language.sinumerik.lexer import tokenize
+from polycnc.language.sinumerik.names.values import Axis, Type, round_half_up
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from polycnc.channel.channel import Channel
+    from polycnc.language.sinumerik.executable import SinumerikProgram
+
+#: How a value from outside becomes one of a type.
+_CONVERSIONS: dict[Type, Callable[[Any], Any]] = {
+    Type.INT: lambda value: round_half_up(float(value)),
+    Type.CHAR: lambda value: round_half_up(float(value)),
+    Type.REAL: float,
+    Type.BOOL: bool,
+    Type.STRING: str,
+    Type.AXIS: lambda value: Axis(str(value).upper()),
+}
+
+
+def read(channel: Channel, name: str) -> Any:
+    """The value of a variable: number, text, BOOL as 1 or 0, AXIS as its name.
+
+    Raises:
+        KeyError: There is no such variable.
+    """
+    with _main_program(channel) as program:
+        try:
+            compiler = _compiler(channel, program, name)
+            result: list[Any] = []
+            value = compiler.expression()
+            if compiler.token.kind != "end":
+                raise KeyError(name)
+            compiler.emitter.line(f"{compiler.emitter.object(result)}.append({value.code})")
+            compiler.emitter.step()(channel)
+        except (AlarmError, TypeError, IndexError) as error:  # without value: its DEF was never reached
+            raise KeyError(name) from error
+    found = result[0]
+    return found.name if isinstance(found, Axis) else int(found) if isinstance(found, bool) else found
+
+
+def write(channel: Channel, name: str, value: object) -> None:
+    """Set a variable from outside.
+
+    Raises:
+        AlarmError: 12550 if there is no such variable, or what the variable itself refuses.
+    """
+    with _main_program(channel) as program:
+        compiler = _compiler(channel, program, name)
+        place = compiler.scope.place(compiler, compiler.take())
+        convert = _CONVERSIONS.get(place.type)
+        if convert is None:
+            raise AlarmError("12150", text=name)
+        place.write(compiler, compiler.emitter.object(convert(value)))
+        compiler.emitter.step()(channel)
+
+
+def _compiler(channel: Channel, program: SinumerikProgram, name: str) -> BlockCompiler:
+    return BlockCompiler(tokenize(name, 0), program, 0, channel)
+
+
+@contextmanager
+def _main_program(channel: Channel) -> Iterator[SinumerikProgram]:
+    """While it lasts, names and local variables are those of the main program."""
+    running = channel.level
+    channel.level = channel.stack[0]
+    code: Any = channel.level.code
+    try:
+        yield getattr(code, "whole", code)
+    finally:
+        channel.level = running

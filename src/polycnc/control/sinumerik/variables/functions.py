@@ -1,0 +1,141 @@
+"""Predefined functions whose value depends on the state of the control.
+
+Source: job planning 5.2 (frame functions), 14.1 (axis functions), 10.4.13 (POSRANGE).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.sinumerik.block.arguments import Arguments
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.frames import adding, codes
+from polycnc.control.sinumerik.frames.variables import frame_axis
+from polycnc.control.sinumerik.limits import calcposi
+from polycnc.control.sinumerik.tools import d_numbers
+from polycnc.geometry import fit
+from polycnc.language.sinumerik.keywords import CONTROL_FUNCTIONS
+from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, NcFrame, crpl
+from polycnc.language.sinumerik.names.values import Axis
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.geometry.frames import Vector
+
+
+def value(channel: Channel, name: str, args: Arguments, column: int) -> Any:
+    """The value of a function; PC0001 for one that is not executed, with the column of the call."""
+    function = FUNCTIONS.get(name)
+    if function is None:
+        raise not_supported(name)
+    letters = CONTROL_FUNCTIONS[name].arguments
+    needed = sum(1 for letter in letters if letter.isupper() or letter == "[")
+    try:
+        if len(args) < needed or None in args[:needed] or (len(args) > len(letters) and letters != "*"):
+            raise AlarmError("14020", text=name)
+        return function(channel, args)
+    except AlarmError as alarm:
+        alarm.column = alarm.column or column
+        raise
+
+
+def is_axis(channel: Channel, args: Arguments) -> bool:
+    """ISAXIS(n): whether geometry axis 1, 2 or 3 exists."""
+    number = args[0]
+    if not 1 <= number <= 3:
+        raise AlarmError("14020", text="ISAXIS")
+    return channel.coordinates.geometry[number - 1] >= 0
+
+
+def modulo_position(channel: Channel, args: Arguments) -> float:
+    """MODAXVAL(axis, position): the position within the modulo range; unchanged for other axes."""
+    memory: Memory = channel.memory
+    column = memory.column(args[0].name)
+    position = float(args[1])
+    if not channel.axis_data[column].modulo:
+        return position
+    name = channel.axes[column]
+    start = memory.data.number("$MA_MODULO_RANGE_START", name)
+    return start + (position - start) % memory.data.number("$MA_MODULO_RANGE", name)
+
+
+def spindle_of(_channel: Channel, args: Arguments) -> int:
+    """AXTOSPI(axis): number of the spindle that an identifier means."""
+    name = args[0].name
+    if name[:1] != "S" or not name[1:].isdigit():
+        raise AlarmError("14020", text="AXTOSPI")
+    return int(name[1:])
+
+
+def axis_of_spindle(channel: Channel, args: Arguments) -> Axis:
+    """SPI(n): identifier of a spindle."""
+    channel.memory.spindles.get(args[0])
+    return Axis(f"S{args[0]}")
+
+
+def rotation_in_plane(_channel: Channel, args: Arguments) -> NcFrame:
+    """CRPL(plane, angle): 0 for Z, 1 for X, 2 for Y as the axis of rotation."""
+    plane = args[0]
+    if not 0 <= plane <= 3:
+        raise AlarmError("14020", text="CRPL")
+    return crpl((plane + 2) % 3, float(args[1]))
+
+
+def solid_rotation(channel: Channel, args: Arguments) -> NcFrame:
+    """CROTS(axis, angle, …): rotation with solid angles."""
+    if len(args) % 2:
+        raise AlarmError("14020", text="CROTS")
+    angles = {frame_axis(channel, args[i].name): float(args[i + 1]) for i in range(0, len(args), 2)}
+    if any(axis not in GEOMETRY_AXES for axis in angles):
+        raise AlarmError("16440", axis=",".join(angles))
+    return codes.crots(angles)
+
+
+def in_window(channel: Channel, args: Arguments) -> bool:
+    """POSRANGE(axis, reference, window, system): whether the axis stands within a window (system 1: work)."""
+    column = channel.memory.column(args[0].name)
+    coordinates = channel.coordinates
+    position = coordinates.position if len(args) > 3 and args[3] else coordinates.machine
+    return bool(abs(position[column] - args[1]) <= args[2])
+
+
+def measured_frame(_channel: Channel, args: Arguments) -> NcFrame:
+    """MEAFRAME(ideal, measured, VAR quality): best fit; quality -1 or -2 where points lie on a line."""
+    ideal, measured = (_points(array) for array in args[:2])
+    for points, mistake in ((ideal, -1.0), (measured, -2.0)):
+        if fit.is_collinear(*points):
+            args[2].value = mistake
+            return NEUTRAL
+    frame = fit.rigid_fit(ideal, measured)
+    args[2].value = sum(fit.distances(frame, ideal, measured))
+    return NcFrame(matrix=frame.m, coarse=frame.t)
+
+
+def _points(array: Any) -> list[Vector]:
+    """The three points of a REAL array [3,3]: a row is a point."""
+    if tuple(array.dims) != (3, 3):
+        raise AlarmError("12360", text="MEAFRAME")
+    rows = (array.items[i : i + 3] for i in (0, 3, 6))
+    return [(float(x), float(y), float(z)) for x, y, z in rows]
+
+
+FUNCTIONS: dict[str, Callable[[Channel, Arguments], Any]] = {
+    "ISAXIS": is_axis,
+    "MEAFRAME": measured_frame,
+    "MODAXVAL": modulo_position,
+    "ADDFRAME": adding.add,
+    "CALCPOSI": calcposi.calculate,
+    "AXTOSPI": spindle_of,
+    "SPI": axis_of_spindle,
+    "CRPL": rotation_in_plane,
+    "CROTS": solid_rotation,
+    "POSRANGE": in_window,
+    "CHKDNO": d_numbers.check_numbers,
+    "GETDNO": d_numbers.get_number,
+    "SETDNO": d_numbers.set_number,
+    "GETACTTD": d_numbers.tool_of_number,
+}

@@ -1,0 +1,343 @@
+"""System variables: the registry, positions, states, and those that only store.
+
+`SystemVariables.find` looks a name up in `VARIABLES`, then in the families (machine data, tool data), and
+tells names that SINUMERIK has and polycnc does not keep from names that nobody has. What belongs to the main
+run has `stop`: the program waits for it (implicit preprocessing stop).
+
+Source: job planning 1.1.2 (prefixes), 5.1 (actual values), and the manual of system variables by name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import isnan
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.sinumerik import gcodes
+from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.block.positions import shown
+from polycnc.control.sinumerik.channels import link_memory
+from polycnc.control.sinumerik.data.machine_data import DELIVERED, MachineData
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.feed import spindle_speed
+from polycnc.control.sinumerik.feed.axis_settings import AXIS_VARIABLES
+from polycnc.control.sinumerik.feed.tolerances import TOLERANCE_VARIABLES
+from polycnc.control.sinumerik.frames.variables import FRAME_VARIABLES
+from polycnc.control.sinumerik.limits import working_area
+from polycnc.control.sinumerik.motion.repositioning import REPOS_VARIABLES
+from polycnc.control.sinumerik.signals.measuring import MEASURE_VARIABLES
+from polycnc.control.sinumerik.signals.sections import SECTION_VARIABLES
+from polycnc.control.sinumerik.tables import MINUTE
+from polycnc.control.sinumerik.tools.variables import TOOL_VARIABLES
+from polycnc.control.sinumerik.variables.known import is_known
+from polycnc.language.sinumerik.names.frame import NcFrame
+from polycnc.language.sinumerik.names.values import Axis, Type
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.feed.spindles import Spindle
+    from polycnc.control.sinumerik.memory import Memory
+
+Indices = tuple[Any, ...]
+Reader = Callable[["Channel", Indices], Any]
+Writer = Callable[["Channel", Indices, Any], None]
+
+
+@dataclass(frozen=True, slots=True)
+class SystemVariable:
+    """One variable `$…`.
+
+    Attributes:
+        name: With its `$`.
+        type: Type of its values.
+        reader: Gives the value for indices.
+        writer: Sets the value; None for one that can only be read.
+        stop: It belongs to the main run.
+    """
+
+    name: str
+    type: Type
+    reader: Reader
+    writer: Writer | None = None
+    stop: bool = False
+
+    def read(self, channel: Channel, indices: Indices) -> Any:
+        """The value; indices are ints, axes or frame components as programmed."""
+        return self.reader(channel, indices)
+
+    def write(self, channel: Channel, indices: Indices, value: Any) -> None:
+        """Set the value; alarm 17210 for a variable that can only be read."""
+        if self.writer is None:
+            raise AlarmError("17210", text=self.name)
+        self.writer(channel, indices, value)
+
+
+class SystemVariables:
+    """All system variables by name."""
+
+    def __init__(self) -> None:
+        self._found: dict[str, SystemVariable] = {}
+
+    def find(self, name: str) -> SystemVariable:
+        """The variable of a name in capitals.
+
+        Raises:
+            AlarmError: PC0001 for a variable of the control that polycnc does not keep, 12550 for no
+                variable.
+        """
+        variable = self._found.get(name)
+        if variable is None:
+            variable = self._found[name] = self._make(name)
+        return variable
+
+    @staticmethod
+    def _make(name: str) -> SystemVariable:
+        if name in VARIABLES:
+            return VARIABLES[name]
+        # `$$` reads machine and setting data in the main run (job planning 1.1.2).
+        if name.startswith(("$M", "$S", "$$M", "$$S")) and name.lstrip("$")[1:3] in ("N_", "C_", "A_"):
+            return _machine_datum("$" + name.lstrip("$"))
+        if is_known(name):
+            raise not_supported(name)
+        raise AlarmError("12550", text=name)
+
+
+# ---- indices
+
+
+def index_of(indices: Indices, name: str, size: int, first: int = 0) -> int:
+    """The one number in brackets; alarm 17020 outside the array, 12400 for a missing index."""
+    if len(indices) != 1 or isinstance(indices[0], (Axis, str)):
+        raise AlarmError("12400", text=name)
+    index = int(indices[0])
+    if not first <= index < size:
+        raise AlarmError("17020", text=name, index=index)
+    return index
+
+
+def axis_of(indices: Indices, name: str) -> str:
+    """The one axis in brackets; alarm 12400 without one."""
+    if len(indices) != 1 or not isinstance(indices[0], Axis):
+        raise AlarmError("12400", text=name)
+    return indices[0].name
+
+
+def _spindle_of(channel: Channel, axis: str) -> Spindle | None:
+    memory: Memory = channel.memory
+    number = axis[1:]
+    return memory.spindles.all.get(int(number)) if axis[:1] == "S" and number.isdigit() else None
+
+
+# ---- machine and setting data
+
+
+def _machine_datum(name: str) -> SystemVariable:
+    value = DELIVERED[name].value if name in DELIVERED else 0.0
+    kinds = {bool: Type.BOOL, int: Type.INT, str: Type.STRING}
+    axial = name[2] == "A"
+
+    def read(channel: Channel, indices: Indices) -> Any:
+        if axial and not any(isinstance(index, Axis) for index in indices):
+            raise AlarmError("12400", text=name)
+        data: MachineData = channel.memory.data
+        return data.read(name, *indices)
+
+    def write(channel: Channel, indices: Indices, new: Any) -> None:
+        channel.memory.data.write(name, indices, new)
+        if name in working_area.DATA:
+            working_area.refresh(channel)
+        elif name in spindle_speed.DATA:
+            channel.context_changed()
+
+    return SystemVariable(name, kinds.get(type(value), Type.REAL), read, write)
+
+
+# ---- positions
+
+
+def _work_frame(channel: Channel, outer: str) -> list[float]:
+    """Positions of all axes in the system below `outer`: WCS, SZS (settable), BZS (base)."""
+    memory: Memory = channel.memory
+    coordinates = channel.coordinates
+    if outer == "work":
+        return coordinates.position
+    state = memory.frames
+    inner = NcFrame()
+    for frame in state.inner() if outer == "settable" else [state.active_settable, *state.inner()]:
+        inner = inner @ frame
+    point = coordinates.image(inner.frame, coordinates.position)
+    for axis, part in inner.others.items():
+        column = memory.column(axis)
+        point = [*point[:column], point[column] + part.coarse + part.fine, *point[column + 1 :]]
+    return point
+
+
+def _position(name: str, system: str, *, stop: bool = True) -> SystemVariable:
+    def read(channel: Channel, indices: Indices) -> float:
+        axis = axis_of(indices, name)
+        spindle = _spindle_of(channel, axis)
+        if spindle is not None:
+            return spindle.position
+        column = channel.memory.column(axis)
+        if system in ("machine", "basic"):
+            return shown(channel, column, channel.coordinates.machine[column], work=False)
+        return shown(channel, column, _work_frame(channel, system)[column])
+
+    return SystemVariable(name, Type.REAL, read, stop=stop)
+
+
+# ---- states of the program
+
+
+def _group_number(channel: Channel, indices: Indices) -> int:
+    number = index_of(indices, "$P_GG", 62, first=1)
+    group = gcodes.BY_NUMBER.get(number)
+    return gcodes.number_of(channel.mode[group.name]) if group and group.is_modal else 0
+
+
+def _geometry_axis(position: int) -> Reader:
+    def read(channel: Channel, _indices: Indices) -> Axis:
+        column = channel.coordinates.geometry[position]
+        return Axis(channel.axes[column] if column >= 0 else "XYZ"[position])
+
+    return read
+
+
+def _programmed_feed(channel: Channel, _indices: Indices) -> float:
+    feed: float = 0.0 if isnan(channel.feed) else channel.feed
+    return feed * MINUTE if channel.memory.feed_mode != "G95" else feed
+
+
+def _spindle_value(attribute: str) -> Reader:
+    def read(channel: Channel, indices: Indices) -> Any:
+        number = arguments.spindle(indices[0]) if indices else None
+        return getattr(channel.memory.spindles.get(number), attribute)
+
+    return read
+
+
+def _turning_speed(channel: Channel, indices: Indices) -> float:
+    """What a spindle turns with, without sign."""
+    memory: Memory = channel.memory
+    spindle = memory.spindles.get(arguments.spindle(indices[0]) if indices else None)
+    return spindle_speed.turning_speed(memory, spindle, channel.mode["feed"])
+
+
+def _direction(channel: Channel, indices: Indices) -> int:
+    """3, 4 or 5, as the M function."""
+    direction: int = _spindle_value("direction")(channel, indices)
+    return {1: 3, -1: 4}.get(direction, 5)
+
+
+def _polar_mode(channel: Channel, _indices: Indices) -> float:
+    return float(channel.memory.allowance_mm)
+
+
+def _program_name(channel: Channel, indices: Indices) -> str:
+    level = index_of(indices, "$P_PROG", len(channel.stack)) if indices else len(channel.stack) - 1
+    return channel.stack[level].code.program.name
+
+
+def _line_number(channel: Channel, _indices: Indices) -> int:
+    return channel.line
+
+
+def _always(value: Any) -> Reader:
+    return lambda _channel, _indices: value
+
+
+_STATES = (
+    SystemVariable("$P_GG", Type.INT, _group_number),
+    SystemVariable("$P_EP", Type.REAL, _position("$P_EP", "work").reader),
+    SystemVariable("$P_AXN1", Type.AXIS, _geometry_axis(0)),
+    SystemVariable("$P_AXN2", Type.AXIS, _geometry_axis(1)),
+    SystemVariable("$P_AXN3", Type.AXIS, _geometry_axis(2)),
+    SystemVariable("$P_F", Type.REAL, _programmed_feed),
+    SystemVariable("$P_S", Type.REAL, _spindle_value("speed")),
+    SystemVariable("$P_SDIR", Type.INT, _direction),
+    SystemVariable("$P_MSNUM", Type.INT, lambda channel, _indices: channel.memory.spindles.master),
+    SystemVariable("$P_GWPS", Type.BOOL, _spindle_value("has_wheel_speed")),
+    SystemVariable("$P_OFFN", Type.REAL, _polar_mode),
+    SystemVariable("$P_PROG", Type.STRING, _program_name),
+    SystemVariable("$P_LINENO", Type.INT, _line_number),
+    SystemVariable("$P_CHANNO", Type.INT, lambda channel, _indices: channel.number),
+    SystemVariable("$P_SEARCH", Type.BOOL, _always(False)),
+    SystemVariable("$P_ISTEST", Type.BOOL, _always(False)),
+    SystemVariable("$P_SIM", Type.BOOL, _always(False)),
+    SystemVariable("$P_DRYRUN", Type.BOOL, _always(False)),
+    SystemVariable("$P_PROG_EVENT", Type.INT, _always(0)),
+    SystemVariable("$P_EXTGG", Type.INT, _always(0)),
+    SystemVariable(
+        "$AC_MSNUM", Type.INT, lambda channel, _indices: channel.memory.spindles.master, stop=True
+    ),
+    SystemVariable("$AC_SDIR", Type.INT, _direction, stop=True),
+    SystemVariable("$AA_S", Type.REAL, _turning_speed, stop=True),
+    SystemVariable("$AC_STAT", Type.INT, _always(2), stop=True),
+    SystemVariable("$AC_OVR", Type.REAL, _always(100.0), stop=True),
+    SystemVariable("$PI", Type.REAL, _always(3.141592653589793)),
+    _position("$AA_IW", "work"),
+    _position("$AA_IEN", "settable"),
+    _position("$AA_IBN", "base"),
+    _position("$AA_IB", "basic"),
+    _position("$AA_IM", "machine"),
+    _position("$VA_IM", "machine"),
+)
+
+
+# ---- variables that only store
+
+
+def _store(
+    name: str, type_: Type, size_datum: str | int, *, first: int = 0, stop: bool = True
+) -> SystemVariable:
+    """An array that keeps what is written; its size is a number or a machine datum."""
+    empty: Any = {Type.BOOL: False, Type.INT: 0}.get(type_, 0.0)
+
+    def place(channel: Channel, indices: Indices) -> int:
+        memory: Memory = channel.memory
+        size = size_datum if isinstance(size_datum, int) else memory.data.integer(size_datum)
+        return index_of(indices, name, size + first, first)
+
+    def read(channel: Channel, indices: Indices) -> Any:
+        return kept(channel).get((name, (place(channel, indices),)), empty)
+
+    def write(channel: Channel, indices: Indices, value: Any) -> None:
+        kept(channel)[name, (place(channel, indices),)] = value
+
+    def kept(channel: Channel) -> dict[tuple[str, Indices], Any]:
+        values: dict[tuple[str, Indices], Any]
+        values = channel.memory.nck if name.startswith("$A_") else channel.memory.values
+        return values
+
+    return SystemVariable(name, type_, read, write, stop)
+
+
+def _output(name: str, type_: Type) -> SystemVariable:
+    return _store(name, type_, 64, first=1)
+
+
+_STORED = (
+    _store("$AC_MARKER", Type.INT, "$MC_MM_NUM_AC_MARKER"),
+    _store("$AC_PARAM", Type.REAL, "$MC_MM_NUM_AC_PARAM"),
+    _output("$A_OUT", Type.BOOL),
+    _output("$A_OUTA", Type.REAL),
+    _output("$A_IN", Type.BOOL),
+    _output("$A_INA", Type.REAL),
+)
+_LINKED = tuple(
+    SystemVariable(name, access.type, link_memory.reader(name), link_memory.writer(name), stop=True)
+    for name, access in link_memory.ACCESS.items()
+)
+VARIABLES: dict[str, SystemVariable] = {
+    **{variable.name: variable for variable in (*_STATES, *_STORED, *_LINKED)},
+    **{name: SystemVariable(name, *row) for name, row in FRAME_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in TOOL_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in working_area.AREA_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in SECTION_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in AXIS_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in TOLERANCE_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},
+}

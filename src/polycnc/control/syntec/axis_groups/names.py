@@ -1,0 +1,59 @@
+"""Axis name codes (Pr321 on: 100 is X, 101 X1, 302 Z2) and virtual axes that stand for several (G10 L801)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.block.plan import AxisWord
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.words import Words
+
+AXIS_NAMES, CODES = 321, range(100, 1000)
+#: Hundreds of a name code.
+LETTERS = {letter: 100 * (i + 1) for i, letter in enumerate("XYZABCUVW")}
+
+
+def name_code(channel: Channel, axis: int) -> int:
+    """The code of an axis: Pr321 on, or what its name stands for."""
+    told: int = channel.memory.parameter(AXIS_NAMES + axis)
+    name = channel.axes[axis]
+    return told or LETTERS.get(name[0], 0) + int(name[1:] if name[1:].isdigit() else 0)
+
+
+def axis_of_code(channel: Channel, code: float) -> int:
+    """The axis with a name code; -1 where there is none."""
+    return next((axis for axis in range(len(channel.axes)) if name_code(channel, axis) == code), -1)
+
+
+def map_virtual_axis(channel: Channel, words: Words) -> None:
+    """G10 L801 P Q: the axis with code Q moves with the virtual axis P; Q0 takes all away."""
+    virtual, real = words.typed("P"), words.typed("Q")
+    letter = next((each for each, hundreds in LETTERS.items() if virtual == hundreds), "")
+    if not letter or letter in channel.axis_index:
+        raise words.fail("argument", "P")
+    mapped = channel.memory.virtual_axes.setdefault(letter, [])
+    if real == 0:
+        mapped.clear()
+    else:
+        axis = -1 if real is None else axis_of_code(channel, real)
+        if axis < 0:
+            raise words.fail("argument", "Q")
+        mapped.append(axis)
+    channel.modes.forget_plans()
+
+
+def virtual_words(builder: Builder) -> tuple[AxisWord, ...]:
+    """What the words of virtual axes mean: one word for each axis that moves with them."""
+    found: list[AxisWord] = []
+    incremental = builder.mode["distance"] == "G91"
+    for address, axes in builder.channel.memory.virtual_axes.items():
+        if axes and builder.has(address):
+            position, form = builder.slots[address]
+            builder.take(address)
+            for axis in axes:
+                convert = builder.control.axis_converter(builder, axis, form)
+                found.append(AxisWord(address, axis, position, convert, incremental))
+    return tuple(found)

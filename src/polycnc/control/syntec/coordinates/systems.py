@@ -1,0 +1,307 @@
+"""Coordinate systems of SYNTEC: G22, G30, G50 to G52, G54 to G59.9, G68, G92.1, G04, G10 (2.8 to 2.63)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.syntec.axis_groups.names import map_virtual_axis
+from polycnc.control.syntec.five_axes.spatial import choose_corners
+from polycnc.control.syntec.parameters import WORK_SYSTEMS, decimals
+from polycnc.control.word_address.coordinates import frames as base_frames
+from polycnc.control.word_address.coordinates.stroke_check import StrokeZone
+from polycnc.control.word_address.coordinates.systems import go_to_reference, refresh_zero
+from polycnc.control.word_address.memory import EXTERNAL
+from polycnc.control.word_address.motion.path import PLANES
+from polycnc.control.word_address.tools.data_input import TOOL_FIELDS
+from polycnc.control.word_address.tools.length import renew_length
+from polycnc.geometry.frames import IDENTITY, Frame, about, cos_sin_deg, rotation, scaling
+from polycnc.language.syntec.values import to_long
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.memory import SyntecMemory
+    from polycnc.control.word_address.block.words import Words
+    from polycnc.geometry.frames import Vector
+
+REFERENCE_POINTS = (1, 2, 3, 4)
+MACHINING_CONDITIONS = frozenset({*range(10), 21, 22, 23})
+WORK_OFFSET, SPATIAL_CORNERS, VIRTUAL_AXIS, REGISTER_INPUT = 2, 450, 801, 1000
+LAST_REGISTER = 65535
+
+
+# ---- work systems ----------------------------------------------------------------------------------------
+
+
+def select_work_system(channel: Channel, words: Words) -> None:
+    """G54 to G59, G59.1 to G59.9, G54 P1 to P100 (2.38); Pr3229 = 1 switches work systems off."""
+    code = channel.mode["wcs"]
+    number = words.typed("P") if "P" in words else None
+    memory = channel.memory
+    if number is None:
+        memory.wcs = code
+    elif number != int(number) or not 1 <= number <= len(WORK_SYSTEMS):
+        raise words.fail("number", "P")
+    else:
+        memory.wcs = WORK_SYSTEMS[int(number) - 1]
+    if memory.parameter(3229) == 1:
+        memory.wcs = NO_WORK_SYSTEM
+    refresh_zero(channel)
+
+
+#: Name of the work system without offsets that holds while Pr3229 = 1.
+NO_WORK_SYSTEM = "G53"
+
+
+def set_position(channel: Channel, words: Words) -> None:
+    """G92 X Y Z: the present position gets these coordinates; G92 S: highest speed under G96 (2.63, 2.66)."""
+    axes = words.axes()
+    memory = channel.memory
+    if axes:
+        c = channel.coordinates
+        wanted = c.position[:]
+        for axis, value, _ in axes:
+            wanted[axis] = value
+        inside, outside = c.to_machine(wanted), c.machine
+        for axis, _, _ in axes:
+            memory.preset_shift[axis] += outside[axis] - inside[axis]
+        if memory.zero_frame is not IDENTITY:
+            for axis in c.geometry:
+                if axis >= 0 and axis not in {a for a, _, _ in axes}:
+                    memory.preset_shift[axis] += outside[axis] - inside[axis]
+        refresh_zero(channel)
+    limit = words.typed("S")
+    if limit is not None:
+        memory.spindle_limit_rpm = limit
+        channel.context_changed()
+
+
+def preset_system(channel: Channel, words: Words) -> None:
+    """G92.1 X Y Z I J K R: this point becomes the origin, the axes turn by R about (I, J, K) (2.62)."""
+    c, memory = channel.coordinates, channel.memory
+    origin = [0.0] * len(channel.axes)
+    for axis, value, _ in words.axes():
+        origin[axis] = value
+    zero, target = c.to_machine([0.0] * len(channel.axes)), c.to_machine(origin)
+    for axis in range(len(channel.axes)):
+        memory.preset_shift[axis] += target[axis] - zero[axis]
+    angle = words.angle("R")
+    vector = [words.typed(letter) or 0.0 for letter in "IJK"]
+    memory.preset_angle = angle or 0.0
+    memory.preset_axis = vector if any(vector) else [0.0, 0.0, 1.0]
+    if angle and any(data.rotary for data in channel.axis_data[:3]):
+        raise words.fail("preset_rotary", "R")
+    renew_preset_frame(memory)
+    refresh_zero(channel)
+
+
+def forget_preset_turn(memory: SyntecMemory) -> None:
+    """The turn of G92.1 is the default again: #1930 is 0, #1931 to #1933 the Z axis."""
+    memory.preset_angle, memory.preset_axis = 0.0, [0.0, 0.0, 1.0]
+    renew_preset_frame(memory)
+
+
+def renew_preset_frame(memory: SyntecMemory) -> None:
+    """The zero frame follows #1930 to #1933 and the tilted plane."""
+    x, y, z = memory.preset_axis
+    length = (x * x + y * y + z * z) ** 0.5
+    turn = IDENTITY
+    if memory.preset_angle != 0.0 and length != 0.0:
+        turn = rotation_about((x / length, y / length, z / length), memory.preset_angle)
+    frame = turn @ memory.table_turn @ memory.tilt
+    memory.zero_frame = IDENTITY if frame.is_identity else frame
+
+
+def rotation_about(axis: Vector, angle_deg: float) -> Frame:
+    """Right-handed rotation about a unit vector through the origin (Rodrigues)."""
+    for i in range(3):
+        if abs(axis[i]) == 1.0:
+            return rotation(i, angle_deg * axis[i])
+    c, s = cos_sin_deg(angle_deg)
+    x, y, z = axis
+    d = 1.0 - c
+    return Frame(
+        (
+            (c + x * x * d, x * y * d - z * s, x * z * d + y * s),
+            (y * x * d + z * s, c + y * y * d, y * z * d - x * s),
+            (z * x * d - y * s, z * y * d + x * s, c + z * z * d),
+        )
+    )
+
+
+# ---- reference points, stroke limits ---------------------------------------------------------------------
+
+
+def return_to_further_reference(channel: Channel, words: Words) -> None:
+    """G30 [P]: over the intermediate point to reference point 1 to 4, 2 without P (2.21)."""
+    number = words.typed("P")
+    number = 2 if number is None else number
+    if number not in REFERENCE_POINTS:
+        raise words.fail("number", "P")
+    go_to_reference(channel, words, int(number))
+
+
+def stroke_limit_on(channel: Channel, words: Words) -> None:
+    """G22 X Y Z I J K: second travel limits, X Y Z with I J K in pairs, the others from Pr2501 on (2.18)."""
+    memory = channel.memory
+    given = {axis: value for axis, value, _ in words.axes()}
+    zones: dict[int, tuple[float, float]] = {}
+    unit = 10.0 ** -decimals(memory.parameters, inch=False)
+    for axis in range(len(channel.axes)):
+        plus = memory.parameter(2501 + 2 * axis) * unit
+        minus = memory.parameter(2502 + 2 * axis) * unit
+        if plus > minus:
+            zones[axis] = (minus, plus)
+    for letter, axis in zip("IJK", channel.coordinates.geometry, strict=True):
+        other = words.length(letter)
+        if (other is None) != (axis not in given):
+            raise words.fail("stroke_pair", letter if other is not None else "")
+        if other is None:
+            continue
+        low, high = sorted((other, given[axis]))
+        zones.pop(axis, None)
+        if low != high:
+            zones[axis] = (low, high)
+    set_zone(channel, zones)
+
+
+def set_zone(channel: Channel, zones: dict[int, tuple[float, float]]) -> None:
+    """The protected range of each axis; Pr2542 says whether its inside or its outside is forbidden."""
+    if not zones:
+        channel.stroke_zone = None
+        return
+    axes = tuple(sorted(zones))
+    inside = channel.memory.parameter(2542) == 1
+    lows, highs = tuple(zones[a][0] for a in axes), tuple(zones[a][1] for a in axes)
+    channel.stroke_zone = StrokeZone(lows, highs, axes, inside)
+
+
+# ---- programming frames ----------------------------------------------------------------------------------
+
+
+def scale_factors(channel: Channel, words: Words) -> tuple[float, float, float]:
+    """Factors of G51: P for all axes or I J K; only axes of the plane are scaled (2.33)."""
+    common = words.typed("P")
+    factors = [1.0, 1.0, 1.0]
+    for axis in PLANES[channel.mode["plane"]][:2]:
+        own = words.typed("IJK"[axis])
+        value = common if common is not None else own
+        factors[axis] = 1.0 if value is None else float(value)
+        if factors[axis] == 0.0:
+            raise words.fail("argument", "P" if common is not None else "IJK"[axis])
+    result = (factors[0], factors[1], factors[2])
+    channel.memory.scale_factors = result
+    return result
+
+
+def mirror(channel: Channel, words: Words) -> None:
+    """G51.1 X Y Z: mirror about these coordinates, which under G91 count from the position (2.32)."""
+    frames, c = channel.memory.frames, channel.coordinates
+    for axis, value, incremental in words.axes():
+        if axis not in c.geometry:
+            raise words.fail("argument", channel.axes[axis])
+        frames.mirrored[c.geometry.index(axis)] = c.programmed[axis] + value if incremental else value
+    center: Vector = (frames.mirrored.get(0, 0.0), frames.mirrored.get(1, 0.0), frames.mirrored.get(2, 0.0))
+    factors = [-1.0 if i in frames.mirrored else 1.0 for i in range(3)]
+    frames.mirror = about(center, scaling(*factors))
+    c.set_programming(frames.product())
+
+
+def rotate(channel: Channel, words: Words) -> None:
+    """G68 X Y R: turns the plane about a point in absolute coordinates; a new one replaces the old (2.43)."""
+    frames, c = channel.memory.frames, channel.coordinates
+    angle = words.angle("R")
+    if angle is None:
+        raise words.fail("argument", "G68")
+    base_frames.end_rotation(channel, words)
+    u, v, w = PLANES[channel.mode["plane"]]
+    point = [c.programmed[axis] if axis >= 0 else 0.0 for axis in c.geometry]
+    for axis, value, _ in words.axes():
+        for i in (u, v):
+            if c.geometry[i] == axis:
+                point[i] = value
+    frames.rotation = about((point[0], point[1], point[2]), rotation(w, angle))
+    c.set_programming(frames.product())
+
+
+def switch_diameter(channel: Channel, words: Words) -> None:
+    """G10.9 X0 Y1: axes programmed and shown in radius (0) or diameter (1); nothing moves (2.73)."""
+    named = words.plan.axis_words
+    if not named:
+        raise words.fail("diameter_switch", "G10.9")
+    for word in named:
+        value = words.values[word.slot]
+        if value not in (0, 1) or channel.axis_data[word.axis].rotary:
+            raise words.fail("diameter_switch", word.address)
+        channel.memory.diameters[word.axis] = value == 1
+    channel.modes.forget_plans()
+    channel.context_changed()
+
+
+# ---- dwell, data input, cutting modes --------------------------------------------------------------------
+
+
+def dwell(channel: Channel, words: Words) -> None:
+    """G04 X or P: X with a point seconds, without milliseconds; P milliseconds, decimals cut off (2.8)."""
+    if "Q" in words:
+        raise channel.control.not_yet("G4 Q", "Q")
+    milliseconds = words.typed("P")
+    if milliseconds is not None:
+        channel.dwell(seconds=int(milliseconds) / 1000.0)
+        return
+    value = words.typed("X")
+    if value is None:
+        raise words.fail("argument", "G4")
+    whole = words.form("X") == "" and not words.plan.rules.calculator
+    channel.dwell(seconds=value / 1000.0 if whole else value)
+
+
+def input_data(channel: Channel, words: Words) -> None:
+    """G10 L2 work offsets, L10 to L13 tool data (2.14), L450 corners, L801 virtual axes, L1000 registers; G91 adds."""
+    kind, number = words.typed("L"), words.typed("P")
+    if kind == REGISTER_INPUT:
+        value = words.typed("R")
+        if number is None or value is None or number != int(number):
+            raise words.fail("argument", "G10")
+        if not 0 <= number <= LAST_REGISTER:
+            raise words.fail("argument", "P")
+        channel.memory.globals.registers[int(number)] = to_long(value)
+        return
+    if kind == WORK_OFFSET:
+        _input_work_offset(channel, words)
+        return
+    if kind == SPATIAL_CORNERS:
+        choose_corners(channel, words)
+        return
+    if kind == VIRTUAL_AXIS:
+        map_virtual_axis(channel, words)
+        return
+    if kind not in TOOL_FIELDS or kind == 1:
+        raise channel.control.not_yet("G10" if kind is None else f"G10 L{kind:g}", "G10")
+    length = words.length("R")
+    if number is None or number != int(number) or number < 1 or length is None:
+        raise words.fail("argument", "P" if length is not None else "R")
+    tool = channel.memory.offset_number(int(number))
+    field = TOOL_FIELDS[int(kind)]
+    if channel.mode["distance"] == "G91":
+        length += getattr(tool, field)
+    setattr(tool, field, length)
+    renew_length(channel)
+
+
+def _input_work_offset(channel: Channel, words: Words) -> None:
+    """G10 L2 P X Y Z: zero of work system P, 0 the external one; G91 adds."""
+    number = words.typed("P")
+    if number is None or number != int(number) or not 0 <= number <= len(WORK_SYSTEMS):
+        raise words.fail("argument", "P" if number is not None else "G10")
+    offset = channel.memory.work_offset(WORK_SYSTEMS[int(number) - 1] if number else EXTERNAL)
+    for axis, value, incremental in words.axes():
+        offset[axis] = offset[axis] + value if incremental else value
+    refresh_zero(channel)
+
+
+def cutting_mode(channel: Channel, words: Words) -> None:
+    """G61 to G64 [P]: P of G62 and G64 selects a set of machining conditions (2.40)."""
+    condition = words.typed("P") if "P" in words else None
+    if condition is not None and condition not in MACHINING_CONDITIONS:
+        raise words.fail("condition_set", "P")
+    channel.context_changed()

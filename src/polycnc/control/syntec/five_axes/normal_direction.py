@@ -1,0 +1,157 @@
+"""Normal direction control G40.1, G41.1, G42.1 (manual 2.83): a rotary axis keeps a knife at an angle to the path.
+
+The shape vector points along +X while the axis, about Z or Y, stands at machine zero, and along +Y for an axis about X.
+The control plane is the one across the axis.
+"""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING
+
+from polycnc.control.syntec.parameters import has_option
+from polycnc.control.word_address.motion.path import PLANES
+from polycnc.control.word_address.transformations.normal_stage import Direction, NormalStage
+from polycnc.geometry.units import INCH_MM
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.words import Words
+
+NORMAL, OFF = "normal_direction", "G40.1"
+LEFT = "G41.1"
+OPTION = 59
+AXIS, DIRECTION, POSITION, NOSE, SHORTEST, LONGEST = 5801, 5802, 5803, (5804, 5805, 5806), 5809, 5810
+AXIS_TYPE, ROTARY_TYPES = 221, (2, 5)
+#: Ranges of E and R in the program's unit.
+SHORTEST_RANGE, LONGEST_RANGE = (0.001, 10.0), (0.001, 999_999.0)
+#: Control plane of an axis along X, Y or Z, and the angle of the shape vector from its first axis at machine zero.
+CONTROL_PLANES = {0: ("G19", 0.0), 1: ("G18", 90.0), 2: ("G17", 0.0)}
+#: What each code is called in the table of mistakes while the control is on.
+FORBIDDEN = {
+    **dict.fromkeys(("G41", "G42", "G43.4", "G43.5"), "normal_compensation"),
+    **dict.fromkeys(("G41.2", "G42.2", "G41.6", "G42.6"), "normal_spatial"),
+    **dict.fromkeys(("G53", "G28", "G29", "G30"), "normal_machine"),
+    **dict.fromkeys(("G2.4", "G3.4"), "normal_three_point"),
+    **dict.fromkeys(("G31", "G31.10", "G31.11", "G37", "G37.2", "G37.3"), "normal_skip"),
+    **dict.fromkeys(("G33", "G34"), "normal_thread"),
+    **dict.fromkeys(("G81.1", "G81.2"), "normal_oscillation"),
+    **dict.fromkeys(("G12.1", "G68.2", "G68.3", "G92.1"), "normal_frame"),
+}
+
+
+def start(channel: Channel, words: Words) -> None:
+    """G41.1, G42.1 [Q] [P] [E] [R]: from here on the axis follows the cuts."""
+    memory, mode = channel.memory, channel.mode
+    code = mode[NORMAL]
+    if not has_option(memory.parameters, OPTION) or channel.number != 1:
+        raise words.fail("option", code)
+    if mode["compensation"] != "G40" or mode["length"] in ("G43.4", "G43.5"):
+        raise words.fail("normal_compensation", code)
+    if memory.polar is not None or not memory.tilt.is_identity:
+        raise words.fail("normal_frame", code)
+    axis, place, sense = _rotary_axis(channel, words, code)
+    angle, turns_first, shortest, longest = _words(channel, words)
+    plane, reference = CONTROL_PLANES[place]
+    if mode["plane"] != plane:
+        raise words.fail("normal_plane", code)
+    end(channel)
+    u, v, _ = PLANES[plane]
+    geometry = channel.coordinates.geometry
+    turn = -angle if code == LEFT else angle
+    direction = Direction(
+        axis,
+        sense,
+        (geometry[u], geometry[v]),
+        (u, v),
+        sense * (turn - reference) - channel.coordinates.offsets[axis],
+        shortest,
+        longest,
+        turns_first,
+    )
+    channel.flush()
+    channel.path.put(NormalStage(direction))
+
+
+def _rotary_axis(channel: Channel, words: Words, code: str) -> tuple[int, int, float]:
+    """The axis of Pr5801: its column, the geometry axis that it turns about, and its sense."""
+    memory = channel.memory
+    if -1 in channel.coordinates.geometry:
+        raise words.fail("normal_linear_axes", code)
+    axis = memory.parameter(AXIS) - 1
+    if not 0 <= axis < len(channel.axes):
+        raise words.fail("normal_rotary_axis", code)
+    kind = memory.parameters.get(AXIS_TYPE + axis)
+    if kind not in ROTARY_TYPES if kind is not None else not channel.axis_data[axis].rotary:
+        raise words.fail("normal_axis_type", code)
+    told = [memory.parameters.get(number) for number in (DIRECTION, POSITION)]
+    joints = [
+        j for j in (*channel.machine.tool_chain, *channel.machine.work_chain) if j.axis == channel.axes[axis]
+    ]
+    if 0 in told or not joints:
+        raise words.fail("normal_not_set", code)
+    if joints[0] not in channel.machine.tool_chain or any(memory.parameters.get(number) for number in NOSE):
+        raise channel.control.not_yet("G41.1 Pr5804", code)
+    along = [abs(component) > 1.0 - 1e-9 for component in joints[0].direction]
+    if True not in along:
+        raise words.fail("normal_not_set", code)
+    place = along.index(True)
+    return axis, place, 1.0 if joints[0].direction[place] > 0.0 else -1.0
+
+
+def _words(channel: Channel, words: Words) -> tuple[float, bool, float, float]:
+    """Q in degrees, whether P turns first, and E and R in millimetres."""
+    unit = INCH_MM if words.plan.inch else 1.0
+    angle, way = words.angle("Q") or 0.0, words.typed("P") or 0
+    shortest, longest = words.length("E"), words.length("R")
+    for value, (low, high), address in ((shortest, SHORTEST_RANGE, "E"), (longest, LONGEST_RANGE, "R")):
+        if value is not None and not low - 1e-9 <= value / unit <= high + 1e-9:
+            raise words.fail("normal_words", address)
+    if not 0.0 <= angle <= 180.0 or way not in (0, 1):
+        raise words.fail("normal_words", "P" if way not in (0, 1) else "Q")
+    shortest = _parameter(channel, SHORTEST, 0.0) if shortest is None else shortest
+    longest = _parameter(channel, LONGEST, inf) if longest is None else longest
+    if shortest >= longest:
+        raise words.fail("normal_lengths", channel.mode[NORMAL])
+    return angle, way == 1, shortest, longest
+
+
+def _parameter(channel: Channel, number: int, default: float) -> float:
+    """A length of the parameters, mm; the default where it is not set."""
+    value = channel.setup.parameters.get(number)
+    return float(value) if isinstance(value, int | float) and value > 0 else default
+
+
+def cancel(channel: Channel, _words: Words) -> None:
+    """G40.1: the axis stays where it is; length compensation goes on."""
+    end(channel)
+
+
+def end(channel: Channel) -> None:
+    """Take the stage out of the path."""
+    if channel.path.find(NormalStage) is None:
+        return
+    channel.flush()
+    channel.path.take(NormalStage)
+    channel.coordinates.arrive(channel.coordinates.position[:])
+
+
+def check_block(builder: Builder) -> None:
+    """Refuse what normal direction control does not allow."""
+    if builder.before[NORMAL] == OFF or builder.mode[NORMAL] == OFF:
+        return
+    fail = builder.control.fail
+    for row in builder.codes:
+        if row.code in FORBIDDEN:
+            raise fail(FORBIDDEN[row.code], address=row.code)
+        if row.code == "G5" and builder.has("P"):
+            raise fail("normal_smoothing", address=row.code)
+    stage = builder.channel.path.find(NormalStage)
+    if stage is None:
+        return
+    name = builder.channel.axes[stage.direction.axis]
+    if builder.has(name) and not any(row.axis_words for row in builder.codes):
+        raise fail("normal_rotary_word", address=name)
+    if PLANES[builder.mode["plane"]][:2] != stage.direction.places:
+        raise fail("normal_plane", address=builder.mode["plane"])

@@ -1,0 +1,112 @@
+"""3D radius compensation G41.2, G42.2, G41.6, G42.6 under tool tip control (manual 2.87)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.syntec.five_axes.spatial_stage import (
+    ARC_FIRST,
+    INTERSECTION,
+    Corners,
+    Posture,
+    SpatialStage,
+)
+from polycnc.control.word_address.transformations.normal_stage import NormalStage
+from polycnc.machine.kinematics import Kinematics
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.words import Words
+
+SIDES = {"G41.2": 1, "G42.2": -1, "G41.6": 1, "G42.6": -1}
+BY_VECTOR = ("G41.6", "G42.6")
+TIP_CODES = ("G43.4", "G43.5")
+#: Pr3991, Pr3992: corner angles at which intersections begin and arcs end, least units of angle.
+LEAST_INTERSECTION, MOST_ARC = 3991, 3992
+WORK_SYSTEMS = (*(f"G{i}" for i in range(54, 60)), *(f"G59.{i}" for i in range(1, 10)))
+#: What each code is called in the table of mistakes while the compensation is on.
+FORBIDDEN = {
+    **dict.fromkeys(
+        ("G2", "G3", "G2.4", "G3.4", "G6.2", "G12.1", "G13.1", "G16", "G28", "G29", "G30", "G28.1", "G31", "G31.10",
+         "G31.11", "G33", "G41.1", "G42.1", "G53", "G63", "G95", "G96"),
+        "spatial_motion",
+    ),
+    **dict.fromkeys(("G49", "G52", *WORK_SYSTEMS, "G54.4", "G68", "G68.2", "G68.3", "G92", "G92.1"), "spatial_frame"),
+    **dict.fromkeys(("G17", "G18", "G19"), "spatial_plane"),
+    **dict.fromkeys(("G41", "G42"), "spatial_mixed"),
+}  # fmt: skip
+
+
+def is_on(channel: Channel) -> bool:
+    """Whether the compensation is active."""
+    return channel.path.find(SpatialStage) is not None
+
+
+def start(channel: Channel, words: Words) -> None:
+    """G41.2, G42.2, G41.6, G42.6 [D]: left or right of the path, across the tool; also changes sides."""
+    memory, code = channel.memory, channel.mode["compensation"]
+    number = words.integer("D")
+    memory.d = memory.d if number is None else number
+    radius: float = channel.control.radius_value(channel, memory.d)
+    stage = channel.path.find(SpatialStage)
+    if stage is not None:
+        stage.change(SIDES[code], radius)
+        return
+    if memory.side:
+        raise words.fail("spatial_mixed", code)
+    _check_start(channel, words, code)
+    c = channel.coordinates
+    posture = Posture(Kinematics.of(channel.machine), channel.axes, tuple(c.offsets))
+    channel.flush()
+    channel.path.put(SpatialStage(c.geometry, posture, radius, SIDES[code], _corners(channel)))
+
+
+def _check_start(channel: Channel, words: Words, code: str) -> None:
+    memory, mode = channel.memory, channel.mode
+    if channel.path.find(NormalStage) is not None:
+        raise words.fail("normal_spatial", code)
+    if mode["length"] not in TIP_CODES:
+        raise words.fail("spatial_without_tip", code)
+    frames = mode["rotation"] != "G69" or mode["polar"] == "G16" or memory.tool_direction is not None
+    speeds = mode["path"] == "G63" or mode["feed"] == "G95" or mode["surface_speed"] == "G96"
+    if frames or speeds or memory.polar is not None or memory.posture_frame:
+        raise words.fail("spatial_mode", code)
+
+
+def _corners(channel: Channel) -> Corners:
+    memory = channel.memory
+    unit: float = memory.least_angle
+    least, most = memory.parameter(LEAST_INTERSECTION), memory.parameter(MOST_ARC)
+    return Corners(memory.corner_way, least * unit, most * unit if most else 180.0)
+
+
+def choose_corners(channel: Channel, words: Words) -> None:
+    """G10 L450 P: 0 intersections, 1 intersections first, 2 arcs first."""
+    way = words.typed("P")
+    if way is None or not INTERSECTION <= way <= ARC_FIRST or way != int(way):
+        raise words.fail("argument", "P" if way is not None else "G10")
+    channel.memory.corner_way = int(way)
+
+
+def end(channel: Channel) -> None:
+    """G40: the last block ends square on itself, the next one leads back."""
+    if not is_on(channel):
+        return
+    channel.flush()
+    channel.path.take(SpatialStage)
+
+
+def check_block(builder: Builder) -> None:
+    """Refuse what the compensation does not allow."""
+    before, after = builder.before["compensation"], builder.mode["compensation"]
+    fail = builder.control.fail
+    if before in SIDES:
+        for row in builder.codes:
+            if row.code in FORBIDDEN:
+                raise fail(FORBIDDEN[row.code], address=row.code)
+    if after in BY_VECTOR:
+        for address in builder.slots:
+            target = builder.control.axis_of_address(builder.channel, address, builder)
+            if target is not None and builder.channel.axis_data[target[0]].rotary:
+                raise fail("tip_rotary_word", address=address)

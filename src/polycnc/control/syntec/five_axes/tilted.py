@@ -1,0 +1,116 @@
+"""Tilted planes G68.2 and G68.3 and the switch of the work system's rotation G54.4 (manual 2.39, 2.44, 2.45).
+
+The tilted plane is a frame inside the work system: `machine = work offsets + G92.1 turn · tilt · program`. The tool
+is aligned by G53.1, G53.3 or G53.6 (`alignment`).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.syntec.coordinates.systems import renew_preset_frame, rotation_about
+from polycnc.control.syntec.parameters import has_option
+from polycnc.control.word_address.coordinates import frames as base_frames
+from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.tools import length
+from polycnc.control.word_address.transformations.tilted_plane import named_point
+from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
+from polycnc.geometry.vectors import cross
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.memory import SyntecMemory
+    from polycnc.control.word_address.block.words import Words
+    from polycnc.geometry.frames import Vector
+
+OPTION_TOOL_PLANE = 13
+PARALLEL = 1e-9
+
+
+def tilt_by_angles(channel: Channel, words: Words) -> None:
+    """G68.2 X Y Z I J K: origin from the work zero, turned by I about Z, J about X', K about Z''."""
+    origin = named_point(channel, words, "argument")
+    i, j, k = (words.angle(letter) or 0.0 for letter in "IJK")
+    set_tilt(channel, translation(*origin) @ rotation(2, i) @ rotation(0, j) @ rotation(2, k))
+
+
+def tilt_by_tool(channel: Channel, words: Words) -> None:
+    """G68.3 [P1] X Y Z R: the plane stands square on the tool; without X Y Z its origin is the present position.
+
+    P1 turns the plane with the rotary axes; otherwise its X axis is square on the Z axes of work and tool, and R
+    turns it about the tool.
+    """
+    memory: SyntecMemory = channel.memory
+    if not has_option(channel.setup.parameters, OPTION_TOOL_PLANE):
+        raise channel.control.fail("option", address="G68.3", code="G68.3")
+    if memory.rotates_work:
+        raise words.fail("tool_plane", "G68.3")
+    given = {axis for axis, _, _ in words.axes()} & {
+        axis for axis in channel.coordinates.geometry if axis >= 0
+    }
+    if given and len(given) != len([axis for axis in channel.coordinates.geometry if axis >= 0]):
+        raise words.fail("tool_plane_format", "G68.3")
+    turn = tool_turn(channel)
+    if words.typed("P") != 1:
+        turn = _square_on(turn.direct(0.0, 0.0, 1.0)) @ rotation(2, words.angle("R") or 0.0)
+    origin = named_point(channel, words, "argument") if given else _position_in_work_system(channel)
+    set_tilt(channel, translation(*origin) @ turn)
+
+
+def end_tilt(channel: Channel, words: Words) -> None:
+    """G69: ends the rotation of G68 and the tilted plane."""
+    base_frames.end_rotation(channel, words)
+    if channel.memory.tilt is not IDENTITY:
+        set_tilt(channel, IDENTITY)
+
+
+def switch_work_rotation(channel: Channel, words: Words) -> None:
+    """G54.4 P0, P1: rotation of the work system; the angles belong to the offset page and are zero here."""
+    switch = words.typed("P")
+    if switch is None:
+        raise words.fail("argument", "G54.4")
+    if switch not in (0, 1):
+        raise words.fail("number", "P")
+    channel.memory.rotates_work = switch == 1
+
+
+def _position_in_work_system(channel: Channel) -> Vector:
+    c = channel.coordinates
+    here: Vector = channel.memory.tilt.apply(*(c.position[axis] if axis >= 0 else 0.0 for axis in c.geometry))
+    return here
+
+
+def set_tilt(channel: Channel, tilt: Frame) -> None:
+    """Another tilted plane, the tool not yet aligned with it; the machine stays."""
+    memory = channel.memory
+    if channel.coordinates.transformation is not None and not tilt.is_identity:
+        raise channel.control.not_yet("G68.2 G43.4")
+    memory.tilt, memory.table_turn = tilt, IDENTITY
+    renew_preset_frame(memory)
+    if memory.tool_direction is not None:
+        memory.tool_direction = None
+        length.renew_direction(channel)
+    refresh_zero(channel)
+
+
+def tool_turn(channel: Channel) -> Frame:
+    """How the rotary axes turn the tool against the work: the table's turns undone, then the head's."""
+    machine, c = channel.machine, channel.coordinates
+    angles = dict(zip(channel.axes, c.machine, strict=True))
+    turn = IDENTITY
+    for joint in reversed(machine.work_chain):
+        if joint.rotary:
+            turn = turn @ rotation_about(joint.direction, -angles.get(joint.axis, 0.0))
+    for joint in machine.tool_chain:
+        if joint.rotary:
+            turn = turn @ rotation_about(joint.direction, angles.get(joint.axis, 0.0))
+    return turn
+
+
+def _square_on(tool: Vector) -> Frame:
+    """A right-handed frame whose Z axis is the tool; its X axis is square on the Z axes of work and tool."""
+    x = cross((0.0, 0.0, 1.0), tool)
+    length = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) ** 0.5
+    x = (1.0, 0.0, 0.0) if length < PARALLEL else (x[0] / length, x[1] / length, x[2] / length)
+    y = cross(tool, x)
+    return Frame(((x[0], y[0], tool[0]), (x[1], y[1], tool[1]), (x[2], y[2], tool[2])))

@@ -1,0 +1,80 @@
+"""Tool tip control G43.4 and G43.5 (manual 2.28, 2.29): words name the tip, the linear axes follow the rotary ones."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.syntec.coordinates import length as tool_length
+from polycnc.control.syntec.five_axes import normal_direction
+from polycnc.control.word_address.block.words import Words
+from polycnc.control.word_address.transformations import tool_center_point
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
+
+TIP_CODES = ("G43.4", "G43.5")
+
+
+def is_on(channel: Channel) -> bool:
+    """Whether tool tip control is active."""
+    return channel.mode["length"] in TIP_CODES
+
+
+def start(channel: Channel, words: Words) -> None:
+    """G43.4 H [Q] [L1] [I], G43.5 H: from here on positions are those of the tip; nothing moves.
+
+    Q chooses the frame of directions; L1 and I (smoothness, speed of the compensating axes) leave the path as it is.
+    """
+    memory = channel.memory
+    frame = words.typed("Q")
+    if frame is not None and frame not in (0, 1):
+        raise words.fail("argument", "Q")
+    if channel.mode["rotation"] == "G68.3":
+        raise words.fail("tip_on_tool_plane", channel.mode["length"])
+    if memory.polar is not None or not channel.coordinates.zero.is_identity:
+        raise words.fail("tip_mode", channel.mode["length"])
+    memory.posture_frame = memory.posture_frame if frame is None else bool(frame)
+    channel.flush()
+    tool_center_point.start_following(channel, words)
+
+
+def compensate_length(channel: Channel, words: Words) -> None:
+    """G43, G44 H: tip control ends, the length counts along the tool."""
+    end(channel)
+    tool_length.compensate_length(channel, words)
+
+
+def cancel(channel: Channel, words: Words) -> None:
+    """G49: ends every kind of length compensation, and normal direction control."""
+    normal_direction.end(channel)
+    end(channel)
+    tool_length.cancel_length(channel, words)
+
+
+def end(channel: Channel) -> None:
+    """The axes are named themselves again; nothing moves."""
+    if channel.memory.polar is None:
+        tool_center_point.end_following(channel)
+
+
+def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
+    """G43.5: I, J, K give the direction of the tool at the end of a straight block; rotary words are refused."""
+    if builder.mode["length"] != "G43.5":
+        return None
+    rotary = next((w for w in plan.axis_words if builder.channel.axis_data[w.axis].rotary), None)
+    if rotary is not None:
+        raise builder.control.fail("tip_rotary_word", address=rotary.address)
+    step = tool_center_point.plan_with_direction(builder, plan)
+    letters = [letter for letter in "IJK" if builder.has(letter)]
+    if step is None:
+        return None
+
+    def move(channel: Channel, values: list[float]) -> None:
+        words = Words(plan, values)
+        if not any(words.typed(letter) for letter in letters):
+            raise words.fail("tip_zero_direction", letters[0])
+        step(channel, values)
+
+    return move

@@ -1,0 +1,1 @@
+"""Macros of SYNTEC: `calls` (G65, G66, M98), `functions`, `variables`, `system_variables`, `interrupts` (M96)."""

@@ -1,0 +1,134 @@
+"""M96 and M97: an input interrupts the running block and calls a subprogram (manual 3.2).
+
+The block that was interrupted is read again after the return: under G90 it makes the rest of its way, under G91 its
+whole increment. While M96 is active the modal state says so, so that only then motion asks for the signal.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import nan
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.motion import path, skip
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Level
+    from polycnc.control.syntec.memory import SyntecMemory
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.words import Words
+    from polycnc.program import Program
+
+GROUP, ON, OFF = "interrupt", "M96", "M97"
+LAST_PROGRAM, LAST_BIT, LAST_REGISTER, REGISTER_BITS = 9999, 511, 65535, 16
+#: Modal states in which the signal has no effect: group and the code that is none of them.
+DEAF = {"polar": "G15", "compensation": "G40", "scaling": "G50", "mirror": "G50.1"}
+STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
+
+
+@dataclass(slots=True)
+class Interrupt:
+    """What M96 has prepared: the program, the signal by its name, and whether it is still awaited."""
+
+    program: Program
+    signal: str
+    armed: bool = True
+
+
+def interrupts_on(channel: Channel, words: Words) -> None:
+    """M96 P [I Q] [R] [L]: from now on the signal calls program P."""
+    number = _whole(words, "P", 1, LAST_PROGRAM)
+    if number is None:
+        raise words.fail("interrupt_format", "M96")
+    signal = _signal(words)
+    _whole(words, "R", 0, 1)
+    if _whole(words, "L", 0, 2**31 - 1):
+        raise channel.control.not_yet("M96 L", "L")
+    channel.flush()
+    channel.memory.interrupt = Interrupt(channel.control.find_program(channel, number), signal)
+    channel.mode = channel.mode.with_code(GROUP, ON)
+
+
+def interrupts_off(channel: Channel, _words: Words) -> None:
+    """M97."""
+    channel.flush()
+    channel.memory.interrupt = None
+    channel.mode = channel.mode.with_code(GROUP, OFF)
+
+
+def _whole(words: Words, address: str, low: int, high: int) -> int | None:
+    value = words.typed(address)
+    if value is None:
+        return None
+    if value != int(value) or not low <= value <= high:
+        raise words.fail("interrupt_format", address)
+    return int(value)
+
+
+def _signal(words: Words) -> str:
+    """C49; or I 1 to 3: a bit of R (Q is register and two digits of bit), I or A."""
+    family = _whole(words, "I", 1, 3)
+    if family is None:
+        return "C49"
+    bit = _whole(words, "Q", 0, LAST_REGISTER * 100 + REGISTER_BITS - 1 if family == 1 else LAST_BIT)
+    if bit is None or (family == 1 and bit % 100 >= REGISTER_BITS):
+        raise words.fail("interrupt_format", "Q")
+    return f"R{bit // 100}.{bit % 100}" if family == 1 else f"{'IA'[family - 2]}{bit}"
+
+
+def is_on(builder: Builder) -> bool:
+    """Whether motion must ask for the signal."""
+    codes = builder.mode.codes
+    return codes.get(GROUP, OFF) == ON and all(codes[group] == none for group, none in DEAF.items())
+
+
+def with_interrupt(builder: Builder, plan: Plan, step: Step) -> Step:
+    """A motion that ends where the signal comes and calls the subprogram there."""
+    kind = STRAIGHT.get(builder.mode["motion"])
+
+    def move(channel: Channel, values: list[float]) -> None:
+        memory: SyntecMemory = channel.memory
+        interrupt = memory.interrupt
+        at = channel.setup.switches.signals_at.get(interrupt.signal) if interrupt else None
+        if interrupt is None or not interrupt.armed or not at or memory.pairs:
+            step(channel, values)
+            return
+        if kind is None:
+            raise channel.control.not_yet(f"M96 {builder.mode['motion']}")
+        c = channel.coordinates
+        owed = c.pending[:]
+        end = c.to_position(path.target(channel, plan.axis_words, values))
+        c.pending[:] = owed
+        stopped = skip.signal_position(channel, c.position, end, at)
+        if stopped is None:
+            step(channel, values)
+            return
+        interrupt.armed = False
+        channel.straight(kind, stopped, nan if kind is Kind.RAPID else channel.feed)
+        _call(channel, interrupt.program)
+
+    return move
+
+
+def _call(channel: Channel, program: Program) -> None:
+    """Call the subprogram; the block that runs will be read again."""
+    caller = channel.level
+    caller.index = caller.current
+    channel.control.check_nesting(channel, "interrupt")
+    level = channel.push(program, kind="interrupt", local=caller.locals)
+    level.data["break"] = channel.coordinates.position[:]
+
+
+def go_back(channel: Channel, ended: Level) -> None:
+    """M99 of the interrupt subprogram: rapid to where the block was interrupted."""
+    if ended.kind == "interrupt":
+        channel.straight(Kind.RAPID, ended.data["break"][:], nan)
+
+
+def check_off(channel: Channel) -> None:
+    """COR-117: the main program ends without M97."""
+    if channel.mode.codes.get(GROUP, OFF) == ON:
+        raise channel.control.fail("interrupt_left_on")

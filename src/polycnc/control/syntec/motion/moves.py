@@ -1,0 +1,310 @@
+"""Motion codes beside arcs: G00 with speed, G31, G33, G45 to G48, G53, feed under G93 (2.1 to 2.37)."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from functools import partial
+from math import copysign, hypot, nan, sqrt
+from typing import TYPE_CHECKING
+
+from polycnc.control.syntec.motion import planes
+from polycnc.control.word_address.auxiliary import functions
+from polycnc.control.word_address.block import settled
+from polycnc.control.word_address.motion import path, skip
+from polycnc.control.word_address.motion.arcs import emit_arc
+from polycnc.control.word_address.motion.path import CENTER_WORDS, PLANES
+from polycnc.control.word_address.tools import radius
+from polycnc.control.word_address.transformations.normal_stage import NormalStage
+from polycnc.geometry import arcs
+from polycnc.geometry.frames import IDENTITY
+from polycnc.geometry.units import INCH_MM
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Handler, Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.words import Words
+
+#: Default feeds while none was programmed: mm/s and mm/rev (2.2).
+DEFAULT_FEED = {"G93": nan, "G94": 1000.0 / 60.0, "G95": 1.0}
+ANGLE_TOLERANCE = 1e-6
+
+
+# ---- G00, G53 --------------------------------------------------------------------------------------------
+
+
+def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
+    """G00 [P1] [F1=] [Q=]: F1 is a speed per minute, effective with P1; Q overlaps blocks."""
+    builder.take("P", "F1", "Q")
+    step = path.plan_rapid(builder, plan)
+    speed, switch = builder.slot("F1"), builder.slot("P")
+    if step is None or speed is None or switch is None:
+        return step
+    unit = (INCH_MM if builder.inch else 1.0) / 60.0
+    polar = builder.mode.codes.get("polar") == "G16"
+
+    def move(channel: Channel, values: list[float]) -> None:
+        if values[switch] != 1:
+            step(channel, values)
+            return
+        c = channel.coordinates
+        if polar:
+            programmed = channel.control.polar_target(channel, plan, values)
+        else:
+            programmed = path.target(channel, plan.axis_words, values)
+        with _rapid_at(channel, values[speed] * unit) as feed:
+            channel.straight(Kind.RAPID, c.to_position(programmed), feed, programmed)
+
+    return move
+
+
+def move_in_machine_system(channel: Channel, words: Words) -> None:
+    """G53 [P1] X Y Z [F1=] [Q=]: rapid to machine coordinates, under G91 by machine increments."""
+    c = channel.coordinates
+    machine = c.machine
+    for axis, value, _ in words.axes():
+        machine[axis] = machine[axis] + value if channel.mode["distance"] == "G91" else value
+    speed = words.typed("F1")
+    if speed is None or words.typed("P") != 1:
+        speed = nan
+    unit = (INCH_MM if words.plan.inch else 1.0) / 60.0
+    with radius.suspended(channel), _rapid_at(channel, speed * unit) as feed:
+        channel.straight(Kind.RAPID, c.from_machine(machine), feed)
+
+
+@contextmanager
+def _rapid_at(channel: Channel, speed: float) -> Iterator[float]:
+    """A rapid with a speed of its own, mm/s; NaN for rapid traverse."""
+    memory = channel.memory
+    memory.rapid_speed = max(0.0, speed)
+    channel.context_changed()
+    try:
+        yield speed
+    finally:
+        memory.rapid_speed = 0.0
+        channel.context_changed()
+
+
+# ---- feed ------------------------------------------------------------------------------------------------
+
+
+def plan_feed(builder: Builder) -> Step:
+    """F: feed as the mode says; under G33 the lead."""
+    if builder.mode["motion"] != "G33":
+        return functions.plan_feed(builder)
+    slot, form = builder.slots["F"]
+    factor = builder.control.feed_factor(builder, form, "G95") * (INCH_MM if builder.inch else 1.0)
+
+    def set_lead(channel: Channel, values: list[float]) -> None:
+        channel.memory.lead = values[slot] * factor
+
+    return set_lead
+
+
+def change_feed_mode(channel: Channel, words: Words) -> None:
+    """G93, G94, G95: each mode has its own F; without one it is 1000 per minute, 1 per revolution."""
+    memory, mode = channel.memory, channel.mode["feed"]
+    if mode != memory.feed_mode:
+        if "F" not in words:
+            memory.feeds[memory.feed_mode] = channel.feed
+            channel.feed = memory.feeds.get(mode, DEFAULT_FEED[mode])
+        memory.feed_mode = mode
+    channel.context_changed()
+
+
+def _feed_is_settled(channel: Channel) -> bool:
+    """G93 to G95: the feed in force is that of the code."""
+    return bool(channel.memory.feed_mode == channel.mode["feed"])
+
+
+def _frame_is_settled(channel: Channel) -> bool:
+    """G69: nothing is rotated or tilted."""
+    return channel.coordinates.direct and channel.memory.tilt is IDENTITY
+
+
+def _length_is_settled(channel: Channel) -> bool:
+    """G49: as on every control; no direction is led to the path either."""
+    return channel.path.find(NormalStage) is None and settled.length(channel)
+
+
+def _has_no_modal_call(channel: Channel) -> bool:
+    """G67: there is no modal call."""
+    return not channel.memory.modal_calls
+
+
+def _surface_axis_is_linear(channel: Channel) -> bool:
+    """G96: a linear axis gives the diameter."""
+    return not channel.axis_data[channel.memory.surface_axis].rotary
+
+
+#: Codes that change nothing where they are in force already; see `word_address.settled`.
+SETTLED = {
+    **settled.MILLING,
+    "G49": _length_is_settled,
+    "G67": _has_no_modal_call,
+    "G96": _surface_axis_is_linear,
+    "G69": _frame_is_settled,
+    **dict.fromkeys(("G17", "G18", "G19"), planes.settled_plane),
+    **dict.fromkeys(("G93", "G94", "G95"), _feed_is_settled),
+}
+
+
+def with_inverse_time(builder: Builder, plan: Plan, step: Step) -> Step:
+    """G93: F times the block length, on arcs F times the radius; F stands in every block (2.64)."""
+    arc = builder.mode["motion"] in ("G2", "G3")
+    u, v, _ = PLANES[builder.mode["plane"]]
+    radius_slot, centers = builder.slot("R"), [builder.slot(CENTER_WORDS[axis]) for axis in (u, v)]
+    if not builder.has("F"):
+        raise builder.control.fail("inverse_time_feed", address="F")
+    if builder.mode["polar"] == "G16":
+        raise AlarmError("PC0001", hint="hint.not-supported", address="G93", code="G93 G16")
+
+    def move(channel: Channel, values: list[float]) -> None:
+        rate = channel.feed
+        if not arc or (radius_slot is None and not any(slot is not None for slot in centers)):
+            channel.feed = rate * _length(channel, plan, values)
+        elif radius_slot is not None:
+            convert = builder.length("R")
+            channel.feed = rate * abs(convert(values[radius_slot]) if convert else values[radius_slot])
+        else:
+            shift = [0.0, 0.0]
+            for i, slot in enumerate(centers):
+                if slot is not None:
+                    convert = builder.length(CENTER_WORDS[(u, v)[i]])
+                    shift[i] = convert(values[slot]) if convert else values[slot]
+            channel.feed = rate * hypot(*shift)
+        try:
+            step(channel, values)
+        finally:
+            channel.feed = rate
+
+    return move
+
+
+def _length(channel: Channel, plan: Plan, values: list[float]) -> float:
+    """Length of the straight way that a block will make, over all axes."""
+    c = channel.coordinates
+    owed = c.pending[:]
+    end = c.to_position(path.target(channel, plan.axis_words, values))
+    c.pending[:] = owed
+    return sqrt(sum((e - s) ** 2 for s, e in zip(c.position, end, strict=True)))
+
+
+# ---- G31, G33 --------------------------------------------------------------------------------------------
+
+
+def skip_move(channel: Channel, words: Words) -> None:
+    """G31 X Y Z F [Q] [P]: a cut that ends where the skip signal comes (2.22)."""
+    if channel.mode["compensation"] != "G40":
+        raise words.fail("comp_skip", "G31")
+    deceleration = words.typed("P")
+    if deceleration is not None and (deceleration < 0 or deceleration != int(deceleration)):
+        raise words.fail("number", "P")
+    c = channel.coordinates
+    end = c.to_position(path.target(channel, words.plan.axis_words, words.values))
+    stopped = skip.signal_position(channel, c.position, end, skip_source(channel, words))
+    memory = channel.memory
+    memory.skip_flags = int(stopped is not None)
+    skip.move_to_signal(channel, end, stopped)
+    memory.note_skip(list(c.position))
+    memory.skip_machine = c.machine
+
+
+def skip_source(channel: Channel, words: Words) -> object:
+    """Where the signal comes: Q none is the skip input, 101 to 132 C bits, 201 to 218 inputs of drives."""
+    switches = channel.setup.switches
+    source = words.typed("Q")
+    if source is None:
+        return switches.skip_input
+    if source == int(source) and 101 <= source <= 132:
+        return switches.signals_at.get(f"C{int(source)}")
+    if source == int(source) and 201 <= source <= 218:
+        return switches.signals_at.get(f"EXT{int(source) - 200}")
+    raise words.fail("argument", "Q")
+
+
+def plan_thread(builder: Builder, plan: Plan) -> Step | None:
+    """G33 Z F: a straight cut whose feed follows the spindle, lead F (2.23)."""
+    words = plan.axis_words
+    if not words:
+        return None
+
+    def move(channel: Channel, values: list[float]) -> None:
+        lead = channel.memory.lead
+        if not lead > 0.0:
+            raise builder.control.fail("no_feed", address="F")
+        c = channel.coordinates
+        programmed = path.target(channel, words, values)
+        end = c.to_position(programmed)
+        if end != c.position:
+            channel.curve(Kind.THREAD, end, lead, parameters=(lead, 0.0), programmed=programmed)
+
+    return move
+
+
+# ---- G45 to G48 ------------------------------------------------------------------------------------------
+
+
+def _lengthened_move(factor: float, channel: Channel, words: Words) -> None:
+    """G45 to G48: the move of this block grows by `factor` tool radii, arcs in their radius (2.31)."""
+    control, memory = channel.control, channel.memory
+    code = f"G{({1.0: 45, -1.0: 46, 2.0: 47, -2.0: 48})[factor]}"
+    if channel.mode["compensation"] != "G40":
+        raise control.fail("offset_in_compensation", address=code)
+    number = words.typed("D")
+    if number is not None:
+        memory.d = int(number)
+    growth = factor * control.radius_value(channel, memory.d)
+    motion = channel.mode["motion"]
+    if motion in ("G2", "G3"):
+        _lengthened_arc(channel, words, growth, ccw=motion == "G3")
+        return
+    if motion not in ("G0", "G1"):
+        raise control.fail("argument", address=code)
+    c = channel.coordinates
+    end = c.programmed[:]
+    for axis, value, incremental in words.axes():
+        way = value if incremental else value - c.programmed[axis]
+        if way != 0.0 or incremental:
+            way += copysign(growth, growth * copysign(1.0, way))
+        end[axis] += way
+    rapid = motion == "G0"
+    channel.straight(
+        Kind.RAPID if rapid else Kind.FEED, c.to_position(end), nan if rapid else channel.feed, end
+    )
+
+
+def _lengthened_arc(channel: Channel, words: Words, growth: float, *, ccw: bool) -> None:
+    """An arc of 90 or 270 degrees with another radius and the same tangent at its start."""
+    control, c = channel.control, channel.coordinates
+    u, v, w = PLANES[channel.mode["plane"]]
+    first, second = c.geometry[u], c.geometry[v]
+    programmed = path.target(channel, words.plan.axis_words, words.values)
+    begin = (c.programmed[first], c.programmed[second])
+    end = (programmed[first], programmed[second])
+    shift = (words.length(CENTER_WORDS[u]) or 0.0, words.length(CENTER_WORDS[v]) or 0.0)
+    radius_mm = hypot(*shift)
+    if radius_mm == 0.0:
+        raise control.fail("offset_arc")
+    center = (begin[0] + shift[0], begin[1] + shift[1])
+    control.check_arc(channel, begin, end, center)
+    quarters = abs(arcs.sweep_angle(begin, end, center, ccw)) / (arcs.TAU / 4.0)
+    if min(abs(quarters - 1.0), abs(quarters - 3.0)) > ANGLE_TOLERANCE:
+        raise control.fail("offset_arc")
+    ratio = (radius_mm + growth) / radius_mm
+    if ratio <= 0.0:
+        raise control.fail("comp_interference")
+    programmed[first] = begin[0] + (end[0] - begin[0]) * ratio
+    programmed[second] = begin[1] + (end[1] - begin[1]) * ratio
+    middle = (begin[0] + shift[0] * ratio, begin[1] + shift[1] * ratio)
+    emit_arc(channel, programmed, middle, (u, v, w), ccw=ccw, feed=channel.feed)
+
+
+lengthened: Handler = partial(_lengthened_move, 1.0)
+shortened: Handler = partial(_lengthened_move, -1.0)
+lengthened_twice: Handler = partial(_lengthened_move, 2.0)
+shortened_twice: Handler = partial(_lengthened_move, -2.0)

@@ -1,0 +1,197 @@
+"""Oscillation of an axis beside the program: G81.1 until G80, G81.2 until G80.2 (manual 2.51, 2.78, 2.79).
+
+The way to the R point is part of the path. The strokes themselves run beside it, so the toolpath does not show them; on
+the path the axis stands at its R point, and at the end it stands where the end says.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import nan
+from typing import TYPE_CHECKING
+
+from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
+from polycnc.control.syntec.parameters import decimals, has_option
+from polycnc.control.word_address.transformations.normal_stage import NormalStage
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.memory import SyntecMemory
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.words import Words
+
+OSCILLATION, OFF, SIMPLE, PRECISE = "oscillation", "G80.2", "G81.1", "G81.2"
+OPTION_PRECISE = 48
+STOP = 3957
+#: What changes the coordinates of an axis that oscillates.
+FRAME_CODES = frozenset(
+    {
+        *(f"G{i}" for i in range(54, 60)),
+        *(f"G59.{i}" for i in range(1, 10)),
+        "G92",
+        "G92.1",
+        "G68",
+        "G68.2",
+        "G68.3",
+    }
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Oscillation:
+    """An axis that oscillates; machine positions.
+
+    Attributes:
+        axis: Its column.
+        vertices: Between which it moves.
+        home: The R point.
+        speed: Of the strokes, mm/s.
+    """
+
+    axis: int
+    vertices: tuple[float, float]
+    home: float
+    speed: float
+
+
+def start(channel: Channel, words: Words) -> None:
+    """G81.1 Z Q R F: upper vertex (machine), from there the way to the lower one and to the R point."""
+    memory = channel.memory
+    if memory.oscillation is not None:
+        raise words.fail("oscillation_repeated", SIMPLE)
+    _refuse_transformations(channel, words, SIMPLE)
+    named = words.axes()
+    stroke, home = words.length("Q"), words.length("R")
+    if len(named) != 1 or stroke is None or home is None:
+        raise words.fail("argument", SIMPLE)
+    axis, upper, _ = named[0]
+    _begin(channel, Oscillation(axis, (upper, upper + stroke), upper + home, channel.feed))
+
+
+def end(channel: Channel, _words: Words) -> None:
+    """G80: a drilling cycle ends, and with it G81.1; its axis goes back to R."""
+    memory = channel.memory
+    if memory.oscillation is None:
+        return
+    if memory.precise:
+        channel.mode = channel.mode.with_code(OSCILLATION, PRECISE)
+        return
+    _stop(channel, memory.oscillation.home)
+
+
+def start_precise(channel: Channel, words: Words) -> None:
+    """G81.2 P Q [R] L: axis P between the vertices in registers Q and Q + 1, from R, at the speed in register L."""
+    memory = channel.memory
+    if not has_option(memory.parameters, OPTION_PRECISE):
+        raise words.fail("option", PRECISE)
+    _refuse_transformations(channel, words, PRECISE)
+    axis, places, speed = _axis(channel, words), words.integer("Q"), words.integer("L")
+    if places is None or speed is None:
+        raise words.fail("argument", "Q" if places is not None else PRECISE)
+    running: Oscillation | None = memory.oscillation
+    if running is not None and not (memory.precise and running.axis == axis):
+        raise words.fail("oscillation_repeated", PRECISE)
+    unit = 10.0 ** -decimals(memory.parameters, inch=False)
+    registers = memory.globals.registers
+    vertices = (registers.get(places, 0) * unit, registers.get(places + 1, 0) * unit)
+    told = words.length("R")
+    home = (
+        told
+        if told is not None
+        else running.home
+        if running is not None
+        else channel.coordinates.machine[axis]
+    )
+    new = Oscillation(axis, vertices, home, registers.get(speed, 0) / 60.0)
+    if running is not None:
+        memory.oscillation = new
+        return
+    memory.precise = memory.was_precise = True
+    _begin(channel, new)
+
+
+def end_precise(channel: Channel, words: Words) -> None:
+    """G80.2 [Q]: the axis stops at Q, else where Pr3957 says."""
+    memory = channel.memory
+    if not memory.was_precise:
+        raise words.fail("oscillation_repeated", OFF)
+    place = words.length("Q")
+    running: Oscillation | None = memory.oscillation
+    if running is None or not memory.precise:
+        if running is not None:
+            channel.mode = channel.mode.with_code(OSCILLATION, SIMPLE)
+        elif place is not None:
+            _arrive(channel, memory.precise_axis, place)
+        return
+    if place is None and memory.parameter(STOP) == 1:
+        # Where the axis is at that moment is known to the main run alone.
+        raise AlarmError("PC0001", hint="hint.not-supported", address=OFF, code="G80.2 Pr3957=1")
+    memory.precise = False
+    memory.precise_axis = running.axis
+    _stop(channel, running.home if place is None else place)
+
+
+def check_block(builder: Builder) -> None:
+    """Refuse moves and frames of an axis that oscillates."""
+    if builder.before[OSCILLATION] == OFF or builder.channel.memory.oscillation is None:
+        return
+    axis = builder.channel.axes[builder.channel.memory.oscillation.axis]
+    fail = builder.control.fail
+    for row in builder.codes:
+        if row.code in FRAME_CODES:
+            raise fail("oscillation_frame", address=row.code)
+    if any(row.code == "G10" for row in builder.codes) and builder.has(axis):
+        raise fail("oscillation_frame", address=axis)
+    if builder.has(axis) and not any(
+        row.code in (SIMPLE, "G4", "G65", "G66", "G66.1") for row in builder.codes
+    ):
+        raise fail("oscillation_move", address=axis)
+
+
+def check_frame(memory: SyntecMemory) -> None:
+    """Refuse a system variable that would move the coordinates of an oscillating axis."""
+    if memory.oscillation is not None:
+        raise memory.channel.control.fail("oscillation_frame")
+
+
+def _refuse_transformations(channel: Channel, words: Words, code: str) -> None:
+    if channel.coordinates.transformation is not None or channel.path.find(NormalStage) is not None:
+        raise words.fail("oscillation_kinematics", code)
+
+
+def _axis(channel: Channel, words: Words) -> int:
+    """P: number of an axis from 1, or the code of its name (Pr321 on)."""
+    told = words.integer("P")
+    axis = -1
+    if told is not None:
+        axis = axis_of_code(channel, told) if told in CODES else told - 1
+    if 0 <= axis < len(channel.axes):
+        return axis
+    raise words.fail("oscillation_axis", "P" if told is not None else PRECISE)
+
+
+def _begin(channel: Channel, oscillation: Oscillation) -> None:
+    channel.flush()
+    channel.memory.oscillation = oscillation
+    channel.modes.forget_plans()
+    c = channel.coordinates
+    machine = c.machine
+    machine[oscillation.axis] = oscillation.home
+    channel.straight(Kind.RAPID, c.from_machine(machine), nan)
+
+
+def _stop(channel: Channel, place: float) -> None:
+    channel.flush()
+    running: Oscillation = channel.memory.oscillation
+    channel.memory.oscillation = None
+    channel.modes.forget_plans()
+    _arrive(channel, running.axis, place)
+
+
+def _arrive(channel: Channel, axis: int, place: float) -> None:
+    """The axis has gone to a machine position beside the path."""
+    machine = channel.coordinates.machine
+    machine[axis] = place
+    channel.coordinates.arrive_machine(machine)

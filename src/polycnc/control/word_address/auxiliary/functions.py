@@ -1,0 +1,158 @@
+"""F, S, T and M: feed, spindle, tool, stops and program end."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.tool_change import check_change_points
+from polycnc.control.word_address.memory import RigidTapping
+from polycnc.control.word_address.motion.path import FEED_MODES
+from polycnc.geometry.units import INCH_MM
+from polycnc.language.bulk import Conversion, Note, SetFeed, Way, Word, declare
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.words import Words
+
+
+def plan_feed(builder: Builder) -> Step:
+    """F: mm/min or inch/min, mm/rev or inch/rev, 1/min, as the feed mode says."""
+    slot = builder.slots["F"][0]
+    mode = FEED_MODES[builder.mode["feed"]]
+    unit = INCH_MM if builder.inch and mode != "G93" else 1.0
+    factor = builder.control.feed_factor(builder, builder.slots["F"][1], mode) * unit
+    if mode == "G95":
+
+        def set_feed_per_revolution(channel: Channel, values: list[float]) -> None:
+            channel.feed = values[slot] * factor
+
+        return declare(set_feed_per_revolution, SetFeed(Word(slot, Conversion(Way.TIMES, 1.0, factor))))
+
+    def set_feed(channel: Channel, values: list[float]) -> None:
+        channel.feed = values[slot] * factor / 60.0
+
+    return declare(set_feed, SetFeed(Word(slot, Conversion(Way.RATIO, 60.0, factor))))
+
+
+def plan_spindle_speed(builder: Builder) -> Step:
+    """S: programmed speed of the spindle (surface speed under G96)."""
+    slot = builder.slots["S"][0]
+    chosen = builder.control.spindle_slot(builder)
+
+    def set_speed(channel: Channel, values: list[float]) -> None:
+        memory, speed = channel.memory, values[slot]
+        if memory.spindle_speed != speed:
+            memory.spindle_speed = speed
+            channel.context_changed()
+        spindle = 1 if chosen is None else int(values[chosen])
+        channel.event("s", speed=_number(speed), spindle=spindle)
+
+    return set_speed if chosen is not None else declare(set_speed, Note(slot))
+
+
+def plan_tool(builder: Builder) -> Step:
+    """T: selects the next tool; M06 brings it into the spindle."""
+    slot = builder.slots["T"][0]
+
+    def select(channel: Channel, values: list[float]) -> None:
+        channel.memory.next_tool = int(values[slot])
+        channel.event("t", tool=_number(values[slot]))
+
+    return select
+
+
+def plan_second_auxiliary(builder: Builder) -> Step:
+    """B (where no axis has that name): second auxiliary function, for the machine's builder."""
+    slot = builder.slots["B"][0]
+
+    def send(channel: Channel, values: list[float]) -> None:
+        channel.event("b", code=_number(values[slot]))
+
+    return send
+
+
+def _number(value: float) -> float | int:
+    return int(value) if value == int(value) else value
+
+
+def change_tool(channel: Channel, _words: Words) -> None:
+    """M06: the selected tool comes into the spindle."""
+    check_change_points(channel)
+    channel.memory.tool = channel.memory.next_tool
+    channel.context_changed()
+
+
+def spindle_clockwise(channel: Channel, _words: Words) -> None:
+    """M03."""
+    channel.memory.spindle_direction = 1
+    channel.context_changed()
+
+
+def spindle_counter_clockwise(channel: Channel, _words: Words) -> None:
+    """M04."""
+    channel.memory.spindle_direction = -1
+    channel.context_changed()
+
+
+def spindle_stop(channel: Channel, _words: Words) -> None:
+    """M05."""
+    channel.memory.spindle_direction = 0
+    channel.context_changed()
+
+
+def arm_rigid_tapping(channel: Channel, words: Words) -> None:
+    """M29 S: the next tapping cycle is rigid; nothing may move in between."""
+    speed = words.typed("S")
+    memory = channel.memory
+    memory.armed_tapping = RigidTapping(
+        tuple(channel.coordinates.machine), memory.spindle_speed if speed is None else speed
+    )
+
+
+def stop(channel: Channel, _words: Words) -> None:
+    """M00: stop until the operator starts again."""
+    channel.stop("M00")
+
+
+def optional_stop(channel: Channel, _words: Words) -> None:
+    """M01: as M00 while the operator's switch is on."""
+    if channel.optional_stop:
+        channel.stop("M01")
+
+
+def end_program(channel: Channel, _words: Words) -> None:
+    """M02, M30: the run is over."""
+    channel.end()
+
+
+def dwell(channel: Channel, words: Words) -> None:
+    """G04 X or U (seconds; without a point least increments of time) or P (milliseconds)."""
+    for word in words.plan.axis_words:
+        if word.address not in "XU":
+            raise words.fail("address", word.address)
+    milliseconds = words.integer("P")
+    if milliseconds is not None:
+        stand(channel, milliseconds / 1000.0)
+        return
+    for address in ("X", "U"):
+        if address in words:
+            stand(channel, _seconds(words, address))
+            return
+
+
+def stand(channel: Channel, seconds: float) -> None:
+    """A dwell, which the clocks of the macro variables count."""
+    channel.memory.waited += max(seconds, 0.0)
+    channel.dwell(seconds=seconds)
+
+
+def _seconds(words: Words, address: str) -> float:
+    """The time of an X or U word; written before G04 it has been read with the decimals of a length."""
+    value = words.typed(address) or 0.0
+    rules = words.plan.rules
+    order = words.plan.order
+    if words.plan.inch and order.index(address) < order.index("G4"):
+        return value if words.form(address) == "" else value * 10.0**rules.decimals_inch / 1000.0
+    return value / 1000.0 if words.form(address) == "" and not rules.calculator else value

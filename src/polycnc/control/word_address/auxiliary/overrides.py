@@ -1,0 +1,73 @@
+"""What a program takes out of the operator's hands: M73 to M76, #3004, G63, tapping.
+
+The toolpath's context says which overrides and whether feed hold act; what runs the path obeys it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.words import Words
+    from polycnc.toolpath import Context
+
+FEED, SPINDLE = "feed", "spindle"
+#: Bits of #3004: no feed hold, no feed override, no exact stop.
+NO_HOLD, NO_FEED_OVERRIDE, NO_EXACT_STOP = 1, 2, 4
+#: Under tapping mode neither feed override nor feed hold act.
+TAPPING_MODE = "G63"
+CUTTING_MODE = "G64"
+
+
+def cancel_feed_override(channel: Channel, _words: Words) -> None:
+    """M73: the feed override counts 100 %."""
+    _cancel(channel, FEED, cancelled=True)
+
+
+def allow_feed_override(channel: Channel, _words: Words) -> None:
+    """M74."""
+    _cancel(channel, FEED, cancelled=False)
+
+
+def cancel_spindle_override(channel: Channel, _words: Words) -> None:
+    """M75: the spindle override counts 100 %."""
+    _cancel(channel, SPINDLE, cancelled=True)
+
+
+def allow_spindle_override(channel: Channel, _words: Words) -> None:
+    """M76."""
+    _cancel(channel, SPINDLE, cancelled=False)
+
+
+def _cancel(channel: Channel, name: str, *, cancelled: bool) -> None:
+    kept: frozenset[str] = channel.memory.cancelled_overrides
+    channel.memory.cancelled_overrides = kept | {name} if cancelled else kept - {name}
+    channel.context_changed()
+
+
+def in_tapping_mode(context: Context) -> Context:
+    """A context as G63 makes it: no feed override, no feed hold."""
+    return (
+        replace(context, feed_override=False, feed_hold=False)
+        if context.path_mode == TAPPING_MODE
+        else context
+    )
+
+
+def overridden(channel: Channel, context: Context) -> Context:
+    """A context with what the operator's switches may do in it."""
+    memory = channel.memory
+    switches = memory.control_switches.get("cntl2", 0)
+    tapping = context.path_mode == TAPPING_MODE
+    if not (tapping or memory.tapping or switches or memory.cancelled_overrides):
+        return context
+    return replace(
+        context,
+        feed_override=not (tapping or memory.tapping or FEED in memory.cancelled_overrides)
+        and not switches & NO_FEED_OVERRIDE,
+        spindle_override=not (memory.tapping or SPINDLE in memory.cancelled_overrides),
+        feed_hold=not tapping and not switches & NO_HOLD,
+        path_mode=CUTTING_MODE if switches & NO_EXACT_STOP and not tapping else context.path_mode,
+    )

@@ -1,0 +1,5 @@
+"""What a block does: `plan` works it out once for each shape in each modal state.
+
+`codes` has the rows of the code tables, `words` the words as a handler sees them, `numbers` their units and decimal
+points. `plain`, `words_as_data` and `settled` tell the same as data, for the bulk scanner.
+"""

@@ -1,0 +1,103 @@
+"""Plain blocks of the word-address controls: their plans told as data, for the scanner.
+
+A plan is a tuple of steps. Where every step says what it does (`language.bulk.declare`), the block is plain; a step
+that anything has wrapped or added (a modal macro, a corner, an interruption) says nothing, and the block is not.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.auxiliary.interlocks import holds_an_axis
+from polycnc.control.word_address.motion import arcs, path
+from polycnc.language.bulk import Arc, Conditions, Recipe, Spelling
+from polycnc.language.bulk.layout import FIRST_CODE, FORMS
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable, Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.mode import Mode
+    from polycnc.control.word_address.block.plan import Plan
+    from polycnc.language.bulk.scanner import LastMoves
+
+#: How a number was written, as the scanner counts it; see `language.word_address.words`.
+_FORMS = ("", ".", ":", ";")
+
+
+class PlainBlocks:
+    """What the scanner asks of a word-address control.
+
+    Attributes:
+        spelling: How the control's text looks.
+    """
+
+    def __init__(self, spelling: Spelling) -> None:
+        self.spelling = spelling
+        self._conditions = Conditions()
+
+    def ready(self, channel: Channel) -> bool:
+        """Single blocks are watched; forbidden zones, unrolled surfaces and held moves are the interpreter's."""
+        if channel.single_block or channel.stroke_zone is not None or not channel.path.is_idle:
+            return False
+        if channel.coordinates.transformation is not None or holds_an_axis(channel):
+            return False
+        return channel.coordinates.direct or _keeps_circles(channel)
+
+    def generation(self, channel: Channel) -> Hashable:
+        """Changes when plans are forgotten, and with the conditions on which recipes rest."""
+        return channel.modes.generation, self._conditions.hold(channel)
+
+    def state(self, channel: Channel) -> Mode:
+        """The modal state."""
+        return channel.mode
+
+    def enter(self, channel: Channel, state: Mode) -> None:
+        """Another modal state."""
+        channel.mode = state
+
+    def owes(self, channel: Channel) -> bool:
+        """Whether incremental words are owed a change of offsets."""
+        return channel.coordinates.owes
+
+    def limits(self, channel: Channel) -> Sequence[tuple[float, float]]:
+        """The channel's own."""
+        return channel.limits
+
+    def tolerance(self, channel: Channel) -> float:
+        """The control's arc tolerance, mm."""
+        control = channel.control
+        return min(float(control.arc_tolerance(channel)), float(control.spiral_tolerance(channel)))
+
+    def moved(self, channel: Channel, last: LastMoves) -> None:
+        """Nothing is remembered of a move."""
+
+    def recipe(self, channel: Channel, keys: Sequence[int], _line: str) -> Recipe | None:
+        """What the plan of a shape does, if all of it can be told."""
+        signature = tuple(_key(key) for key in keys)
+        plan: Plan | None = channel.mode.plans.get(signature)
+        try:
+            plan = plan or channel.control.plan(channel, signature)
+        except AlarmError:
+            return None  # the interpreter comes to the same block and raises it
+        recipe = self._conditions.recipe(channel, plan.steps, plan.mode)
+        if recipe is None or not isinstance(recipe.motion, Arc):
+            return recipe
+        geometry = channel.coordinates.geometry
+        return None if any(geometry[axis] < 0 for axis in recipe.motion.plane[:2]) else recipe
+
+
+def _keeps_circles(channel: Channel) -> bool:
+    """Whether the programming frame leaves circles of the plane circles, mirrored as a whole or not at all."""
+    frame, plane = channel.coordinates.programming, path.PLANES[channel.mode["plane"]]
+    mirrored = arcs.mirrors_plane(frame, plane) == frame.mirrors
+    return mirrored and not arcs.is_stretched(frame, plane)
+
+
+def _key(key: int) -> str:
+    """The scanner's key as one of a signature."""
+    if key >= FIRST_CODE:
+        return f"G{key - FIRST_CODE}"
+    letter, form = divmod(key, FORMS)
+    return chr(ord("A") + letter) + _FORMS[form]

@@ -1,0 +1,292 @@
+"""Plans: what a block of some shape does in some modal state.
+
+The first block of a shape (its *signature*, see `language.word_address.words`) is checked whole against the control's
+tables: every code known and executed, every word taken by somebody. The outcome is a `Plan`: the modal state that the
+block leaves and the steps that it takes, in the order in which the control works a block off. Plans are kept on the
+modal state; later blocks of the same shape only bring new numbers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from polycnc.channel.intervention import NOTHING_BACK
+from polycnc.control.word_address.block.codes import GCode, MCode, Order, Step
+from polycnc.control.word_address.block.numbers import Convert, NumberRules, length_converter
+from polycnc.control.word_address.block.words import Words
+from polycnc.control.word_address.motion.path_modes import end_of_exact_stop, exact_stop_block
+from polycnc.language.bulk import Idle, Note, declare
+from polycnc.language.word_address.words import FORMS, is_fixed_code
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.mode import Mode
+    from polycnc.control.word_address.block.codes import Handler
+    from polycnc.control.word_address.control import WordAddressControl
+
+#: The alarm of a code that a control knows and polycnc does not execute yet, on every control.
+NOT_YET = "PC0001"
+
+
+@dataclass(frozen=True, slots=True)
+class AxisWord:
+    """An axis word of a shape: which axis, which value, how it converts, absolute or incremental."""
+
+    address: str
+    axis: int
+    slot: int
+    convert: Convert | None
+    incremental: bool
+
+
+class Plan:
+    """What the blocks of one shape do in one modal state; `program_name` is what `<NAME>` in them calls."""
+
+    __slots__ = (
+        "axis_words", "control", "inch", "m_codes", "mode", "order", "program_name", "rules", "slots", "steps",
+        "takes_back", "typed",
+    )  # fmt: skip
+
+    def __init__(self, builder: Builder) -> None:
+        self.control = builder.control
+        self.mode = builder.mode
+        self.slots = builder.slots
+        self.typed = builder.typed
+        self.order = builder.order
+        self.m_codes = builder.m_codes
+        self.program_name = builder.program_name
+        self.rules: NumberRules = builder.rules
+        self.inch = builder.inch
+        self.axis_words: tuple[AxisWord, ...] = ()
+        self.steps: tuple[Step, ...] = ()
+        self.takes_back = NOTHING_BACK
+
+    def run(self, channel: Channel, values: list[float]) -> None:
+        """Run one block."""
+        channel.mode = self.mode
+        channel.takes_back = self.takes_back
+        for step in self.steps:
+            step(channel, values)
+
+
+class Builder:
+    """Works out one plan.
+
+    Attributes:
+        before: Modal state before the block.
+        mode: Modal state that the block brings.
+        slots: Address to (index of its value, how it was written); of a repeated address the last one counts.
+        typed: All words in the order typed, repeated ones included: (address, index, how written).
+        codes: Rows of the block's G codes in the order typed; of one group only the last.
+    """
+
+    def __init__(self, channel: Channel, control: WordAddressControl, signature: tuple[str, ...]) -> None:
+        self.channel = channel
+        self.control = control
+        self.signature = signature
+        self.before: Mode = channel.mode
+        self.slots: dict[str, tuple[int, str]] = {}
+        self.typed: list[tuple[str, int, str]] = []
+        self.order: list[str] = []
+        self.codes: list[GCode] = []
+        self.m_codes: list[int] = []
+        self.program_name = ""
+        self._taken: set[str] = set()
+        self._read_signature()
+        self.mode = self.before.with_codes(control.modal_changes(self.codes))
+        self._drop_idle_codes()
+        self.inch = control.is_inch(self.mode)
+        self.rules = control.number_rules(channel)
+
+    def _read_signature(self) -> None:
+        position = 0
+        by_group: dict[str, GCode] = {}
+        for key in self.signature:
+            if key[0] == "<":
+                self.program_name = key[1:-1]
+                continue
+            if is_fixed_code(key):
+                self.order.append(key)
+                if key[0] == "M":
+                    if "." in key:
+                        raise self.control.fail("point", address="M")
+                    self.m_codes.append(int(key[1:]))
+                else:
+                    row = self._row(key)
+                    by_group.pop(row.group or row.code, None)
+                    by_group[row.group or row.code] = row
+                continue
+            address = key.rstrip(FORMS)
+            form = key[len(address) :]
+            self.typed.append((address, position, form))
+            self.slots[address] = (position, form)
+            self.order.append(address)
+            position += 1
+        self.codes = list(by_group.values())
+
+    def _drop_idle_codes(self) -> None:
+        """Leave out codes that have no effect while a drilling cycle is active; their words are theirs."""
+        idle = [row for row in self.codes if row.idle_in_cycle]
+        if idle and self.mode.codes.get("cycle", "") in self.control.drilling_rules(self.channel).cycles:
+            for row in idle:
+                self.take(*row.addresses)
+            self.codes = [row for row in self.codes if not row.idle_in_cycle]
+            self.mode = self.before.with_codes(self.control.modal_changes(self.codes))
+
+    def _row(self, code: str) -> GCode:
+        row = self.control.g_table(self.channel).get(code)
+        if row is None:
+            raise self.control.unknown_code(code)
+        if row.not_yet:
+            raise AlarmError(NOT_YET, address=code, hint="hint.not-supported", code=code)
+        return row
+
+    # ---- what planners and handlers of the table ask ---------------------------------------------------------------
+
+    def has(self, address: str) -> bool:
+        """Whether the block holds a word."""
+        return address in self.slots
+
+    def take(self, *addresses: str) -> None:
+        """Somebody deals with these addresses."""
+        self._taken.update(addresses)
+
+    def is_free(self, address: str) -> bool:
+        """Whether nobody deals with an address yet."""
+        return address not in self._taken and "*" not in self._taken
+
+    def slot(self, address: str) -> int | None:
+        """Index of a word's value, or None."""
+        slot = self.slots.get(address)
+        return None if slot is None else slot[0]
+
+    def length(self, address: str, *, diameter: bool = False) -> Convert | None:
+        """Converter of a length word that the block holds."""
+        return length_converter(self.slots[address][1], self.rules, inch=self.inch, diameter=diameter)
+
+    def handled(self, handler: Handler, plan: Plan) -> Step:
+        """A step that calls a handler with the block's words."""
+        return lambda channel, values: handler(channel, Words(plan, values))
+
+    def _in_force(self, row: GCode) -> bool:
+        return bool(row.group) and self.before.codes.get(row.group) == row.code
+
+    def _is_repeated(self, row: GCode) -> bool:
+        """Whether a code that only changes something is in force already; its words are its own all the same."""
+        if not row.only_changes or not self._in_force(row):
+            return False
+        self.take(*row.addresses)
+        return True
+
+    def _acted(self, row: GCode, handler: Handler, plan: Plan) -> Step:
+        """The step of a code's handler; it says so where it only tells the context, or may change nothing."""
+        step, control = self.handled(handler, plan), self.control
+        if any(self.has(address) for address in row.addresses):
+            return step
+        if handler in control.only_context:
+            return declare(step, Note())
+        if self._in_force(row) and row.code in control.settled_codes:
+            return declare(step, Idle(control.settled_codes[row.code]))
+        return step
+
+    def axis_words(self) -> tuple[AxisWord, ...]:
+        """The axis words of the block; they count as taken."""
+        words: list[AxisWord] = []
+        channel, control = self.channel, self.control
+        for address, (position, form) in self.slots.items():
+            target = control.axis_of_address(channel, address, self)
+            if target is None:
+                continue
+            index, incremental = target
+            convert = control.axis_converter(self, index, form)
+            words.append(AxisWord(address, index, position, convert, incremental))
+            self.take(address)
+        if control.LATER_AXIS_WORD_COUNTS:
+            words = list({word.axis: word for word in words}.values())
+        return tuple(words)
+
+    # ---- the plan ---------------------------------------------------------------------------------------------------
+
+    def build(self) -> Plan:
+        """The plan; raises the control's alarm for what the block must not hold."""
+        plan = Plan(self)
+        call = self.control.call_by_code(self, plan)
+        if call is not None:
+            plan.mode = self.before
+            plan.steps = (call,)
+            return plan
+        rows = sorted((row for row in self.codes if not self._is_repeated(row)), key=lambda row: row.order)
+        for row in rows:
+            self.take(*row.addresses)
+        plan.axis_words = self.axis_words()
+        plan.takes_back = self.control.takes_back(self, plan)
+        before, after = self._auxiliary_steps(plan)
+        steps = [
+            *self.control.before_motion(self, plan),
+            *before,
+            *(self._acted(r, r.handler, plan) for r in rows if r.handler and r.order < Order.MOTION),
+        ]
+        if not any(row.axis_words for row in rows):
+            motion = self.control.plan_motion(self, plan)
+            if motion is not None:
+                steps.append(motion)
+        steps += [self.handled(r.handler, plan) for r in rows if r.handler and r.order >= Order.MOTION]
+        if any(row.handler is exact_stop_block for row in rows):
+            steps.append(end_of_exact_stop)
+        plan.steps = (*steps, *self.control.after_motion(self, plan), *after)
+        self._check_all_taken()
+        return plan
+
+    def _auxiliary_steps(self, plan: Plan) -> tuple[list[Step], list[Step]]:
+        """Steps of F, S, T, D and the like and of M codes: those with the motion in the order typed, those after."""
+        before: list[Step] = []
+        after: list[Step] = []
+        if "*" in self._taken:
+            return before, after
+        for key in self.order:
+            if key in self._taken and key in self.slots:
+                continue
+            if key[0] == "M" and is_fixed_code(key):
+                row = self.control.m_row(self, int(float(key[1:])))
+                self.take(*row.takes.split())
+                (after if row.after else before).append(_m_step(row, self, plan))
+                continue
+            planner = self.control.addresses.get(key)
+            if planner is not None:
+                step = planner(self)
+                self.take(key)
+                if step is not None:
+                    before.append(step)
+        return before, after
+
+    def _check_all_taken(self) -> None:
+        if "*" in self._taken:
+            return
+        for address in self.slots:
+            if address not in self._taken:
+                raise self.control.untaken(address, self)
+
+
+def _m_step(row: MCode, builder: Builder, plan: Plan) -> Step:
+    handler = builder.handled(row.handler, plan) if row.handler else None
+    if row.silent:
+        return handler or _nothing
+    code = row.code
+    spindle = builder.control.spindle_slot(builder)
+
+    def act(channel: Channel, values: list[float]) -> None:
+        if spindle is None:
+            channel.event("m", code=code)
+        else:
+            channel.event("m", code=code, spindle=int(values[spindle]))
+        channel.memory.last_m = code
+        if handler is not None:
+            handler(channel, values)
+
+    return act
+
+
+def _nothing(_channel: Channel, _values: list[float]) -> None:
+    """An M code that only exists."""

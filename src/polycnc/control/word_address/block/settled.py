@@ -1,0 +1,79 @@
+"""Codes that are in force already: when writing them once more changes nothing, so that their blocks stay plain.
+
+Posts write `G17`, `G54`, `G40` again and again. The interpreter executes every one of them; the scanner passes over
+those whose condition here holds (`WordAddressControl.settled_codes`, by code). A condition may rest on what blocks
+change that are not plain, never on where the axes stand.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.coordinates.systems import zero_offsets
+from polycnc.control.word_address.tools.radius import active_compensation
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+
+#: Parts that a parallel axis can play (1022).
+_PARALLELS = (5, 6, 7)
+
+
+def plane(channel: Channel) -> bool:
+    """G17 to G19: the plane has its basic axes, and there are no parallel ones that a word could name."""
+    memory, control = channel.memory, channel.control
+    return (
+        channel.coordinates.geometry == tuple(memory.basic_geometry)
+        and memory.cylinder is None
+        and not memory.side
+        and not any(control.axis_role(channel, axis) in _PARALLELS for axis in range(len(channel.axes)))
+    )
+
+
+def work_offset(channel: Channel) -> bool:
+    """G54 to G59: the offsets in force are still those of the table."""
+    c, memory = channel.coordinates, channel.memory
+    unchanged = c.zero == memory.zero_frame and c.offsets == zero_offsets(channel)
+    return c.direct and unchanged and bool(memory.wcs == channel.mode["wcs"])
+
+
+def compensation(channel: Channel) -> bool:
+    """G40: no compensation is to be led back from."""
+    return active_compensation(channel) is None
+
+
+def frame(channel: Channel) -> bool:
+    """G50, G69: nothing is scaled, rotated or tilted."""
+    return channel.coordinates.direct and channel.memory.tilted_plane is None
+
+
+def length(channel: Channel) -> bool:
+    """G49: no length is in force, and neither a shift nor an incremental word is owed any."""
+    c, memory = channel.coordinates, channel.memory
+    none = memory.h == 0 and not any(memory.length_offset) and not c.owes
+    unchanged = c.zero == memory.zero_frame and c.offsets == zero_offsets(channel)
+    return c.direct and c.transformation is None and c.geometry[2] >= 0 and none and unchanged
+
+
+def modal_call(channel: Channel) -> bool:
+    """G67: there is no modal call, and its end without one is allowed (6000#0)."""
+    memory = channel.memory
+    return not memory.modal_calls and bool(memory.parameters.bit(6000, 0, default=True))
+
+
+def stroke_limit(channel: Channel) -> bool:
+    """G23: no zone is forbidden."""
+    return channel.stroke_zone is None
+
+
+#: Codes of machining centres.
+MILLING = {
+    **dict.fromkeys(("G17", "G18", "G19"), plane),
+    **dict.fromkeys(("G54", "G55", "G56", "G57", "G58", "G59"), work_offset),
+    "G40": compensation,
+    "G49": length,
+    "G50": frame,
+    "G67": modal_call,
+    "G69": frame,
+    "G23": stroke_limit,
+}

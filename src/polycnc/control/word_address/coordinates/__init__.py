@@ -1,0 +1,1 @@
+"""Coordinate systems: `systems` (G52 to G59, G92, G28 to G30), `frames` (G51, G68, G16), `stroke_check` (G22, G23)."""

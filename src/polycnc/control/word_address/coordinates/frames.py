@@ -1,0 +1,164 @@
+"""Frames before the display: scaling G51, mirror G51.1, rotation G68, and polar words G16.
+
+Order (FANUC; SYNTEC states none): programmed point → scaling or mirror → rotation → display. Each part is kept in the
+control's memory; the programming frame is their product.
+"""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.motion.path import PLANES, target
+from polycnc.geometry.frames import IDENTITY, about, cos_sin_deg, rotation, scaling
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.plan import Plan
+    from polycnc.control.word_address.block.words import Words
+    from polycnc.geometry.frames import Vector
+
+
+def _refresh(channel: Channel) -> None:
+    parts = channel.memory.frames
+    channel.coordinates.set_programming(parts.product(), parts.shift)
+
+
+def _point(channel: Channel, words: Words) -> list[float]:
+    """The point that axis words name on the geometry axes; the present programmed position where they are missing."""
+    c = channel.coordinates
+    base = channel.memory.frames
+    here = c.image(base.product().inverse(), c.position) if base.product() is not IDENTITY else c.position
+    point = [here[axis] if axis >= 0 else 0.0 for axis in c.geometry]
+    for axis, value, incremental in words.axes():
+        if axis in c.geometry:
+            i = c.geometry.index(axis)
+            point[i] = point[i] + value if incremental else value
+    return point
+
+
+def rotate(channel: Channel, words: Words) -> None:
+    """G68 X Y R: rotation of the plane about a point; a new one replaces the old."""
+    channel.memory.frames.rotation = IDENTITY
+    _refresh(channel)
+    x, y, z = _point(channel, words)
+    axis = PLANES[channel.mode["plane"]][2]
+    angle = words.angle("R")
+    if angle is None:
+        raise words.fail("rotation_angle", "G68")
+    channel.memory.frames.rotation = about((x, y, z), rotation(axis, angle))
+    _refresh(channel)
+
+
+def end_rotation(channel: Channel, _words: Words) -> None:
+    """G69 (on lathes G69.1): the rotation ends."""
+    channel.memory.frames.rotation = IDENTITY
+    _refresh(channel)
+
+
+def scale(channel: Channel, words: Words) -> None:
+    """G51 X Y Z P or I J K: scaling about a point."""
+    channel.memory.frames.scale = IDENTITY
+    _refresh(channel)
+    x, y, z = _point(channel, words)
+    factors = channel.control.scale_factors(channel, words)
+    channel.memory.frames.scale = about((x, y, z), scaling(*factors))
+    _refresh(channel)
+
+
+def end_scale(channel: Channel, _words: Words) -> None:
+    """G50: scaling ends."""
+    channel.memory.frames.scale = IDENTITY
+    _refresh(channel)
+
+
+def mirror(channel: Channel, words: Words) -> None:
+    """G51.1: mirror about lines X = … , Y = …: p' = 2a - p."""
+    frames = channel.memory.frames
+    c = channel.coordinates
+    for axis, value, _ in words.axes():
+        if axis not in c.geometry:
+            raise words.fail("address", words.plan.axis_words[0].address)
+        frames.mirrored[c.geometry.index(axis)] = value
+    _set_mirror(channel)
+
+
+def end_mirror(channel: Channel, words: Words) -> None:
+    """G50.1: ends the mirror of the named axes, of all where none is named."""
+    frames = channel.memory.frames
+    named = [axis for axis, _, _ in words.axes()]
+    for axis in named:
+        if axis in channel.coordinates.geometry:
+            frames.mirrored.pop(channel.coordinates.geometry.index(axis), None)
+    if not named:
+        frames.mirrored.clear()
+    _set_mirror(channel)
+
+
+def mirror_first_axis(channel: Channel, _words: Words) -> None:
+    """M70: the first axis is mirrored about the place where it stands."""
+    _mirror_here(channel, 0)
+
+
+def mirror_second_axis(channel: Channel, _words: Words) -> None:
+    """M71: the second axis is mirrored about the place where it stands."""
+    _mirror_here(channel, 1)
+
+
+def _mirror_here(channel: Channel, i: int) -> None:
+    c = channel.coordinates
+    channel.memory.frames.mirrored.setdefault(i, c.programmed[c.geometry[i]])
+    _set_mirror(channel)
+
+
+def end_mirror_by_m(channel: Channel, _words: Words) -> None:
+    """M72: ends the mirror of the first and second axis."""
+    for i in (0, 1):
+        channel.memory.frames.mirrored.pop(i, None)
+    _set_mirror(channel)
+
+
+def _set_mirror(channel: Channel) -> None:
+    frames = channel.memory.frames
+    center: Vector = tuple(frames.mirrored.get(i, 0.0) for i in range(3))
+    factors = [-1.0 if i in frames.mirrored else 1.0 for i in range(3)]
+    frames.mirror = about(center, scaling(*factors)) if frames.mirrored else IDENTITY
+    _refresh(channel)
+
+
+def polar_target(channel: Channel, plan: Plan, values: list[float]) -> list[float]:
+    """End point of a block under G16: first plane axis radius, second angle (counter-clockwise from the first axis).
+
+    Absolute: about the work zero. Incremental radius: about the present position. An incremental angle adds to the last
+    one. A word that is missing keeps its last value.
+    """
+    memory, c = channel.memory, channel.coordinates
+    u, v, _ = PLANES[channel.mode["plane"]]
+    first, second = c.geometry[u], c.geometry[v]
+    plane_words = [word for word in plan.axis_words if word.axis in (first, second)]
+    end = target(channel, tuple(w for w in plan.axis_words if w not in plane_words), values)
+    if not plane_words:
+        return end
+    for word in plane_words:
+        value = word.convert(values[word.slot]) if word.convert else values[word.slot]
+        if word.axis == first:
+            memory.polar_radius = value
+            memory.polar_pole = (
+                (c.programmed[first], c.programmed[second]) if word.incremental else (0.0, 0.0)
+            )
+        else:
+            angle = value
+            memory.polar_angle = memory.polar_angle + angle if word.incremental else angle
+    cosine, sine = cos_sin_deg(memory.polar_angle)
+    end[first] = memory.polar_pole[0] + memory.polar_radius * cosine
+    end[second] = memory.polar_pole[1] + memory.polar_radius * sine
+    return end
+
+
+def start_polar(channel: Channel, _words: Words) -> None:
+    """G16: radius and angle begin at the present position."""
+    memory, c = channel.memory, channel.coordinates
+    u, v, _ = PLANES[channel.mode["plane"]]
+    memory.polar_pole = (0.0, 0.0)
+    memory.polar_radius = hypot(c.programmed[c.geometry[u]], c.programmed[c.geometry[v]])
+    memory.polar_angle = 0.0

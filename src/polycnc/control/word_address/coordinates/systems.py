@@ -1,0 +1,186 @@
+"""Coordinate systems and reference points: G52 to G59, G54.1, G92, G53, G27 to G30, planes, units."""
+
+from __future__ import annotations
+
+from math import nan
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.auxiliary.interlocks import note_reference_return
+from polycnc.control.word_address.memory import EXTERNAL
+from polycnc.control.word_address.tools.radius import suspended
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.words import Words
+
+
+def refresh_zero(channel: Channel, *, travelled: bool = False) -> None:
+    """Work out the shift from display to machine anew: external + work + local + G92 offset + tool length."""
+    channel.coordinates.set_zero(channel.memory.zero_frame, zero_offsets(channel), travelled=travelled)
+    channel.context_changed()
+
+
+def zero_offsets(channel: Channel) -> list[float]:
+    """What lies between display and machine now, for every axis."""
+    memory = channel.memory
+    parts = zip(
+        memory.work_offset(EXTERNAL),
+        memory.work_offset(memory.wcs),
+        memory.local_shift,
+        memory.preset_shift,
+        memory.length_offset,
+        strict=True,
+    )
+    return [sum(values) for values in parts]
+
+
+def select_work_offset(channel: Channel, words: Words) -> None:
+    """G54 to G59, G54.1 P1 … (also `G54 P1`): the work coordinate system; no motion by itself."""
+    code = channel.mode["wcs"]
+    number = words.integer("P") if "P" in words else None
+    if number is not None and not 0 <= number <= channel.control.EXTENDED_WORK_SYSTEMS:
+        raise words.fail("offset_number", "P")
+    if number:
+        channel.memory.wcs = f"G54.1 P{number}"
+    else:
+        channel.memory.wcs = "G54" if code == "G54.1" else code
+    refresh_zero(channel)
+
+
+def set_local_system(channel: Channel, words: Words) -> None:
+    """G52: zero of a local system within every work coordinate system; no motion."""
+    for axis, value, _ in words.axes():
+        channel.memory.local_shift[axis] = value
+    refresh_zero(channel)
+
+
+def set_position(channel: Channel, words: Words) -> None:
+    """G92: the present position gets these coordinates; every work coordinate system shifts with it (Hartford 3.2)."""
+    position = channel.coordinates.position
+    for axis, value, _ in words.axes():
+        channel.memory.preset_shift[axis] += position[axis] - value
+    refresh_zero(channel)
+
+
+def set_position_or_limit(channel: Channel, words: Words) -> None:
+    """G92: sets the position; with S the highest speed under constant surface speed."""
+    if words.axes():
+        set_position(channel, words)
+    limit = words.typed("S")
+    if limit is not None:
+        channel.memory.spindle_limit_rpm = limit
+        channel.context_changed()
+
+
+def preset_system(channel: Channel, words: Words) -> None:
+    """G92.1: shifts by G92 and G52 of the named axes vanish."""
+    for axis, _, _ in words.axes():
+        channel.memory.preset_shift[axis] = 0.0
+        channel.memory.local_shift[axis] = 0.0
+    refresh_zero(channel)
+
+
+def move_in_machine_system(channel: Channel, words: Words) -> None:
+    """G53: rapid to machine coordinates, offsets and tool length left out; absolute only."""
+    c = channel.coordinates
+    machine = c.machine
+    for axis, value, incremental in words.axes():
+        machine[axis] = machine[axis] + value if incremental else value
+    with suspended(channel):
+        channel.straight(Kind.RAPID, c.from_machine(machine), nan)
+
+
+def move_in_machine_system_absolute(channel: Channel, words: Words) -> None:
+    """G53 of FANUC: as above, but an increment is ignored by the control."""
+    if channel.mode["distance"] == "G90":
+        move_in_machine_system(channel, words)
+
+
+def intermediate_point(channel: Channel, words: Words) -> list[float]:
+    """The intermediate point that a reference return names, programmed coordinates; kept by axis for G29."""
+    c = channel.coordinates
+    point = c.programmed[:]
+    named = set()
+    for axis, value, incremental in words.axes():
+        point[axis] = point[axis] + value if incremental else value
+        named.add(axis)
+    kept = channel.memory.intermediate or point
+    channel.memory.intermediate = [
+        value if axis in named else old for axis, (value, old) in enumerate(zip(point, kept, strict=True))
+    ]
+    return point
+
+
+def go_to_reference(channel: Channel, words: Words, number: int) -> None:
+    """Rapid over the intermediate point to a reference point, with the named axes only."""
+    c = channel.coordinates
+    point = intermediate_point(channel, words)
+    channel.straight(Kind.RAPID, c.to_position(point), nan, point)
+    machine = c.machine
+    for axis, _, _ in words.axes():
+        machine[axis] = channel.control.reference_point(channel, axis, number)
+    with suspended(channel):
+        channel.straight(Kind.REF, c.from_machine(machine), nan)
+    note_reference_return(channel, [channel.axes[axis] for axis, _, _ in words.axes()])
+
+
+def return_to_reference(channel: Channel, words: Words) -> None:
+    """G28: over the intermediate point to the first reference point."""
+    go_to_reference(channel, words, 1)
+
+
+def return_to_further_reference(channel: Channel, words: Words) -> None:
+    """G30 [P2 … P4]: over the intermediate point to another reference point."""
+    number = words.integer("P")
+    number = 2 if number is None else number
+    if number not in channel.control.FURTHER_REFERENCES:
+        raise words.fail("reference_number", "P")
+    go_to_reference(channel, words, number)
+
+
+def return_from_reference(channel: Channel, words: Words) -> None:
+    """G29: rapid to the intermediate point of the last G28/G30, then to the target (an increment counts from there)."""
+    c = channel.coordinates
+    middle = channel.memory.intermediate
+    if middle is None:
+        raise words.fail("no_intermediate", "G29")
+    named = words.axes()
+    via = c.programmed[:]
+    for axis, _, _ in named:
+        via[axis] = middle[axis]
+    channel.straight(Kind.RAPID, c.to_position(via), nan, via)
+    end = via[:]
+    for axis, value, incremental in named:
+        end[axis] = via[axis] + value if incremental else value
+    channel.straight(Kind.RAPID, c.to_position(end), nan, end)
+
+
+def check_reference(channel: Channel, words: Words) -> None:
+    """G27: rapid to the point, which must be the reference point of the named axes."""
+    c = channel.coordinates
+    end = c.programmed[:]
+    for axis, value, incremental in words.axes():
+        end[axis] = end[axis] + value if incremental else value
+    channel.straight(Kind.RAPID, c.to_position(end), nan, end)
+    channel.keep_rows()
+    machine = c.machine
+    for axis, _, _ in words.axes():
+        if abs(machine[axis] - channel.control.reference_point(channel, axis, 1)) > REFERENCE_WINDOW_MM:
+            raise words.fail("not_at_reference", "G27")
+
+
+#: How close to the reference point an axis must stand to count as there.
+REFERENCE_WINDOW_MM = 0.0015
+
+
+def forget_feed(channel: Channel, words: Words) -> None:
+    """G93 to G95: another feed mode asks for a new F, which the block may bring with it."""
+    if "F" not in words:
+        channel.feed = nan
+    channel.context_changed()
+
+
+def note_context(channel: Channel, _words: Words) -> None:
+    """G17 to G21, G61 to G64, G70, G71, G96, G97: a modal code that only shows in the context."""
+    channel.context_changed()

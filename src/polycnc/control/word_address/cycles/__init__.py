@@ -1,0 +1,1 @@
+"""Cycles over a point: `drilling` (G73 to G89), `hole_patterns` (circle, line, arc, grid)."""

@@ -1,0 +1,488 @@
+"""Drilling cycles of word-address controls: words, their lifetimes, levels, repeats (strokes: `cycles`).
+
+A control states a `Drilling`: its cycles by code, how long each word lives, and the few amounts that come
+from its parameters. A cycle is modal in the group `cycle`; while one is active, blocks with axis words
+position and drill, and a motion code (a row with `ends="cycle"`) ends it. Cycle data are kept in the memory
+from the block that enters the mode until the mode ends.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from enum import Enum
+from math import nan
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.auxiliary.functions import stand
+from polycnc.control.word_address.block.numbers import length_converter
+from polycnc.control.word_address.motion.path import FEED_MODES, PLANES, target
+from polycnc.control.word_address.tools.radius import suspended
+from polycnc.cycles.drilling import lathe
+from polycnc.cycles.drilling.holes import Action, Cycle, Hole, Stroke, tap
+from polycnc.language.word_address.functions import round_half_away
+from polycnc.toolpath import Kind
+from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS, STROKE
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.numbers import NumberRules
+    from polycnc.control.word_address.block.plan import AxisWord, Builder, Plan
+
+#: A value of the cycle data: in internal units (P as typed), and whether it is an increment.
+Datum = tuple[float, bool]
+BOTTOM = "bottom"
+#: Strokes of taps: overrides do not act in them.
+TAPS = frozenset({tap, lathe.tap, lathe.tap_clearing_chips})
+#: A hole with more strokes is taken for one that does not end (a peck of a micrometre, say).
+MAX_STROKES = 300_000
+
+
+@dataclass(frozen=True, slots=True)
+class DrillCycle:
+    """A row of a control's table of drilling cycles.
+
+    Attributes:
+        strokes: What the tool does.
+        dwells: P is the time at the bottom.
+        pecks: Q is the depth of a peck.
+        shifts: Q, or I J K, is the shift off the wall.
+        needs: Words without which the cycle is the alarm `cycle_word`.
+        bottom_from_initial: An incremental bottom counts from the initial level instead of from R.
+        axis: Drilling axis by name; empty for what `Drilling.axis` says.
+        once: Words that hold in their block only in this cycle.
+    """
+
+    strokes: Cycle
+    dwells: bool = False
+    pecks: bool = False
+    shifts: bool = False
+    needs: str = ""
+    bottom_from_initial: bool = False
+    axis: str = ""
+    once: Sequence[str] = ""
+
+
+def third_axis(builder: Builder) -> int:
+    """The axis that stands on the active plane."""
+    return builder.channel.coordinates.geometry[PLANES[builder.mode["plane"]][2]]
+
+
+def in_milliseconds(value: float, _form: str, _rules: NumberRules) -> float:
+    """P counts milliseconds."""
+    return value / 1000.0
+
+
+def turn_spindle(channel: Channel, direction: int) -> None:
+    """The spindle turns the other way, or stops."""
+    channel.memory.spindle_direction = direction
+    channel.context_changed()
+
+
+def as_it_is(_channel: Channel, _code: str, _hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
+    """The strokes of the cycle and nothing else."""
+    return strokes
+
+
+def lead_from_feed(channel: Channel) -> float:
+    """Lead of a tap, mm: the feed per revolution, or the feed per minute over the spindle's speed."""
+    if FEED_MODES[channel.mode["feed"]] == "G95":
+        return channel.feed
+    speed: float = channel.memory.spindle_speed
+    return channel.feed * 60.0 / speed if speed > 0.0 else 0.0
+
+
+def any_override(_channel: Channel) -> float:
+    """The machine sets no bound."""
+    return 0.0
+
+
+def no_relief(_channel: Channel, _code: str) -> float:
+    """Pecks follow each other without a retract."""
+    return 0.0
+
+
+def nothing_to_check(_channel: Channel, _code: str) -> None:
+    """The control has no conditions of its own."""
+
+
+def shift_by_center_words(_channel: Channel, data: CycleData, plane: tuple[int, int]) -> tuple[float, float]:
+    """I, J, K are the shift along X, Y, Z."""
+    return data.amount("IJK"[plane[0]]), data.amount("IJK"[plane[1]])
+
+
+class Halts(Enum):
+    """Where single block halts in a hole, besides its end."""
+
+    NONE = "nowhere"
+    APPROACH = "over the hole and on R"
+    ALL = "behind every stroke"
+
+
+def no_overlap(_channel: Channel, _code: str) -> None:
+    """Every stroke begins when the axes rest."""
+
+
+def halts_nowhere(_channel: Channel, _code: str) -> Halts:
+    """A block that drills is one block."""
+    return Halts.NONE
+
+
+@dataclass(frozen=True, slots=True)
+class Drilling:
+    """How a control drills.
+
+    Attributes:
+        cycles: Cycles by code.
+        kept: Words that live until the cycle ends; the bottom level always does.
+        once: Words that hold in their block only.
+        repeats: Words for the number of repeats; 0 only stores the data.
+        most_repeats: The largest such number, and only whole numbers from 0 are any; 0 to take any number.
+        triggers: Words beside axis words that make a block drill.
+        r_is_increment: R counts from the initial level even under G90 (FANUC lathes).
+        r_as_axis: R is a diameter where words of the drilling axis are diameters; else a radius value.
+        by_r: Rapid retracts stop at R on the way to the initial level.
+        dwells_at_r: A tap dwells at R as well.
+        axis: The drilling axis.
+        seconds: A P word, as typed, how it was written and how numbers are read, in seconds.
+        relief: Retract or clearance between pecks of a cycle, mm.
+        shift: Shift off the wall along two geometry axes, the first and second of the hole's plane.
+        lead: Lead of a tap, mm.
+        check: Alarms for what must not be when a cycle begins to drill.
+        largest_override: The largest feed override of a tap; 0 for any.
+        turn: What a reversal or stop of the spindle within a cycle does.
+        least_increments: Words that count least increments even under calculator input.
+        dress: What the machine adds to the strokes of a hole (clamping an axis), by cycle code.
+        halts: Where single block halts in a hole, by cycle code.
+        overlaps: Whether the first stroke of a hole begins before the axes rest over it, by cycle code; None where no
+            strokes overlap.
+    """
+
+    cycles: Mapping[str, DrillCycle]
+    kept: Sequence[str] = "RQPIJK"
+    once: Sequence[str] = ""
+    repeats: Sequence[str] = "L"
+    most_repeats: int = 0
+    triggers: Sequence[str] = ""
+    r_is_increment: bool = False
+    r_as_axis: bool = False
+    by_r: bool = False
+    dwells_at_r: bool = False
+    axis: Callable[[Builder], int] = third_axis
+    seconds: Callable[[float, str, NumberRules], float] = in_milliseconds
+    relief: Callable[[Channel, str], float] = no_relief
+    shift: Callable[[Channel, CycleData, tuple[int, int]], tuple[float, float]] = shift_by_center_words
+    lead: Callable[[Channel], float] = lead_from_feed
+    largest_override: Callable[[Channel], float] = any_override
+    turn: Callable[[Channel, int], None] = turn_spindle
+    check: Callable[[Channel, str], None] = nothing_to_check
+    least_increments: Sequence[str] = ""
+    dress: Callable[[Channel, str, Hole, Iterator[Stroke]], Iterator[Stroke]] = as_it_is
+    halts: Callable[[Channel, str], Halts] = halts_nowhere
+    overlaps: Callable[[Channel, str], bool | None] = no_overlap
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """All addresses that a drilling block may hold beside axis words."""
+        return (*self.kept, *self.once, *self.repeats)
+
+
+@dataclass(slots=True)
+class CycleData:
+    """What an active cycle remembers.
+
+    Attributes:
+        axis: Drilling axis.
+        initial: Level at which the cycle mode was entered, programmed coordinates.
+        kept: Words that live on.
+        now: Words of the running block.
+    """
+
+    axis: int
+    initial: float
+    kept: dict[str, Datum] = field(default_factory=dict)
+    now: dict[str, Datum] = field(default_factory=dict)
+
+    def amount(self, address: str) -> float:
+        """Value of a word, of this block or kept; 0 where there is none."""
+        return (self.now.get(address) or self.kept.get(address) or (0.0, False))[0]
+
+    def amounts(self) -> dict[str, Datum]:
+        """The kept words that hold for another drilling axis too: all but the levels of this one."""
+        return {
+            address: datum
+            for address, datum in self.kept.items()
+            if address != BOTTOM and (address != "R" or datum[1])
+        }
+
+    def __contains__(self, address: str) -> bool:
+        return address in self.now or address in self.kept
+
+    def level(self, address: str, base: float) -> float:
+        """A level: absolute, or an increment on `base`; `base` itself where the word is missing."""
+        value, incremental = self.kept.get(address, (0.0, True))
+        return base + value if incremental else value
+
+
+def is_active(channel: Channel) -> bool:
+    """Whether a drilling cycle is modal now."""
+    return channel.mode.codes.get("cycle", "") in channel.control.drilling_rules(channel).cycles
+
+
+def give_way(builder: Builder) -> None:
+    """A cycle code that a later motion code of its block cancels: its words have no effect."""
+    drilling: Drilling = builder.control.drilling_rules(builder.channel)
+    if any(row.code in drilling.cycles for row in builder.codes):
+        builder.take(*(a for a in drilling.words if builder.is_free(a)))
+
+
+def plan_drilling(builder: Builder, plan: Plan) -> Step:
+    """A block while a drilling cycle is active: store its words, and drill where it has axis words."""
+    words = _Words(builder, plan)
+    code, rules = words.code, words.rules
+    cycle = rules.cycles[code]
+    entering = builder.before["cycle"] not in rules.cycles
+    control = builder.control
+
+    def run(channel: Channel, values: list[float]) -> None:
+        memory, c = channel.memory, channel.coordinates
+        before: CycleData | None = None if entering else memory.cycle_data
+        if before is None or before.axis != words.axis:
+            # An offset that waits for the next move is not in the programmed point yet; the level counts with it.
+            initial = c.programmed[words.axis] + c.pending[words.axis]
+            memory.cycle_data = CycleData(words.axis, initial, before.amounts() if before else {})
+        if not words.drills:
+            return
+        data: CycleData = memory.cycle_data
+        words.store(data, values)
+        count = words.count(values)
+        if count and any(not data.amount(address) for address in cycle.needs):
+            raise control.fail("cycle_word", address=cycle.needs, word=cycle.needs, code=code)
+        if count:
+            rules.check(channel, code)
+        with suspended(channel):
+            # Radius compensation does not act in drilling cycles.
+            halts = rules.halts(channel, code)
+            for number in range(count):
+                if number and halts is not Halts.NONE:
+                    channel.halt_inside()
+                _meet(channel, rules.overlaps(channel, code))
+                words.position(channel, values)
+                if halts is not Halts.NONE:
+                    channel.halt_inside()
+                _perform(channel, _with_halts(channel, _strokes(channel, code, data), halts), data)
+
+    return run
+
+
+class _Words:
+    """The words of a drilling block of one shape."""
+
+    def __init__(self, builder: Builder, plan: Plan) -> None:
+        self.control = builder.control
+        self.rules: Drilling = self.control.drilling_rules(builder.channel)
+        self.code = builder.mode["cycle"]
+        self.plan = plan
+        axis_name = self.rules.cycles[self.code].axis
+        channel = builder.channel
+        self.axis = channel.axis_index[axis_name] if axis_name else self.rules.axis(builder)
+        if self.axis < 0:
+            raise self.control.fail("plane")
+        self.bottom = next((word for word in plan.axis_words if word.axis == self.axis), None)
+        self.positions: tuple[AxisWord, ...] = tuple(w for w in plan.axis_words if w.axis != self.axis)
+        named = [a for a in self.rules.words if builder.has(a) and builder.is_free(a)]
+        builder.take(*named)
+        self.repeats = next((a for a in self.rules.repeats if a in named), "")
+        self.repeat_slot, self.repeat_form = builder.slots.get(self.repeats, (-1, ""))
+        self.drills = bool(plan.axis_words) or any(a in named for a in self.rules.triggers)
+        self.incremental = builder.mode["distance"] == "G91" or self.rules.r_is_increment
+        self.polar = builder.mode.codes.get("polar") == "G16"
+        self.stored = [
+            (address, *builder.slots[address], self._converter(builder, address))
+            for address in named
+            if address not in self.rules.repeats
+        ]
+
+    def _converter(self, builder: Builder, address: str) -> Callable[[float], float]:
+        if address == "P":
+            form, rules = builder.slots[address][1], builder.rules
+            return lambda value: self.rules.seconds(value, form, rules)
+        if address in self.rules.least_increments and builder.slots[address][1] == "":
+            return length_converter("", replace(builder.rules, calculator=False), inch=builder.inch) or float
+        diameter = (
+            address == "R" and self.rules.r_as_axis and self.control.is_diameter(builder.channel, self.axis)
+        )
+        return builder.length(address, diameter=diameter) or (lambda value: value)
+
+    def store(self, data: CycleData, values: list[float]) -> None:
+        """Take the words over into the cycle data."""
+        data.now.clear()
+        if self.bottom is not None:
+            value = values[self.bottom.slot]
+            value = self.bottom.convert(value) if self.bottom.convert else value
+            data.kept[BOTTOM] = (value, self.bottom.incremental)
+        for address, slot, _form, convert in self.stored:
+            datum = (convert(values[slot]), self.incremental)
+            holds_once = address in self.rules.once or address in self.rules.cycles[self.code].once
+            (data.now if holds_once else data.kept)[address] = datum
+
+    def count(self, values: list[float]) -> int:
+        """How often the block drills."""
+        if not self.repeats:
+            return 1
+        value, most = values[self.repeat_slot], self.rules.most_repeats
+        if not most:
+            return max(int(value), 0)
+        if self.repeat_form == "#":
+            value = round_half_away(value)
+        elif self.repeat_form:
+            raise self.control.fail("point", address=self.repeats)
+        if not 0 <= value <= most:
+            raise self.control.fail("minus" if value < 0 else "too_many_digits", address=self.repeats)
+        return int(value)
+
+    def position(self, channel: Channel, values: list[float]) -> None:
+        """Rapid over the hole, at the level where the tool stands."""
+        c = channel.coordinates
+        if self.polar:
+            end = self.control.polar_target(channel, self.plan, values)
+            end[self.axis] = c.programmed[self.axis]
+        else:
+            end = target(channel, self.positions, values)
+        channel.straight(Kind.RAPID, c.to_position(end), nan, end)
+
+
+def drill_here(channel: Channel) -> None:
+    """Drill with the data of the active cycle where the tool stands (hole patterns)."""
+    code, data = channel.mode["cycle"], channel.memory.cycle_data
+    _perform(channel, _strokes(channel, code, data), data)
+
+
+def _strokes(channel: Channel, code: str, data: CycleData) -> Iterator[Stroke]:
+    """What the tool does at the next hole."""
+    rules: Drilling = channel.control.drilling_rules(channel)
+    hole = _hole(channel, code, data)
+    return rules.dress(channel, code, hole, rules.cycles[code].strokes(hole))
+
+
+def _hole(channel: Channel, code: str, data: CycleData) -> Hole:
+    """Levels and amounts of the next hole."""
+    rules: Drilling = channel.control.drilling_rules(channel)
+    cycle = rules.cycles[code]
+    r = data.level("R", data.initial)
+    bottom = data.level(BOTTOM, data.initial if cycle.bottom_from_initial and BOTTOM in data else r)
+    dwell = data.amount("P") if cycle.dwells else 0.0
+    return Hole(
+        data.initial,
+        r,
+        bottom,
+        back=r if channel.mode.codes.get("return") == "G99" else data.initial,
+        dwell_s=dwell,
+        dwell_out_s=dwell if rules.dwells_at_r else 0.0,
+        peck=abs(data.amount("Q")) if cycle.pecks else 0.0,
+        relief=rules.relief(channel, code),
+        by_r=rules.by_r,
+    )
+
+
+def _with_halts(channel: Channel, strokes: Iterator[Stroke], halts: Halts) -> Iterator[Stroke]:
+    """Note where single block halts: behind strokes and dwells; the end of the hole is not counted here.
+
+    A dwell behind an M code (unclamping an axis) belongs to the action that the code ends.
+    """
+    if halts is Halts.NONE or not channel.single_block:
+        yield from strokes
+        return
+    waits, last = False, None
+    for stroke in strokes:
+        if stroke.action not in (Action.OUTPUT, Action.SPINDLE):
+            if waits and not (stroke.action is Action.DWELL and last is Action.OUTPUT):
+                channel.halt_inside()
+            on_r = halts is Halts.APPROACH and stroke.action is Action.RAPID
+            waits = halts is Halts.ALL or on_r
+            halts = Halts.NONE if on_r else halts
+        last = stroke.action
+        yield stroke
+
+
+def _perform(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> None:
+    """Let the tool make the strokes of one hole."""
+    rules: Drilling = channel.control.drilling_rules(channel)
+    if rules.cycles[channel.mode["cycle"]].strokes in TAPS:
+        channel.memory.tapping = True
+        channel.context_changed()
+    try:
+        _work(channel, strokes, data)
+    finally:
+        if channel.memory.tapping:
+            channel.memory.tapping = False
+            channel.context_changed()
+        _meet(channel, None)
+
+
+def _meet(channel: Channel, overlaps: bool | None) -> None:
+    """Say how the next stroke ends: whether the one behind it may begin before the axes rest."""
+    kind = NO_OVERLAP if overlaps is None else OVERLAPS if overlaps else STROKE
+    if channel.memory.overlap != kind:
+        channel.memory.overlap = kind
+        channel.context_changed()
+
+
+def _work(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> None:
+    center = channel.coordinates.programmed[:]
+    direction = channel.memory.spindle_direction
+    rules: Drilling = channel.control.drilling_rules(channel)
+    for number, stroke in enumerate(strokes):
+        if number >= MAX_STROKES:
+            raise channel.control.block_limit()
+        if stroke.action is Action.SHIFT:
+            _shift(channel, center, data, stroke.value)
+        elif stroke.action is Action.DWELL:
+            stand(channel, stroke.value)
+        elif stroke.action is Action.SPINDLE:
+            rules.turn(channel, int(direction * stroke.value))
+        elif stroke.action is Action.OUTPUT:
+            channel.event("m", code=int(stroke.value))
+        elif stroke.action is Action.HALT:
+            channel.stop("M00")
+        else:
+            _meet(channel, stroke.overlaps)
+            _stroke(channel, data.axis, stroke)
+
+
+def _stroke(channel: Channel, axis: int, stroke: Stroke) -> None:
+    """Along the drilling axis to a level."""
+    c = channel.coordinates
+    end = c.programmed[:]
+    end[axis] = stroke.value
+    c.pending[axis] = 0.0
+    position = c.to_position(end)
+    if stroke.action is Action.RAPID:
+        channel.straight(Kind.RAPID, position, nan, end)
+        return
+    feed = channel.feed * stroke.factor
+    if not feed > 0.0:
+        raise channel.control.fail("no_feed")
+    if stroke.action is Action.FEED:
+        channel.straight(Kind.FEED, position, feed, end)
+    elif position != c.position:
+        rules: Drilling = channel.control.drilling_rules(channel)
+        parameters = (rules.lead(channel), 0.0, stroke.factor, rules.largest_override(channel))
+        channel.curve(Kind.TAP, position, feed, parameters=parameters, programmed=end)
+
+
+def _shift(channel: Channel, center: list[float], data: CycleData, part: float) -> None:
+    """Off the hole's axis by the shift, or back over it; only the axes of the plane."""
+    c = channel.coordinates
+    w = c.geometry.index(data.axis)
+    plane = ((w + 1) % 3, (w + 2) % 3)
+    end = c.programmed[:]
+    for i, amount in zip(
+        plane, channel.control.drilling_rules(channel).shift(channel, data, plane), strict=True
+    ):
+        axis = c.geometry[i]
+        if axis >= 0:
+            end[axis] = center[axis] + part * amount
+    channel.straight(Kind.RAPID, c.to_position(end), nan, end)

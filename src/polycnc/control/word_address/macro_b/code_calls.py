@@ -1,0 +1,153 @@
+"""Programs called by G, M and T codes that parameters register (FANUC macro B §5.1).
+
+A family says which codes are registered (`CustomMacroControl.code_calls`). Inside a program that such a code
+called, codes are ordinary codes; the modal group `calls` holds the letters that may still call, so that plans
+of blocks differ inside and outside.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.word_address.auxiliary import functions
+from polycnc.control.word_address.auxiliary.interlocks import note_tool_number
+from polycnc.control.word_address.block.codes import GCode, MCode, Order
+from polycnc.control.word_address.block.words import Words
+from polycnc.control.word_address.macro_b import macro_calls, subprograms
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
+
+#: The common variable that hands a T code to its program.
+TOOL_VARIABLE = 149
+
+
+@dataclass(frozen=True, slots=True)
+class CodeCall:
+    """A registered code: the program that it calls, and how.
+
+    Attributes:
+        program: Program number.
+        kind: `sub` as M98, `macro` as G65, `modal` as G66, `each` as G66.1.
+    """
+
+    program: int
+    kind: str = "macro"
+
+
+@dataclass(frozen=True, slots=True)
+class CodeCalls:
+    """The registered codes of a control: by G code as written, by M number, and for T."""
+
+    g: Mapping[str, CodeCall] = field(default_factory=dict)
+    m: Mapping[int, CodeCall] = field(default_factory=dict)
+    t: CodeCall | None = None
+
+    def g_rows(self) -> dict[str, GCode]:
+        """Rows of the registered G codes for a G table."""
+        return {code: _g_row(code, call) for code, call in self.g.items()}
+
+
+def _g_row(code: str, call: CodeCall) -> GCode:
+    def act(channel: Channel, words: Words) -> None:
+        macro_calls.refuse_g_behind(words, code)
+        repeats = words.integer("L") if "L" in words else 1
+        program = channel.control.find_program(channel, call.program)
+        if call.kind == "sub":
+            subprograms.enter_subprogram(channel, program, repeats or 0, None, kind="g-sub")
+        elif call.kind == "macro":
+            macro_calls.enter_macro(
+                channel, program, macro_calls.arguments_of(words, "LG"), repeats or 0, kind="g-macro"
+            )
+        else:
+            macro_calls.start_modal(
+                channel,
+                program,
+                repeats or 0,
+                macro_calls.arguments_of(words, "LG"),
+                each=call.kind == "each",
+            )
+        macro_calls.note_level(channel)
+
+    return GCode(code, handler=act, takes="*", axis_words=True, order=Order.CALL)
+
+
+def _calls(builder: Builder) -> CodeCalls:
+    control: Any = builder.control
+    calls: CodeCalls = control.code_calls(builder.channel)
+    return calls
+
+
+def may_call(builder: Builder, letter: str) -> bool:
+    """Whether codes of a letter call programs here."""
+    return letter in builder.before.codes.get("calls", "")
+
+
+def m_row(builder: Builder, number: int) -> MCode | None:
+    """The row of an M code that is registered as a subprogram call; its block's other words act as usual."""
+    call = _calls(builder).m.get(number) if may_call(builder, "M") else None
+    if call is None or call.kind != "sub":
+        return None
+
+    def act(channel: Channel, _words: Words) -> None:
+        program = channel.control.find_program(channel, call.program)
+        subprograms.enter_subprogram(channel, program, 1, None, kind="m-sub")
+        macro_calls.note_level(channel)
+
+    return MCode(number, after=True, handler=act, silent=True)
+
+
+def plan_m_macro(builder: Builder, plan: Plan) -> Step | None:
+    """A block whose first word is an M code registered as a macro: the other words are its arguments."""
+    first = builder.order[0] if builder.order else ""
+    if first[:1] != "M" or not first[1:].isdigit() or not may_call(builder, "M"):
+        return None
+    number = int(first[1:])
+    call = _calls(builder).m.get(number)
+    if call is None or call.kind == "sub":
+        return None
+
+    def act(channel: Channel, values: list[float]) -> None:
+        words = Words(plan, values)
+        macro_calls.refuse_g_behind(words, first)
+        if "T" in words:
+            note_tool_number(channel)
+        repeats = words.integer("L") if "L" in words else 1
+        arguments = macro_calls.arguments_of(words, "LG", without_m=number)
+        program = channel.control.find_program(channel, call.program)
+        macro_calls.enter_macro(channel, program, arguments, repeats or 0, kind="m-macro")
+        macro_calls.note_level(channel)
+
+    return act
+
+
+def plan_tool_or_call(builder: Builder) -> Step | None:
+    """T: selects the next tool, or calls a program behind the motion of its block."""
+    return None if calls_by_tool(builder) else functions.plan_tool(builder)
+
+
+def plan_tool_call(builder: Builder) -> Step | None:
+    """The call of the program registered for T."""
+    if not builder.has("T") or not calls_by_tool(builder):
+        return None
+    slot = builder.slots["T"][0]
+    call = _calls(builder).t
+
+    def act(channel: Channel, values: list[float]) -> None:
+        assert call is not None
+        channel.memory.write(TOOL_VARIABLE, values[slot])
+        program = channel.control.find_program(channel, call.program)
+        subprograms.enter_subprogram(channel, program, 1, None, kind="t-sub")
+        macro_calls.note_level(channel)
+
+    return act
+
+
+def calls_by_tool(builder: Builder) -> bool:
+    """Whether T calls a program here."""
+    return _calls(builder).t is not None and may_call(builder, "T")

@@ -1,0 +1,147 @@
+"""Interruption macros: M96 P enables a program that an input calls in the middle of a move, M97 disables it.
+
+Where the input comes is part of the setup (`interrupts`). The move is cut there; whether the rest of it is still made
+follows from what the interruption program does (FANUC macro B §6).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.block.codes import MCode
+from polycnc.control.word_address.macro_b.variables import LOCALS
+from polycnc.control.word_address.motion.skip import signal_position
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.mode import Mode
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.words import Words
+    from polycnc.machine.setup.values import Interrupt
+    from polycnc.program import Program
+
+#: Kind of an interruption program's level.
+LEVEL = "interrupt"
+#: 6003: types of the interruption.
+OWN_LOCALS_BIT, BLOCK_FIRST_BIT, ENABLED_BIT = 5, 2, 7
+
+
+@dataclass(frozen=True, slots=True)
+class Interrupted:
+    """What an interruption has cut off: the rest of the move, the modal state, the rows made until then."""
+
+    kind: Kind
+    end: list[float]
+    feed: float
+    mode: Mode
+    rows: int
+
+
+class Interruptions:
+    """The interruption program of a channel, and which inputs have come."""
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        self.came: set[int] = set()
+        self.running: list[Interrupted] = []
+
+
+def enable(channel: Channel, words: Words) -> None:
+    """M96 P: from now on an input calls this program."""
+    number = words.integer("P")
+    if number is None:
+        raise words.fail("no_program", "M96")
+    channel.memory.interruptions = Interruptions(channel.control.find_program(channel, number))
+    channel.mode = channel.mode.with_code("interruption", "M96")
+
+
+def disable(channel: Channel, _words: Words) -> None:
+    """M97."""
+    channel.mode = channel.mode.with_code("interruption", "M97")
+
+
+#: The codes of the interruption macro; on machines without it they are the builder's.
+M_CODES = {
+    96: MCode(96, handler=enable, takes="P", silent=True),
+    97: MCode(97, handler=disable, silent=True),
+}
+
+
+def m_code(channel: Channel, number: int) -> MCode | None:
+    """M96 or M97 where 6003#7 MUS enables the interruption macro; a setup that names interrupt inputs means it."""
+    setup = channel.setup
+    enabled = setup.parameters.bit(6003, ENABLED_BIT, default=int(bool(setup.switches.interrupts)))
+    return M_CODES.get(number) if enabled else None
+
+
+def interruptible(builder: Builder, motion: Step) -> Step:
+    """A motion that an input may cut."""
+    if builder.mode.codes.get("interruption") != "M96":
+        return motion
+
+    def move(channel: Channel, values: list[float]) -> None:
+        start, mark = channel.coordinates.position, channel.toolpath.mark()
+        motion(channel, values)
+        if not channel.memory.interruptions.running:
+            _interrupt(channel, start, mark)
+
+    return move
+
+
+def _interrupt(channel: Channel, start: list[float], mark: int) -> None:
+    """Look whether an input comes on the way just made, and call the program there."""
+    interruptions: Interruptions = channel.memory.interruptions
+    chunk, end = channel.toolpath.chunk, channel.coordinates.position
+    for number, interrupt in enumerate(channel.setup.switches.interrupts):
+        if number in interruptions.came or not _runs(channel, interrupt) or end == start:
+            continue
+        stop = signal_position(channel, start, end, dict(interrupt.at))
+        if stop is None:
+            continue
+        if len(chunk) != mark + 1 or chunk.kind[-1] not in (Kind.RAPID, Kind.FEED):
+            raise AlarmError("PC0001", hint="hint.not-supported", code="M96")
+        interruptions.came.add(number)
+        kind, feed = Kind(chunk.kind[-1]), chunk.feed[-1]
+        if not channel.memory.parameters.bit(6003, BLOCK_FIRST_BIT):
+            channel.toolpath.truncate(mark)
+            channel.coordinates.arrive(start)
+            channel.straight(kind, stop, feed)
+        cut = Interrupted(kind, end, feed, channel.mode, len(channel.toolpath))
+        interruptions.running.append(cut)
+        _call(channel, interruptions.program)
+        return
+
+
+def _runs(channel: Channel, interrupt: Interrupt) -> bool:
+    level = channel.level
+    program = level.code.program.name if interrupt.program else channel.stack[0].code.program.name
+    wanted = interrupt.program or program
+    return level.code.program.name == wanted and level.code.line(level.current) == interrupt.line
+
+
+def _call(channel: Channel, program: Program) -> None:
+    """6003#5 = 0: with local variables of its own, as a macro; = 1 with those of the interrupted program."""
+    memory = channel.memory
+    if not memory.parameters.bit(6003, OWN_LOCALS_BIT):
+        memory.locals = [None] * LOCALS
+    channel.push(program, kind=LEVEL, local=memory.locals)
+
+
+def finish(channel: Channel, *, jumps: bool) -> None:
+    """The interruption program is over: without NC statements in it, the rest of the cut move is made.
+
+    Args:
+        channel: The channel, on the interrupted level again.
+        jumps: M99 P: it goes on elsewhere, with the modal state as the interruption left it.
+    """
+    interruptions: Interruptions = channel.memory.interruptions
+    cut = interruptions.running.pop()
+    if jumps:
+        return
+    channel.mode = cut.mode
+    if len(channel.toolpath) == cut.rows:
+        channel.straight(cut.kind, cut.end, cut.feed)

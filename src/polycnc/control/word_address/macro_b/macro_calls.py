@@ -1,0 +1,204 @@
+"""Macro calls: G65, G66, G66.1, G67, and programs called by G, M and T codes (FANUC macro B §5)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.block.numbers import length_converter
+from polycnc.control.word_address.block.words import Words
+from polycnc.control.word_address.macro_b import subprograms
+from polycnc.control.word_address.macro_b.variables import LOCALS
+from polycnc.geometry.units import INCH_MM
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.program import Program
+
+#: Argument assignment I.
+ARGUMENTS = {
+    "A": 1, "B": 2, "C": 3, "I": 4, "J": 5, "K": 6, "D": 7, "E": 8, "F": 9, "H": 11, "M": 13, "Q": 17,
+    "R": 18, "S": 19, "T": 20, "U": 21, "V": 22, "W": 23, "X": 24, "Y": 25, "Z": 26,
+}  # fmt: skip
+#: Further arguments of G66.1 and of blocks that it takes as argument lists.
+FURTHER_ARGUMENTS = {"G": 10, "L": 12, "N": 14, "P": 16}
+_LENGTHS = frozenset("ABCIJKQRUVWXYZ")
+_SETS = 10
+#: Letters of codes that may call programs, outside of any program that was called so; B stands for blocks (G66.1).
+ALL_CALLS = "GMTB"
+
+
+@dataclass(slots=True)
+class ModalCall:
+    """G66 or G66.1: the macro that follows every block."""
+
+    program: Program
+    repeats: int
+    arguments: list[float | None]
+    each_block: bool
+
+
+def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) -> list[float | None]:
+    """Local variables that the words of a block set; `without_m` is the M code that calls.
+
+    Assignment I gives each letter its variable. I, J, K may repeat, up to ten sets (assignment II): a set
+    closes when a letter comes that is not behind the last one. Of two words for one variable the later one
+    counts.
+    """
+    local: list[float | None] = [None] * LOCALS
+    number, last = 0, ""
+    for address, slot, form in words.plan.typed:
+        if address in skip or address not in ARGUMENTS:
+            if address not in skip and address not in ("G", "L", "N", "P"):
+                raise words.fail("argument_address", address)
+            continue
+        if address in "IJK":
+            if last and address <= last:
+                number += 1
+            last = address
+            if number >= _SETS:
+                raise words.fail("argument_sets", address)
+            variable = 4 + 3 * number + "IJK".index(address)
+        else:
+            variable = ARGUMENTS[address]
+        value = words.values[slot]
+        if address in _LENGTHS:
+            convert = length_converter(form, words.plan.rules, inch=words.plan.inch)
+            if form == "" and convert is not None:
+                value = convert(value) / (INCH_MM if words.plan.inch else 1.0)
+        local[variable] = value
+    for code in words.plan.m_codes:
+        if code != without_m:
+            local[ARGUMENTS["M"]] = float(code)
+    return local
+
+
+def call_macro(channel: Channel, words: Words) -> None:
+    """G65 P L arguments."""
+    refuse_g_behind(words, "G65")
+    program, repeats = _macro(channel, words)
+    enter_macro(channel, program, arguments_of(words, "PLG"), repeats)
+
+
+def start_modal_call(channel: Channel, words: Words) -> None:
+    """G66 P L arguments: the macro follows every block that moves; G66.1: every block."""
+    code = channel.mode["macro"]
+    refuse_g_behind(words, code)
+    program, repeats = _macro(channel, words)
+    start_modal(channel, program, repeats, arguments_of(words, "PLG"), each=code == "G66.1")
+
+
+def start_modal(
+    channel: Channel, program: Program, repeats: int, arguments: list[float | None], *, each: bool
+) -> None:
+    """From the next block on a macro follows every block that moves, or every block."""
+    channel.mode = channel.mode.with_code("macro", "G66.1" if each else "G66")
+    channel.memory.modal_calls.append(ModalCall(program, repeats, arguments, each))
+
+
+def refuse_g_behind(words: Words, call: str) -> None:
+    """Alarm for a G code behind the code that calls: it cannot be an argument."""
+    order = words.plan.order
+    if any(key[0] == "G" for key in order[order.index(call) + 1 :]):
+        raise words.fail("g_as_argument", call)
+
+
+def end_modal_call(channel: Channel, words: Words) -> None:
+    """G67: the last modal call ends."""
+    calls = channel.memory.modal_calls
+    if calls:
+        calls.pop()
+        if calls:
+            channel.mode = channel.mode.with_code("macro", "G66.1" if calls[-1].each_block else "G66")
+    elif not channel.memory.parameters.bit(6000, 0, default=True):
+        raise words.fail("no_modal_call", "G67")
+
+
+def _macro(channel: Channel, words: Words) -> tuple[Program, int]:
+    repeats = words.integer("L") if "L" in words else None
+    return subprograms.called_program(channel, words), 1 if repeats is None else repeats
+
+
+def enter_macro(
+    channel: Channel,
+    program: Program,
+    local: object,
+    repeats: int = 1,
+    *,
+    kind: str = "macro",
+) -> None:
+    """Put a macro on the stack with local variables of its own, `local`; nothing for no repeats."""
+    if repeats < 1:
+        return
+    channel.control.check_nesting(channel, kind)
+    channel.memory.locals = local
+    channel.push(program, kind=kind, repeats=repeats - 1, local=local)
+
+
+def plan_modal_call(builder: Builder, plan: Plan) -> Step | None:
+    """What follows the blocks of a shape while a modal call is active, or None.
+
+    A move in a modal macro is followed by the macro that was called before it, and so on (nested G66).
+    """
+    if builder.before["macro"] not in ("G66", "G66.1") or builder.mode["macro"] == "G67":
+        return None
+    if any(row.group == "macro" for row in builder.codes):
+        return None
+    if not plan.axis_words or any(row.axis_words and row.code == "G4" for row in builder.codes):
+        return None
+
+    def follow(channel: Channel, _values: list[float]) -> None:
+        calls = channel.memory.modal_calls
+        inside = sum(1 for level in channel.stack if level.kind in ("modal", "b-macro"))
+        if inside < len(calls):
+            call = calls[-1 - inside]
+            enter_macro(channel, call.program, list(call.arguments), call.repeats, kind="modal")
+
+    return follow
+
+
+def plan_argument_block(builder: Builder, plan: Plan) -> Step | None:
+    """Under G66.1 every block is an argument list of the macro."""
+    if builder.before["macro"] != "G66.1" or any(row.group == "macro" for row in builder.codes):
+        return None
+    if "B" not in builder.before.codes.get("calls", "B"):
+        return None
+
+    def call(channel: Channel, values: list[float]) -> None:
+        modal = channel.memory.modal_calls[-1]
+        arguments = _block_arguments(Words(plan, values), builder)
+        enter_macro(channel, modal.program, arguments, modal.repeats, kind="b-macro")
+        note_level(channel)
+
+    return call
+
+
+def _block_arguments(words: Words, builder: Builder) -> list[float | None]:
+    local = arguments_of(words, "LP")
+    for address in ("L", "P"):
+        if address in words:
+            local[FURTHER_ARGUMENTS[address]] = words.typed(address)
+    if builder.codes:
+        local[FURTHER_ARGUMENTS["G"]] = float(builder.codes[-1].code[1:])
+    return local
+
+
+def note_level(channel: Channel) -> None:
+    """Set the letters that may call on the level that runs now.
+
+    Inside a program that a code called, codes call nothing; with 6008#6 those of the other kind do. Inside the
+    macro of G66.1, blocks call nothing.
+    """
+    if "calls" not in channel.mode.codes:
+        return
+    callers = {level.kind[0].upper() for level in channel.stack if level.kind[1:2] == "-"}
+    by_code = callers - {"B"}
+    if not by_code:
+        letters = "GMT"
+    elif not channel.memory.parameters.bit(6008, 6):
+        letters = ""
+    else:
+        letters = "".join(kind for kind in ("G", "MT") if not by_code & set(kind))
+    channel.mode = channel.mode.with_code("calls", letters if "B" in callers else letters + "B")

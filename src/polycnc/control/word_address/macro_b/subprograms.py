@@ -1,0 +1,116 @@
+"""Subprograms: M98, M198 and M99 of the FANUC and MELDAS families."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Level
+    from polycnc.control.word_address.block.words import Words
+    from polycnc.language.word_address import WordAddressProgram
+    from polycnc.program import Program
+
+#: Five and more digits of P hold the number of repeats in front of a four-digit program number.
+PROGRAM_NUMBERS = 10_000
+
+
+def call_subprogram(channel: Channel, words: Words) -> None:
+    """M98 P L Q: program P, L times, from sequence number Q; without P within the same program."""
+    number, repeats = _program_and_repeats(channel, words)
+    sequence = words.integer("Q") if "Q" in words else None
+    if number is None and not words.plan.program_name and sequence is not None:
+        program = channel.level.code.program
+    else:
+        program = called_program(channel, words, number)
+    enter_subprogram(channel, program, repeats, sequence)
+
+
+def called_program(channel: Channel, words: Words, number: int | None = None) -> Program:
+    """The program that P or `<NAME>` names."""
+    if words.plan.program_name:
+        return _by_name(channel, words)
+    if number is None:
+        number = words.integer("P") if "P" in words else None
+    if number is None:
+        raise words.fail("no_program", "P")
+    program: Program = channel.control.find_program(channel, number)
+    return program
+
+
+def _by_name(channel: Channel, words: Words) -> Program:
+    name = words.plan.program_name
+    program = channel.store.find_name(name)
+    if program is None:
+        raise words.fail("no_program", f"<{name}>")
+    return program
+
+
+def call_external_subprogram(channel: Channel, words: Words) -> None:
+    """M198 P L: a program on the external device; not from one that was called so itself."""
+    number, repeats = _program_and_repeats(channel, words)
+    if number is None:
+        raise words.fail("no_program", "M198")
+    if any(level.kind == "external" for level in channel.stack):
+        raise words.fail("external_nested", "M198")
+    program = channel.store.find_external_number(number)
+    if program is None:
+        raise words.fail("no_program", "P")
+    enter_subprogram(channel, program, repeats, None, kind="external")
+
+
+def enter_subprogram(
+    channel: Channel, program: Program, repeats: int, sequence: int | None, *, kind: str = "sub"
+) -> None:
+    """Put a subprogram on the stack: it shares the caller's local variables; nothing for no repeats."""
+    if repeats < 1:
+        return
+    channel.control.check_nesting(channel, kind)
+    local = channel.level.locals
+    level = channel.push(program, kind=kind, repeats=repeats - 1, local=local)
+    if sequence is not None:
+        level.index = level.entry = sequences_of(level).find_sequence(sequence, -1, "no_return_sequence")
+
+
+def sequences_of(level: Level) -> WordAddressProgram:
+    """The program of a level as what knows sequence numbers: on these controls every program does."""
+    return cast("WordAddressProgram", level.code)
+
+
+def _program_and_repeats(channel: Channel, words: Words) -> tuple[int | None, int]:
+    number = words.integer("P") if "P" in words else None
+    repeats = words.integer("L") if "L" in words else None
+    if number is not None and number >= PROGRAM_NUMBERS and not channel.control.long_program_numbers(channel):
+        packed, number = divmod(number, PROGRAM_NUMBERS)
+        return number, packed if channel.control.packs_repeats(channel) else 1 if repeats is None else repeats
+    return number, 1 if repeats is None else repeats
+
+
+def return_from_subprogram(channel: Channel, words: Words) -> None:
+    """M99 [P] [L]: end of a pass; P names a sequence number of the caller, L the passes that remain.
+
+    In the main program M99 goes to the top, M99 P to a sequence number.
+    """
+    level = channel.level
+    sequence = words.integer("P") if "P" in words else None
+    if len(channel.stack) == 1:
+        level.index = (
+            0
+            if sequence is None
+            else sequences_of(level).find_sequence(sequence, level.current, "no_return_sequence")
+        )
+        level.data.clear()
+        channel.begin_again()
+        return
+    left = words.integer("L") if "L" in words else None
+    if left is not None:
+        level.repeats = max(left - 1, 0) if left else 0
+    if sequence is None and level.repeats > 0:
+        level.repeats -= 1
+        level.index = level.entry
+        level.data.clear()
+        return
+    channel.control.leave(channel, jumps=sequence is not None)
+    if sequence is not None:
+        caller = channel.level
+        caller.index = sequences_of(caller).find_sequence(sequence, caller.current, "no_return_sequence")

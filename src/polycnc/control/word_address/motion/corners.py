@@ -1,0 +1,63 @@
+"""Chamfers and roundings between two moves: `,C` and `,R` (FANUC macro B §11)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.compensation import Plane
+from polycnc.compensation.corner import FANUC_CORNERS, CornerStage, CornerViolation, Shape
+from polycnc.control.word_address.motion.path import PLANES
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder
+
+SHAPES = {",C": Shape.CHAMFER, ",R": Shape.ROUNDING}
+#: What each violation is called in a control's table of mistakes.
+MISTAKES = {
+    CornerViolation.NO_NEXT_MOVE: "corner_no_move",
+    CornerViolation.RAPID: "corner_next_block",
+    CornerViolation.TOO_SHORT: "corner_too_short",
+}
+
+
+def plan_corner_words(builder: Builder) -> Step | None:
+    """What `,C` or `,R` in a block asks for; the step runs in front of the motion."""
+    address = next((address for address in SHAPES if builder.has(address)), None)
+    if address is None:
+        return None
+    builder.take(address)
+    slot, convert = builder.slot(address), builder.length(address)
+    shape = SHAPES[address]
+    assert slot is not None
+
+    def insert(channel: Channel, values: list[float]) -> None:
+        size = convert(values[slot]) if convert else values[slot]
+        if size < 0.0:
+            raise channel.control.fail("minus", address=address)
+        if size > 0.0:
+            corner_stage(channel).insert(shape, size)
+
+    return insert
+
+
+def corner_stage(channel: Channel) -> CornerStage:
+    """The channel's corner stage for the active plane, put into its path when it is first needed."""
+    u, v, w = PLANES[channel.mode["plane"]]
+    stage = channel.path.find(CornerStage)
+    if stage is not None and (stage.plane.u, stage.plane.v) == (u, v):
+        return stage
+    if stage is not None:
+        stage.flush()
+    alarms = channel.control.alarms
+    codes = {violation: alarms[mistake] for violation, mistake in MISTAKES.items()}
+    plane = Plane(u, v, w, channel.coordinates.geometry)
+    return channel.path.put(CornerStage(plane, FANUC_CORNERS, codes))
+
+
+def refuse_start_up(channel: Channel) -> None:
+    """Compensation may not start up between the two moves of a corner, but where the control's corners let it."""
+    corners = channel.path.find(CornerStage)
+    if corners is not None and corners.active and not corners.policy.start_up_between:
+        raise channel.control.fail("corner_no_move")

@@ -1,0 +1,61 @@
+"""`,A`: a straight block gives the direction of its line and one of the coordinates (FANUC macro B §11)."""
+
+from __future__ import annotations
+
+from math import nan, radians, sin, tan
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.block.numbers import angle_converter
+from polycnc.control.word_address.motion.path import PLANES, target
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
+
+ANGLE = ",A"
+#: A line that runs nearer than this to an axis does not say where it reaches a coordinate of the other one.
+LEAST_ANGLE_DEG = 1.0
+_STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
+
+
+def plan_line_by_angle(builder: Builder, plan: Plan) -> Step | None:
+    """A block of G00 or G01 with `,A`, counter-clockwise from the plane's first axis; None without."""
+    kind = _STRAIGHT.get(builder.mode["motion"])
+    if kind is None or not builder.has(ANGLE):
+        return None
+    builder.take(ANGLE)
+    slot, form = builder.slots[ANGLE]
+    convert, control = angle_converter(form, builder.rules), builder.control
+    u, v, _ = PLANES[builder.mode["plane"]]
+    geometry = builder.channel.coordinates.geometry
+    named = {word.axis for word in plan.axis_words} & {geometry[u], geometry[v]}
+    if not named:
+        # The end would be where the line of the next block meets this one.
+        raise AlarmError("PC0001", address=ANGLE, hint="hint.not-supported", code=ANGLE)
+    corner = control.plan_corner(builder)
+
+    def move(channel: Channel, values: list[float]) -> None:
+        rapid = kind == Kind.RAPID
+        if not rapid and not channel.feed > 0.0:
+            raise control.fail("no_feed")
+        c = channel.coordinates
+        first, second = c.geometry[u], c.geometry[v]
+        angle = convert(values[slot]) if convert else values[slot]
+        end = target(channel, plan.axis_words, values)
+        if len(named) == 1:
+            across = angle - 90.0 if first in named else angle
+            if abs(sin(radians(across))) < sin(radians(LEAST_ANGLE_DEG)):
+                raise control.fail("drawing_end", address=ANGLE)
+            start, slope = c.programmed, tan(radians(angle))
+            if first in named:
+                end[second] = start[second] + (end[first] - start[first]) * slope
+            else:
+                end[first] = start[first] + (end[second] - start[second]) / slope
+        if corner is not None:
+            corner(channel, values)
+        channel.straight(kind, c.to_position(end), nan if rapid else channel.feed, end)
+
+    return move

@@ -1,0 +1,200 @@
+"""Rapid, line and arc: the motion codes G00 to G03 of the word-address controls.
+
+Each planner looks at the shape of a block once and gives the step that moves. Words are programmed coordinates; the
+step turns them into a target of the absolute display and hands the move to the channel.
+"""
+
+from __future__ import annotations
+
+from math import nan
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.block.words_as_data import targets_as_data, word_as_data
+from polycnc.control.word_address.motion.arcs import center_by_radius, emit_arc, emit_stretched, is_stretched
+from polycnc.geometry import arcs
+from polycnc.language.bulk import Arc, Straight, declare
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.numbers import Convert
+    from polycnc.control.word_address.block.plan import AxisWord, Builder, Plan
+
+#: Feed codes of all word-address families to the meaning that the toolpath uses.
+FEED_MODES = {"G93": "G93", "G94": "G94", "G95": "G95", "G98": "G94", "G99": "G95"}
+#: First, second and third axis of a plane as geometry axes, and the centre words of the first two.
+PLANES: dict[str, tuple[int, int, int]] = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
+CENTER_WORDS = "IJK"
+
+
+def target(channel: Channel, words: tuple[AxisWord, ...], values: list[float]) -> list[float]:
+    """The programmed end point that axis words name."""
+    c = channel.coordinates
+    end = c.programmed[:]
+    for word in words:
+        value = values[word.slot]
+        if word.convert is not None:
+            value = word.convert(value)
+        axis = word.axis
+        if word.incremental:
+            end[axis] += value + c.pending[axis]
+        else:
+            end[axis] = value
+        if c.owes:
+            c.pending[axis] = 0.0
+    return end
+
+
+def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
+    """G00: a rapid move."""
+    return _plan_straight(builder, plan, Kind.RAPID)
+
+
+def plan_line(builder: Builder, plan: Plan) -> Step | None:
+    """G01: a straight cut."""
+    return _plan_straight(builder, plan, Kind.FEED)
+
+
+def _plan_straight(builder: Builder, plan: Plan, kind: Kind) -> Step | None:
+    words = plan.axis_words
+    control = builder.control
+    corner = control.plan_corner(builder)
+    if not words:
+        return corner
+    rapid = kind == Kind.RAPID
+    feed_named = builder.has("F")
+    polar = builder.mode.codes.get("polar") == "G16"
+    absolute = not polar and not any(word.incremental for word in words)
+    targets = tuple((word.axis, word.slot, word.convert) for word in words)
+
+    def move(channel: Channel, values: list[float]) -> None:
+        if rapid:
+            feed = channel.feed if feed_named else nan
+        else:
+            feed = channel.feed
+            if not feed > 0.0:
+                raise control.fail("no_feed")
+        c = channel.coordinates
+        if absolute and c.direct and not c.owes:
+            end = c.position[:]
+            for axis, slot, convert in targets:
+                end[axis] = values[slot] if convert is None else convert(values[slot])
+            if corner is not None:
+                corner(channel, values)
+            channel.straight(kind, end, feed)
+            return
+        programmed = control.polar_target(channel, plan, values) if polar else target(channel, words, values)
+        if corner is not None:
+            corner(channel, values)
+        channel.straight(kind, c.to_position(programmed), feed, programmed)
+
+    told = targets_as_data(words)
+    if told is None or polar or corner is not None:
+        return move
+    return declare(move, Straight(rapid, told, names_feed=feed_named, absolute=absolute))
+
+
+def plan_arc_cw(builder: Builder, plan: Plan) -> Step | None:
+    """G02: an arc or a helix, clockwise."""
+    return _plan_arc(builder, plan, ccw=False)
+
+
+def plan_arc_ccw(builder: Builder, plan: Plan) -> Step | None:
+    """G03: an arc or a helix, counter-clockwise."""
+    return _plan_arc(builder, plan, ccw=True)
+
+
+def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
+    """An arc, helix or full circle in the active plane.
+
+    Centre words are increments from the start. With R the arc is up to 180 degrees, with a negative R longer. R wins
+    over centre words. Neither: what the control has for it.
+    """
+    control = builder.control
+    words = plan.axis_words
+    u, v, w = plane = PLANES[builder.mode["plane"]]
+    centers = [CENTER_WORDS[axis] for axis in (u, v, w) if builder.has(CENTER_WORDS[axis])]
+    builder.take("R", *centers)
+    corner = control.plan_corner(builder)
+    radius_slot = builder.slot("R")
+    if not words and radius_slot is None and not centers:
+        return corner
+    if CENTER_WORDS[w] in centers and radius_slot is None:
+        raise control.fail("center_off_plane", address=CENTER_WORDS[w])
+    if radius_slot is None and not centers:
+        return control.plan_arc_without_center(builder, plan)
+    polar = builder.mode.codes.get("polar") == "G16"
+    radius_of = builder.length("R") if radius_slot is not None else None
+    slots = (builder.slot(CENTER_WORDS[u]), builder.slot(CENTER_WORDS[v]))
+    converts = tuple(
+        builder.length(CENTER_WORDS[axis]) if builder.has(CENTER_WORDS[axis]) else None for axis in (u, v)
+    )
+    center_words = _center_words(radius_slot, radius_of, slots, converts)
+
+    def move(channel: Channel, values: list[float]) -> None:
+        feed = channel.feed
+        if not feed > 0.0:
+            raise control.fail("no_feed")
+        c = channel.coordinates
+        geometry = c.geometry
+        if geometry[u] < 0 or geometry[v] < 0:
+            raise control.fail("plane")
+        if polar:
+            programmed = control.polar_target(channel, plan, values)
+        else:
+            programmed = target(channel, words, values) if words else c.programmed[:]
+        begin = (c.programmed[geometry[u]], c.programmed[geometry[v]])
+        end = (programmed[geometry[u]], programmed[geometry[v]])
+        told_by = center_words(values)
+        center, ends_beside = _center(channel, begin, end, told_by, ccw)
+        if corner is not None:
+            corner(channel, values)
+        if center is None:
+            channel.straight(Kind.FEED, c.to_position(programmed), feed, programmed)
+        elif ends_beside or is_stretched(c.programming, plane):
+            emit_stretched(channel, programmed, plane, told_by, ccw=ccw, feed=feed)
+        else:
+            emit_arc(channel, programmed, center, plane, ccw=ccw, feed=feed)
+
+    told = targets_as_data(words)
+    if told is None or polar or corner is not None:
+        return move
+    first, second = (word_as_data(slot, convert) for slot, convert in zip(slots, converts, strict=True))
+    radius_word = word_as_data(radius_slot, radius_of)
+    return declare(move, Arc(ccw, plane, told, (first, second), radius_word, line_without_way=True))
+
+
+def _center(
+    channel: Channel, begin: arcs.Point, end: arcs.Point, told_by: float | arcs.Point, ccw: bool
+) -> tuple[arcs.Point | None, bool]:
+    """The centre, None for an arc by R that is a line; and whether the end lies beside the circle about it."""
+    control = channel.control
+    if isinstance(told_by, float):
+        return center_by_radius(channel, begin, end, told_by, ccw), False
+    center = (begin[0] + told_by[0], begin[1] + told_by[1])
+    control.check_arc(channel, begin, end, center)
+    return center, abs(arcs.radius_mismatch(begin, end, center)) > control.spiral_tolerance(channel)
+
+
+def _center_words(
+    radius_slot: int | None,
+    radius_of: Convert | None,
+    slots: tuple[int | None, ...],
+    converts: tuple[Convert | None, ...],
+) -> Callable[[list[float]], float | arcs.Point]:
+    """What tells an arc in the values of a block: its radius, or the way from its start to its centre."""
+
+    def tell(values: list[float]) -> float | arcs.Point:
+        if radius_slot is not None:
+            return radius_of(values[radius_slot]) if radius_of else float(values[radius_slot])
+        shift = [0.0, 0.0]
+        for i, slot in enumerate(slots):
+            if slot is not None:
+                convert = converts[i]
+                shift[i] = convert(values[slot]) if convert else values[slot]
+        return (shift[0], shift[1])
+
+    return tell

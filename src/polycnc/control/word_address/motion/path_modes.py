@@ -1,0 +1,64 @@
+"""How the path is driven: exact stop G09, look-ahead and high-speed modes G05, G05.1, G08. Its points stay the same."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.words import Words
+
+
+def exact_stop_block(channel: Channel, _words: Words) -> None:
+    """G09: exact stop at the end of this block."""
+    channel.memory.exact_stop_block = True
+    channel.context_changed()
+
+
+def end_of_exact_stop(channel: Channel, _values: list[float]) -> None:
+    """The block of a G09 ends."""
+    channel.memory.exact_stop_block = False
+    channel.context_changed()
+
+
+def _refuse_company(words: Words, *own: str) -> None:
+    """Alarm for any other word in the block."""
+    for key in words.plan.order:
+        if key not in own:
+            raise words.fail("address", key)
+
+
+def high_speed_machining(channel: Channel, words: Words) -> None:
+    """G05 P10000 / P0, alone in its block: the path is unchanged; the planner looks further ahead."""
+    _refuse_company(words, "G5", "P")
+    if words.integer("P") not in (0, 10000):
+        raise words.fail("address", "P")
+    channel.memory.contour_control = words.integer("P") == 10000
+    channel.context_changed()
+
+
+def high_speed_mode(channel: Channel, words: Words) -> None:
+    """G05 P0, P1, P2, P10000 of MELDAS: high-speed modes; the path is unchanged."""
+    number = words.integer("P")
+    if number not in (0, 1, 2, 10000):
+        raise words.fail("address", "P")
+    channel.memory.contour_control = number != 0
+    channel.context_changed()
+
+
+def contour_control(channel: Channel, words: Words) -> None:
+    """G05.1 Q1 [R1 … R10] / Q0, alone in its block: AI contour control; R chooses a level of precision."""
+    _refuse_company(words, "G5.1", "Q", "R")
+    level = words.integer("R") if "R" in words else None
+    if words.integer("Q") not in (0, 1) or (level is not None and not 1 <= level <= 10):
+        raise words.fail("address", "Q")
+    channel.memory.contour_control = words.integer("Q") == 1
+    channel.context_changed()
+
+
+def advance_preview(channel: Channel, words: Words) -> None:
+    """G08 P1 / P0."""
+    if words.integer("P") not in (0, 1):
+        raise words.fail("preview_value", "P")
+    channel.memory.contour_control = words.integer("P") == 1
+    channel.context_changed()

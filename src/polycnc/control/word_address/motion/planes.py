@@ -1,0 +1,69 @@
+"""G17, G18, G19 on controls with parallel axes: which axes form the plane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from polycnc.compensation import CutterCompensation
+from polycnc.control.word_address.motion.path import PLANES
+from polycnc.control.word_address.transformations import cylinder
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.words import Words
+
+
+@dataclass(frozen=True, slots=True)
+class ParallelAxes:
+    """Other axes than those of the machine file are X, Y and Z; every axis moves as it is named."""
+
+    geometry: tuple[int, int, int]
+
+    def real(self, end: list[float]) -> list[float]:
+        """The axes where the path is."""
+        return list(end)
+
+    def display(self, real: list[float]) -> list[float]:
+        """The path where the axes are."""
+        return list(real)
+
+
+def choose_axes(channel: Channel, geometry: tuple[int, int, int]) -> None:
+    """Let these axes be X, Y and Z of the plane."""
+    memory = channel.memory
+    channel.coordinates.geometry = geometry
+    if geometry == memory.basic_geometry:
+        memory.parallel = None
+    elif memory.parallel is None or memory.parallel.geometry != geometry:
+        memory.parallel = ParallelAxes(geometry)
+    channel.context_changed()
+
+
+def select_plane(channel: Channel, words: Words) -> None:
+    """G17 to G19: another plane than that of an active radius compensation is an alarm."""
+    memory, code = channel.memory, channel.mode["plane"]
+    stage = channel.path.find(CutterCompensation)
+    if memory.side and stage is not None and (stage.plane.u, stage.plane.v) != PLANES[code][:2]:
+        raise words.fail("comp_plane", code)
+    lay_axes(channel, words)
+
+
+def lay_axes(channel: Channel, words: Words) -> None:
+    """The plane's axes: a word of the block names a parallel axis (1022) in place of the basic one."""
+    memory, c = channel.memory, channel.coordinates
+    basic = list(memory.basic_geometry)
+    for axis, _, _ in words.axes():
+        role = channel.control.axis_role(channel, axis)
+        if role in (5, 6, 7):
+            basic[role - 5] = axis
+    geometry = (basic[0], basic[1], basic[2])
+    if memory.cylinder is None:
+        choose_axes(channel, geometry)
+        return
+    memory.geometry_before = geometry
+    memory.cylinder = replace(
+        memory.cylinder, geometry=cylinder.unrolled_geometry(channel, memory.cylinder.axis)
+    )
+    c.transform(memory.cylinder, memory.cylinder.geometry)
+    channel.context_changed()

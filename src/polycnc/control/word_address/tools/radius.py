@@ -1,0 +1,168 @@
+"""G40, G41, G42 and the D word: cutter radius compensation as a stage of the channel's path."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from polycnc.channel.path import Move
+from polycnc.compensation import CutterCompensation, Plane, Violation
+from polycnc.control.word_address.motion import corners
+from polycnc.control.word_address.motion.arcs import mirrors_plane
+from polycnc.control.word_address.motion.path import PLANES
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.words import Words
+
+#: What each violation is called in a control's table of mistakes.
+MISTAKES = {
+    Violation.ARC_START: "comp_arc_start",
+    Violation.ARC_CANCEL: "comp_arc_start",
+    Violation.INNER_RADIUS_TOO_SMALL: "comp_interference",
+    Violation.NO_INTERSECTION: "comp_no_intersection",
+    Violation.INTERFERENCE: "comp_interference",
+    Violation.NO_AVOIDANCE: "comp_no_avoidance",
+    Violation.AVOIDANCE_DANGEROUS: "comp_avoidance_dangerous",
+    Violation.AVOIDANCE_INTERFERES: "comp_avoidance_interferes",
+}
+
+
+def violation_codes(alarms: Mapping[str, str]) -> dict[Violation, str]:
+    """The control's alarm code of every violation; that of an interference where it has none of its own."""
+    return {
+        violation: alarms.get(mistake, alarms["comp_interference"]) for violation, mistake in MISTAKES.items()
+    }
+
+
+def compensate_left(channel: Channel, words: Words) -> None:
+    """G41: the tool is left of the contour, seen in the direction of travel."""
+    _engage(channel, words, 1)
+
+
+def compensate_right(channel: Channel, words: Words) -> None:
+    """G42: the tool is right of the contour."""
+    _engage(channel, words, -1)
+
+
+def _engage(channel: Channel, words: Words, side: int) -> None:
+    number = words.integer("D")
+    if number is not None:
+        channel.memory.d = number
+    _refuse_arc(channel, words)
+    stage = compensation_stage(channel)
+    memory = channel.memory
+    memory.side = side
+    stage.policy = channel.control.compensation_policy(channel)
+    if stage.active and memory.engaged_side != side:
+        memory.engaged_side = side
+        stage.change_side(side_on_display(channel))
+        return
+    memory.engaged_side = side
+    control = channel.control
+    tip = control.nose_tip(channel)
+    stage.engage(
+        side_on_display(channel), control.radius_value(channel, memory.d), tip, place_of_block(channel)
+    )
+    channel.context_changed()
+
+
+def cancel_compensation(channel: Channel, words: Words, *, takes_wall: bool = True) -> None:
+    """G40: the next plane motion leads back to the programmed path.
+
+    Args:
+        channel: The channel.
+        words: Words of the block; I J K give the wall behind the last point.
+        takes_wall: Whether I J K count.
+    """
+    stage = active_compensation(channel)
+    if stage is None:
+        return
+    _refuse_arc(channel, words)
+    channel.memory.side = channel.memory.engaged_side = 0
+    u, v, _ = PLANES[channel.mode["plane"]]
+    wall = (words.length("IJK"[u]) or 0.0, words.length("IJK"[v]) or 0.0)
+    stage.cancel(wall if takes_wall and wall != (0.0, 0.0) else None, place=place_of_block(channel))
+    channel.context_changed()
+
+
+def _refuse_arc(channel: Channel, words: Words) -> None:
+    """Compensation begins and ends in straight blocks only."""
+    if channel.mode["motion"] in ("G2", "G3") and words.axes():
+        raise words.fail("comp_arc_start", channel.mode["compensation"])
+
+
+def plan_radius_number(builder: Builder) -> Step:
+    """D: number of the radius offset, modal; within compensation the new radius holds from the end of the block."""
+    slot = builder.slots["D"][0]
+
+    def change(channel: Channel, values: list[float]) -> None:
+        memory = channel.memory
+        memory.d = int(values[slot])
+        stage = active_compensation(channel)
+        if stage is not None and memory.side:
+            stage.change_radius(channel.control.radius_value(channel, memory.d))
+
+    return change
+
+
+@contextmanager
+def suspended(channel: Channel) -> Iterator[None]:
+    """Motion without compensation in between: the vector vanishes, and the next plane motion starts up again."""
+    memory = channel.memory
+    stage = active_compensation(channel)
+    if stage is None:
+        yield
+        return
+    stage.drop_vector()
+    stage.discard()
+    yield
+    if memory.side:
+        control = channel.control
+        tip = control.nose_tip(channel)
+        stage.engage(side_on_display(channel), control.radius_value(channel, memory.d), tip)
+
+
+def side_on_display(channel: Channel) -> int:
+    """Side in display coordinates: a mirror of one plane axis changes left and right."""
+    side: int = channel.memory.side
+    plane = PLANES[channel.mode["plane"]]
+    return -side if mirrors_plane(channel.coordinates.programming, plane) else side
+
+
+def active_compensation(channel: Channel) -> CutterCompensation | None:
+    """The stage of the path that compensates; None while none does."""
+    stage = channel.path.find(CutterCompensation)
+    return stage if stage is not None and stage.active else None
+
+
+def compensation_stage(channel: Channel) -> CutterCompensation:
+    """The channel's compensation stage, put into its path when it is first needed."""
+    u, v, w = PLANES[channel.mode["plane"]]
+    geometry = channel.coordinates.geometry
+    if geometry[u] < 0 or geometry[v] < 0:
+        raise channel.control.fail("plane")
+    stage = channel.path.find(CutterCompensation)
+    if stage is not None and stage.active:
+        return stage
+    if stage is not None:
+        stage.flush()
+    policy = channel.control.compensation_policy(channel)
+    plane = Plane(u, v, w, geometry)
+    corners.refuse_start_up(channel)
+    return channel.path.put(CutterCompensation(plane, policy, violation_codes(channel.control.alarms)))
+
+
+def place_of_block(channel: Channel) -> Move:
+    """A move without way that stands for the running block."""
+    position = channel.coordinates.position
+    level = channel.level
+    kind = Kind.RAPID if channel.mode["motion"] == "G0" else Kind.FEED
+    return Move(
+        kind, position, position, channel.feed, level.program_number, channel.line, channel.context_number()
+    )

@@ -1,0 +1,132 @@
+"""Cylindrical interpolation G07.1: the surface of a cylinder is unrolled into a plane.
+
+Words of the rotary axis stay degrees, and so does what the displays show. In the toolpath the axis is a length on the
+surface, so that arcs, radius compensation and the planner see a plane.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.motion.path import PLANES
+from polycnc.control.word_address.tools.radius import active_compensation
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.words import Words
+
+#: Modal group that holds `G7.1` while a cylinder is unrolled.
+GROUP = "cylinder"
+_CUTS = frozenset({"G1", "G2", "G3"})
+
+
+@dataclass(frozen=True, slots=True)
+class Cylinder:
+    """An unrolled cylinder, and how its axis follows a length on the surface.
+
+    Attributes:
+        axis: Column of the rotary axis.
+        mm_per_degree: Length of a degree on the surface.
+        geometry: Columns of X, Y and Z while the cylinder is unrolled.
+    """
+
+    axis: int
+    mm_per_degree: float
+    geometry: tuple[int, int, int]
+
+    def real(self, end: list[float]) -> list[float]:
+        """Degrees for a length on the surface."""
+        return self._scaled(end, 1.0 / self.mm_per_degree)
+
+    def display(self, real: list[float]) -> list[float]:
+        """Length on the surface for degrees."""
+        return self._scaled(real, self.mm_per_degree)
+
+    def _scaled(self, point: list[float], factor: float) -> list[float]:
+        scaled = list(point)
+        scaled[self.axis] *= factor
+        return scaled
+
+
+def cylinder(channel: Channel, words: Words) -> None:
+    """G07.1 C r (G107): C is unrolled at the radius r; r = 0 ends the mode."""
+    named = words.plan.axis_words
+    if len(named) != 1 or not channel.axis_data[named[0].axis].rotary:
+        raise words.fail("cylinder_axis", "G7.1")
+    radius = abs(words.length(named[0].address) or 0.0)
+    memory = channel.memory
+    if not radius:
+        end_cylinder(channel)
+        return
+    if memory.cylinder is not None:
+        raise words.fail("cylinder_axis", "G7.1")
+    if channel.mode["motion"] not in _CUTS or memory.side or memory.polar is not None:
+        raise words.fail("cylinder_code", "G7.1")
+    axis, c = named[0].axis, channel.coordinates
+    channel.flush()
+    memory.geometry_before = c.geometry
+    memory.cylinder = Cylinder(axis, radius * pi / 180.0, unrolled_geometry(channel, axis))
+    c.transform(memory.cylinder, memory.cylinder.geometry)
+    channel.mode = channel.mode.with_code(GROUP, "G7.1")
+    _forget_compensation(channel)
+    channel.context_changed()
+
+
+def unrolled_geometry(channel: Channel, axis: int) -> tuple[int, int, int]:
+    """The unrolled axis takes the place of a plane axis: by 1022, else of the one that the cylinder's own is not."""
+    plane = channel.mode["plane"]
+    u, v, _ = PLANES[plane]
+    role = channel.control.axis_role(channel, axis)
+    own = _turns_about(channel, axis)
+    # Where neither plane axis is the cylinder's own (a plane across it), 1022 should have said which one gives way.
+    slot = role - 5 if role in (5, 6, 7) else u if v == own or (own < 0 and plane == "G19") else v
+    geometry = list(channel.memory.geometry_before)
+    geometry[slot] = axis
+    return (geometry[0], geometry[1], geometry[2])
+
+
+def _turns_about(channel: Channel, axis: int) -> int:
+    """Geometry axis (0 to 2) that a rotary axis turns about, by the machine's joints; -1 where they do not say."""
+    machine = channel.machine
+    for joint in (*machine.tool_chain, *machine.work_chain):
+        if joint.axis == channel.axes[axis]:
+            return next((i for i in range(3) if abs(joint.direction[i]) > 1.0 - 1e-9), -1)
+    return -1
+
+
+def end_cylinder(channel: Channel) -> None:
+    """The axis turns by degrees again (also at reset); nothing moves."""
+    memory = channel.memory
+    if memory.cylinder is None:
+        return
+    channel.flush()
+    _forget_compensation(channel)
+    memory.cylinder = None
+    channel.mode = channel.mode.with_code(GROUP, "")
+    channel.coordinates.transform(None, memory.geometry_before)
+    channel.context_changed()
+
+
+def check_block(builder: Builder, refused: frozenset[str]) -> None:
+    """Refuse codes that cylindrical interpolation does not allow."""
+    if not builder.before.codes.get(GROUP):
+        return
+    for row in builder.codes:
+        if row.code in refused or (row.group == "cycle" and row.code != "G80"):
+            raise builder.control.fail("cylinder_code", address=row.code)
+
+
+def unroll(channel: Channel, axis: int, angle_deg: float) -> float:
+    """A word of the unrolled axis as a length on the surface, mm."""
+    active: Cylinder | None = channel.memory.cylinder
+    return angle_deg * active.mm_per_degree if active is not None and active.axis == axis else angle_deg
+
+
+def _forget_compensation(channel: Channel) -> None:
+    """A vector of the other plane means nothing on this one."""
+    stage = active_compensation(channel)
+    if stage is not None:
+        stage.discard()

@@ -1,0 +1,157 @@
+"""Polar coordinate interpolation G12.1 / G13.1: a linear and a rotary axis become a Cartesian plane.
+
+The contour is written as if the rotary axis were the second axis of the plane, in millimetres. Positions in the
+toolpath are Cartesian; the linear axis follows by the distance from the rotation centre, the rotary one by the angle.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan2, cos, degrees, hypot, radians, sin
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.motion.path import PLANES
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.words import Words
+
+#: Modal group of G12.1 and G13.1.
+GROUP = "polar_interpolation"
+#: Parameters with the numbers of the linear and of the rotary axis.
+LINEAR, ROTARY = 5460, 5461
+#: Where nothing is set, the rotary axis is the one of this name.
+DELIVERED_ROTARY = "C"
+#: The plane that a linear axis X, Y or Z begins: it decides which of I, J, K give the centre of an arc.
+PLANE_OF_LINEAR = ("G17", "G19", "G18")
+_CUTS = frozenset({"G1", "G2", "G3"})
+
+
+@dataclass(frozen=True, slots=True)
+class PolarPlane:
+    """How the real axes follow a point of the plane.
+
+    Attributes:
+        linear: Column of the plane's first axis.
+        rotary: Column of its second axis.
+        geometry: Columns of X, Y and Z while the plane is chosen.
+        start_deg: Work coordinate of the rotary axis where the plane was chosen; it is the direction of the first axis.
+        eccentricity: Program zero against the rotation centre, mm.
+        side: -1 where the linear axis stands on the negative side of the centre.
+        diameter: The machine display shows diameters of the linear axis.
+    """
+
+    linear: int
+    rotary: int
+    geometry: tuple[int, int, int]
+    start_deg: float
+    eccentricity: tuple[float, float] = (0.0, 0.0)
+    side: float = 1.0
+    diameter: bool = False
+
+    @property
+    def pole(self) -> tuple[float, float]:
+        """The rotation centre: work coordinates of both axes of the plane, in which the rotary one has no direction."""
+        return -self.eccentricity[0], -self.eccentricity[1]
+
+    def real(self, end: list[float]) -> list[float]:
+        """Work coordinates of the real axes at a point of the plane: mm (radius) and degrees."""
+        first = self.side * (end[self.linear] + self.eccentricity[0])
+        second = self.side * (end[self.rotary] + self.eccentricity[1])
+        moved = list(end)
+        moved[self.linear] = self.side * hypot(first, second)
+        moved[self.rotary] = self.start_deg + degrees(atan2(second, first))
+        return moved
+
+    def display(self, real: list[float]) -> list[float]:
+        """The point of the plane for work coordinates of the real axes."""
+        distance, angle = real[self.linear], radians(real[self.rotary] - self.start_deg)
+        shown = list(real)
+        shown[self.linear] = distance * cos(angle) - self.eccentricity[0]
+        shown[self.rotary] = distance * sin(angle) - self.eccentricity[1]
+        return shown
+
+
+def start_polar(channel: Channel, words: Words) -> None:
+    """G12.1 (G112): the axes of 5460 and 5461 become a Cartesian plane; the tool stands at angle 0."""
+    memory, c = channel.memory, channel.coordinates
+    number = memory.parameters.number
+    linear = int(number(LINEAR, default=c.geometry[0] + 1)) - 1
+    rotary = int(number(ROTARY, default=channel.axis_index.get(DELIVERED_ROTARY, -1) + 1)) - 1
+    if (
+        linear not in c.geometry
+        or not 0 <= rotary < len(channel.axes)
+        or not channel.axis_data[rotary].rotary
+    ):
+        raise words.fail("polar_axes", "G12.1")
+    if memory.side or memory.cylinder is not None or not c.zero.is_identity:
+        raise words.fail("polar_code", "G12.1")
+    if memory.polar is not None:
+        return
+    channel.flush()
+    here = c.position
+    first = c.geometry.index(linear)
+    plane = PLANE_OF_LINEAR[first]
+    geometry = list(c.geometry)
+    geometry[PLANES[plane][1]] = rotary
+    side = -1.0 if here[linear] < 0.0 else 1.0
+    polar = PolarPlane(
+        linear,
+        rotary,
+        (geometry[0], geometry[1], geometry[2]),
+        here[rotary],
+        side=side,
+        diameter=channel.control.is_diameter(channel, linear),
+    )
+    enter_polar(channel, polar, plane)
+
+
+def enter_polar(channel: Channel, polar: PolarPlane, plane: str) -> None:
+    """From here on the words name points of the plane, which is `plane` (G17 to G19); nothing moves."""
+    memory = channel.memory
+    memory.plane_before, memory.geometry_before = channel.mode["plane"], channel.coordinates.geometry
+    memory.polar = polar
+    channel.mode = channel.mode.with_code("plane", plane)
+    channel.coordinates.transform(polar, polar.geometry)
+    channel.context_changed()
+
+
+def end_polar(channel: Channel, words: Words) -> None:
+    """G13.1 (G113): the axes are axes of their own again; the former plane returns."""
+    if channel.memory.polar is None:
+        return
+    if channel.memory.side:
+        raise words.fail("polar_code", "G13.1")
+    channel.flush()
+    leave_polar(channel)
+
+
+def leave_polar(channel: Channel) -> None:
+    """The axes are named themselves again (also at reset); nothing moves."""
+    memory = channel.memory
+    if memory.polar is None:
+        return
+    memory.polar = None
+    channel.mode = channel.mode.with_code("plane", memory.plane_before)
+    channel.coordinates.transform(None, memory.geometry_before)
+    channel.context_changed()
+
+
+def is_length(channel: Channel, axis: int) -> bool:
+    """Whether words of a rotary axis are lengths now."""
+    plane: PolarPlane | None = channel.memory.polar
+    return plane is not None and axis == plane.rotary
+
+
+def check_block(builder: Builder, allowed: frozenset[str]) -> None:
+    """Refuse codes that polar coordinate interpolation does not allow, and rapid motion."""
+    if builder.before.codes.get(GROUP) != "G12.1":
+        return
+    control, motion = builder.control, builder.mode["motion"]
+    for row in builder.codes:
+        if row.code not in allowed:
+            raise control.fail("polar_code", address=row.code)
+    moves = any(control.axis_of_address(builder.channel, a, builder) for a in builder.slots)
+    if moves and motion not in _CUTS and not any(row.axis_words for row in builder.codes):
+        raise control.fail("polar_code", address=motion)

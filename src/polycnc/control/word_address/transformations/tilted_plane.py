@@ -1,0 +1,171 @@
+"""Tilted working planes: G68.2 sets a feature system, G53.1 stands the tool on it, G69 ends it (FANUC macro B §12).
+
+A feature system is a frame inside the work system. On a machine whose table carries rotary axes the frame turns
+with the table when the tool is aligned; on one with a swivel head the length offset follows the tool.
+"""
+
+from __future__ import annotations
+
+from math import hypot, nan
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.coordinates import frames
+from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.tools import length
+from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
+from polycnc.geometry.vectors import cross, minus
+from polycnc.machine.kinematics import Kinematics
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.words import Words
+    from polycnc.geometry.frames import Vector
+
+#: P of G68.2: how the plane is told.
+EULER, ROLL_PITCH_YAW, POINTS, VECTORS, PROJECTION = 0, 1, 2, 3, 4
+#: Blocks of the ways that need several, by Q.
+BLOCKS = {POINTS: 3, VECTORS: 2}
+#: Vectors that are not longer have no direction.
+SHORTEST_MM = 1e-6
+ORDERS = {123, 132, 213, 231, 312, 321}
+
+
+def tilt_plane(channel: Channel, words: Words) -> None:
+    """G68.2 [P0, P1 Q] X Y Z I J K: origin in the work system, and the turn of the plane; P2, P3 in several blocks."""
+    way = words.integer("P") if "P" in words else EULER
+    if way in BLOCKS:
+        _tell(channel, words, way)
+        return
+    if way == PROJECTION:
+        raise AlarmError("PC0001", address="P", hint="hint.not-supported", code=f"G68.2 P{way}")
+    if way not in (EULER, ROLL_PITCH_YAW):
+        raise words.fail("tilt_format", "P")
+    i, j, k = (words.angle(letter) or 0.0 for letter in "IJK")
+    turn = _euler(i, j, k) if way == EULER else _roll_pitch_yaw(words, (i, j, k))
+    channel.memory.tilted_plane = translation(*named_point(channel, words, "tilt_format")) @ turn
+    _renew(channel, channel.memory.tilted_plane, None)
+
+
+def _tell(channel: Channel, words: Words, way: int) -> None:
+    """One block of P2 (Q1 to Q3: origin, a point of X, a point on the side of Y) or P3 (Q1 origin and X, Q2 Z)."""
+    memory = channel.memory
+    number = words.integer("Q") if "Q" in words else 0
+    told: list[tuple[Vector, Vector]] = memory.told_plane if number != 1 else []
+    if number != len(told) + 1 or number > BLOCKS[way]:
+        raise words.fail("tilt_format", "Q")
+    i, j, k = (words.length(letter) or 0.0 for letter in "IJK")
+    memory.told_plane = [*told, (named_point(channel, words, "tilt_format"), (i, j, k))]
+    if number < BLOCKS[way]:
+        return
+    (origin, first), *others = memory.told_plane
+    memory.told_plane = []
+    if way == POINTS:
+        (second, _), (third, _) = others
+        along = _unit(words, minus(second, origin))
+        upright = _unit(words, cross(along, minus(third, origin)))
+    else:
+        along, wanted = _unit(words, first), others[0][1]
+        upright = _unit(words, cross(along, cross(wanted, along)))
+    across = cross(upright, along)
+    rows = tuple(zip(along, across, upright, strict=True))
+    memory.tilted_plane = translation(*origin) @ Frame((rows[0], rows[1], rows[2]))
+    _renew(channel, memory.tilted_plane, None)
+
+
+def _unit(words: Words, vector: Vector) -> Vector:
+    length = hypot(*vector)
+    if length < SHORTEST_MM:
+        raise words.fail("tilt_format", "G68.2")
+    return (vector[0] / length, vector[1] / length, vector[2] / length)
+
+
+def _euler(i: float, j: float, k: float) -> Frame:
+    """I about Z, J about the new X, K about the new Z."""
+    return rotation(2, i) @ rotation(0, j) @ rotation(2, k)
+
+
+def _roll_pitch_yaw(words: Words, angles: Vector) -> Frame:
+    """I, J, K about the axes X, Y, Z of the work system, in the order that Q names."""
+    order = words.integer("Q") if "Q" in words else 123
+    if order not in ORDERS:
+        raise words.fail("tilt_format", "Q")
+    turn = IDENTITY
+    for digit in str(order):
+        axis = int(digit) - 1
+        turn = rotation(axis, angles[axis]) @ turn
+    return turn
+
+
+def named_point(channel: Channel, words: Words, mistake: str) -> Vector:
+    """X Y Z in the work system, absolute whatever the mode; missing ones are zero, other axes are a `mistake`."""
+    geometry = channel.coordinates.geometry
+    point = [0.0, 0.0, 0.0]
+    for axis, value, _ in words.axes():
+        if axis not in geometry:
+            raise words.fail(mistake, channel.axes[axis])
+        point[geometry.index(axis)] = value
+    return (point[0], point[1], point[2])
+
+
+def align_tool(channel: Channel, words: Words) -> None:
+    """G53.1: the rotary axes turn at rapid until the tool stands on the tilted plane; X, Y and Z stay."""
+    _align(channel, words, "G53.1", holds_tip=False)
+
+
+def align_tool_about_tip(channel: Channel, words: Words) -> None:
+    """G53.6: as G53.1, while X, Y and Z go along so that the tip stays where it is on the work."""
+    _align(channel, words, "G53.6", holds_tip=True)
+
+
+def _align(channel: Channel, words: Words, code: str, *, holds_tip: bool) -> None:
+    memory, c = channel.memory, channel.coordinates
+    if memory.tilted_plane is None:
+        raise words.fail("tilt_missing", code)
+    kinematics = Kinematics.of(channel.machine)
+    near = dict(zip(channel.axes, c.machine, strict=True))
+    wanted = memory.tilted_plane.direct(0.0, 0.0, 1.0)
+    if not kinematics.axes and abs(wanted[2] - 1.0) < 1e-9:
+        return
+    angles = kinematics.angles_for(wanted, near)
+    if angles is None or not set(angles) <= set(channel.axes):
+        raise words.fail("tilt_unreachable", code)
+    zero = [c.offsets[axis] - memory.length_offset[axis] if axis >= 0 else 0.0 for axis in c.geometry]
+    shift = translation(zero[0], zero[1], zero[2])
+    turned = shift.inverse() @ kinematics.work_turn(angles) @ shift @ memory.tilted_plane
+    tip, end = c.position, c.machine
+    for name, angle in angles.items():
+        end[channel.axis_index[name]] = angle
+    _renew(channel, turned, kinematics.tool_on_machine(angles))
+    goal = c.from_machine(end)
+    if holds_tip:
+        for axis in c.geometry:
+            goal[axis] = tip[axis]
+        for axis in c.geometry:
+            c.pending[axis] = 0.0
+    channel.straight(Kind.RAPID, goal, nan)
+
+
+def end_tilt(channel: Channel, words: Words) -> None:
+    """G69: ends the rotation of G68 and the tilted plane."""
+    frames.end_rotation(channel, words)
+    if channel.memory.tilted_plane is not None:
+        channel.memory.tilted_plane = None
+        _renew(channel, IDENTITY, None)
+
+
+def forget(channel: Channel) -> None:
+    """Reset: no plane is tilted; the coordinates follow when the zero is worked out anew."""
+    memory = channel.memory
+    memory.tilted_plane = memory.tool_direction = None
+    memory.zero_frame = IDENTITY
+
+
+def _renew(channel: Channel, frame: Frame, tool: Vector | None) -> None:
+    """Another frame of the work system, and the direction in which the tool's length counts; the machine stays."""
+    memory = channel.memory
+    memory.zero_frame = frame
+    memory.tool_direction = tool
+    length.renew_direction(channel)
+    refresh_zero(channel)

@@ -1,0 +1,149 @@
+"""Deep holes in strokes that become shorter: the division of the depth, and the strokes of the tool.
+
+Source: SINUMERIK cycles, deep hole drilling (CYCLE83) and tapping in steps (CYCLE84).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.cycles.drilling.holes import Action, Stroke
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+#: Depths closer than this are the same, mm.
+SAME_MM = 1e-6
+#: A stroke never becomes shorter than this, mm: a factor alone would never come to the bottom.
+SHORTEST_MM = 0.1
+#: Distance in front of the last depth up to which the tool returns at rapid: up to this depth the first value, mm.
+SHALLOW_MM, SHALLOW_LIMIT_MM, DEEP_PART, LONGEST_LIMIT_MM = 30.0, 0.6, 50.0, 7.0
+
+
+def degressive_depths(first: float, total: float, by: float, shortest: float = 0.0) -> list[float]:
+    """Depths of the strokes below the reference plane, the last one exactly the whole depth; all in mm.
+
+    Args:
+        first: Depth of the first stroke.
+        total: Depth of the hole.
+        by: Above 0, each stroke is shorter by this amount and never shorter than it; below 0, each is the former
+            one times its size; 0 for equal strokes. The last two strokes share what is left, so that none is a
+            sliver.
+        shortest: Least stroke under a factor.
+    """
+    depths = [total if first >= total - SAME_MM else first]
+    nominal = first
+    while total - depths[-1] > SAME_MM:
+        rest = total - depths[-1]
+        if by > 0.0:
+            nominal = max(nominal - by, by)
+            step = _by_amount(rest, nominal, by)
+        else:
+            least = max(shortest, SHORTEST_MM) if by < 0.0 else first
+            nominal = max(nominal * abs(by), least) if by < 0.0 else first
+            step = _by_factor(rest, nominal, least)
+        depths.append(total if rest - step <= SAME_MM else depths[-1] + step)
+    return depths
+
+
+def _by_amount(rest: float, nominal: float, amount: float) -> float:
+    """The next stroke where strokes shrink by an amount."""
+    if rest <= nominal + SAME_MM:
+        return rest
+    if rest > 2.0 * amount + SAME_MM:
+        return min(nominal, rest - amount)
+    return rest / 2.0
+
+
+def _by_factor(rest: float, nominal: float, least: float) -> float:
+    """The next stroke where strokes shrink by a factor, or stay equal."""
+    if rest <= nominal + SAME_MM:
+        return rest
+    return nominal if rest - nominal >= least - SAME_MM else rest / 2.0
+
+
+def automatic_limit(depth: float) -> float:
+    """How far in front of a depth (mm below the reference plane) the tool stops its rapid return, mm."""
+    if depth <= SHALLOW_MM:
+        return SHALLOW_LIMIT_MM
+    return min(depth / DEEP_PART, LONGEST_LIMIT_MM)
+
+
+def peck(
+    levels: Sequence[float],
+    clearance: float,
+    back: float,
+    *,
+    first_factor: float = 1.0,
+    dwell: float = 0.0,
+    dwell_at_bottom: float = 0.0,
+    retract: float | None = None,
+    dwell_at_clearance: float = 0.0,
+    limits: Sequence[float] = (),
+) -> Iterator[Stroke]:
+    """Deep hole drilling.
+
+    Args:
+        levels: Levels of the strokes, the last one the bottom, mm.
+        clearance: Level of the safety distance.
+        back: Level at which the cycle ends.
+        first_factor: Factor on the feed of the first stroke.
+        dwell: At every depth but the last; seconds, or revolutions below 0.
+        dwell_at_bottom: At the last depth.
+        retract: Way back between strokes for breaking chips; None to clear chips at `clearance`.
+        dwell_at_clearance: There.
+        limits: For each level the distance in front of it at which the rapid return ends.
+    """
+    up = 1.0 if clearance > levels[-1] else -1.0
+    yield Stroke(Action.RAPID, clearance)
+    for number, level in enumerate(levels):
+        yield Stroke(Action.FEED, level, first_factor if number == 0 else 1.0)
+        if number == len(levels) - 1:
+            yield Stroke(Action.DWELL, dwell_at_bottom)
+            break
+        yield Stroke(Action.DWELL, dwell)
+        if retract is not None:
+            yield Stroke(Action.FEED, level + up * retract)
+            continue
+        yield Stroke(Action.RAPID, clearance)
+        yield Stroke(Action.DWELL, dwell_at_clearance)
+        yield Stroke(Action.RAPID, level + up * limits[number])
+    yield Stroke(Action.RAPID, back)
+
+
+def tap_in_steps(
+    levels: Sequence[float],
+    clearance: float,
+    back: float,
+    *,
+    dwell: float = 0.0,
+    retract: float | None = None,
+    limit: float = 0.0,
+) -> Iterator[Stroke]:
+    """Rigid tapping; `SPINDLE` 1 turns into the hole, -1 out of it, and 0 ends the synchronism.
+
+    Args:
+        levels: Levels of the steps, the last one the bottom, mm.
+        clearance: Level of the safety distance.
+        back: Level at which the cycle ends.
+        dwell: At every depth, seconds.
+        retract: Way back between steps for breaking chips; None to clear chips at `clearance`.
+        limit: Distance in front of the last depth at which a return from `clearance` ends.
+    """
+    up = 1.0 if clearance > levels[-1] else -1.0
+    yield Stroke(Action.RAPID, clearance)
+    yield Stroke(Action.SPINDLE, 1.0)
+    for level in levels:
+        yield Stroke(Action.TAP, level)
+        yield Stroke(Action.DWELL, dwell)
+        yield Stroke(Action.SPINDLE, -1.0)
+        if level == levels[-1]:
+            break
+        yield Stroke(Action.TAP, clearance if retract is None else level + up * retract)
+        yield Stroke(Action.SPINDLE, 1.0)
+        if retract is None:
+            yield Stroke(Action.DWELL, dwell)
+            yield Stroke(Action.TAP, level + up * limit)
+    yield Stroke(Action.TAP, clearance)
+    yield Stroke(Action.SPINDLE, 0.0)
+    yield Stroke(Action.RAPID, back)

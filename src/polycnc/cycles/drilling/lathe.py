@@ -1,0 +1,106 @@
+"""What lathes add to the drilling cycles: clamping of the spindle axis, faster taps, overlap of strokes."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from polycnc.cycles.drilling.holes import Action, Hole, Stroke, peck_by_peck
+
+if TYPE_CHECKING:
+    from collections.abc import Container, Iterator
+
+#: Strokes that move an axis.
+_MOVES = (Action.RAPID, Action.FEED)
+
+
+class Joint(IntEnum):
+    """Where two strokes of a drilling cycle meet: the bits of 1681 that keep them apart (II.4.4)."""
+
+    HOLE = 0
+    R_LEVEL = 1
+    RETRACT = 2
+    REENTRY = 3
+    PECK = 4
+    BOTTOM = 5
+
+
+def overlapping(strokes: Iterator[Stroke], hole: Hole, apart: Container[Joint]) -> Iterator[Stroke]:
+    """Say of each stroke whether the next one may begin before the axes rest at its end.
+
+    A stroke that a dwell or an output follows may not; the last one meets the way to the next hole.
+    """
+    made = [stroke for stroke in strokes if stroke.action is not Action.DWELL or stroke.value]
+    deepest, level = hole.r, hole.initial
+    for stroke, following in pairwise((*made, None)):
+        if stroke is None or stroke.action not in _MOVES:
+            yield from () if stroke is None else (stroke,)
+            continue
+        joints = _joints(hole, stroke, level, deepest)
+        bores = Joint.BOTTOM in joints and following is not None and following.action is Action.FEED
+        goes_on = following is None or (following.action in _MOVES and not bores)
+        yield stroke._replace(overlaps=goes_on and not any(joint in apart for joint in joints))
+        level = stroke.value
+        if abs(level - hole.r) > abs(deepest - hole.r):
+            deepest = level
+
+
+def _joints(hole: Hole, stroke: Stroke, level: float, deepest: float) -> set[Joint]:
+    """What the end of a stroke is, from the level where it begins and the depth that the hole has."""
+    inwards = abs(stroke.value - hole.bottom) < abs(level - hole.bottom)
+    drilled = deepest == hole.bottom
+    if stroke.action is Action.FEED and inwards:
+        return {Joint.BOTTOM if stroke.value == hole.bottom else Joint.PECK}
+    if not drilled and deepest != hole.r:
+        return {Joint.REENTRY if inwards else Joint.RETRACT}
+    ends = {Joint.HOLE} if drilled and stroke.value == hole.back else set[Joint]()
+    at_r = stroke.value == hole.r and (stroke.action is Action.FEED or not ends)
+    return ends | ({Joint.R_LEVEL} if at_r else set[Joint]())
+
+
+def clamped(strokes: Iterator[Stroke], clamp: int, unclamp: int, dwell_s: float) -> Iterator[Stroke]:
+    """The axis is clamped once the tool is over the hole and unclamped when it is back at R (II.4.3.4)."""
+    yield Stroke(Action.OUTPUT, clamp)
+    held: Stroke | None = None
+    for stroke in strokes:
+        if held is not None:
+            yield held
+        held = stroke
+    yield Stroke(Action.OUTPUT, unclamp)
+    yield Stroke(Action.DWELL, dwell_s)
+    if held is not None:
+        yield held
+
+
+def with_extraction(strokes: Iterator[Stroke], hole: Hole, factor: float) -> Iterator[Stroke]:
+    """Taps that cut nothing, out of the hole and back to the depth reached, run `factor` times as fast."""
+    deepest = 0.0
+    for stroke in strokes:
+        if stroke.action is not Action.TAP:
+            yield stroke
+            continue
+        depth = abs(stroke.value - hole.r)
+        yield stroke if depth > deepest else stroke._replace(factor=stroke.factor * factor)
+        deepest = max(deepest, depth)
+
+
+def tap_clearing_chips(hole: Hole) -> Iterator[Stroke]:
+    """As `tap`; after each peck out to R and back to `relief` above the depth reached (5200#5)."""
+    yield from peck_by_peck(hole, Action.TAP, Action.TAP, clears=True)
+    yield from _tap_out(hole)
+
+
+def tap(hole: Hole) -> Iterator[Stroke]:
+    """In with the spindle in step, dwell, reverse, out; pecks retract by `relief` (II.4.5)."""
+    yield from peck_by_peck(hole, Action.TAP, Action.TAP, clears=False)
+    yield from _tap_out(hole)
+
+
+def _tap_out(hole: Hole) -> Iterator[Stroke]:
+    """The dwell at the bottom, and out with the spindle reversed."""
+    yield Stroke(Action.DWELL, hole.dwell_s)
+    yield Stroke(Action.SPINDLE, -1.0)
+    yield Stroke(Action.TAP, hole.r)
+    yield Stroke(Action.SPINDLE, 1.0)
+    yield Stroke(Action.RAPID, hole.back)

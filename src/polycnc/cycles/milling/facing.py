@@ -1,0 +1,88 @@
+"""Face milling in strips (SINUMERIK CYCLE61, CYCLE71)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil
+from typing import TYPE_CHECKING
+
+from polycnc.cycles.milling.stroke import Place, cut, rapid
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from polycnc.cycles.milling.stroke import MillStroke
+    from polycnc.geometry.arcs import Point
+
+_WHOLE = 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class Face:
+    """A rectangle and how it is faced; mm.
+
+    Attributes:
+        place: A corner, and the direction of its length.
+        length, width: From that corner, signed.
+        radius: Of the tool.
+        step: Greatest width of a strip.
+        overrun: How far the tool leaves the face along the strips, beyond its own radius.
+        overrun_across: How far it leaves the face at the last strip.
+        across: Strips run along the width.
+        alternating: Strips run to and fro; else all in one direction, with a rapid way back.
+        feed: Of the cuts.
+        safe, retract: Level of the safety plane and of the end.
+        lift: Height over a strip on the way back.
+    """
+
+    place: Place
+    length: float
+    width: float
+    radius: float
+    step: float
+    overrun: float
+    overrun_across: float
+    across: bool
+    alternating: bool
+    feed: float
+    safe: float
+    retract: float
+    lift: float
+
+    def strips(self) -> list[tuple[Point, Point]]:
+        """Ends of the strips, each in the direction of the first one."""
+        along, over = (self.width, self.length) if self.across else (self.length, self.width)
+        reach = self.radius + self.overrun
+        total = abs(over) + self.overrun_across
+        count = max(1, ceil(total / self.step - _WHOLE))
+        found = []
+        for k in range(1, count + 1):
+            at = total * k / count - self.radius
+            first, last = (-reach, at), (abs(along) + reach, at)
+            found.append((self._point(*first), self._point(*last)))
+        return found
+
+    def _point(self, along: float, over: float) -> Point:
+        x, y = (over, along) if self.across else (along, over)
+        return self.place(x if self.length > 0.0 else -x, y if self.width > 0.0 else -y)
+
+
+def face(shape: Face, levels: Sequence[float]) -> Iterator[MillStroke]:
+    """The strips level by level; every other level back from where the last one ended, if they alternate."""
+    strips = shape.strips()
+    up = 1.0 if shape.safe > levels[-1] else -1.0
+    ends = [(b, a) if shape.alternating and k % 2 else (a, b) for k, (a, b) in enumerate(strips)]
+    yield rapid(ends[0][0])
+    yield rapid(w=shape.safe)
+    for number, level in enumerate(levels):
+        order = [(b, a) for a, b in reversed(ends)] if shape.alternating and number % 2 else ends
+        for k, (first, last) in enumerate(order):
+            if k and shape.alternating:
+                yield cut(shape.feed, first)
+            elif k or number:
+                yield rapid(w=level + up * shape.lift)
+                yield rapid(first)
+            if not (k and shape.alternating):
+                yield cut(shape.feed, w=level)
+            yield cut(shape.feed, last)
+    yield rapid(w=shape.retract)

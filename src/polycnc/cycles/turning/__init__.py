@@ -1,0 +1,4 @@
+"""Turning cycles as strokes (`stroke`): `single`, `rough` with `pockets`, `pattern`, `peck`, `grinding`.
+
+`contour` and `stock_removal` cut a whole contour; `thread` is one pass and its run-out, `thread_chain` several parts.
+"""

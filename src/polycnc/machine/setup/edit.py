@@ -1,0 +1,53 @@
+"""Writes values into a setup file in YAML; everything else in it stays, but for comments."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from polycnc.machine.setup.file import load_setup, parse_setup
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def is_writable(path: Path) -> bool:
+    """Whether a setup file is one that can be written: YAML."""
+    return path.suffix.lower() != ".toml"
+
+
+def read_document(path: Path) -> dict[Any, Any]:
+    """The values of a setup file; none where there is no file yet.
+
+    Raises:
+        SetupError: The file cannot be read or is no setup.
+    """
+    if not path.exists():
+        return {}
+    load_setup(path)
+    import yaml
+
+    found: object = yaml.safe_load(path.read_text(encoding="utf-8-sig"))
+    return found if isinstance(found, dict) else {}
+
+
+def document_text(document: dict[Any, Any], source: str) -> str:
+    """The text of a setup file with these values.
+
+    Raises:
+        SetupError: The values make no setup.
+    """
+    parse_setup(document, source=source)
+    import yaml
+
+    content: str = yaml.safe_dump(document, sort_keys=False, allow_unicode=True)
+    return content
+
+
+def merge(into: dict[Any, Any], values: dict[Any, Any]) -> None:
+    """Put values into a document, table by table; a key counts by its text (`1` and `"1"` are one)."""
+    for key, value in values.items():
+        present = next((old for old in into if str(old) == str(key)), key)
+        if isinstance(value, dict) and isinstance(into.get(present), dict):
+            merge(into[present], value)
+        else:
+            into[present] = value

@@ -1,0 +1,144 @@
+"""Stock removal along contours, parallel contours, and threads in several cuts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import pairwise
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from polycnc.cycles.turning import thread_chain
+from polycnc.cycles.turning.contour import Contour, Piece, parallel, turned_round
+from polycnc.cycles.turning.stock_removal import Cut, Removal, remove, sections
+from polycnc.cycles.turning.thread_chain import Thread
+from polycnc.geometry import arcs, offset
+from polycnc.toolpath import Kind
+
+
+def lines(*corners: tuple[float, float]) -> Contour:
+    return [Piece(offset.line(a, b)) for a, b in pairwise(corners)]
+
+
+SHAFT = lines((0.0, 20.0), (-20.0, 20.0), (-20.0, 25.0), (-40.0, 25.0), (-40.0, 30.0))
+GROOVED = lines((0.0, 20.0), (-10.0, 20.0), (-15.0, 15.0), (-20.0, 15.0), (-20.0, 25.0))
+OUTSIDE = Removal(3.0, 1.0, -1.0)
+
+
+def straight(cuts: list[Cut]) -> list[tuple[float, float]]:
+    return rounded(cut.stroke.end for cut in cuts if cut.is_straight)
+
+
+def rounded(points: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
+    return [(round(a, 6) + 0.0, round(b, 6) + 0.0) for a, b in points]
+
+
+def test_cuts_are_equal_and_end_on_the_contour() -> None:
+    ends = straight(list(remove(SHAFT, OUTSIDE)))
+    assert ends == [(-40.0, 27.5), (-40.0, 25.0), (-20.0, 22.5), (-20.0, 20.0)]
+
+
+def test_a_relief_is_a_section_of_its_own_below_the_summit_in_front() -> None:
+    found = sections(GROOVED, -1.0)
+    assert [(s.bottom, s.top) for s in found] == [(15.0, 25.0)]
+    summit = lines((0.0, 20.0), (-10.0, 22.0), (-15.0, 15.0), (-20.0, 15.0), (-20.0, 25.0))
+    found = sections(summit, -1.0)
+    assert [(s.bottom, s.top) for s in found] == [(20.0, 25.0), (15.0, 22.0)]
+
+
+def test_relief_cuts_enter_at_their_own_feed() -> None:
+    summit = lines((0.0, 20.0), (-10.0, 22.0), (-15.0, 15.0), (-20.0, 15.0), (-20.0, 25.0))
+    cuts = list(remove(summit, OUTSIDE))
+    relief = [cut.stroke.end for cut in cuts if cut.is_relief]
+    assert len(relief) == 3
+    assert relief[-1] == pytest.approx((-15.0, 15.0), abs=1e-5)
+
+
+@given(
+    st.lists(st.tuples(st.floats(1.0, 20.0), st.floats(10.0, 40.0)), min_size=2, max_size=8),
+    st.floats(0.5, 10.0),
+)
+def test_no_cut_goes_below_the_contour(steps: list[tuple[float, float]], depth: float) -> None:
+    corners, a = [(0.0, steps[0][1])], 0.0
+    for length, height in steps:
+        a -= length
+        corners.append((a, height))
+    contour = lines(*corners)
+    at = None
+    for cut in remove(contour, Removal(depth, 1.0, -1.0)):
+        end = cut.stroke.end
+        if cut.stroke.kind is Kind.FEED and at is not None:
+            for k in range(11):
+                point = tuple(s + k / 10.0 * (e - s) for s, e in zip(at, end, strict=True))
+                assert point[1] >= _height(corners, point[0]) - 1e-4
+        at = end
+
+
+def _height(corners: list[tuple[float, float]], a: float) -> float:
+    """Height of a polyline at a place; nothing in front of it or behind it."""
+    for (a0, b0), (a1, b1) in pairwise(corners):
+        if a1 <= a <= a0 and a0 != a1:
+            return b0 + (a - a0) / (a1 - a0) * (b1 - b0)
+    return -1e9
+
+
+def test_cuts_may_end_without_following_the_contour() -> None:
+    plain = list(remove(SHAFT, Removal(3.0, 1.0, -1.0, follows=False)))
+    assert len(plain) < len(list(remove(SHAFT, OUTSIDE)))
+
+
+def test_a_parallel_contour_goes_round_outer_corners_on_arcs() -> None:
+    path = parallel(lines((0.0, 0.0), (10.0, 0.0), (10.0, -10.0)), 2.0)
+    assert rounded(piece.edge.end for piece in path) == [(10.0, 2.0), (12.0, 0.0), (12.0, -10.0)]
+    assert path[1].edge.center == (10.0, 0.0)
+    assert arcs.radius_of((10.0, 0.0), path[1].edge.start) == pytest.approx(2.0)
+
+
+def test_a_parallel_contour_meets_itself_in_inner_corners() -> None:
+    path = parallel(lines((0.0, 0.0), (10.0, 0.0), (10.0, -10.0)), -2.0)
+    assert rounded(piece.edge.end for piece in path) == [(8.0, -2.0), (8.0, -10.0)]
+
+
+def test_a_contour_too_narrow_for_the_distance_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"short|narrow"):
+        parallel(lines((0.0, 0.0), (10.0, 0.0), (10.0, -1.0), (20.0, -1.0), (20.0, 10.0)), 20.0)
+
+
+def test_a_contour_turned_round_twice_is_itself() -> None:
+    curved = [*SHAFT, Piece(offset.arc((-40.0, 30.0), (-45.0, 35.0), (-40.0, 35.0), ccw=False))]
+    assert turned_round(turned_round(curved)) == curved
+
+
+def thread(**changes: object) -> Thread:
+    values = {
+        "corners": [(0.0, 12.0), (-30.0, 12.0)], "leads": [2.0], "run_in": 6.0, "run_out": 0.0, "depth": 1.2,
+        "allowance": 0.0, "cuts": 4, "idle": 0, "inside": False, "degressive": False, "flank_deg": 0.0,
+        "start_angle_deg": 0.0, "starts": 1, "lift": 1.0, **changes,
+    }  # fmt: skip
+    return Thread(**values)  # type: ignore[arg-type]
+
+
+def test_cuts_of_equal_area_grow_with_the_root() -> None:
+    assert thread_chain.depths(thread(degressive=True)) == pytest.approx([0.6, 0.848528, 1.039230, 1.2])
+
+
+def test_the_allowance_is_one_cut_and_idle_cuts_follow_it() -> None:
+    assert thread_chain.depths(thread(allowance=0.2, idle=2)) == pytest.approx(
+        [0.25, 0.5, 0.75, 1.0, 1.2, 1.2, 1.2]
+    )
+
+
+def test_every_start_has_its_own_angle() -> None:
+    angles = [
+        s.start_angle_deg
+        for s in thread_chain.strokes(thread(starts=3, cuts=1, start_angle_deg=300.0))
+        if s.lead
+    ]
+    assert angles == pytest.approx([300.0, 60.0, 180.0])
+
+
+def test_run_in_and_run_out_go_on_along_a_taper() -> None:
+    taper = thread(corners=[(0.0, 12.0), (-30.0, 15.0)], run_out=10.0, cuts=1, depth=0.0)
+    cut = next(s for s in thread_chain.strokes(taper) if s.lead)
+    assert cut.end == pytest.approx((-40.0, 16.0))
