@@ -10,7 +10,7 @@ from benchmarks.measure import Figure, best_of, rate, skipped
 from benchmarks.planner_paths import Path, paths
 from polycnc.machine import load_machine
 from polycnc.motion import Settings
-from polycnc.motion.kernels.columns import ENTRY2, ROW, piece_width
+from polycnc.motion.kernels.columns import PieceRecord, piece_width
 from polycnc.motion.planner import Planner
 from polycnc.motion.settings import DEFAULT
 from polycnc.toolpath import Context, Kind, Toolpath
@@ -46,7 +46,7 @@ def planned(path: Path) -> tuple[float, dict[int, float]]:
 
     def note(pieces: Any, count: int) -> None:
         for at in range(0, count * width, width):
-            entries.setdefault(int(pieces[at + ROW]), pieces[at + ENTRY2])
+            entries.setdefault(int(pieces[at + PieceRecord.ROW]), pieces[at + PieceRecord.ENTRY2])
 
     return Planner(path.toolpath, path.machine, on_pieces=note).finish().total_s, entries
 

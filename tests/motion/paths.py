@@ -7,20 +7,7 @@ from math import sqrt
 from typing import TYPE_CHECKING, Any
 
 from polycnc.machine import Machine, load_machine
-from polycnc.motion.kernels.columns import (
-    CAP2,
-    CURVED,
-    END2,
-    FORM,
-    LENGTH,
-    PULL,
-    ROW,
-    SPEED2,
-    STRAIGHT,
-    TIME,
-    VECTORS,
-    piece_width,
-)
+from polycnc.motion.kernels.columns import Form, PieceRecord, piece_width
 from polycnc.motion.planner import Planner
 from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
 
@@ -114,7 +101,7 @@ class Piece:
         return result
 
     def _at(self, s: float) -> tuple[float, float]:
-        if self.form == CURVED:
+        if self.form == Form.CURVED:
             u = (self.end2 - self.start2) / (2.0 * self.length)
             return max(self.start2 + 2.0 * u * s, 0.0), u
         peak2 = min(self.cap2, 0.5 * (self.start2 + self.end2) + self.pull * self.length)
@@ -135,17 +122,17 @@ def pieces_of(toolpath: Toolpath, machine: Machine, **options: Any) -> list[Piec
     def note(records: Any, count: int) -> None:
         for at in range(0, count * width, width):
             r = list(records[at : at + width])
-            vectors = [r[VECTORS + k * n : VECTORS + (k + 1) * n] for k in range(4)]
+            vectors = [r[PieceRecord.VECTORS + k * n : PieceRecord.VECTORS + (k + 1) * n] for k in range(4)]
             found.append(
                 Piece(
-                    r[LENGTH],
-                    r[CAP2],
-                    r[PULL],
-                    r[SPEED2],
-                    r[END2],
-                    r[TIME],
-                    int(r[FORM]),
-                    int(r[ROW]),
+                    r[PieceRecord.LENGTH],
+                    r[PieceRecord.CAP2],
+                    r[PieceRecord.PULL],
+                    r[PieceRecord.SPEED2],
+                    r[PieceRecord.END2],
+                    r[PieceRecord.TIME],
+                    int(r[PieceRecord.FORM]),
+                    int(r[PieceRecord.ROW]),
                     vectors,
                 )
             )
@@ -153,7 +140,7 @@ def pieces_of(toolpath: Toolpath, machine: Machine, **options: Any) -> list[Piec
     Planner(toolpath, machine, on_pieces=note, **options).finish()
     rows = list(toolpath.rows())
     for piece in found:
-        if piece.form == STRAIGHT:
+        if piece.form == Form.STRAIGHT:
             before = rows[piece.row - 1].end if piece.row else (0.0,) * n
             way = [b - a for a, b in zip(before, rows[piece.row].end, strict=True)]
             length = sqrt(sum(d * d for d in way))

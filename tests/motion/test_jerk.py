@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polycnc.motion import Settings
-from polycnc.motion.kernels.columns import LENGTH, SPEED2, piece_width
+from polycnc.motion.kernels.columns import PieceRecord, piece_width
 from polycnc.motion.limits import EXACT_MM, averages
 from polycnc.motion.planner import Planner
 from polycnc.motion.sampling.run import Run
@@ -56,7 +56,7 @@ def runs(rows: Build, machine: Machine, lead: Settings = SOFT) -> tuple[float, l
     if not found:
         return total, []
     pieces = np.concatenate(found)
-    starts = [*np.flatnonzero(pieces[:, SPEED2] == 0.0).tolist(), len(pieces)]
+    starts = [*np.flatnonzero(pieces[:, PieceRecord.SPEED2] == 0.0).tolist(), len(pieces)]
     return total, [Run(pieces[a:b], n) for a, b in itertools.pairwise(starts)]
 
 
@@ -268,7 +268,7 @@ def test_the_pieces_of_a_cut_line_make_up_the_line() -> None:
     width = piece_width(3)
 
     def note(pieces: Any, count: int) -> None:
-        lengths.extend(pieces[k * width + LENGTH] for k in range(count))
+        lengths.extend(pieces[k * width + PieceRecord.LENGTH] for k in range(count))
 
     rows.plan(MILL, settings=SOFT, on_pieces=note)
     assert len(lengths) > 2

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from polycnc.machine import load_machine
 from polycnc.motion import Settings
+from polycnc.motion.kernels.columns import Limits
 from polycnc.motion.limits import axis_limits
 from polycnc.toolpath import Context, Kind
 from tests.motion.paths import MILL, MILL4, Build, Piece, pieces_of
@@ -52,8 +53,8 @@ def build(steps: list[tuple[str, float, float, float, float]], context: Context)
     return rows
 
 
-def check_limits(pieces: list[Piece], numbers: list[float], n: int, slack: float, steps: int = 8) -> None:
-    tops, pulls = numbers[n : 2 * n], numbers[2 * n : 3 * n]
+def check_limits(pieces: list[Piece], limits: Limits, n: int, slack: float, steps: int = 8) -> None:
+    tops, pulls = limits.top_feed, limits.acceleration
     for piece in pieces:
         for x, velocity, acceleration in piece.samples(steps):
             assert x <= piece.cap2 * (1.0 + 1e-9)
@@ -74,7 +75,7 @@ def test_axes_keep_their_velocity_and_acceleration(
 ) -> None:
     # Arcs carry a margin for what happens between their points; another test looks at the true circle.
     pieces = pieces_of(build(steps, context).toolpath, UNEVEN)
-    check_limits(pieces, list(axis_limits(UNEVEN, 1, ("X", "Y", "Z"), Settings())), 3, 1.0107 * 1.001)
+    check_limits(pieces, axis_limits(UNEVEN, 1, ("X", "Y", "Z"), Settings()), 3, 1.0107 * 1.001)
 
 
 @settings(max_examples=30, deadline=None)
@@ -84,7 +85,7 @@ def test_axes_keep_their_limits_on_splines(
 ) -> None:
     # At the points of the spline: between them the table does not say how the curve bends.
     pieces = pieces_of(build(steps, context).toolpath, UNEVEN)
-    check_limits(pieces, list(axis_limits(UNEVEN, 1, ("X", "Y", "Z"), Settings())), 3, 1.0 + 1e-6, steps=1)
+    check_limits(pieces, axis_limits(UNEVEN, 1, ("X", "Y", "Z"), Settings()), 3, 1.0 + 1e-6, steps=1)
 
 
 @settings(max_examples=60, deadline=None)
@@ -151,7 +152,7 @@ def test_rotary_axes_keep_their_limits_in_mixed_moves(
     for end in ends:
         rows.feed(*end, feed=200.0)
     pieces = pieces_of(rows.toolpath, MILL4)
-    check_limits(pieces, list(axis_limits(MILL4, 1, ("X", "Y", "Z", "A"), Settings())), 4, 1.0 + 1e-9)
+    check_limits(pieces, axis_limits(MILL4, 1, ("X", "Y", "Z", "A"), Settings()), 4, 1.0 + 1e-9)
 
 
 @settings(max_examples=60, deadline=None)
@@ -160,7 +161,7 @@ def test_no_axis_jumps_further_than_allowed_at_a_corner(
     steps: list[tuple[str, float, float, float, float]],
 ) -> None:
     pieces = pieces_of(build(steps, Context(path_mode="G64")).toolpath, UNEVEN)
-    jumps = list(axis_limits(UNEVEN, 1, ("X", "Y", "Z"), Settings()))[9:12]
+    jumps = axis_limits(UNEVEN, 1, ("X", "Y", "Z"), Settings()).jump
     for before, after in pairwise(pieces):
         for i in range(3):
             step = after.vectors[0][i] - before.vectors[1][i]
@@ -171,16 +172,17 @@ def test_every_built_in_machine_has_limits() -> None:
     for name in ("mill3", "lathe-c-transmit", "mill5-ac-table", "lathe2-2path", "grinder-mu-mz"):
         machine = load_machine(name)
         for channel in machine.channels:
-            n = len(channel.names)
-            numbers = axis_limits(machine, channel.number, channel.names, Settings())
-            assert all(0.0 < value < 1e9 for value in numbers[: 4 * n])
+            limits = axis_limits(machine, channel.number, channel.names, Settings())
+            for numbers in limits[:4]:
+                assert len(numbers) == len(channel.names)
+                assert all(0.0 < value < 1e9 for value in numbers)
 
 
 def test_an_axis_of_a_transformation_is_as_slow_as_the_slowest_linear_one() -> None:
     machine = load_machine("lathe-c-transmit")
     numbers = axis_limits(machine, 1, ("X", "Y", "Z", "C"), Settings())
     linear = [axis.rapid for axis in machine.axes if not axis.rotary]
-    assert numbers[1] == pytest.approx(min(linear))
+    assert numbers.top_rapid[1] == pytest.approx(min(linear))
 
 
 def test_a_control_may_cap_what_the_machine_can_do() -> None:

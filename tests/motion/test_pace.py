@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from polycnc.motion import plan
+from polycnc.motion.kernels.columns import Limits, PathLimits
 from polycnc.motion.pace import Way, edge_factor, pace_of
 from polycnc.motion.settings import BRISK, Settings
 from polycnc.toolpath import Context, Kind
@@ -17,7 +18,10 @@ from tests.motion.paths import Build, mill
 
 MACHINE = mill(acceleration=1000.0, top=500.0)
 #: Velocity of rapids and cuts, acceleration, jump, rotary or not, jerk: three linear axes.
-LIMITS = [500.0] * 3 + [250.0] * 3 + [1000.0] * 3 + [1.0] * 3 + [0.0] * 3 + [50000.0] * 3
+LIMITS = Limits(
+    [500.0] * 3, [250.0] * 3, [1000.0] * 3, [1.0] * 3, [0.0] * 3, [50000.0] * 3,
+    [0, 1, 2], PathLimits(),
+)  # fmt: skip
 SETTINGS = Settings(acceleration=BRISK, rapid_stops=False)
 WEIGHTS = [1.0, 1.0, 1.0]
 

@@ -16,7 +16,7 @@ from polycnc.machine import load_machine
 from polycnc.mainrun import State
 from polycnc.motion import Settings
 from polycnc.motion.frames import real_of
-from polycnc.motion.kernels.columns import FORM, ROW, SPEED2, TIMED, piece_width
+from polycnc.motion.kernels.columns import Form, PieceRecord, piece_width
 from polycnc.motion.planner import Planner
 from polycnc.motion.sampling.run import Run
 from polycnc.motion.transformed import RealAxes
@@ -159,11 +159,11 @@ def runs_of(result: polycnc.Result) -> list[tuple[Run, Context]]:
     )
     planner.finish()
     pieces, rows = np.concatenate(found), list(toolpath.rows())
-    starts = [*np.flatnonzero(pieces[:, SPEED2] == 0.0).tolist(), len(pieces)]
+    starts = [*np.flatnonzero(pieces[:, PieceRecord.SPEED2] == 0.0).tolist(), len(pieces)]
     return [
-        (Run(pieces[a:b], n), rows[int(pieces[a, ROW])].context)
+        (Run(pieces[a:b], n), rows[int(pieces[a, PieceRecord.ROW])].context)
         for a, b in pairwise(starts)
-        if pieces[a, FORM] != TIMED
+        if pieces[a, PieceRecord.FORM] != Form.TIMED
     ]
 
 

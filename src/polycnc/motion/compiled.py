@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.kernels.layout import Floats
-    from polycnc.motion.kernels.columns import Rows
+from polycnc.motion.kernels.columns import Limits, Rows, State
 
 LIBRARY = Library(
     "motion",
@@ -24,9 +24,9 @@ LIBRARY = Library(
 class Kernels(NamedTuple):
     """The three kernels that the planner calls; see `kernels/lay.py` and `kernels/speeds.py`."""
 
-    lay: Callable[[Rows, int, Floats, int, Floats, Floats, Floats, Floats], int]
-    backward: Callable[[Floats, int, int, Floats], int]
-    forward: Callable[[Floats, int, int, Floats, float, Floats, Floats, int], None]
+    lay: Callable[[Rows, int, Floats, int, Floats, Limits, Floats, State], int]
+    backward: Callable[[Floats, int, int, Limits], int]
+    forward: Callable[[Floats, int, int, Limits, float, Floats, Floats, int], None]
 
 
 PLAIN = Kernels(lay.lay, speeds.backward, speeds.forward)

@@ -7,6 +7,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.geometry.units import INCH_MM
+from polycnc.motion.kernels.columns import Limits, PathLimits
 from polycnc.motion.kernels.jerk import JERK_CORNER, STRAY_CORNER
 from polycnc.motion.settings import DISTANCE_MODES, DRIVE, EXACT_STOP_MODES, SOFT, Settings
 
@@ -34,7 +35,7 @@ def axis_limits(
     names: tuple[str, ...],
     settings: Settings,
     transformation: Transformation | None = None,
-) -> array[float]:
+) -> Limits:
     """The kernels' `limits` for the columns of a toolpath.
 
     An axis that a transformation makes is taken to be as slow as the slowest linear one.
@@ -66,20 +67,20 @@ def axis_limits(
         geometry = list(transformation.geometry)
     acceleration = numbers("acceleration")
     step = settings.overload * machine.interpolation_cycle_s
-    blocks = (
-        [min(a, settings.rapid_caps.get(name, inf)) for a, name in zip(numbers("rapid"), names, strict=True)],
-        [
-            min(a, settings.feed_caps.get(name, inf))
-            for a, name in zip(numbers("max_feed"), names, strict=True)
-        ],
-        acceleration,
-        [a * step for a in acceleration],
-        [float(axis is not None and axis.rotary) for axis in axes],
-        numbers("jerk"),
-        geometry,
-        (settings.rapid_stops, min(settings.path_feed, 1e9), min(settings.corner_speed, 1e9)),
+    rapid, feed = (
+        array("d", [min(top, caps.get(name, inf)) for top, name in zip(numbers(field), names, strict=True)])
+        for field, caps in (("rapid", settings.rapid_caps), ("max_feed", settings.feed_caps))
     )
-    return array("d", [number for block in blocks for number in block])
+    return Limits(
+        top_rapid=rapid,
+        top_feed=feed,
+        acceleration=array("d", acceleration),
+        jump=array("d", [a * step for a in acceleration]),
+        rotary=array("d", [axis is not None and axis.rotary for axis in axes]),
+        jerk=array("d", numbers("jerk")),
+        geometry=array("q", geometry),
+        path=PathLimits(settings.rapid_stops, min(settings.path_feed, 1e9), min(settings.corner_speed, 1e9)),
+    )
 
 
 def _limit(axis: Axis, field: str) -> float:

@@ -9,11 +9,10 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.motion.kernels.columns import ACCELERATION, JERK, TOP_FEED, TOP_RAPID
-
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from polycnc.motion.kernels.columns import Limits
     from polycnc.toolpath import Context
     from polycnc.toolpath.context import Pace
 
@@ -53,7 +52,7 @@ class Way(NamedTuple):
 
 
 def pace_of(
-    context: Context, way: Way, weights: Sequence[float], limits: Sequence[float], *, rapid: bool
+    context: Context, way: Way, weights: Sequence[float], limits: Limits, *, rapid: bool
 ) -> tuple[float, float, float]:
     """What a row's pace makes of it.
 
@@ -95,33 +94,30 @@ def edge_factor(pace: Pace, context: Context, way: Way) -> float:
     return factor if factor < 1.0 or pace.edge == "always" else 1.0
 
 
-def _top(
-    pace: Pace, way: Way, length: float, moving: Sequence[int], limits: Sequence[float], *, rapid: bool
-) -> float:
+def _top(pace: Pace, way: Way, length: float, moving: Sequence[int], limits: Limits, *, rapid: bool) -> float:
     """The path speed at which no axis passes its velocity, and at which an arc keeps the accelerations."""
-    n, top = len(way.moved), inf
-    block = (TOP_RAPID if rapid else TOP_FEED) * n
+    top, tops = inf, limits.top_rapid if rapid else limits.top_feed
     for i in moving:
         share = way.share(i, length)
         if pace.velocity:
             factor = pace.velocity[i] * (pace.rapid if rapid else 1.0)
-            top = min(top, limits[block + i] * factor / share)
+            top = min(top, tops[i] * factor / share)
         if pace.top and not rapid:
             top = min(top, pace.top[i] / share)
         if pace.acceleration and i in way.plane:
-            top = min(top, sqrt(pace.acceleration[i] * limits[ACCELERATION * n + i] * way.radius))
+            top = min(top, sqrt(pace.acceleration[i] * limits.acceleration[i] * way.radius))
     return top
 
 
-def _ease(pace: Pace, way: Way, length: float, moving: Sequence[int], limits: Sequence[float]) -> float:
+def _ease(pace: Pace, way: Way, length: float, moving: Sequence[int], limits: Limits) -> float:
     """The factor on the limits of all columns at which the row keeps those of its axes."""
-    n, ease = len(way.moved), inf
-    for block, factors in ((ACCELERATION, pace.acceleration), (JERK, pace.jerk)):
+    ease = inf
+    for own, factors in ((limits.acceleration, pace.acceleration), (limits.jerk, pace.jerk)):
         if not factors or not moving:
             continue
         if way.plane:
             ease = min(ease, *(factors[i] for i in moving))
         else:
-            pulls = [limits[block * n + i] / way.share(i, length) for i in moving]
+            pulls = [own[i] / way.share(i, length) for i in moving]
             ease = min(ease, min(p * factors[i] for p, i in zip(pulls, moving, strict=True)) / min(pulls))
     return ease if ease < inf else 1.0

@@ -10,41 +10,12 @@ chunks, and the cost stays in proportion to the rows.
 from __future__ import annotations
 
 from array import array
-from math import inf, sqrt
+from math import sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.motion.compiled import PLAIN, compiled_kernels, ready
 from polycnc.motion.kernels.alone import settle_alone
-from polycnc.motion.kernels.columns import (
-    ACCELERATION,
-    ALONE,
-    BLOCKS,
-    END2,
-    GEOMETRY,
-    JERK,
-    LENGTH,
-    LIMIT_BLOCKS,
-    LOW2,
-    LOW_PULL,
-    PAUSE,
-    PIECES,
-    PLACES,
-    POSITION,
-    REACH2,
-    ROW,
-    SPEED2,
-    STANDING_SPINDLE,
-    STATE_BLOCKS,
-    STOP,
-    STRAIGHT_RUN,
-    TOP2,
-    TOP_RAPID,
-    VECTORS,
-    WINDOW,
-    WITHOUT_FEED,
-    Rows,
-    piece_width,
-)
+from polycnc.motion.kernels.columns import PLACES, PieceRecord, Rows, new_state, piece_width
 from polycnc.motion.limits import averages, context_fields
 from polycnc.motion.plan import Plan, Times, ToolTimes
 from polycnc.motion.settings import DEFAULT, Settings
@@ -116,7 +87,7 @@ class Planner:
         self._compiled = compiled
         self._feed_profile = feed_profile
         self._kernels = PLAIN
-        self._state = _new_state(self._axes, start)
+        self._state = new_state(self._axes, start)
         self._real = RealAxes(machine, channel, toolpath.axes, settings, start)
         self._limits = self._real.limits(None)
         self._pieces = array("d", bytes(8 * self._width * FIRST_ROOM))
@@ -134,7 +105,7 @@ class Planner:
     @property
     def facing(self) -> int:
         """The column of X, -1 for none."""
-        return int(self._limits[LIMIT_BLOCKS * self._axes + GEOMETRY])
+        return self._limits.geometry[0]
 
     @property
     def real_axes(self) -> RealAxes:
@@ -144,8 +115,7 @@ class Planner:
     @property
     def position(self) -> list[float]:
         """Machine position behind the last row laid out; before the first, that of the start."""
-        first = STATE_BLOCKS + POSITION * self._axes
-        return list(self._state[first : first + self._axes])
+        return list(self._state.position)
 
     def rpm(self, context: Context, radius_mm: float) -> float:
         """Spindle speed of a context at a turning radius."""
@@ -153,11 +123,11 @@ class Planner:
 
     def rapids(self, ramp: float, context: Context) -> list[tuple[float, float]]:
         """Velocity and acceleration of each axis that runs a rapid by itself: none does under a transformation."""
-        n, limits = self._axes, self._real.limits(None)
-        pulls = [limits[ACCELERATION * n + i] for i in range(n)]
+        limits = self._real.limits(None)
+        pulls = list(limits.acceleration)
         if ramp > 0.0:
-            pulls = [min(pull, 0.5 * limits[JERK * n + i] * ramp) for i, pull in enumerate(pulls)]
-        tops = [context.rapid_top(top) for top in limits[TOP_RAPID * n : TOP_RAPID * n + n]]
+            pulls = [min(pull, 0.5 * limits.jerk[i] * ramp) for i, pull in enumerate(pulls)]
+        tops = [context.rapid_top(top) for top in limits.top_rapid]
         return list(zip(tops, pulls, strict=True))
 
     def take(self, chunk: Chunk) -> bool:
@@ -202,7 +172,7 @@ class Planner:
             if leg.turn is not None:
                 self._turn(leg.turn, first, chunk.kind[row], number)
             self._lay(leg.at_feed(feed), 0, leg.curves, number)
-            self._state[STOP] = 1.0
+            self._state.run.stop = 1.0
 
     def _turn(self, turn: Turn, context: int, kind: int, number: int) -> None:
         """The rotary axis turns at rest. Its degrees are no way that the feed counts."""
@@ -215,22 +185,20 @@ class Planner:
             self._pieces.frombytes(bytes(8 * len(self._pieces)))
         count = len(records) // self._width
         self._pieces[: len(records)] = records
-        self._state[PIECES], self._state[STOP] = count, 1.0
+        self._state.run.pieces, self._state.run.stop = count, 1.0
         before = self._slots[2 * slot + 1]
         self._look_ahead(number)
         self._slots[2 * slot + 1] = before
-        place, position = (count - 1) * self._width + VECTORS + (PLACES + 1) * self._axes, STATE_BLOCKS
-        position += POSITION * self._axes
-        self._state[position : position + self._axes] = records[place : place + self._axes]
+        last = (count - 1) * self._width + PieceRecord.VECTORS + (PLACES + 1) * self._axes
+        self._state.position[:] = records[last : last + self._axes]
 
     def _enter(self, context: Context, position: list[float], row: int) -> None:
         """Before a row a transformation begins or ends: at rest the path goes on from where the real axes are."""
         settle_alone(self._pieces, self._axes, self._limits, self._state)
         self._look_ahead(row)
         self._limits = self._real.limits(context.transformation)
-        first = STATE_BLOCKS + POSITION * self._axes
-        self._state[STOP] = 1.0
-        self._state[first : first + self._axes] = array("d", position)
+        self._state.run.stop = 1.0
+        self._state.position[:] = array("d", position)
 
     def finish(self) -> Plan:
         """Plan what the toolpath still holds, to a stop behind the last row, and give the result."""
@@ -260,9 +228,9 @@ class Planner:
     def _make_room(self) -> None:
         room = len(self._pieces) // self._width
         if room >= self._room:
-            before = self._state[PIECES]
+            before = self._state.run.pieces
             self._look_ahead()
-            if self._state[PIECES] < before and 2 * self._state[PIECES] <= room:
+            if self._state.run.pieces < before and 2 * self._state.run.pieces <= room:
                 return
             self._room = 2 * room
         self._pieces.frombytes(bytes(8 * self._width * room))
@@ -275,7 +243,7 @@ class Planner:
         The last pieces wait for the rows behind them, for a spline bends there, and a bound on the speed may
         reach back; the joint before them is taken as a stop.
         """
-        count, width = int(self._state[PIECES]), self._width
+        count, width = self._state.run.pieces, self._width
         last = self._settled(count) if end is None else count
         if last <= 0:
             return
@@ -285,7 +253,7 @@ class Planner:
         if final <= 0:
             return  # so far everything hangs on what is still to come
         pieces, rest = self._pieces, array("d", self._pieces[final * width : count * width])
-        end2 = rest[REACH2] if rest else 0.0
+        end2 = rest[PieceRecord.REACH2] if rest else 0.0
         self._kernels.forward(
             pieces,
             final,
@@ -298,11 +266,11 @@ class Planner:
         )
         if self.on_pieces is not None:
             self.on_pieces(pieces, final)
-        end2 = pieces[(final - 1) * width + END2]
+        end2 = pieces[(final - 1) * width + PieceRecord.END2]
         pieces[: len(rest)] = rest
-        pieces[SPEED2] = end2
-        self._state[PIECES] = count - final
-        planned_rows = int(rest[ROW]) if end is None else end
+        pieces[PieceRecord.SPEED2] = end2
+        self._state.run.pieces = count - final
+        planned_rows = int(rest[PieceRecord.ROW]) if end is None else end
         self._settle_parallel(planned_rows)
         if not self._keep_rows:
             del self._row_s[: planned_rows - self._first_row]
@@ -311,13 +279,13 @@ class Planner:
     def _settled(self, count: int) -> int:
         """The number of pieces in the buffer that no row to come can change."""
         state, pieces, width = self._state, self._pieces, self._width
-        reach = 0.5 * sqrt(state[TOP2]) * state[WINDOW]
+        reach = 0.5 * sqrt(state.run.top2) * state.run.window
         last = count - 1
         way = 0.0
-        while last > 0 and way < reach and pieces[last * width + PAUSE] == 0.0:
-            way += pieces[last * width + LENGTH]
+        while last > 0 and way < reach and pieces[last * width + PieceRecord.PAUSE] == 0.0:
+            way += pieces[last * width + PieceRecord.LENGTH]
             last -= 1
-        return min(last, count - int(state[STRAIGHT_RUN])) if state[ALONE] == 2.0 else last
+        return min(last, count - state.run.straight_pieces) if state.run.alone == 2.0 else last
 
     # ---- rows and totals
     # -------------------------------------------------------------------------------------------
@@ -363,7 +331,7 @@ class Planner:
             tools.setdefault(key, ToolTimes(*key)).times += times
             total += times
         used = tuple(tool for tool in tools.values() if tool.tool or tool.name or tool.times.total_s > 0.0)
-        without_feed, without_spindle = int(self._state[WITHOUT_FEED]), int(self._state[STANDING_SPINDLE])
+        without_feed, without_spindle = self._state.run.without_feed, self._state.run.standing_spindle
         return Plan(total, used, self._row_s, without_feed, without_spindle)
 
 
@@ -371,12 +339,3 @@ def _station(context: Context) -> tuple[object, ...]:
     """What the axes stand still for when it changes between two moves."""
     spindle = (context.spindle, context.spindle_rpm, context.spindle_direction, context.surface_speed)
     return (context.tool, context.tool_name, *spindle)
-
-
-def _new_state(axes: int, start: Sequence[float]) -> array[float]:
-    state = array("d", bytes(8 * (STATE_BLOCKS + BLOCKS * axes)))
-    state[STOP] = 1.0
-    state[LOW2] = state[LOW_PULL] = inf
-    for i, position in enumerate(start):
-        state[STATE_BLOCKS + POSITION * axes + i] = position
-    return state

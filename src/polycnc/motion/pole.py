@@ -15,25 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.frames import machine_of
 from polycnc.motion.kernels.alone import best_ramp
-from polycnc.motion.kernels.columns import (
-    BENT,
-    CAP2,
-    ENTRY2,
-    FORM,
-    HOLD2,
-    HOLD_PULL,
-    LENGTH,
-    MARGIN,
-    PATH_PULL,
-    PAUSE,
-    PLACES,
-    PULL,
-    RAMP,
-    ROW,
-    SLOT,
-    VECTORS,
-    piece_width,
-)
+from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, piece_width
 from polycnc.motion.row_path import arc_path, line_path
 
 if TYPE_CHECKING:
@@ -262,20 +244,33 @@ def turn_records(
     records = array("d", bytes(8 * width * count))
     for k in range(count):
         at = k * width
-        own = ((FORM, BENT), (ROW, row), (SLOT, slot), (LENGTH, way / count), (CAP2, top * top), (PULL, pull))
-        held = ((HOLD2, inf), (HOLD_PULL, inf), (PATH_PULL, inf), (MARGIN, 1.0), (RAMP, ramp))
+        own = (
+            (PieceRecord.FORM, Form.BENT),
+            (PieceRecord.ROW, row),
+            (PieceRecord.SLOT, slot),
+            (PieceRecord.LENGTH, way / count),
+            (PieceRecord.CAP2, top * top),
+            (PieceRecord.PULL, pull),
+        )
+        held = (
+            (PieceRecord.HOLD2, inf),
+            (PieceRecord.HOLD_PULL, inf),
+            (PieceRecord.PATH_PULL, inf),
+            (PieceRecord.MARGIN, 1.0),
+            (PieceRecord.RAMP, ramp),
+        )
         for field, value in (*own, *held):
             records[at + field] = value
-        records[at + ENTRY2] = top * top if k else 0.0
+        records[at + PieceRecord.ENTRY2] = top * top if k else 0.0
         for end in range(2):
-            share, here = (k + end) / count, at + VECTORS + end * n
+            share, here = (k + end) / count, at + PieceRecord.VECTORS + end * n
             records[here + PLACES * n : here + PLACES * n + n] = array(
                 "d", machine_of(turn.at(share), context, geometry)
             )
             tangent, bend = _along_ring(turn, share, context, geometry)
             records[here : here + n] = array("d", tangent)
             records[here + 2 * n : here + 3 * n] = array("d", bend)
-    records[PAUSE] = ramp
+    records[PieceRecord.PAUSE] = ramp
     return records
 
 

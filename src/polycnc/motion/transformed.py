@@ -23,7 +23,7 @@ from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.motion.frames import carried, laid_of, machine_of, real_of, work_of
-from polycnc.motion.kernels.columns import ACCELERATION, AT_END, AT_START, JERK, SHARES, Rows
+from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
 from polycnc.motion.limits import averages, axis_limits, channel_axes, rotary_weight
 from polycnc.motion.pace import Way, pace_of
 from polycnc.motion.pole import RING_MM, Pole, Turn, legs_of, turn_records
@@ -168,9 +168,9 @@ class RealAxes:
         self._axes = channel_axes(machine, channel, names)
         self._geometry = machine.geometry_indices(channel)
         self._laid, self._context = list(start) or [0.0] * len(names), Context()
-        self._limits: dict[Transformation | None, array[float]] = {}
+        self._limits: dict[Transformation | None, Limits] = {}
 
-    def limits(self, transformation: Transformation | None) -> array[float]:
+    def limits(self, transformation: Transformation | None) -> Limits:
         """The kernels' `limits` while a transformation acts."""
         if transformation not in self._limits:
             self._limits[transformation] = axis_limits(
@@ -437,8 +437,8 @@ class RealAxes:
     ) -> Demand:
         """What the real axes allow at a place of a row; `lateral`: the columns may accelerate in any direction."""
         assert context.transformation is not None
-        soft, limits, n = self._is_soft(context), self.limits(context.transformation), len(self._axes)
-        pulls, jerks = (limits[block * n : block * n + n] for block in (ACCELERATION, JERK))
+        soft, limits = self._is_soft(context), self.limits(context.transformation)
+        pulls, jerks = limits.acceleration, limits.jerk
         step, inside = min(step, PATH_STEP), 4.0 * step < length
         middle = min(max(share, 1.5 * step / length), 1.0 - 1.5 * step / length) if inside else share
         nearby = [path(middle + (k - 1.5) * step / length) for k in range(4)]

@@ -18,7 +18,7 @@ from polycnc.mainrun.motion.piece_motion import AxesMotion, Motion, PathMotion
 from polycnc.mainrun.preparation.items import Block, BlockEnd, Happening, Move, Rates, Standing
 from polycnc.mainrun.preparation.reapproach import can_begin_elsewhere
 from polycnc.motion.frames import real_of
-from polycnc.motion.kernels.columns import BLEND, LENGTH, RAMP
+from polycnc.motion.kernels.columns import PieceRecord
 from polycnc.toolpath import Context, Kind
 
 if TYPE_CHECKING:
@@ -395,10 +395,12 @@ class Execution:
             self._follower = Follower(self._follower, self._rest_time, self.position)
         follower = self._follower
         if self._x2 == 0.0:
-            follower.begin(self.clock.time, record[RAMP], record[BLEND])
-        follower.enter(piece, record[LENGTH], self._behind)
+            follower.begin(self.clock.time, record[PieceRecord.RAMP], record[PieceRecord.BLEND])
+        follower.enter(piece, record[PieceRecord.LENGTH], self._behind)
         if piece.by_axis:
-            self.motion = AxesMotion(piece, preprocessing.limits, self.clock.time, self.rates, record[RAMP])
+            self.motion = AxesMotion(
+                piece, preprocessing.limits, self.clock.time, self.rates, record[PieceRecord.RAMP]
+            )
         else:
             self.motion = PathMotion(
                 piece,

@@ -6,20 +6,7 @@ from dataclasses import dataclass
 from math import cos, hypot, sin
 from typing import TYPE_CHECKING
 
-from polycnc.motion.kernels.columns import (
-    BASIS,
-    DELTA,
-    GEOMETRY,
-    GROWTH,
-    LIMIT_BLOCKS,
-    PLACES,
-    POSITION,
-    RADIUS,
-    RISE,
-    STATE_BLOCKS,
-    SWEEP,
-    VECTORS,
-)
+from polycnc.motion.kernels.columns import PLACES, Limits, PieceRecord, State
 from polycnc.motion.pole import RING_MM
 
 if TYPE_CHECKING:
@@ -87,34 +74,35 @@ class Arc:
 Way = Line | Arc
 
 
-def row_line(start: Sequence[float], state: Sequence[float], axes: int) -> Line:
+def row_line(start: Sequence[float], state: State) -> Line:
     """The line of the row that the planner's kernel has just laid out."""
-    return Line(tuple(start), _position(state, axes))
+    return Line(tuple(start), tuple(state.position))
 
 
-def row_arc(start: Sequence[float], state: Sequence[float], limits: Sequence[float], axes: int) -> Arc:
+def row_arc(start: Sequence[float], state: State, limits: Limits) -> Arc:
     """The arc of the row that the planner's kernel has just laid out."""
-    at = LIMIT_BLOCKS * axes + GEOMETRY
-    x, y, z = (int(column) for column in limits[at : at + 3])
-    outward, forth, normal = (tuple(state[BASIS + 3 * k : BASIS + 3 * k + 3]) for k in range(3))
+    x, y, z = limits.geometry
+    outward, forth, normal = (tuple(state.basis[3 * k : 3 * k + 3]) for k in range(3))
     return Arc(
         tuple(start),
-        _position(state, axes),
+        tuple(state.position),
         (x, y, z),
         outward,
         forth,
         normal,
-        state[SWEEP],
-        state[RADIUS],
-        state[GROWTH],
-        state[RISE],
+        state.arc.sweep,
+        state.arc.radius,
+        state.arc.growth,
+        state.arc.rise,
     )
 
 
 def turn_arc(turn: Turn, records: Sequence[float], axes: int) -> Arc:
     """The way of a turn at the pole along its ring; `records` are the planner's pieces of it."""
-    first, last = VECTORS + PLACES * axes, len(records) - axes
-    forth, inward = (records[VECTORS + k * axes : VECTORS + (k + 1) * axes] for k in (0, 2))
+    first, last = PieceRecord.VECTORS + PLACES * axes, len(records) - axes
+    forth, inward = (
+        records[PieceRecord.VECTORS + k * axes : PieceRecord.VECTORS + (k + 1) * axes] for k in (0, 2)
+    )
     i, j = turn.pole.columns
     return Arc(
         tuple(records[first : first + axes]),
@@ -128,13 +116,3 @@ def turn_arc(turn: Turn, records: Sequence[float], axes: int) -> Arc:
         0.0,
         0.0,
     )
-
-
-def _position(state: Sequence[float], axes: int) -> tuple[float, ...]:
-    first = STATE_BLOCKS + POSITION * axes
-    return tuple(state[first : first + axes])
-
-
-def way_along(state: Sequence[float], axis: int, axes: int) -> float:
-    """How far an axis moves in the row laid last, mm."""
-    return state[STATE_BLOCKS + DELTA * axes + axis]

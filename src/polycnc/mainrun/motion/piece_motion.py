@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING, Any, Protocol
 from polycnc.mainrun.motion.axis_move import AxisMove, axis_move
 from polycnc.mainrun.motion.geometry import Line
 from polycnc.mainrun.motion.speed import NO_WAY_MM, profile_of
-from polycnc.motion.kernels.columns import LENGTH, PULL, TOP_RAPID
+from polycnc.motion.kernels.columns import Limits, PieceRecord
 from polycnc.motion.kernels.jerk import axis_pull
 
 if TYPE_CHECKING:
     from array import array
-    from collections.abc import Sequence
 
     from polycnc.mainrun.motion.follower import Follower
     from polycnc.mainrun.preparation.items import Piece, Rates
@@ -66,7 +65,7 @@ class PathMotion:
         self,
         piece: Piece,
         record: array[Any],
-        limits: Sequence[float],
+        limits: Limits,
         since: float,
         start2: float,
         aim2: float,
@@ -91,11 +90,11 @@ class PathMotion:
     def _after(self, time: float) -> tuple[float, float]:
         over = time >= min(self.end, self.rest)
         way, speed = self._profile.after(inf if over else time - self._since)
-        return min(self._done + way, self._record[LENGTH]), speed
+        return min(self._done + way, self._record[PieceRecord.LENGTH]), speed
 
     def machine(self, time: float) -> list[float]:
         """Machine position."""
-        return self.piece.at(self._after(time)[0] / self._record[LENGTH])
+        return self.piece.at(self._after(time)[0] / self._record[PieceRecord.LENGTH])
 
     def speed(self, time: float) -> float:
         """Path speed."""
@@ -104,7 +103,7 @@ class PathMotion:
     @property
     def coasting2(self) -> float:
         """Largest squared speed at its end from which the axes rest within the way that is left behind it."""
-        pull, left, late = float(self._record[PULL]), self.piece.left, 0.5 * self._window
+        pull, left, late = float(self._record[PieceRecord.PULL]), self.piece.left, 0.5 * self._window
         if late == 0.0 or left <= 0.0:
             return 2.0 * pull * left
         speed = pull * (sqrt(late * late + 2.0 * left / pull) - late)
@@ -113,7 +112,7 @@ class PathMotion:
     @property
     def length(self) -> float:
         """Of the piece, mm."""
-        return float(self._record[LENGTH])
+        return float(self._record[PieceRecord.LENGTH])
 
     def lead(self, follower: Follower) -> None:
         """Say what the axes follow from now on."""
@@ -129,10 +128,10 @@ class PathMotion:
         It goes on for `late` seconds, if the signal comes when the axes are where this motion is now.
         """
         way, speed = self._after(time)
-        brakes = speed * speed / (2.0 * self._record[PULL]) + speed * late
+        brakes = speed * speed / (2.0 * self._record[PieceRecord.PULL]) + speed * late
         if brakes <= NO_WAY_MM:
             return None
-        piece, length = self.piece, self._record[LENGTH]
+        piece, length = self.piece, self._record[PieceRecord.LENGTH]
         here, per_mm = piece.at(way / length), piece.share / length
         ahead = [a + (b - a) * per_mm * brakes for a, b in zip(piece.way.start, piece.way.end, strict=True)]
         end = [h + a - s for h, a, s in zip(here, ahead, piece.way.start, strict=True)]
@@ -140,7 +139,7 @@ class PathMotion:
             piece, way=Line(tuple(here), tuple(end)), first=0.0, share=1.0, left=0.0, is_coasting=True
         )
         record = self._record[:]
-        record[LENGTH] = brakes
+        record[PieceRecord.LENGTH] = brakes
         return PathMotion(rest, record, self._limits, time, speed * speed, 0.0, speed * speed, self._window)
 
     def revise(self, time: float, aim2: float, cap2: float, rates: Rates) -> None:  # noqa: ARG002 - are in cap2
@@ -160,16 +159,13 @@ class AxesMotion:
         ramp: Seconds over which the axes' motion is averaged.
     """
 
-    def __init__(
-        self, piece: Piece, limits: Sequence[float], since: float, rates: Rates, ramp: float = 0.0
-    ) -> None:
+    def __init__(self, piece: Piece, limits: Limits, since: float, rates: Rates, ramp: float = 0.0) -> None:
         self.piece = piece
         self.end2 = 0.0
         n = len(piece.way.start)
         own = piece.context.rapid_top
-        self._top = tuple(own(top) for top in limits[TOP_RAPID * n : (TOP_RAPID + 1) * n])
-        bounds = list(limits)
-        self._pull = tuple(axis_pull(ramp, n, bounds, i) for i in range(n))
+        self._top = tuple(own(top) for top in limits.top_rapid)
+        self._pull = tuple(axis_pull(ramp, limits, i) for i in range(n))
         self._moves = tuple(AxisMove(start, (), since, start) for start in piece.way.start)
         self.revise(since, 0.0, 0.0, rates)
 

@@ -11,7 +11,8 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.motion.kernels.columns import ACCELERATION, CURVED, FORM, LENGTH, PULL, VECTORS
+from polycnc.motion.kernels.columns import Form, PieceRecord
+from polycnc.motion.kernels.columns import Limits as MachineLimits
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -200,11 +201,12 @@ def _over_peak(
     return (single,) if single is not None else ()
 
 
-def limits_of(record: Sequence[float], axes: int, limits: Sequence[float]) -> Limits:
+def limits_of(record: Sequence[float], axes: int, limits: MachineLimits) -> Limits:
     """The limits of a curved piece from its record and those of the machine (`kernels/columns.py`)."""
-    blocks = [tuple(record[VECTORS + k * axes : VECTORS + (k + 1) * axes]) for k in range(4)]
-    acceleration = tuple(limits[ACCELERATION * axes : (ACCELERATION + 1) * axes])
-    return Limits(blocks[0], blocks[2], blocks[1], blocks[3], acceleration)
+    blocks = [
+        tuple(record[PieceRecord.VECTORS + k * axes : PieceRecord.VECTORS + (k + 1) * axes]) for k in range(4)
+    ]
+    return Limits(blocks[0], blocks[2], blocks[1], blocks[3], tuple(limits.acceleration))
 
 
 def profile_of(
@@ -214,7 +216,7 @@ def profile_of(
     aim2: float,
     cap2: float,
     axes: int,
-    limits: Sequence[float],
+    limits: MachineLimits,
 ) -> Profile:
     """Phases over what is left of a piece.
 
@@ -227,12 +229,12 @@ def profile_of(
         axes: Number of axes.
         limits: The machine, as the planner's kernels take it.
     """
-    length = record[LENGTH] - done
+    length = record[PieceRecord.LENGTH] - done
     if length <= NO_WAY_MM:
         return Profile((), start2, arrives=True)
-    if record[FORM] != CURVED:
-        return straight_profile(length, start2, aim2, cap2, record[PULL])
+    if record[PieceRecord.FORM] != Form.CURVED:
+        return straight_profile(length, start2, aim2, cap2, record[PieceRecord.PULL])
     curve = limits_of(record, axes, limits)
     if done > 0.0:
-        curve = curve.later(done / record[LENGTH])
-    return curved_profile(length, start2, aim2, cap2, record[PULL], curve)
+        curve = curve.later(done / record[PieceRecord.LENGTH])
+    return curved_profile(length, start2, aim2, cap2, record[PieceRecord.PULL], curve)

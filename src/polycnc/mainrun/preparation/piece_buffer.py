@@ -8,39 +8,16 @@ compiling pays. Both give the same numbers.
 from __future__ import annotations
 
 from array import array
-from math import inf, sqrt
+from math import sqrt
 from typing import TYPE_CHECKING, Any
 
 from polycnc.motion.compiled import PLAIN, compiled_kernels, ready
 from polycnc.motion.kernels.alone import settle_alone
-from polycnc.motion.kernels.columns import (
-    BLEND,
-    BLOCKS,
-    EARLY,
-    ENTRY2,
-    FORM,
-    FREE,
-    LENGTH,
-    LOW2,
-    LOW_PULL,
-    PAUSE,
-    PIECES,
-    POSITION,
-    RAMP,
-    REACH2,
-    ROW,
-    STATE_BLOCKS,
-    STOP,
-    TIMED,
-    TOP2,
-    WINDOW,
-    piece_width,
-)
+from polycnc.motion.kernels.columns import Form, Limits, PieceRecord, Rows, new_state, piece_width
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from polycnc.motion.kernels.columns import Rows
 
 #: Rows from which on compiled kernels are used: where they are in the cache, and where they must be compiled first.
 READY_ROWS, COMPILE_ROWS = 400, 20_000
@@ -60,11 +37,10 @@ class PieceBuffer:
     """
 
     def __init__(self, axes: int) -> None:
-        self.state = array("d", bytes(8 * (STATE_BLOCKS + BLOCKS * axes)))
-        self.state[FREE] = 1.0
-        self.state[LOW2] = self.state[LOW_PULL] = inf
+        self.state = new_state(axes)
+        self.state.run.free, self.state.run.stop = 1.0, 0.0
         self.contexts = array("d")
-        self.limits = array("d")
+        self.limits: Limits
         self._axes = axes
         self._width = piece_width(axes)
         self._records = array("d", bytes(8 * self._width * ROOM))
@@ -77,43 +53,41 @@ class PieceBuffer:
         self._rows = 0
 
     def __len__(self) -> int:
-        return int(self.state[PIECES]) - self._taken
+        return self.state.run.pieces - self._taken
 
     def clear(self) -> None:
         """Nothing lies ahead."""
-        self.state[PIECES] = self._taken = self._rests = self._next = 0
+        self.state.run.pieces = self._taken = self._rests = self._next = 0
         self._way = 0.0
         del self._planned[:]
 
     def free_threads(self, *, free: bool) -> None:
         """Whether rows that come bound threads by the spindle, or a dry run will say how fast they are."""
-        self.state[FREE] = 2.0 if free else 1.0
+        self.state.run.free = 2.0 if free else 1.0
 
     # ---- rows ----------------------------------------------------------------------------------------------
 
     @property
     def position(self) -> list[float]:
         """Machine position behind everything laid out."""
-        first = STATE_BLOCKS + POSITION * self._axes
-        return list(self.state[first : first + self._axes])
+        return list(self.state.position)
 
     def stand_at(self, position: Sequence[float]) -> None:
         """The axes stand elsewhere than the rows have led them."""
-        first = STATE_BLOCKS + POSITION * self._axes
-        self.state[STOP] = 1.0
-        self.state[first : first + self._axes] = array("d", position)
+        self.state.run.stop = 1.0
+        self.state.position[:] = array("d", position)
 
     def move_axis(self, column: int, position: float) -> None:
         """An axis is elsewhere than the rows have led it."""
-        self.state[STATE_BLOCKS + POSITION * self._axes + column] = position
+        self.state.position[column] = position
 
     def end_in_rest(self) -> None:
         """The axes come to rest behind the last row."""
-        self.state[STOP] = 1.0
+        self.state.run.stop = 1.0
         settle_alone(self._records, self._axes, self.limits, self.state)
 
     def lay(
-        self, rows: Rows, curves: array[float], number: int, limits: array[float], called: float = -1.0
+        self, rows: Rows, curves: array[float], number: int, limits: Limits, called: float = -1.0
     ) -> list[int]:
         """Lay a row out; where the records of its pieces begin.
 
@@ -132,29 +106,29 @@ class PieceBuffer:
         while not self._kernels.lay(rows, 0, curves, number, self.contexts, limits, self._records, state):
             self._make_room()
         width, records = self._width, self._records
-        at = (int(state[PIECES]) - 1) * width
+        at = (state.run.pieces - 1) * width
         found: list[int] = []
-        while at >= self._taken * width and records[at + ROW] == number:
+        while at >= self._taken * width and records[at + PieceRecord.ROW] == number:
             found.append(at)
-            records[at + ROW] = called
-            self._way += records[at + LENGTH]
+            records[at + PieceRecord.ROW] = called
+            self._way += records[at + PieceRecord.LENGTH]
             at -= width
         found.reverse()
         if found:
-            self._rests += records[found[0] + PAUSE] > 0.0
+            self._rests += records[found[0] + PieceRecord.PAUSE] > 0.0
         return found
 
     def add(self, records: array[float]) -> None:
         """Pieces that a row does not make: the axes rest before and behind them."""
         self.end_in_rest()
-        width, count = self._width, int(self.state[PIECES])
+        width, count = self._width, self.state.run.pieces
         while (count + len(records) // width) * width > len(self._records):
             self._make_room()
-            count = int(self.state[PIECES])
+            count = self.state.run.pieces
         self._records[count * width : count * width + len(records)] = records
-        self.state[PIECES] += len(records) // width
-        self._way += sum(records[LENGTH::width])
-        self._rests += records[PAUSE] > 0.0
+        self.state.run.pieces += len(records) // width
+        self._way += sum(records[PieceRecord.LENGTH :: width])
+        self._rests += records[PieceRecord.PAUSE] > 0.0
         last = len(records) - self._axes
         self.stand_at(records[last:])
 
@@ -169,7 +143,7 @@ class PieceBuffer:
         count, width = len(self), self._width
         first = self._taken * width
         self._records[: count * width] = self._records[first : first + count * width]
-        self.state[PIECES], self._taken = count, 0
+        self.state.run.pieces, self._taken = count, 0
 
     def _choose_kernels(self) -> None:
         fast = compiled_kernels()
@@ -191,16 +165,16 @@ class PieceBuffer:
         """Whether the piece behind the one in front belongs to another row, or is not there."""
         if len(self) <= 1:
             return True
-        at = self._taken * self._width + ROW
+        at = self._taken * self._width + PieceRecord.ROW
         return self._records[at + self._width] != self._records[at]
 
     def take(self) -> array[Any]:
         """Take the piece in front: its record."""
         at = self._taken * self._width
         record = self._records[at : at + self._width]
-        self._way -= record[LENGTH]
-        self._rests -= record[PAUSE] > 0.0
-        self._records[at + FORM] = TIMED  # no bound of a later row reaches it any more
+        self._way -= record[PieceRecord.LENGTH]
+        self._rests -= record[PieceRecord.PAUSE] > 0.0
+        self._records[at + PieceRecord.FORM] = Form.TIMED  # no bound of a later row reaches it any more
         self._taken += 1
         self._next += self._width
         return record
@@ -209,19 +183,19 @@ class PieceBuffer:
         """These pieces come first, from rest; behind them the axes rest as well."""
         width = self._width
         if len(self) == 0:
-            self.state[STOP] = 1.0
+            self.state.run.stop = 1.0
         else:
             at = self._taken * width
-            self._rests += self._records[at + PAUSE] == 0.0
-            self._records[at + ENTRY2] = 0.0
-            window = self._records[at + RAMP] + 2.0 * self._records[at + BLEND]
-            self._records[at + PAUSE] = max(self._records[at + PAUSE], window)
+            self._rests += self._records[at + PieceRecord.PAUSE] == 0.0
+            self._records[at + PieceRecord.ENTRY2] = 0.0
+            window = self._records[at + PieceRecord.RAMP] + 2.0 * self._records[at + PieceRecord.BLEND]
+            self._records[at + PieceRecord.PAUSE] = max(self._records[at + PieceRecord.PAUSE], window)
         self._drop_taken()
         self._records[0:0] = records
-        self.state[PIECES] += len(records) // width
+        self.state.run.pieces += len(records) // width
         for at in range(0, len(records), width):
-            self._rests += records[at + PAUSE] > 0.0
-            self._way += records[at + LENGTH]
+            self._rests += records[at + PieceRecord.PAUSE] > 0.0
+            self._way += records[at + PieceRecord.LENGTH]
 
     def context_fields(self, number: int, size: int) -> array[float]:
         """What the kernels know of a context."""
@@ -235,34 +209,34 @@ class PieceBuffer:
         `entries` is given the records and their width, and yields where a record begins and the largest squared
         speed there. The records themselves stay: what the axes allow is asked again when the overrides change.
         """
-        first, end = self._taken * self._width, int(self.state[PIECES]) * self._width
+        first, end = self._taken * self._width, self.state.run.pieces * self._width
         planned = self._planned = self._records[first:end]
         self._next = 0
         for at, entry2 in entries(planned, self._width):
-            planned[at + ENTRY2] = entry2
+            planned[at + PieceRecord.ENTRY2] = entry2
         self._kernels.backward(planned, len(self), self._axes, self.limits)
 
     @property
     def reach2(self) -> float:
         """Largest squared speed at which the next piece may be entered; 0 where none is planned."""
-        return self._planned[self._next + REACH2] if self._next < len(self._planned) else 0.0
+        return self._planned[self._next + PieceRecord.REACH2] if self._next < len(self._planned) else 0.0
 
     @property
     def early(self) -> float:
         """Seconds by which the next piece may begin before the axes rest: strokes of drilling cycles overlap."""
-        return min(self.front(EARLY), self.front(PAUSE)) if len(self) else 0.0
+        return min(self.front(PieceRecord.EARLY), self.front(PieceRecord.PAUSE)) if len(self) else 0.0
 
     @property
     def reaches(self) -> bool:
         """Whether so much lies behind the piece in front that no row to come can bound it."""
         if not len(self):
             return False
-        if self._rests > (self.front(PAUSE) > 0.0):
+        if self._rests > (self.front(PieceRecord.PAUSE) > 0.0):
             return True
-        reach = 0.5 * sqrt(self.state[TOP2]) * self.state[WINDOW]
-        return self._way - self.front(LENGTH) >= reach
+        reach = 0.5 * sqrt(self.state.run.top2) * self.state.run.window
+        return self._way - self.front(PieceRecord.LENGTH) >= reach
 
     @property
     def may_change(self) -> bool:
         """Whether a row to come may still bound the piece in front."""
-        return self.state[STOP] == 0.0 and (len(self) <= 1 or not self.reaches)
+        return self.state.run.stop == 0.0 and (len(self) <= 1 or not self.reaches)

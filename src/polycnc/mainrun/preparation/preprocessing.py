@@ -14,29 +14,19 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.intervention import NOTHING_BACK, TYPED_IN, MovedByHand
 from polycnc.channel.waits import PREPROCESSING, TYPED_BLOCKS_DONE, Wait
-from polycnc.mainrun.motion.geometry import row_arc, row_line, turn_arc, way_along
+from polycnc.mainrun.motion.geometry import row_arc, row_line, turn_arc
 from polycnc.mainrun.preparation.items import Block, BlockEnd, Happening, Item, Move, Piece, Rates, Standing
 from polycnc.mainrun.preparation.piece_buffer import PieceBuffer
 from polycnc.mainrun.preparation.reapproach import line_from
 from polycnc.motion.frames import real_of
 from polycnc.motion.kernels.arcs import facing_radius
 from polycnc.motion.kernels.columns import (
-    CAP2,
-    ENTRY2,
-    FACING,
-    FORM,
-    GEOMETRY,
     LARGEST_OVERRIDE,
-    LENGTH,
-    LIMIT_BLOCKS,
-    OFFSETS,
-    PER_REVOLUTION,
-    ROW,
-    ROW_LENGTH,
     SHARES,
-    STRAIGHT,
-    SWEEP,
-    TIMED,
+    ContextRecord,
+    Form,
+    Limits,
+    PieceRecord,
     Rows,
     piece_width,
 )
@@ -130,7 +120,7 @@ class Preprocessing:
         channel.main_run = self
         self._real = RealAxes(self._machine, self._number, self.toolpath.axes, settings, ())
         limits = self._buffer.limits = self._real.limits(None)
-        self._facing = int(limits[LIMIT_BLOCKS * self._axes + GEOMETRY])
+        self._facing = limits.geometry[0]
 
     def start(self, program: Program, position: Sequence[float]) -> None:
         """Begin with a program; the axes stand at a machine position."""
@@ -393,7 +383,7 @@ class Preprocessing:
         self._buffer.add(records)
         way = turn_arc(turn, records, self._axes)
         program, line, rapid = self.toolpath.programs[chunk.program[row]], chunk.line[row], kind == Kind.RAPID
-        total = sum(records[LENGTH :: piece_width(self._axes)])
+        total = sum(records[PieceRecord.LENGTH :: piece_width(self._axes)])
         self.items.append(
             Move(
                 way, called, kind, context, program, line, rapid, False, False, 0.0, False, False, False, 1.0,
@@ -410,10 +400,10 @@ class Preprocessing:
         if not found:
             return
         self._skips = self._skips or kind == Kind.SKIP
-        form = buffer.field(found[0], FORM)
-        is_arc = kind in ARC_WAYS and form != STRAIGHT
-        way = row_arc(start, buffer.state, limits, n) if is_arc else row_line(start, buffer.state, n)
-        record = chunk.context[row] * (OFFSETS + n)
+        form = buffer.field(found[0], PieceRecord.FORM)
+        is_arc = kind in ARC_WAYS and form != Form.STRAIGHT
+        way = row_arc(start, buffer.state, limits) if is_arc else row_line(start, buffer.state)
+        record = chunk.context[row] * (ContextRecord.OFFSETS + n)
         self.items.append(
             Move(
                 way,
@@ -424,17 +414,17 @@ class Preprocessing:
                 chunk.line[row],
                 is_rapid(buffer.state),
                 kind in BOUND_TO_SPINDLE,
-                buffer.contexts[record + PER_REVOLUTION] != 0.0,
+                buffer.contexts[record + ContextRecord.PER_REVOLUTION] != 0.0,
                 chunk.curves[chunk.curve[row] * CURVE_WIDTH]
                 if kind == Kind.SKIP and chunk.curve[row] >= 0
                 else 0.0,
-                form == TIMED,
+                form == Form.TIMED,
                 kind == Kind.TAP and self._settings.taps_overridden,
                 kind == Kind.TAP and self._settings.taps_held,
                 faster(chunk.curves, buffer.state),
                 self._largest_override(chunk, row),
                 self._asks(curves, record, found, is_arc=is_arc),
-                sum(buffer.field(at, LENGTH) for at in found),
+                sum(buffer.field(at, PieceRecord.LENGTH) for at in found),
             )
         )
 
@@ -450,25 +440,25 @@ class Preprocessing:
         """Speeds that the program asks for in the row laid last, by shares of its way; `found` are its pieces."""
         state, contexts = self._buffer.state, self._buffer.contexts
         follows = self._facing >= 0 and follows_radius(contexts, record)
-        lengths = [self._buffer.field(at, LENGTH) for at in found] if follows else [1.0]
+        lengths = [self._buffer.field(at, PieceRecord.LENGTH) for at in found] if follows else [1.0]
         total, done, asks = sum(lengths), 0.0, []
         for length in lengths:
             share = length / total
             radius = self._radius(record, done + 0.5 * share, is_arc=is_arc)
-            speed = asked_speed(curves, contexts, record, state, state[ROW_LENGTH], radius)
+            speed = asked_speed(curves, contexts, record, state, state.run.length, radius)
             done += share
             asks.append((done, speed if speed > 0.0 else inf))
         return tuple(asks)
 
     def _radius(self, record: int, middle: float, *, is_arc: bool) -> float:
         """Turning radius at a share of the row laid last, as the planner takes it."""
-        state, n, facing = self._buffer.state, self._axes, self._facing
+        state, facing = self._buffer.state, self._facing
         if facing < 0:
             return 0.0
         follows = follows_radius(self._buffer.contexts, record)
         if is_arc:
-            return facing_radius(middle * state[SWEEP] if follows else 0.0, n, self._buffer.limits, state)
-        return state[FACING] - (way_along(state, facing, n) * (1.0 - middle) if follows else 0.0)
+            return facing_radius(middle * state.arc.sweep if follows else 0.0, self._buffer.limits, state)
+        return state.row.facing - (state.delta[facing] * (1.0 - middle) if follows else 0.0)
 
     # ---- speeds --------------------------------------------------------------------------------------------
 
@@ -506,11 +496,11 @@ class Preprocessing:
             elif isinstance(item, BlockEnd):
                 closed = closed or single_block
             elif isinstance(item, Move):
-                row, done = records[at + ROW], item.done
-                while at < end and records[at + ROW] == row:
-                    share = records[at + LENGTH] / item.total
-                    own = rates.cap2(item, records[at + CAP2], item.asked(done + 0.5 * share))
-                    yield at, 0.0 if closed else min(records[at + ENTRY2], cap2, own)
+                row, done = records[at + PieceRecord.ROW], item.done
+                while at < end and records[at + PieceRecord.ROW] == row:
+                    share = records[at + PieceRecord.LENGTH] / item.total
+                    own = rates.cap2(item, records[at + PieceRecord.CAP2], item.asked(done + 0.5 * share))
+                    yield at, 0.0 if closed else min(records[at + PieceRecord.ENTRY2], cap2, own)
                     cap2, closed = own, False
                     done += share
                     at += width
@@ -526,7 +516,7 @@ class Preprocessing:
         return self._buffer.early
 
     @property
-    def limits(self) -> array[float]:
+    def limits(self) -> Limits:
         """The machine, as the planner's kernels take it."""
         return self._buffer.limits
 
@@ -534,8 +524,8 @@ class Preprocessing:
         """Largest squared speed on the piece in front."""
         move = self.items[0]
         assert isinstance(move, Move)
-        middle = move.done + 0.5 * self._buffer.front(LENGTH) / move.total
-        return rates.cap2(move, self._buffer.front(CAP2), move.asked(middle))
+        middle = move.done + 0.5 * self._buffer.front(PieceRecord.LENGTH) / move.total
+        return rates.cap2(move, self._buffer.front(PieceRecord.CAP2), move.asked(middle))
 
     def pop_piece(self) -> tuple[Piece, array[Any]]:
         """Take the piece in front, and its record; its move leaves the queue with its last one."""
@@ -543,11 +533,11 @@ class Preprocessing:
         assert isinstance(move, Move)
         is_last = buffer.is_last_of_row
         record = buffer.take()
-        share = 1.0 - move.done if is_last else record[LENGTH] / move.total
+        share = 1.0 - move.done if is_last else record[PieceRecord.LENGTH] / move.total
         piece = Piece(
             move.way, move.row, move.kind, move.context, move.program, move.line, move.rapid, move.fixed,
             move.per_revolution, move.left if is_last else 0.0, move.by_axis, move.overridden, move.held,
-            move.faster, move.largest_override, record[LENGTH], move.done, share, record[CAP2],
+            move.faster, move.largest_override, record[PieceRecord.LENGTH], move.done, share, record[PieceRecord.CAP2],
             move.asked(move.done + 0.5 * share),
         )  # fmt: skip
         move.done += share
@@ -559,7 +549,9 @@ class Preprocessing:
         """The rest of a row goes to its end from another start; the axes rest at both."""
         while self.items and isinstance(self.items[0], Move) and self.items[0].row == move.row:
             self.pop_piece()
-        fields = self._buffer.context_fields(self.toolpath.context_number(move.context), OFFSETS + self._axes)
+        fields = self._buffer.context_fields(
+            self.toolpath.context_number(move.context), ContextRecord.OFFSETS + self._axes
+        )
         records, moves = line_from(move, start, fields, self._buffer.limits)
         self._buffer.put_in_front(records)
         self.items.extendleft(moves)

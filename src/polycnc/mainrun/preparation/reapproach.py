@@ -10,23 +10,13 @@ from polycnc.mainrun.motion.geometry import Line
 from polycnc.mainrun.preparation.items import Move, Piece
 from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.columns import (
-    BLOCKS,
-    FORM,
-    FREE,
-    HAS_FRAME,
-    INVERSE_TIME,
-    LENGTH,
-    LOW2,
-    LOW_PULL,
-    OFFSETS,
-    PER_REVOLUTION,
-    PIECES,
-    POSITION,
     SPARE_PIECES,
-    STATE_BLOCKS,
-    STOP,
-    TIMED,
+    ContextRecord,
+    Form,
+    Limits,
+    PieceRecord,
     Rows,
+    new_state,
     piece_width,
 )
 from polycnc.motion.kernels.lay import lay
@@ -48,7 +38,7 @@ def can_begin_elsewhere(piece: Move | Piece) -> bool:
 
 
 def line_from(
-    move: Move | Piece, start: Sequence[float], fields: array[float], limits: array[float]
+    move: Move | Piece, start: Sequence[float], fields: array[float], limits: Limits
 ) -> tuple[array[float], list[Move]]:
     """The rest of a row as a line from another start, machine coordinates: records of the planner, and the move if any.
 
@@ -60,25 +50,23 @@ def line_from(
     """
     n = len(start)
     width, own = piece_width(n), fields[:]
-    own[HAS_FRAME] = own[PER_REVOLUTION] = own[INVERSE_TIME] = 0.0
-    own[OFFSETS : OFFSETS + n] = array("d", bytes(8 * n))
-    state = array("d", bytes(8 * (STATE_BLOCKS + BLOCKS * n)))
-    state[STOP] = state[FREE] = 1.0
-    state[LOW2] = state[LOW_PULL] = inf
-    first = STATE_BLOCKS + POSITION * n
-    state[first : first + n] = array("d", start)
+    own[ContextRecord.HAS_FRAME] = own[ContextRecord.PER_REVOLUTION] = own[ContextRecord.INVERSE_TIME] = 0.0
+    own[ContextRecord.OFFSETS : ContextRecord.OFFSETS + n] = array("d", bytes(8 * n))
+    state = new_state(n, start)
+    state.run.free = 1.0
     end = array("d", move.way.end)
     asked = move.asked if isinstance(move, Piece) else move.asked(1.0)
     records = array("d", bytes(8 * width * ROOM))
     rows = Rows([move.kind], [0], [asked if asked < inf else 0.0], end, [-1], [], [], [], [])
     lay(rows, 0, array("d"), int(move.row), own, limits, records, state)
     settle_alone(records, n, limits, state)
-    del records[int(state[PIECES]) * width :]
+    del records[state.run.pieces * width :]
     if not records:
         return records, []
     move_from_here = Move(
         Line(tuple(start), tuple(end)), move.row, move.kind, move.context, move.program, move.line,
-        move.rapid, move.fixed, move.per_revolution, 0.0, records[FORM] == TIMED, move.overridden, move.held,
-        move.faster, move.largest_override, ((1.0, asked),), sum(records[LENGTH::width]),
+        move.rapid, move.fixed, move.per_revolution, 0.0, records[PieceRecord.FORM] == Form.TIMED,
+        move.overridden, move.held, move.faster, move.largest_override, ((1.0, asked),),
+        sum(records[PieceRecord.LENGTH::width]),
     )  # fmt: skip
     return records, [move_from_here]

@@ -15,32 +15,7 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.kernels.columns import (
-    ACCELERATION,
-    ALONE,
-    BLEND,
-    CAP2,
-    FREE,
-    JERK,
-    LAST_EASE,
-    LENGTH,
-    PAUSE,
-    PIECES,
-    PLACES,
-    PULL,
-    RAMP,
-    ROW_LENGTH,
-    SHARE_COUNT,
-    STATE_BLOCKS,
-    STOP,
-    STRAIGHT_RUN,
-    TANGENT,
-    UNIT,
-    VECTORS,
-    WANTED,
-    WINDOW,
-    piece_width,
-)
+from polycnc.motion.kernels.columns import PLACES, Limits, PieceRecord, State, piece_width
 
 #: Turns smaller than this count as none; most pieces of a straight run, for they wait in the buffer for its end.
 NO_TURN, LONGEST_RUN = 1e-9, 4096
@@ -59,73 +34,73 @@ def best_ramp(length: float, top: float, pull: float, jerk: float) -> float:
     return min(ramp, sqrt(2.0 * top / jerk)) if top < inf else ramp
 
 
-def goes_straight_on(n: int, state: Floats, wanted: float) -> bool:
+def goes_straight_on(n: int, state: State, wanted: float) -> bool:
     """Whether the line at hand goes on with a straight run from rest, in its direction and at its speed.
 
     Where overrides will act, pieces are run before the end of the run is known.
     """
-    if state[ALONE] != 2.0 or state[STOP] != 0.0 or state[FREE] != 0.0 or state[SHARE_COUNT] > 0.0:
+    if state.run.alone != 2.0 or state.run.stop != 0.0 or state.run.free != 0.0 or state.row.shares > 0.0:
         return False
-    if abs(wanted - state[WANTED]) > SAME_SPEED * wanted:
+    if abs(wanted - state.run.wanted) > SAME_SPEED * wanted:
         return False
     for i in range(n):
-        if abs(state[STATE_BLOCKS + UNIT * n + i] - state[STATE_BLOCKS + TANGENT * n + i]) > NO_TURN:
+        if abs(state.unit[i] - state.tangent[i]) > NO_TURN:
             return False
-    return state[STRAIGHT_RUN] < LONGEST_RUN
+    return state.run.straight_pieces < LONGEST_RUN
 
 
-def settle_alone(pieces: Floats, n: int, limits: Floats, state: Floats) -> None:
+def settle_alone(pieces: Floats, n: int, limits: Limits, state: State) -> None:
     """The axes come to rest behind the last row: if it ends a straight run from rest, that gets averages of its own."""
-    count = int(state[PIECES])
-    if state[ALONE] != 2.0 or count == 0:
+    count = state.run.pieces
+    if state.run.alone != 2.0 or count == 0:
         return
-    state[ALONE] = 0.0
-    width, first = piece_width(n), count - int(state[STRAIGHT_RUN])
+    state.run.alone = 0.0
+    width, first = piece_width(n), count - state.run.straight_pieces
     at, run = (count - 1) * width, 0.0
     for p in range(first, count):
-        run += pieces[p * width + LENGTH]
-    here, length = at + VECTORS + PLACES * n, pieces[at + LENGTH]
-    pull, jerk, ease = inf, inf, state[LAST_EASE]
+        run += pieces[p * width + PieceRecord.LENGTH]
+    here, length = at + PieceRecord.VECTORS + PLACES * n, pieces[at + PieceRecord.LENGTH]
+    pull, jerk, ease = inf, inf, state.run.ease
     for i in range(n):
         share = abs(pieces[here + n + i] - pieces[here + i]) / length
         if share > 0.0:
-            pull = min(pull, ease * limits[ACCELERATION * n + i] / share)
-            jerk = min(jerk, ease * limits[JERK * n + i] / share)
-    top = min(sqrt(pieces[at + CAP2]), state[WANTED])
+            pull = min(pull, ease * limits.acceleration[i] / share)
+            jerk = min(jerk, ease * limits.jerk[i] / share)
+    top = min(sqrt(pieces[at + PieceRecord.CAP2]), state.run.wanted)
     ramp = best_ramp(run, top, pull, jerk)
     for p in range(first, count):
         at = p * width
-        pieces[at + PULL] = min(pull, 0.5 * jerk * ramp)
-        pieces[at + RAMP], pieces[at + BLEND] = ramp, 0.0
-    pieces[first * width + PAUSE] = ramp
+        pieces[at + PieceRecord.PULL] = min(pull, 0.5 * jerk * ramp)
+        pieces[at + PieceRecord.RAMP], pieces[at + PieceRecord.BLEND] = ramp, 0.0
+    pieces[first * width + PieceRecord.PAUSE] = ramp
 
 
 def pays_to_rest(
     n: int,
-    limits: Floats,
-    state: Floats,
+    limits: Limits,
+    state: State,
     length: float,
     corner2: float,
     wanted: float,
 ) -> bool:
     """Whether two lines take less time with a rest between them than if the corner is passed at `corner2`.
 
-    `wanted` is the speed of the second line, WANTED that of the first one.
+    `wanted` is the speed of the second line, `run.wanted` that of the first one.
     """
-    if state[ALONE] == 0.0:
+    if state.run.alone == 0.0:
         return False
-    passing, resting, window = 0.0, 0.0, state[WINDOW]
-    top = min(wanted, state[WANTED])
+    passing, resting, window = 0.0, 0.0, state.run.window
+    top = min(wanted, state.run.wanted)
     corner = min(sqrt(corner2), top)
     for side in range(2):
-        direction = STATE_BLOCKS + (TANGENT if side == 0 else UNIT) * n
-        way = state[ROW_LENGTH] if side == 0 else length
+        direction = state.tangent if side == 0 else state.unit
+        way = state.run.length if side == 0 else length
         pull, jerk = inf, inf
         for i in range(n):
-            share = abs(state[direction + i])
+            share = abs(direction[i])
             if share > 0.0:
-                pull = min(pull, limits[ACCELERATION * n + i] / share)
-                jerk = min(jerk, limits[JERK * n + i] / share)
+                pull = min(pull, limits.acceleration[i] / share)
+                jerk = min(jerk, limits.jerk[i] / share)
         ramp = best_ramp(way, top, pull, jerk)
         resting += ramp + rest_to_rest(way, 0.0, top, min(pull, 0.5 * jerk * ramp))
         held = corner * window

@@ -1,14 +1,18 @@
 """What the kernels share: the numbers of kinds and fields in the flat arrays that they read and write.
 
-Everything is a flat array of floats, so that a kernel takes few arguments and the same source runs on
-`array.array` and on NumPy views. `n` is the number of axes.
+Everything is an array, a record, or a group of them, so that the same source runs as it is and as machine code. `n` is
+the number of axes.
 """
 
 from __future__ import annotations
 
+from array import array
+from collections.abc import Sequence
+from ctypes import Structure
+from math import inf
 from typing import NamedTuple
 
-from polycnc.kernels.layout import Bytes, Floats, Ints32, Words32
+from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Places, Words32, place, record
 
 # Numbers of the row kinds (`toolpath.Kind`), as plain integers that a compiler can fold.
 RAPID, CW, CCW, HELIX_CW, HELIX_CCW, SPLINE, THREAD, TAP, REF, SKIP, DWELL, EVENT = (
@@ -50,72 +54,296 @@ class Rows(NamedTuple):
     ease: Floats
 
 
-# `limits`: blocks of n numbers (mm or degrees, s), then what is there once.
-TOP_RAPID, TOP_FEED, ACCELERATION, JUMP, ROTARY, JERK, LIMIT_BLOCKS = 0, 1, 2, 3, 4, 5, 6
-#: Behind the blocks: the columns of X, Y, Z (-1 for a missing one); whether the axes stop between rapid and
-#: cutting; highest speed of a cut along the path; highest step of an axis's velocity at a corner of two cuts.
-GEOMETRY, RAPID_STOPS, PATH_FEED, CORNER_SPEED, LIMIT_TAIL = 0, 3, 4, 5, 6
+@record
+class PathLimits(Structure):
+    """What the machine allows along the path.
 
-# `contexts`: one record a context. RAMP_S is the time over which the speed along the path is averaged (0: the
-# jerk has no limit), BLEND_S that over which the axes' positions are, twice; DRIVE_SPEED and DRIVE_REDUCTION
-# are those of the settings (1 and 0 without DRIVE). RAPID_SPEED bounds rapids along the path (0: nothing does).
-# Behind OFFSETS stand n numbers.
-PER_REVOLUTION, INVERSE_TIME, RPM, SURFACE_MM_S, RPM_LIMIT, SPINDLE_REV_S2 = 0, 1, 2, 3, 4, 5
-EXACT_STOP, TOLERANCE, ROTARY_WEIGHT, STATION, HAS_FRAME, MIRROR = 6, 7, 8, 9, 10, 11
-RAPID_BY_AXIS, RAMP_S, BLEND_S, DRIVE_SPEED, DRIVE_REDUCTION, RAPID_SPEED = 12, 13, 14, 15, 16, 17
-#: How a stroke of a drilling cycle meets the next one (`toolpath.context`).
-OVERLAP, OVERLAPS = 18, 2
-#: Acceleration after interpolation: seconds by which the axes are behind at speed, and the speed from which on it acts.
-LAG_S, LAG_FROM = 19, 20
-#: Factor on the highest rapid of every axis.
-RAPID_SHARE = 21
-#: How far before and behind a corner its rounding reaches at most, mm (infinite: the tolerance alone counts).
-ROUNDING = 22
-FRAME, OFFSETS = 23, 35
+    Attributes:
+        rapid_stops: Whether the axes stop between rapid and cutting (1).
+        path_feed: Highest speed of a cut.
+        corner_speed: Highest step of an axis's velocity at a corner of two cuts.
+    """
 
-# `pieces`: one record a piece. CAP2 bounds x inside the piece, ENTRY2 at its start; REACH2 is what `backward`
-# finds there, SPEED2 what `forward` chooses, END2 the x that it leaves the piece with, TIME the seconds. PULL
-# is the acceleration along a straight piece, the seconds of a timed one. `forward` also says how: up to PEAK2 and
-# down again at RATE. PAUSE are the seconds that the axes rest before the piece so that the averages come to
-# rest. HOLD2 and HOLD_PULL bound speed and acceleration along the path on HOLD_WAY before and behind its start
-# (`hold.py`). RAMP and BLEND are the averages of the run that begins with the piece, seconds. MARGIN is the factor
-# by which q' and q'' are stored larger than they are. EARLY are the seconds by which the run that begins with the piece
-# may begin before the averages of the one before have come to rest; PAUSE bounds them. PATH_PULL bounds the
-# acceleration along a curved piece beside its axes. Behind VECTORS stand q' at start and end, q'' at start and end, and
-# the axes' positions at start and end: 6·n numbers.
-(
-    LENGTH, CAP2, PULL, ENTRY2, REACH2, SPEED2, END2, TIME, FORM, ROW, SLOT,
-    PEAK2, RATE, PAUSE, HOLD2, HOLD_PULL, HOLD_WAY, RAMP, BLEND, MARGIN, EARLY, PATH_PULL, VECTORS,
-) = range(23)  # fmt: skip
+    rapid_stops: float
+    path_feed: float
+    corner_speed: float
+
+
+class Limits(NamedTuple):
+    """What the machine allows, mm or degrees and seconds: n numbers each, and what is there once.
+
+    Attributes:
+        top_rapid: Highest velocity in rapids.
+        top_feed: Highest velocity in cuts.
+        acceleration: Highest acceleration.
+        jump: Highest step of the velocity at a corner.
+        rotary: 1 for a rotary axis.
+        jerk: Highest jerk.
+        geometry: The columns of X, Y, Z, -1 for a missing one.
+        path: Along the path.
+    """
+
+    top_rapid: Floats
+    top_feed: Floats
+    acceleration: Floats
+    jump: Floats
+    rotary: Floats
+    jerk: Floats
+    geometry: Ints
+    path: PathLimits
+
+
+class ContextRecord(Places):
+    """A record of `contexts`; behind it stand n offsets.
+
+    RAMP_S is the time over which the speed along the path is averaged (0: the jerk has no limit), BLEND_S that over
+    which the axes' positions are, twice; DRIVE_SPEED and DRIVE_REDUCTION are those of the settings (1 and 0 without
+    DRIVE). RAPID_SPEED bounds rapids along the path (0: nothing does).
+    """
+
+    PER_REVOLUTION = place()
+    INVERSE_TIME = place()
+    RPM = place()
+    SURFACE_MM_S = place()
+    RPM_LIMIT = place()
+    SPINDLE_REV_S2 = place()
+    EXACT_STOP = place()
+    TOLERANCE = place()
+    ROTARY_WEIGHT = place()
+    STATION = place()
+    HAS_FRAME = place()
+    MIRROR = place()
+    RAPID_BY_AXIS = place()
+    RAMP_S = place()
+    BLEND_S = place()
+    DRIVE_SPEED = place()
+    DRIVE_REDUCTION = place()
+    RAPID_SPEED = place()
+    #: How a stroke of a drilling cycle meets the next one (`toolpath.context`).
+    OVERLAP = place()
+    #: Acceleration after interpolation: seconds by which the axes are behind at speed, the speed from which it acts.
+    LAG_S = place()
+    LAG_FROM = place()
+    #: Factor on the highest rapid of every axis.
+    RAPID_SHARE = place()
+    #: How far before and behind a corner its rounding reaches at most, mm (infinite: the tolerance alone counts).
+    ROUNDING = place()
+    #: Nine numbers by rows, then the shift.
+    FRAME = place(12)
+    OFFSETS = place(0)
+
+
+#: What OVERLAP says of a stroke that the next one may overlap.
+OVERLAPS = 2
+
+
+class PieceRecord(Places):
+    """A record of `pieces`. Behind VECTORS stand 6·n numbers: q', q'' and the axes' positions, at start and end each.
+
+    CAP2 bounds x inside the piece, ENTRY2 at its start; REACH2 is what `backward` finds there, SPEED2 what `forward`
+    chooses, END2 the x that it leaves the piece with, TIME the seconds. PULL is the acceleration along a straight
+    piece, the seconds of a timed one. `forward` also says how: up to PEAK2 and down again at RATE. PAUSE are the
+    seconds that the axes rest before the piece so that the averages come to rest. HOLD2 and HOLD_PULL bound speed and
+    acceleration along the path on HOLD_WAY before and behind its start (`hold.py`). RAMP and BLEND are the averages of
+    the run that begins with the piece, seconds. MARGIN is the factor by which q' and q'' are stored larger than they
+    are. EARLY are the seconds by which the run that begins with the piece may begin before the averages of the one
+    before have come to rest; PAUSE bounds them. PATH_PULL bounds the acceleration along a curved piece beside its axes.
+    """
+
+    LENGTH = place()
+    CAP2 = place()
+    PULL = place()
+    ENTRY2 = place()
+    REACH2 = place()
+    SPEED2 = place()
+    END2 = place()
+    TIME = place()
+    FORM = place()
+    ROW = place()
+    SLOT = place()
+    PEAK2 = place()
+    RATE = place()
+    PAUSE = place()
+    HOLD2 = place()
+    HOLD_PULL = place()
+    HOLD_WAY = place()
+    RAMP = place()
+    BLEND = place()
+    MARGIN = place()
+    EARLY = place()
+    PATH_PULL = place()
+    VECTORS = place(0)
+
+
+#: Of the vectors of a piece: the first of the two positions, and how many there are.
 PLACES, PIECE_BLOCKS = 4, 6
-#: A line; a part of a curve under the limits of a line (with limited jerk); a part of a curve under limits that
-#: change along it; a rapid of every axis by itself.
-STRAIGHT, BENT, CURVED, TIMED = 0, 1, 2, 3
 
-# `state`: what is carried from row to row,
-STOP, EXIT2, ROW_LENGTH, METRIC, AT_STATION, SMOOTH, PIECES, WITHOUT_FEED = range(8)
-# for limited jerk: pull of the last row around its end; highest cap and pull since the axes last stood, lowest
-# holds within reach, way for which holds reach ahead; seconds that a change of speed is spread over; the last row
-# is a line (1), and one from rest (2); speed that it asks for; whether overrides will act on feeds (not the planner's):
-# 1, or 2 if a dry run will act on threads,
-EXIT_PULL, TOP2, TOP_PULL, LOW2, LOW_PULL, AHEAD, WINDOW, ALONE, WANTED, FREE = range(8, 18)
-# the joint at hand: pull around it, seconds of rest, averages of a run that begins there, OVERLAP of the row before,
-JOINT_PULL, REST, RUN_RAMP, RUN_BLEND, OVERLAP_BEFORE = range(18, 23)
-# the row at hand (CURVE: where its record in `curves` begins, or -1; FACING: its end in X, work coordinates),
-KIND, NUMBER, ROW_SLOT, FEED, CURVE, FACING = range(23, 29)
-# its largest speed, and EASE at its start (1 without transformation); that at the end of the row before; its shares,
-# behind which come the factors for corners at its ends,
-ROW_TOP, EASE, LAST_EASE, SHARE_COUNT, SHARE_END, SHARE_TOP, SHARE_EASE = 29, 30, 31, 32, 33, 65, 97
-# pieces of the straight run from rest that the row at hand goes on with; rows that wait for a spindle at rest,
-STRAIGHT_RUN, STANDING_SPINDLE = 129, 130
-# its arc (unit vectors to the start, along the way there, and of the axis; angle, radius, growth of the
-# radius, rise),
-BASIS, SWEEP, RADIUS, GROWTH, RISE = 131, 140, 141, 142, 143
-# the factor for the corner at hand, and that at the end of the row before,
-CORNER_EASE, LAST_CORNER, STATE_BLOCKS = 144, 145, 146
-# and blocks of n numbers: machine position before the row, q' at the end of the last piece; end of the row,
-# way there, and room for one q' and q''; q'' at the end of the last piece.
-POSITION, TANGENT, TARGET, DELTA, UNIT, BEND, BENT_BEFORE, BLOCKS = range(8)
+
+class Form(Places):
+    """Forms of a piece.
+
+    A line; a part of a curve under the limits of a line (with limited jerk); a part of a curve under limits that change
+    along it; a rapid of every axis by itself.
+    """
+
+    STRAIGHT = place()
+    BENT = place()
+    CURVED = place()
+    TIMED = place()
+
+
+@record
+class RunState(Structure):
+    """What is carried from row to row.
+
+    Attributes:
+        stop: The axes stand before the next row (1).
+        exit2: x with which the last row may be left.
+        length: Of the last row.
+        metric: What a degree counts in it.
+        station: What must be the same for the axes not to stand between two rows.
+        smooth: The last row is a chord of a spline (1), which the row at hand goes on with (2).
+        pieces: In the buffer.
+        without_feed: Rows without a feed.
+        standing_spindle: Rows that wait for a spindle at rest.
+        exit_pull: Pull of the last row around its end.
+        top2: Highest cap since the axes last stood; `top_pull` likewise.
+        low2: Lowest hold within reach; `low_pull` likewise.
+        ahead: Way for which holds reach ahead.
+        window: Seconds that a change of speed is spread over.
+        alone: The last row is a line (1), and one from rest (2).
+        wanted: Speed that it asks for.
+        free: Whether overrides will act on feeds (not the planner's): 1, or 2 if a dry run will act on threads.
+        straight_pieces: Of the straight run from rest that the row at hand goes on with.
+        ease: Factor on the limits at the end of the row before; `corner_ease` for its corner.
+        overlap: OVERLAP of the row before.
+    """
+
+    stop: float
+    exit2: float
+    length: float
+    metric: float
+    station: float
+    smooth: float
+    pieces: int
+    without_feed: int
+    standing_spindle: int
+    exit_pull: float
+    top2: float
+    top_pull: float
+    low2: float
+    low_pull: float
+    ahead: float
+    window: float
+    alone: float
+    wanted: float
+    free: float
+    straight_pieces: int
+    ease: float
+    corner_ease: float
+    overlap: float
+
+
+@record
+class JointState(Structure):
+    """The joint at hand: pull around it, seconds of rest, averages of a run that begins there, factor on the limits."""
+
+    pull: float
+    rest: float
+    ramp: float
+    blend: float
+    ease: float
+
+
+@record
+class RowState(Structure):
+    """The row at hand.
+
+    Attributes:
+        kind: As in the table.
+        number: In the toolpath.
+        slot: Where its time counts.
+        feed: As in the table.
+        curve: Where its record in `curves` begins, or negative.
+        facing: Its end in X, work coordinates.
+        top: Its largest speed.
+        ease: Factor on the limits at its start (1 without transformation).
+        shares: How many it has.
+    """
+
+    kind: int
+    number: int
+    slot: int
+    feed: float
+    curve: int
+    facing: float
+    top: float
+    ease: float
+    shares: int
+
+
+@record
+class ArcState(Structure):
+    """The arc at hand: angle, radius, growth of the radius, rise along its axis."""
+
+    sweep: float
+    radius: float
+    growth: float
+    rise: float
+
+
+class State(NamedTuple):
+    """What the kernels carry along, and room for what they work out; see `new_state`.
+
+    Attributes:
+        run: What is carried from row to row.
+        joint: Between the row before and the row at hand.
+        row: The row at hand.
+        arc: Its arc.
+        basis: Of the arc: unit vectors to the start, along the way there, and of the axis.
+        share_end: Of the row's shares, where they end; `share_top` and `share_ease` likewise. Behind the factors of
+            the shares stand those for corners at its ends.
+        position: Machine position before the row; from here on n numbers each.
+        tangent: q' at the end of the last piece.
+        target: Machine position at the end of the row.
+        delta: The way there.
+        unit: Room for one q'.
+        bend: Room for one q''.
+        bent_before: q'' at the end of the last piece.
+    """
+
+    run: RunState
+    joint: JointState
+    row: RowState
+    arc: ArcState
+    basis: Floats
+    share_end: Floats
+    share_top: Floats
+    share_ease: Floats
+    position: Floats
+    tangent: Floats
+    target: Floats
+    delta: Floats
+    unit: Floats
+    bend: Floats
+    bent_before: Floats
+
+
+def new_state(n: int, start: Sequence[float] = ()) -> State:
+    """The state before the first row of n axes that stand at a machine position, at zero where it is left out."""
+    run = RunState(stop=1.0, low2=inf, low_pull=inf)
+    records = run, JointState(), RowState(), ArcState()
+    position = zeros(n)
+    position[: len(start)] = array("d", start)
+    shares = zeros(SHARES), zeros(SHARES), zeros(SHARES)
+    vectors = zeros(n), zeros(n), zeros(n), zeros(n), zeros(n), zeros(n)
+    return State(*records, zeros(9), *shares, position, *vectors)
+
+
+def zeros(count: int) -> array[float]:
+    """So many numbers."""
+    return array("d", bytes(8 * count))
+
 
 #: Of a tap, in its record in `curves`: how much faster than at its lead it runs, and the largest override (0: none).
 FACTOR, LARGEST_OVERRIDE = 2, 3
@@ -134,4 +362,4 @@ SAME_POINT_MM = 1e-7
 
 def piece_width(n: int) -> int:
     """Numbers of one record of `pieces` with n axes."""
-    return VECTORS + PIECE_BLOCKS * n
+    return PieceRecord.VECTORS + PIECE_BLOCKS * n

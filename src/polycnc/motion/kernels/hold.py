@@ -14,32 +14,7 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.kernels.columns import (
-    AHEAD,
-    BENT,
-    CAP2,
-    ENTRY2,
-    FORM,
-    HOLD2,
-    HOLD_PULL,
-    HOLD_WAY,
-    KIND,
-    LENGTH,
-    LOW2,
-    LOW_PULL,
-    MARGIN,
-    PAUSE,
-    PIECES,
-    PLACES,
-    PULL,
-    SPLINE,
-    TIMED,
-    TOP2,
-    TOP_PULL,
-    VECTORS,
-    WINDOW,
-    piece_width,
-)
+from polycnc.motion.kernels.columns import PLACES, SPLINE, Form, PieceRecord, State, piece_width
 
 #: A line is cut if what is left of it is at least this part of it.
 WORTH_CUTTING = 0.1
@@ -47,96 +22,117 @@ WORTH_CUTTING = 0.1
 SLIVER_MM = 1e-6
 
 
-def hold(pieces: Floats, first: int, n: int, state: Floats) -> None:
+def hold(pieces: Floats, first: int, n: int, state: State) -> None:
     """Spread the bounds of joints over the pieces from `first` on, and over those before."""
     p, width = first, piece_width(n)
-    while p < int(state[PIECES]):
+    while p < state.run.pieces:
         at = p * width
-        pieces[at + HOLD_WAY] = (
-            0.5 * sqrt(pieces[at + HOLD2]) * state[WINDOW] if pieces[at + HOLD2] < inf else 0.0
+        pieces[at + PieceRecord.HOLD_WAY] = (
+            0.5 * sqrt(pieces[at + PieceRecord.HOLD2]) * state.run.window
+            if pieces[at + PieceRecord.HOLD2] < inf
+            else 0.0
         )
-        if pieces[at + PAUSE] > 0.0:
-            state[TOP2] = state[TOP_PULL] = state[AHEAD] = 0.0
-            state[LOW2] = state[LOW_PULL] = inf
-        elif pieces[at + HOLD2] < state[TOP2] or pieces[at + HOLD_PULL] < state[TOP_PULL]:
+        if pieces[at + PieceRecord.PAUSE] > 0.0:
+            state.run.top2 = state.run.top_pull = state.run.ahead = 0.0
+            state.run.low2 = state.run.low_pull = inf
+        elif (
+            pieces[at + PieceRecord.HOLD2] < state.run.top2
+            or pieces[at + PieceRecord.HOLD_PULL] < state.run.top_pull
+        ):
             p += hold_behind(pieces, p, n, state)
             at = p * width
-        if pieces[at + FORM] == TIMED:
+        if pieces[at + PieceRecord.FORM] == Form.TIMED:
             p += 1
             continue
-        state[TOP2] = max(state[TOP2], pieces[at + CAP2])
-        state[TOP_PULL] = max(state[TOP_PULL], pieces[at + PULL])
-        if pieces[at + PAUSE] == 0.0 and pieces[at + HOLD2] < inf:
-            state[AHEAD] = max(state[AHEAD], pieces[at + HOLD_WAY])
-            state[LOW2] = min(state[LOW2], pieces[at + HOLD2])
-            state[LOW_PULL] = min(state[LOW_PULL], pieces[at + HOLD_PULL])
-        if state[AHEAD] > 0.0:
-            if pieces[at + CAP2] > state[LOW2] or pieces[at + PULL] > state[LOW_PULL]:
+        state.run.top2 = max(state.run.top2, pieces[at + PieceRecord.CAP2])
+        state.run.top_pull = max(state.run.top_pull, pieces[at + PieceRecord.PULL])
+        if pieces[at + PieceRecord.PAUSE] == 0.0 and pieces[at + PieceRecord.HOLD2] < inf:
+            state.run.ahead = max(state.run.ahead, pieces[at + PieceRecord.HOLD_WAY])
+            state.run.low2 = min(state.run.low2, pieces[at + PieceRecord.HOLD2])
+            state.run.low_pull = min(state.run.low_pull, pieces[at + PieceRecord.HOLD_PULL])
+        if state.run.ahead > 0.0:
+            if (
+                pieces[at + PieceRecord.CAP2] > state.run.low2
+                or pieces[at + PieceRecord.PULL] > state.run.low_pull
+            ):
                 hold_ahead(pieces, p, n, state)
-            state[AHEAD] -= pieces[at + LENGTH]
-        pieces[at + ENTRY2] = min(pieces[at + ENTRY2], pieces[at + CAP2])
-        if p > 0 and pieces[at - width + FORM] != TIMED:
-            pieces[at + ENTRY2] = min(pieces[at + ENTRY2], pieces[at - width + CAP2])
+            state.run.ahead -= pieces[at + PieceRecord.LENGTH]
+        pieces[at + PieceRecord.ENTRY2] = min(pieces[at + PieceRecord.ENTRY2], pieces[at + PieceRecord.CAP2])
+        if p > 0 and pieces[at - width + PieceRecord.FORM] != Form.TIMED:
+            pieces[at + PieceRecord.ENTRY2] = min(
+                pieces[at + PieceRecord.ENTRY2], pieces[at - width + PieceRecord.CAP2]
+            )
         p += 1
 
 
-def hold_behind(pieces: Floats, p: int, n: int, state: Floats) -> int:
+def hold_behind(pieces: Floats, p: int, n: int, state: State) -> int:
     """Spread the bounds of the joint before piece p backwards; the number of cuts made there."""
     width, cuts, joint = piece_width(n), 0, p * piece_width(n)
-    left, cap2, pull = pieces[joint + HOLD_WAY], pieces[joint + HOLD2], pieces[joint + HOLD_PULL]
+    left, cap2, pull = (
+        pieces[joint + PieceRecord.HOLD_WAY],
+        pieces[joint + PieceRecord.HOLD2],
+        pieces[joint + PieceRecord.HOLD_PULL],
+    )
     q = p - 1
-    while q >= 0 and left > SLIVER_MM and pieces[q * width + FORM] != TIMED:
+    while q >= 0 and left > SLIVER_MM and pieces[q * width + PieceRecord.FORM] != Form.TIMED:
         at = q * width
-        length = pieces[at + LENGTH]
+        length = pieces[at + PieceRecord.LENGTH]
         if worth_cutting(pieces, at, left) and cut(pieces, q, n, state, length - left):
             cuts += 1
             q += 1
             continue
-        pieces[at + CAP2] = min(pieces[at + CAP2], cap2)
-        pieces[at + PULL] = min(pieces[at + PULL], pull)
-        pieces[at + ENTRY2] = min(pieces[at + ENTRY2], cap2)
-        if pieces[at + PAUSE] > 0.0:
+        pieces[at + PieceRecord.CAP2] = min(pieces[at + PieceRecord.CAP2], cap2)
+        pieces[at + PieceRecord.PULL] = min(pieces[at + PieceRecord.PULL], pull)
+        pieces[at + PieceRecord.ENTRY2] = min(pieces[at + PieceRecord.ENTRY2], cap2)
+        if pieces[at + PieceRecord.PAUSE] > 0.0:
             break
         left -= length
         q -= 1
     return cuts
 
 
-def hold_ahead(pieces: Floats, p: int, n: int, state: Floats) -> None:
+def hold_ahead(pieces: Floats, p: int, n: int, state: State) -> None:
     """Give piece p the bounds of the joints before it that reach so far, and cut it where the next one ends."""
     width, at, way, edge = piece_width(n), p * piece_width(n), 0.0, inf
-    cap2, pull = pieces[at + CAP2], pieces[at + PULL]
+    cap2, pull = pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL]
     low2, low_pull = inf, inf
-    longest = 0.5 * sqrt(state[TOP2]) * state[WINDOW]
+    longest = 0.5 * sqrt(state.run.top2) * state.run.window
     for q in range(p, -1, -1):
         joint = q * width
-        if way > longest or pieces[joint + PAUSE] > 0.0 or pieces[joint + FORM] == TIMED:
+        if (
+            way > longest
+            or pieces[joint + PieceRecord.PAUSE] > 0.0
+            or pieces[joint + PieceRecord.FORM] == Form.TIMED
+        ):
             break
-        left = pieces[joint + HOLD_WAY] - way
+        left = pieces[joint + PieceRecord.HOLD_WAY] - way
         if left > SLIVER_MM:
-            low2, low_pull = min(low2, pieces[joint + HOLD2]), min(low_pull, pieces[joint + HOLD_PULL])
+            low2, low_pull = (
+                min(low2, pieces[joint + PieceRecord.HOLD2]),
+                min(low_pull, pieces[joint + PieceRecord.HOLD_PULL]),
+            )
             edge = min(edge, left)
         if q > 0:
-            way += pieces[joint - width + LENGTH]
+            way += pieces[joint - width + PieceRecord.LENGTH]
     # The next point of a spline still turns the end of its last chord.
-    if state[KIND] != SPLINE and worth_cutting(pieces, at, edge):
+    if state.row.kind != SPLINE and worth_cutting(pieces, at, edge):
         cut(pieces, p, n, state, edge)
-    pieces[at + CAP2], pieces[at + PULL] = min(cap2, low2), min(pull, low_pull)
-    state[LOW2], state[LOW_PULL] = low2, low_pull
+    pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL] = min(cap2, low2), min(pull, low_pull)
+    state.run.low2, state.run.low_pull = low2, low_pull
 
 
 def worth_cutting(pieces: Floats, at: int, edge: float) -> bool:
     """Whether a bound that holds over `edge` mm of a piece leaves much of it free."""
-    length = pieces[at + LENGTH]
-    return pieces[at + FORM] <= BENT and edge < (1.0 - WORTH_CUTTING) * length
+    length = pieces[at + PieceRecord.LENGTH]
+    return pieces[at + PieceRecord.FORM] <= Form.BENT and edge < (1.0 - WORTH_CUTTING) * length
 
 
-def cut(pieces: Floats, p: int, n: int, state: Floats, first: float) -> bool:
+def cut(pieces: Floats, p: int, n: int, state: State, first: float) -> bool:
     """Cut a piece behind its first `first` mm; false where there is no room for one more.
 
     A part of a curve is the cubic through its ends with their tangents (`run.py`); both parts lie on it.
     """
-    width, count = piece_width(n), int(state[PIECES])
+    width, count = piece_width(n), state.run.pieces
     if (count + 1) * width > len(pieces):
         return False
     for k in range(count * width - 1, (p + 1) * width - 1, -1):
@@ -144,14 +140,14 @@ def cut(pieces: Floats, p: int, n: int, state: Floats, first: float) -> bool:
     at = p * width
     for k in range(at, at + width):
         pieces[k + width] = pieces[k]
-    state[PIECES] += 1.0
-    share = first / pieces[at + LENGTH]
+    state.run.pieces += 1
+    share = first / pieces[at + PieceRecord.LENGTH]
     rest = at + width
-    pieces[rest + LENGTH] = pieces[at + LENGTH] - first
-    pieces[at + LENGTH] = first
-    bent = pieces[at + FORM] == BENT
-    scale = (first + pieces[rest + LENGTH]) / pieces[at + MARGIN]
-    for i in range(VECTORS, VECTORS + n):
+    pieces[rest + PieceRecord.LENGTH] = pieces[at + PieceRecord.LENGTH] - first
+    pieces[at + PieceRecord.LENGTH] = first
+    bent = pieces[at + PieceRecord.FORM] == Form.BENT
+    scale = (first + pieces[rest + PieceRecord.LENGTH]) / pieces[at + PieceRecord.MARGIN]
+    for i in range(PieceRecord.VECTORS, PieceRecord.VECTORS + n):
         place = i + PLACES * n
         chord = pieces[at + place + n] - pieces[at + place]
         here, there = pieces[at + place] + share * chord, chord / scale
@@ -165,7 +161,7 @@ def cut(pieces: Floats, p: int, n: int, state: Floats, first: float) -> bool:
             pieces[at + i + 3 * n] = pieces[rest + i + 2 * n] = bend
         pieces[at + place + n] = pieces[rest + place] = here
         pieces[at + i + n] = pieces[rest + i] = there
-    pieces[rest + PAUSE], pieces[rest + HOLD_WAY] = 0.0, 0.0
-    pieces[rest + HOLD2] = pieces[rest + HOLD_PULL] = inf
-    pieces[rest + ENTRY2] = pieces[at + CAP2]
+    pieces[rest + PieceRecord.PAUSE], pieces[rest + PieceRecord.HOLD_WAY] = 0.0, 0.0
+    pieces[rest + PieceRecord.HOLD2] = pieces[rest + PieceRecord.HOLD_PULL] = inf
+    pieces[rest + PieceRecord.ENTRY2] = pieces[at + PieceRecord.CAP2]
     return True

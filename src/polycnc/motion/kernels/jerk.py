@@ -15,28 +15,7 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.kernels.columns import (
-    ACCELERATION,
-    BASIS,
-    BEND,
-    BENT_BEFORE,
-    BLEND_S,
-    CORNER_EASE,
-    EASE,
-    GEOMETRY,
-    JERK,
-    JOINT_PULL,
-    LIMIT_BLOCKS,
-    RAMP_S,
-    ROTARY,
-    ROUNDING,
-    ROW_LENGTH,
-    SMOOTH,
-    STATE_BLOCKS,
-    TANGENT,
-    TOLERANCE,
-    UNIT,
-)
+from polycnc.motion.kernels.columns import ContextRecord, Limits, State
 
 #: Parts of the acceleration: along the path; across it; in corners.
 ALONG, ACROSS, CORNER = 0.7, 0.3, 0.3
@@ -49,87 +28,94 @@ STRAY_CORNER, STRAY_CURVE = 0.5, 0.5
 NO_TURN = 1e-9
 
 
-def axis_pull(ramp: float, n: int, limits: Floats, i: int) -> float:
+def axis_pull(ramp: float, limits: Limits, i: int) -> float:
     """Acceleration of an axis that neither exceeds its own limit nor, averaged over `ramp` seconds, that of jerk."""
-    pull = limits[ACCELERATION * n + i]
+    pull = limits.acceleration[i]
     if ramp > 0.0:
-        pull = min(pull, 0.5 * limits[JERK * n + i] * ramp)
+        pull = min(pull, 0.5 * limits.jerk[i] * ramp)
     return pull
 
 
-def line_pull(contexts: Floats, record: int, n: int, limits: Floats, state: Floats, alone: bool) -> float:
-    """Acceleration along the row at hand, from UNIT; `alone`: from rest to rest, so that nothing else needs a part.
+def line_pull(contexts: Floats, record: int, n: int, limits: Limits, state: State, alone: bool) -> float:
+    """Acceleration along the row at hand, from `unit`; `alone`: from rest to rest, so that nothing else needs a part.
 
     Else it does not depend on the direction: then it is the same on both sides of most joints.
     """
     pull = inf
     for i in range(n):
-        share = abs(state[STATE_BLOCKS + UNIT * n + i])
+        share = abs(state.unit[i])
         if share > 0.0:
-            own = axis_pull(contexts[record + RAMP_S], n, limits, i)
+            own = axis_pull(contexts[record + ContextRecord.RAMP_S], limits, i)
             pull = min(pull, own / share if alone else ALONG * own / max(share, 1.0))
     return pull
 
 
 def corner_hold2(
-    contexts: Floats, record: int, n: int, limits: Floats, state: Floats, length: float, cap2: float
+    contexts: Floats, record: int, n: int, limits: Limits, state: State, length: float, cap2: float
 ) -> float:
-    """Largest x up to `cap2` at the joint between two rows; lowers JOINT_PULL, the acceleration around it.
+    """Largest x up to `cap2` at the joint between two rows; lowers the joint's pull, the acceleration around it.
 
-    Where SMOOTH is 2 the rows are chords of a spline, and the curve through their ends turns steadily.
+    Where `run.smooth` is 2 the rows are chords of a spline, and the curve through their ends turns steadily.
     """
-    smooth = state[SMOOTH] == 2.0
-    unit, tangent = STATE_BLOCKS + UNIT * n, STATE_BLOCKS + TANGENT * n
-    bend, before = STATE_BLOCKS + BEND * n, STATE_BLOCKS + BENT_BEFORE * n
-    blend, x2 = contexts[record + BLEND_S], cap2
-    shorter, mean = min(length, state[ROW_LENGTH]), 0.5 * (length + state[ROW_LENGTH])
+    smooth = state.run.smooth == 2.0
+    unit, tangent = state.unit, state.tangent
+    bend, before = state.bend, state.bent_before
+    blend, x2 = contexts[record + ContextRecord.BLEND_S], cap2
+    shorter, mean = min(length, state.run.length), 0.5 * (length + state.run.length)
     turn, least = 0.0, inf
     for i in range(n):
-        a = state[CORNER_EASE] * limits[ACCELERATION * n + i]
-        j = state[CORNER_EASE] * limits[JERK * n + i]
-        step = abs(state[unit + i] - state[tangent + i])
-        if limits[ROTARY * n + i] == 0.0:
+        a = state.joint.ease * limits.acceleration[i]
+        j = state.joint.ease * limits.jerk[i]
+        step = abs(unit[i] - tangent[i])
+        if limits.rotary[i] == 0.0:
             turn += step * step
         if smooth:
-            state[bend + i] = (state[unit + i] - state[tangent + i]) / mean
+            bend[i] = (unit[i] - tangent[i]) / mean
             if step > NO_TURN:
                 x2 = min(x2, ACROSS * a * mean / step)
                 least = min(least, j * mean / step)
         elif step > NO_TURN:
             jump = min(JERK_CORNER * j * blend * blend, CORNER * a * blend) / step
             x2 = min(x2, jump * jump, min(ACROSS * a, JERK_LINES * j * blend) * shorter / step)
-            state[JOINT_PULL] = min(state[JOINT_PULL], JERK_TURN * j * blend / step)
-        change = abs(state[bend + i] - state[before + i])
+            state.joint.pull = min(state.joint.pull, JERK_TURN * j * blend / step)
+        change = abs(bend[i] - before[i])
         if change > NO_TURN:
             x2 = min(x2, JERK_ENTRY * j * blend / change)
             if smooth:
                 x2 = min(x2, (JERK_CURVE * j * mean / change) ** (2.0 / 3.0))
     turn = sqrt(turn)
     if turn > NO_TURN:
-        stray = contexts[record + TOLERANCE] / (blend * turn)
+        stray = contexts[record + ContextRecord.TOLERANCE] / (blend * turn)
         x2 = min(x2, 12.0 * STRAY_CURVE * stray / blend * (mean if smooth else shorter))
         if not smooth:
-            x2 = min(x2, (6.0 * STRAY_CORNER * stray) ** 2, (contexts[record + ROUNDING] / blend) ** 2)
+            x2 = min(
+                x2,
+                (6.0 * STRAY_CORNER * stray) ** 2,
+                (contexts[record + ContextRecord.ROUNDING] / blend) ** 2,
+            )
     if smooth and least < inf and x2 > 0.0:
-        state[JOINT_PULL] = min(state[JOINT_PULL], JERK_BOTH * least / (3.0 * sqrt(x2)))
+        state.joint.pull = min(state.joint.pull, JERK_BOTH * least / (3.0 * sqrt(x2)))
     return x2
 
 
 def arc_hold(
-    contexts: Floats, record: int, n: int, limits: Floats, state: Floats, curvature: float, speed: float
+    contexts: Floats, record: int, limits: Limits, state: State, curvature: float, speed: float
 ) -> tuple[float, float]:
     """Largest x and acceleration along an arc of a curvature (1/mm) that is asked to run at a speed."""
-    geometry, blend = LIMIT_BLOCKS * n + GEOMETRY, contexts[record + BLEND_S]
+    blend = contexts[record + ContextRecord.BLEND_S]
     a, j, pull = inf, inf, inf
     for k in range(3):
-        i = int(limits[geometry + k])
+        i = limits.geometry[k]
         if i >= 0:
-            pull = min(pull, ALONG * state[EASE] * axis_pull(contexts[record + RAMP_S], n, limits, i))
-            if state[BASIS + k] != 0.0 or state[BASIS + 3 + k] != 0.0:
-                a, j = min(a, limits[ACCELERATION * n + i]), min(j, limits[JERK * n + i])
-    tolerance = contexts[record + TOLERANCE]
+            pull = min(
+                pull,
+                ALONG * state.row.ease * axis_pull(contexts[record + ContextRecord.RAMP_S], limits, i),
+            )
+            if state.basis[k] != 0.0 or state.basis[3 + k] != 0.0:
+                a, j = min(a, limits.acceleration[i]), min(j, limits.jerk[i])
+    tolerance = contexts[record + ContextRecord.TOLERANCE]
     cap2 = min(
         speed * speed, ACROSS * a / curvature, 12.0 * STRAY_CURVE * tolerance / (blend * blend * curvature)
     )
     cap2 = min(cap2, (JERK_CURVE * j / (curvature * curvature)) ** (2.0 / 3.0))
-    return cap2, min(pull, JERK_BOTH * state[EASE] * j / (3.0 * curvature * sqrt(cap2)))
+    return cap2, min(pull, JERK_BOTH * state.row.ease * j / (3.0 * curvature * sqrt(cap2)))

@@ -11,35 +11,13 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.kernels.columns import (
-    ACCELERATION,
-    BENT,
-    CAP2,
-    CURVED,
-    EARLY,
-    END2,
-    ENTRY2,
-    FORM,
-    LENGTH,
-    PATH_PULL,
-    PAUSE,
-    PEAK2,
-    PULL,
-    RATE,
-    REACH2,
-    ROW,
-    SLOT,
-    SPEED2,
-    TIME,
-    VECTORS,
-    piece_width,
-)
+from polycnc.motion.kernels.columns import Form, Limits, PieceRecord, piece_width
 
 #: Tries for the speed in the middle of a curved piece, and steps to the crest of `highest2`.
 TRIES = 16
 
 
-def backward(pieces: Floats, count: int, n: int, limits: Floats) -> int:
+def backward(pieces: Floats, count: int, n: int, limits: Limits) -> int:
     """Fill REACH2 of the first `count` pieces, behind which the axes stop.
 
     The last joint whose reach does not depend on what comes behind it, because its own cap bounds it; -1 for
@@ -48,16 +26,16 @@ def backward(pieces: Floats, count: int, n: int, limits: Floats) -> int:
     independent, width, x2 = -1, piece_width(n), 0.0
     for p in range(count - 1, -1, -1):
         at = p * width
-        cap2 = pieces[at + ENTRY2]
-        if pieces[at + FORM] <= BENT:
-            x2 += 2.0 * pieces[at + PULL] * pieces[at + LENGTH]
-        elif x2 < cap2 and pieces[at + FORM] == CURVED:
+        cap2 = pieces[at + PieceRecord.ENTRY2]
+        if pieces[at + PieceRecord.FORM] <= Form.BENT:
+            x2 += 2.0 * pieces[at + PieceRecord.PULL] * pieces[at + PieceRecord.LENGTH]
+        elif x2 < cap2 and pieces[at + PieceRecord.FORM] == Form.CURVED:
             x2 = max(x2, highest2(pieces, at, n, limits, x2))
         if x2 >= cap2:
             x2 = cap2
             if independent < 0:
                 independent = p
-        pieces[at + REACH2] = x2
+        pieces[at + PieceRecord.REACH2] = x2
     return independent
 
 
@@ -65,7 +43,7 @@ def forward(
     pieces: Floats,
     count: int,
     n: int,
-    limits: Floats,
+    limits: Limits,
     end2: float,
     slots: Floats,
     row_s: Floats,
@@ -84,29 +62,35 @@ def forward(
         first_row: Number of the first row in `row_s`.
     """
     width = piece_width(n)
-    x2 = pieces[SPEED2]
+    x2 = pieces[PieceRecord.SPEED2]
     for p in range(count):
         at = p * width
-        length = pieces[at + LENGTH]
-        next2 = pieces[at + width + REACH2] if p + 1 < count else end2
-        peak2, rate = 0.0, pieces[at + PULL]
-        if pieces[at + FORM] <= BENT:
+        length = pieces[at + PieceRecord.LENGTH]
+        next2 = pieces[at + width + PieceRecord.REACH2] if p + 1 < count else end2
+        peak2, rate = 0.0, pieces[at + PieceRecord.PULL]
+        if pieces[at + PieceRecord.FORM] <= Form.BENT:
             next2 = min(next2, x2 + 2.0 * rate * length)
-            peak2 = straight_peak2(x2, next2, pieces[at + CAP2], rate, length)
-            seconds = straight_time(x2, next2, pieces[at + CAP2], rate, length)
-        elif pieces[at + FORM] == CURVED:
+            peak2 = straight_peak2(x2, next2, pieces[at + PieceRecord.CAP2], rate, length)
+            seconds = straight_time(x2, next2, pieces[at + PieceRecord.CAP2], rate, length)
+        elif pieces[at + PieceRecord.FORM] == Form.CURVED:
             next2 = min(next2, max(bound2(pieces, at, n, limits, x2, False)[0], 0.0))
             seconds, peak2, rate = curved_time(pieces, at, n, limits, x2, next2)
         else:
             next2, seconds = 0.0, rate
-        pieces[at + SPEED2], pieces[at + END2], pieces[at + TIME] = x2, next2, seconds
-        pieces[at + PEAK2], pieces[at + RATE] = peak2, rate
-        seconds += pieces[at + PAUSE] - min(pieces[at + EARLY], pieces[at + PAUSE])
+        pieces[at + PieceRecord.SPEED2], pieces[at + PieceRecord.END2], pieces[at + PieceRecord.TIME] = (
+            x2,
+            next2,
+            seconds,
+        )
+        pieces[at + PieceRecord.PEAK2], pieces[at + PieceRecord.RATE] = peak2, rate
+        seconds += pieces[at + PieceRecord.PAUSE] - min(
+            pieces[at + PieceRecord.EARLY], pieces[at + PieceRecord.PAUSE]
+        )
         x2 = next2
-        slot = 2 * int(pieces[at + SLOT])
+        slot = 2 * int(pieces[at + PieceRecord.SLOT])
         slots[slot] += seconds
         slots[slot + 1] += length
-        row_s[int(pieces[at + ROW]) - first_row] += seconds
+        row_s[int(pieces[at + PieceRecord.ROW]) - first_row] += seconds
 
 
 def straight_time(start2: float, end2: float, cap2: float, pull: float, length: float) -> float:
@@ -125,20 +109,24 @@ def straight_peak2(start2: float, end2: float, cap2: float, pull: float, length:
 
 
 def bound2(
-    pieces: Floats, at: int, n: int, limits: Floats, known2: float, at_start: bool
+    pieces: Floats, at: int, n: int, limits: Limits, known2: float, at_start: bool
 ) -> tuple[float, float, float]:
     """Upper bound on x at one end of a curved piece (`at_start` says which) for the x at the other end.
 
     With `u = (x₁ - x₀) / (2·length)` each limit `|q''·x + q'·u| <= a` at either end is linear in both x. The
     bound, and intercept and slope by `known2` of the limit that sets it.
     """
-    here, there, half = at + VECTORS + n, at + VECTORS, -0.5 / pieces[at + LENGTH]
+    here, there, half = (
+        at + PieceRecord.VECTORS + n,
+        at + PieceRecord.VECTORS,
+        -0.5 / pieces[at + PieceRecord.LENGTH],
+    )
     if at_start:
         here, there, half = there, here, -half
-    flat = 2.0 * pieces[at + PATH_PULL] * pieces[at + LENGTH]
+    flat = 2.0 * pieces[at + PieceRecord.PATH_PULL] * pieces[at + PieceRecord.LENGTH]
     lowest, intercept, slope = known2 + flat, flat, 1.0
     for i in range(n):
-        a = limits[ACCELERATION * n + i]
+        a = limits.acceleration[i]
         push = pieces[here + i] * half
         own = pieces[here + 2 * n + i] - push
         if own != 0.0:
@@ -153,7 +141,7 @@ def bound2(
     return lowest, intercept, slope
 
 
-def highest2(pieces: Floats, at: int, n: int, limits: Floats, end2: float) -> float:
+def highest2(pieces: Floats, at: int, n: int, limits: Limits, end2: float) -> float:
     """Largest x at the start of a curved piece from which some x up to `end2` can be reached at its end.
 
     The bound is the least of straight lines over the end's x: concave. Where it falls at `end2`, its crest
@@ -182,29 +170,29 @@ def highest2(pieces: Floats, at: int, n: int, limits: Floats, end2: float) -> fl
 
 
 def curved_time(
-    pieces: Floats, at: int, n: int, limits: Floats, start2: float, end2: float
+    pieces: Floats, at: int, n: int, limits: Limits, start2: float, end2: float
 ) -> tuple[float, float, float]:
     """Seconds of a curved piece, highest x, and the acceleration to it: steady, or over a peak if quicker.
 
     A peak costs acceleration to the side; what is left at its height, at the worse end and for the worst
     axis, serves to go up and down. Half the height is tried where too little is left.
     """
-    length, seconds = pieces[at + LENGTH], inf
+    length, seconds = pieces[at + PieceRecord.LENGTH], inf
     high2 = max(start2, end2)
     if high2 > 0.0:
         seconds = 2.0 * length / (sqrt(start2) + sqrt(end2))
-    peak2 = min(pieces[at + CAP2], high2 + pieces[at + PULL] * length)
+    peak2 = min(pieces[at + PieceRecord.CAP2], high2 + pieces[at + PieceRecord.PULL] * length)
     steady = abs(end2 - start2) / (2.0 * length)
     if start2 + end2 >= 1.96 * peak2:
         return seconds, high2, steady  # nearly level at the peak: nothing to win
-    first = at + VECTORS
+    first = at + PieceRecord.VECTORS
     for _ in range(TRIES):
-        left = pieces[at + PATH_PULL]
+        left = pieces[at + PieceRecord.PATH_PULL]
         for i in range(2 * n):
             share = abs(pieces[first + i])
             if share > 0.0:
                 spent = abs(pieces[first + 2 * n + i]) * peak2
-                left = min(left, (limits[ACCELERATION * n + i % n] - spent) / share)
+                left = min(left, (limits.acceleration[i % n] - spent) / share)
         if left > 0.0 and abs(end2 - start2) <= 2.0 * left * length:
             over = straight_time(start2, end2, peak2, left, length)
             if over < seconds:

@@ -14,23 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from polycnc.motion.kernels.columns import (
-    BENT,
-    BLEND,
-    CURVED,
-    END2,
-    FORM,
-    LENGTH,
-    MARGIN,
-    PEAK2,
-    PLACES,
-    RAMP,
-    RATE,
-    ROW,
-    SPEED2,
-    TIMED,
-    VECTORS,
-)
+from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -104,19 +88,26 @@ class Run:
     """
 
     def __init__(self, pieces: Any, n: int, limits: Sequence[tuple[float, float]] = ()) -> None:
-        self._ramp, self._blend, self._n = float(pieces[0, RAMP]), float(pieces[0, BLEND]), n
-        self.rows = pieces[:, ROW].astype(np.int64)
-        block = [pieces[:, VECTORS + k * n : VECTORS + (k + 1) * n] for k in range(PLACES + 2)]
+        self._ramp, self._blend, self._n = (
+            float(pieces[0, PieceRecord.RAMP]),
+            float(pieces[0, PieceRecord.BLEND]),
+            n,
+        )
+        self.rows = pieces[:, PieceRecord.ROW].astype(np.int64)
+        block = [
+            pieces[:, PieceRecord.VECTORS + k * n : PieceRecord.VECTORS + (k + 1) * n]
+            for k in range(PLACES + 2)
+        ]
         self._start, self._end = block[PLACES], block[PLACES + 1]
-        self._length = np.maximum(pieces[:, LENGTH], 1e-300)
-        self._ways = np.concatenate([[0.0], np.cumsum(pieces[:, LENGTH])])
-        bent = np.isin(pieces[:, FORM], (BENT, CURVED))[:, None]
-        scale = (self._length / pieces[:, MARGIN])[:, None]
+        self._length = np.maximum(pieces[:, PieceRecord.LENGTH], 1e-300)
+        self._ways = np.concatenate([[0.0], np.cumsum(pieces[:, PieceRecord.LENGTH])])
+        bent = np.isin(pieces[:, PieceRecord.FORM], (Form.BENT, Form.CURVED))[:, None]
+        scale = (self._length / pieces[:, PieceRecord.MARGIN])[:, None]
         chord = self._end - self._start
         self._leave = np.where(bent, block[0] * scale, chord)
         self._arrive = np.where(bent, block[1] * scale, chord)
         self._alone: list[TimeLaw] = []
-        if pieces[0, FORM] == TIMED:
+        if pieces[0, PieceRecord.FORM] == Form.TIMED:
             self._alone = [_trapezoid(abs(way), *limit) for way, limit in zip(chord[0], limits, strict=True)]
             self.law = max(self._alone, key=lambda law: law.seconds)
         else:
@@ -206,10 +197,12 @@ class Run:
 
 def _phases(pieces: Any) -> tuple[Any, Any, Any]:
     """Three phases a piece: to its peak, along it, and down."""
-    start, peak, end = (np.sqrt(pieces[:, field]) for field in (SPEED2, PEAK2, END2))
-    rate = np.where(pieces[:, RATE] > 0.0, pieces[:, RATE], 1.0)
+    start, peak, end = (
+        np.sqrt(pieces[:, field]) for field in (PieceRecord.SPEED2, PieceRecord.PEAK2, PieceRecord.END2)
+    )
+    rate = np.where(pieces[:, PieceRecord.RATE] > 0.0, pieces[:, PieceRecord.RATE], 1.0)
     up, down = (peak - start) / rate, (peak - end) / rate
-    level = pieces[:, LENGTH] - 0.5 * (up * (start + peak) + down * (end + peak))
+    level = pieces[:, PieceRecord.LENGTH] - 0.5 * (up * (start + peak) + down * (end + peak))
     level = np.maximum(level, 0.0) / np.where(peak > 0.0, peak, 1.0)
     seconds = np.stack([up, level, down], axis=1).ravel()
     speed = np.stack([start, peak, peak], axis=1).ravel()

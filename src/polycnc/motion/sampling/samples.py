@@ -9,7 +9,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from polycnc.motion.kernels.columns import EARLY, FORM, PAUSE, RAMP, ROW, SPEED2, TIMED, piece_width
+from polycnc.motion.kernels.columns import Form, PieceRecord, piece_width
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.table import CURVE_WIDTH
 
@@ -124,11 +124,13 @@ class Sampler:
 
         width = piece_width(self._n)
         pieces = np.array(records[: count * width]).reshape(count, width)
-        starts = np.flatnonzero(pieces[:, SPEED2] == 0.0)
+        starts = np.flatnonzero(pieces[:, PieceRecord.SPEED2] == 0.0)
         edges = [0, *starts.tolist(), count]
         for first, last in pairwise(edges):
             if first in starts:
-                self._close_run(float(min(pieces[first, EARLY], pieces[first, PAUSE])))
+                self._close_run(
+                    float(min(pieces[first, PieceRecord.EARLY], pieces[first, PieceRecord.PAUSE]))
+                )
             if last > first:
                 self._open.append(pieces[first:last])
 
@@ -152,10 +154,10 @@ class Sampler:
 
         pieces = np.concatenate(self._open)
         self._open = []
-        first = int(pieces[0, ROW])
+        first = int(pieces[0, PieceRecord.ROW])
         limits: list[tuple[float, float]] = []
-        if pieces[0, FORM] == TIMED:
-            limits = self._planner.rapids(float(pieces[0, RAMP]), self._facts[first].context)
+        if pieces[0, PieceRecord.FORM] == Form.TIMED:
+            limits = self._planner.rapids(float(pieces[0, PieceRecord.RAMP]), self._facts[first].context)
         run = Run(pieces, self._n, limits)
         self._stand(first, run)
         seconds = run.seconds - early
@@ -166,9 +168,9 @@ class Sampler:
         self._position = run.end
         still = np.zeros((1, self._n))
         self._rest = self._planner.real_axes.motion((run.end[None], still, still), self._row.context)[0][0]
-        for row in range(self._forgotten, int(pieces[-1, ROW])):
+        for row in range(self._forgotten, int(pieces[-1, PieceRecord.ROW])):
             self._facts.pop(row, None)
-        self._forgotten = int(pieces[-1, ROW])
+        self._forgotten = int(pieces[-1, PieceRecord.ROW])
 
     def _stand(self, until: int, run: Run | None = None) -> None:
         """Spend the waits of all rows up to one, at rest; the last begins a run."""
