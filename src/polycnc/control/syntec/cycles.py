@@ -7,7 +7,13 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.five_axes import spatial
 from polycnc.control.syntec.parameters import decimals, parameter
-from polycnc.control.word_address.cycles.drilling import DrillCycle, Drilling, is_active, lead_from_feed
+from polycnc.control.word_address.cycles.drilling import (
+    CycleState,
+    DrillCycle,
+    Drilling,
+    is_active,
+    lead_from_feed,
+)
 from polycnc.control.word_address.cycles.hole_patterns import drill_points, plane_point
 from polycnc.control.word_address.tools import radius
 from polycnc.cycles.drilling import holes, patterns
@@ -204,6 +210,6 @@ def _length(words: Words, address: str, *, positive: bool = False) -> float:
 
 def _drill(channel: Channel, points: Iterator[Point]) -> None:
     """Position over each point and drill with the data of the active cycle; COR-023 where none is active."""
-    if not is_active(channel) or channel.memory.cycle_data is None:
+    if not is_active(channel) or CycleState.of(channel).data is None:
         raise AlarmError("COR-023", word="", hint="hint.syntec.pattern-without-cycle")
     drill_points(channel, points)

@@ -59,6 +59,11 @@ class SyntecMemory(Memory):
         diameters: Axes switched by G10.9: programmed in diameter or not.
     """
 
+    CLEARED = (
+        *Memory.CLEARED, "locals", "stack", "mid_point", "tilt", "rotates_work", "scale_factors", "modal_longs",
+        "modal_doubles", "skip_groups", "feeds", "feed_mode", "interrupt",
+    )  # fmt: skip
+
     def __init__(self, channel: Channel) -> None:
         super().__init__(channel)
         self.channel = channel

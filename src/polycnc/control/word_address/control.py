@@ -17,7 +17,10 @@ from polycnc.control.word_address.coordinates import frames, systems
 from polycnc.control.word_address.cycles.drilling import Drilling, give_way, plan_drilling
 from polycnc.control.word_address.memory import Memory
 from polycnc.control.word_address.motion import path
+from polycnc.control.word_address.motion.path_modes import PathModeState
 from polycnc.control.word_address.reset import reset
+from polycnc.control.word_address.transformations.cylinder import CylinderState
+from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.geometry.arcs import radius_mismatch
 from polycnc.language.bulk import Spelling
 from polycnc.language.word_address import Grammar, WordAddressProgram
@@ -374,7 +377,7 @@ class WordAddressControl:
         """The context that holds now."""
         mode, memory, c = channel.mode, channel.memory, channel.coordinates
         diameters = sum(1 << i for i in range(len(channel.axes)) if self.is_diameter(channel, i))
-        polar, unrolled = memory.polar, memory.cylinder
+        polar, unrolled = PolarState.of(channel).plane, CylinderState.of(channel).active
         # A path that leads the axes leaves nothing to transform.
         transformation = None if channel.path.leads_axes else c.transformation or memory.parallel
         return Context(
@@ -388,7 +391,7 @@ class WordAddressControl:
             spindle_direction=memory.spindle_direction,
             surface_speed=mode.codes.get("surface_speed") == "G96",
             spindle_limit_rpm=memory.spindle_limit_rpm,
-            path_mode="G9" if memory.exact_stop_block else mode.codes.get("path", "G64"),
+            path_mode="G9" if PathModeState.of(channel).exact_stop else mode.codes.get("path", "G64"),
             diameter_axes=diameters,
             wcs=memory.wcs,
             transformation=transformation,

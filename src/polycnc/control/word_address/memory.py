@@ -3,21 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.geometry.frames import IDENTITY, Frame
-from polycnc.toolpath.context import NO_OVERLAP
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.cycles.drilling import CycleData
-    from polycnc.control.word_address.macro_b.interruption import Interruptions
-    from polycnc.control.word_address.macro_b.macro_calls import ModalCall
-    from polycnc.control.word_address.motion.nurbs import Curve
     from polycnc.control.word_address.motion.planes import ParallelAxes
-    from polycnc.control.word_address.transformations.cylinder import Cylinder
-    from polycnc.control.word_address.transformations.hypothetical_axis import Standing
-    from polycnc.control.word_address.transformations.polar_interpolation import PolarPlane
     from polycnc.geometry.frames import Vector
     from polycnc.machine.setup.values import Tool
 
@@ -51,14 +43,6 @@ class ToolOffset:
         return self.radius + self.radius_wear
 
 
-@dataclass(frozen=True, slots=True)
-class RigidTapping:
-    """Where the axes stood and how fast the spindle was to turn when rigid tapping was commanded."""
-
-    machine: tuple[float, ...]
-    speed: float
-
-
 class ProgrammingFrames:
     """The parts of a channel's programming frame: scaling or mirror, then rotation."""
 
@@ -88,27 +72,20 @@ class Memory:
         local_shift: G52.
         preset_shift: G92.
         zero_frame: Turn of the work coordinate system (SYNTEC G92.1); identity on most controls.
-        tilted_plane: The tilted plane inside the work system; `told_plane` what blocks have told of the next one.
         tool_direction: Direction in which the tool's length counts, where it is not Z.
         length_offset: Shift of each axis by the active tool length.
         tool: Tool in the spindle; `next_tool` is selected.
         last_m: The last M code sent to the machine.
-        interruptions: The interruption program, once M96 has named it.
         machine_signals: What the program and the setup have told the machine; None where the main run asks it.
-        armed_tapping: What M29 found, until the tapping cycle that it is meant for.
         h: Number of the active length offset; `d` of the radius offset.
         side: Side that G41/G42 ask for: 1, -1, 0 off.
         waited: Seconds that the clocks which a program reads (#3001) have counted.
-        cycle_data: What the active drilling cycle remembers.
-        intermediate: Intermediate point of the last G28/G30 (programmed coordinates), for G29.
-        curve: The curve that G06.2 blocks are telling.
         basic_geometry: Axes X, Y, Z, whatever parallel ones a plane has chosen; `parallel` holds those.
-        polar: Plane of polar coordinate interpolation while it is on; `cylinder` the same for cylindrical.
-        cancelled_overrides: Overrides that the program has switched off; `tapping` while a tapping cycle works.
-        overlap: How the stroke of a drilling cycle meets the next one (`toolpath.context`).
-        hypothetical: Axes that stand while the path moves them (G07).
-        plane_before: Plane code that the end of one of them brings back; `geometry_before` its axes.
     """
+
+    #: Fields that a reset brings back to their state at power-on; states of features say so themselves. Offsets,
+    #: common variables, shifts of work coordinate systems, the tool, S and the direction of the spindle stay.
+    CLEARED: ClassVar[tuple[str, ...]] = ("wcs", "length_offset", "h", "d", "side", "engaged_side")
 
     def __init__(self, channel: Channel) -> None:
         setup = channel.setup
@@ -124,47 +101,26 @@ class Memory:
         self.preset_shift = [0.0] * count
         self.zero_frame = IDENTITY
         self.length_offset = [0.0] * count
-        self.tilted_plane: Frame | None = None
-        self.told_plane: list[tuple[Vector, Vector]] = []
         self.tool_direction: Vector | None = None
         self.tool = 0
         self.next_tool = 0
         self.last_m = 0
-        self.interruptions: Interruptions | None = None
         given = setup.switches.signals.items()
         self.machine_signals: dict[str, float] | None = {
             name: float(value) for name, value in given if isinstance(value, int | float)
         }
-        self.armed_tapping: RigidTapping | None = None
         self.h = 0
         self.d = 0
         self.side = 0
         self.engaged_side = 0
-        self.contour_control = False
-        self.exact_stop_block = False
-        self.modal_calls: list[ModalCall] = []
         self.waited = 0.0
         self.spindle_speed = 0.0
         self.spindle_direction = 0
         self.spindle_limit_rpm = 0.0
-        self.cycle_data: CycleData | None = None
-        self.intermediate: list[float] | None = None
         self.skip_position: list[float] | None = None
         self.frames = ProgrammingFrames()
-        self.polar_pole = (0.0, 0.0)
-        self.polar_radius = 0.0
-        self.polar_angle = 0.0
-        self.curve: Curve | None = None
         self.basic_geometry = channel.coordinates.geometry
-        self.polar: PolarPlane | None = None
-        self.cylinder: Cylinder | None = None
         self.parallel: ParallelAxes | None = None
-        self.cancelled_overrides: frozenset[str] = frozenset()
-        self.tapping = False
-        self.overlap = NO_OVERLAP
-        self.hypothetical: Standing | None = None
-        self.plane_before = "G17"
-        self.geometry_before = channel.coordinates.geometry
         self._count = count
 
     def work_offset(self, name: str) -> list[float]:

@@ -8,6 +8,7 @@ import pytest
 
 from polycnc.compensation import CutterCompensation
 from polycnc.control import registry
+from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.program.program import Program
 from tests.control.fanuc.lathe.support import moves, run
 
@@ -105,4 +106,4 @@ def test_compensation_that_stayed_modal_starts_with_the_next_offset_number(numbe
 def test_a_series_15_cycle_and_its_data_outlive_a_reset_in_a_hole() -> None:
     result = after_reset("G0 X20. Z10.\nG83 Z-8. R-6. Q4. F.1", parameters={"1#1": 1})
     assert codes(result, "cycle") == ["G83"]
-    assert result.channel.memory.cycle_data.amount("Q") == 4.0
+    assert CycleState.of(result.channel).active.amount("Q") == 4.0

@@ -24,12 +24,15 @@ from polycnc.control.fanuc.lathe.motion import drawing, threads
 from polycnc.control.fanuc.lathe.tools import data_input, files, nose_radius, offsets
 from polycnc.control.fanuc.lathe.variables import TURNING_VARIABLES
 from polycnc.control.fanuc.operation import dry_run
+from polycnc.control.word_address.auxiliary.overrides import OverrideState
 from polycnc.control.word_address.block.codes import MCode
+from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.macro_b import code_calls, interruption
 from polycnc.control.word_address.macro_b.custom_macro import CustomMacroControl
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.transformations import normal_line
 from polycnc.control.word_address.transformations.normal_line import NormalLineParameters
+from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -189,7 +192,7 @@ class FanucTurning(CustomMacroControl):
         """Whether words of an axis are diameters (1006#3 DIA; delivered: X)."""
         data = channel.axis_data[axis]
         delivered = int(data.diameter)
-        polar = channel.memory.polar if channel.memory is not None else None
+        polar = PolarState.of(channel).plane
         if polar is not None and axis == polar.linear and not channel.setup.parameters.bit(5450, 0):
             return False
         return bool(channel.setup.parameters.bit(1006, 3, channel.axes[axis], delivered)) and not data.rotary
@@ -223,11 +226,9 @@ class FanucTurning(CustomMacroControl):
     def context(self, channel: Channel) -> Context:
         """The context that holds now, with what threads and taps keep from the operator."""
         context = threads.locked(channel, super().context(channel))
-        memory = channel.memory
-        if memory.tapping or memory.overlap != context.overlap:
-            return replace(
-                context, feed_hold=context.feed_hold and not memory.tapping, overlap=memory.overlap
-            )
+        tapping, overlap = OverrideState.of(channel).tapping, CycleState.of(channel).overlap
+        if tapping or overlap != context.overlap:
+            return replace(context, feed_hold=context.feed_hold and not tapping, overlap=overlap)
         return context
 
     # ---- motion ----------------------------------------------------------------------------------------------

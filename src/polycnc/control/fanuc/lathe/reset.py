@@ -8,6 +8,8 @@ from polycnc.control.fanuc.lathe import balance
 from polycnc.control.fanuc.lathe.coordinates import limits
 from polycnc.control.fanuc.lathe.cycles import single
 from polycnc.control.fanuc.lathe.tools import offsets
+from polycnc.control.word_address.cycles.drilling import CycleState
+from polycnc.control.word_address.macro_b.macro_calls import ModalCallState
 from polycnc.control.word_address.macro_b.variables import LOCALS
 from polycnc.control.word_address.transformations import cylinder, normal_line, polar_interpolation
 from polycnc.geometry.frames import IDENTITY
@@ -58,7 +60,7 @@ def reset(channel: Channel) -> None:
 def _clear_memory(channel: Channel, *, clears: bool) -> None:
     memory = channel.memory
     memory.locals = [None] * LOCALS
-    memory.modal_calls = []
+    ModalCallState.of(channel).calls = []
     memory.single_cycle, memory.grinding = {}, {}
     memory.open_line = memory.shape = None
     # G41 or G42 that stays modal waits for the next offset number (II.5.4.1).
@@ -72,7 +74,7 @@ def _clear_memory(channel: Channel, *, clears: bool) -> None:
         memory.balanced = frozenset()
         channel.mode = channel.mode.with_code(balance.GROUP, "G69")
     if channel.mode["cycle"] == "G80":
-        memory.cycle_data, memory.clamp = None, 0
+        CycleState.of(channel).data, memory.clamp = None, 0
     if clears:
         memory.wcs = "G54"
         memory.frames.rotation = memory.frames.mirror = memory.frames.turret = IDENTITY

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.auxiliary.functions import RigidTappingState
 from polycnc.control.word_address.cycles.drilling import DrillCycle, Drilling, third_axis
 from polycnc.cycles.drilling import holes
 
@@ -70,10 +71,11 @@ def shift_off_wall(channel: Channel, data: CycleData, plane: tuple[int, int]) ->
 
 def check_rigid_tapping(channel: Channel, code: str) -> None:
     """Between M29 and its tapping cycle nothing may move and S may not change; the spindle needs a speed."""
-    armed = channel.memory.armed_tapping
+    state = RigidTappingState.of(channel)
+    armed = state.armed
     if code not in RIGID or armed is None:
         return
-    channel.memory.armed_tapping = None
+    state.armed = None
     c = channel.coordinates
     if any(abs(a - b) > WINDOW_MM for a, b in zip(c.machine, armed.machine, strict=True)):
         raise channel.control.fail("rigid_position", address=code)

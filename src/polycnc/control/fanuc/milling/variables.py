@@ -12,6 +12,7 @@ from polycnc.control.fanuc.system_variables import (
     position_rows,
 )
 from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.macro_b.interruption import InterruptionState
 from polycnc.control.word_address.macro_b.variables import Read, Registry, SystemRange, Write
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.length import renew_length
@@ -104,7 +105,7 @@ def _interrupted(group: str) -> Read:
     """A modal code of the block that an interruption macro has cut."""
 
     def read(m: MacroMemory, _i: int) -> float | None:
-        running = m.interruptions.running if m.interruptions is not None else []
+        running = InterruptionState.of(m.channel).running
         return float(running[-1].mode[group][1:]) if running else None
 
     return read

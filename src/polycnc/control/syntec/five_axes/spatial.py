@@ -12,6 +12,7 @@ from polycnc.control.syntec.five_axes.spatial_stage import (
     SpatialStage,
 )
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
+from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.machine.kinematics import Kinematics
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def _check_start(channel: Channel, words: Words, code: str) -> None:
         raise words.fail("spatial_without_tip", code)
     frames = mode["rotation"] != "G69" or mode["polar"] == "G16" or memory.tool_direction is not None
     speeds = mode["path"] == "G63" or mode["feed"] == "G95" or mode["surface_speed"] == "G96"
-    if frames or speeds or memory.polar is not None or memory.posture_frame:
+    if frames or speeds or PolarState.of(channel).plane is not None or memory.posture_frame:
         raise words.fail("spatial_mode", code)
 
 

@@ -8,6 +8,7 @@ from polycnc.control.syntec.coordinates import length as tool_length
 from polycnc.control.syntec.five_axes import normal_direction
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.transformations import tool_center_point
+from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -33,7 +34,7 @@ def start(channel: Channel, words: Words) -> None:
         raise words.fail("argument", "Q")
     if channel.mode["rotation"] == "G68.3":
         raise words.fail("tip_on_tool_plane", channel.mode["length"])
-    if memory.polar is not None or not channel.coordinates.zero.is_identity:
+    if PolarState.of(channel).plane is not None or not channel.coordinates.zero.is_identity:
         raise words.fail("tip_mode", channel.mode["length"])
     memory.posture_frame = memory.posture_frame if frame is None else bool(frame)
     channel.flush()
@@ -55,7 +56,7 @@ def cancel(channel: Channel, words: Words) -> None:
 
 def end(channel: Channel) -> None:
     """The axes are named themselves again; nothing moves."""
-    if channel.memory.polar is None:
+    if PolarState.of(channel).plane is None:
         tool_center_point.end_following(channel)
 
 

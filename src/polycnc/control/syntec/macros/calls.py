@@ -6,9 +6,10 @@ when it is over (macro language reference, sections 4.2 and 7).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.syntec.builder import CALLS
 from polycnc.control.syntec.macros import interrupts
 from polycnc.control.syntec.macros.variables import INDEXED_LETTERS, Locals
@@ -64,6 +65,13 @@ class ModalMacro:
     each_block: bool
 
 
+@dataclass(slots=True)
+class ModalMacroState(State, lifetime=Lifetime.RESET):
+    """The macro of G66 or G66.1 while one follows the blocks, else nothing."""
+
+    calls: list[ModalMacro] = field(default_factory=list)
+
+
 # ---- words of a call -------------------------------------------------------------------------------------
 
 
@@ -115,7 +123,9 @@ def _plan_g65(builder: SyntecBuilder, plan: Plan) -> Step:
         if code == "G65":
             enter_macro(channel, program, Locals(words), count)
         else:
-            channel.memory.modal_calls[:] = [ModalMacro(program, count, Locals(words), code == "G66.1")]
+            ModalMacroState.of(channel).calls[:] = [
+                ModalMacro(program, count, Locals(words), code == "G66.1")
+            ]
 
     return call
 
@@ -141,7 +151,7 @@ def plan_modal_call(builder: SyntecBuilder, plan: Plan) -> Step | None:
         return None
 
     def follow(channel: Channel, values: list[Any]) -> None:
-        calls = channel.memory.modal_calls
+        calls = ModalMacroState.of(channel).calls
         if not calls or any(level.kind == "modal" for level in channel.stack):
             return
         modal = calls[-1]
@@ -153,7 +163,7 @@ def plan_modal_call(builder: SyntecBuilder, plan: Plan) -> Step | None:
 
 def end_modal_call(channel: Channel, _words: Words) -> None:
     """G67: all modal calls end."""
-    channel.memory.modal_calls.clear()
+    ModalMacroState.of(channel).calls.clear()
 
 
 # ---- macros by code --------------------------------------------------------------------------------------

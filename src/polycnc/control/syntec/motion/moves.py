@@ -7,6 +7,7 @@ from functools import partial
 from math import copysign, hypot, nan, sqrt
 from typing import TYPE_CHECKING
 
+from polycnc.control.syntec.macros.calls import ModalMacroState
 from polycnc.control.syntec.motion import planes
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block import settled
@@ -133,7 +134,7 @@ def _length_is_settled(channel: Channel) -> bool:
 
 def _has_no_modal_call(channel: Channel) -> bool:
     """G67: there is no modal call."""
-    return not channel.memory.modal_calls
+    return not ModalMacroState.of(channel).calls
 
 
 def _surface_axis_is_linear(channel: Channel) -> bool:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.motion.planes import choose_axes
+from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,7 +24,7 @@ NAMED_FIRST = "XYZUVW"
 def select_plane(channel: Channel, words: Words) -> None:
     """G17, G18, G19; within polar interpolation its plane stays (2.15.2, note 4)."""
     memory = channel.memory
-    if memory.polar is not None:
+    if PolarState.of(channel).plane is not None:
         channel.mode = channel.mode.with_code("plane", "G17")
     else:
         named = [axis for axis, _, _ in words.axes()]
@@ -36,7 +37,7 @@ def settled_plane(channel: Channel) -> bool:
     """Whether the plane that is in force may be written again with any axes: each of them has its place already."""
     memory, basic = channel.memory, channel.memory.basic_geometry
     return (
-        memory.polar is None
+        PolarState.of(channel).plane is None
         and memory.parallel is None
         and all(
             axis in basic and CLASSES.get(name[0]) == basic.index(axis)

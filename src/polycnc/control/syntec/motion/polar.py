@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.transformations.polar_interpolation import (
     GROUP,
     PolarPlane,
+    PolarState,
     enter_polar,
     leave_polar,
 )
@@ -38,7 +39,7 @@ def start_polar(channel: Channel, words: Words) -> None:
         raise words.fail("polar_axes", "G12.1")
     if memory.side or not (c.direct and c.zero.is_identity):
         raise words.fail("polar_mode", "G12.1")
-    if memory.polar is not None:
+    if PolarState.of(channel).plane is not None:
         return
     channel.flush()
     here = c.position
@@ -54,7 +55,7 @@ def start_polar(channel: Channel, words: Words) -> None:
 def end_polar(channel: Channel, words: Words) -> None:
     """G13.1: X and C are axes of their own again; the former plane and the parameter's kind of X return."""
     memory = channel.memory
-    if memory.polar is None:
+    if PolarState.of(channel).plane is None:
         return
     if memory.side:
         raise words.fail("polar_mode", "G13.1")
@@ -64,9 +65,9 @@ def end_polar(channel: Channel, words: Words) -> None:
 
 def leave_plane(channel: Channel) -> None:
     """The axes are named themselves again; nothing moves."""
-    memory = channel.memory
-    if memory.polar is not None:
-        memory.diameters.pop(memory.polar.linear, None)
+    plane = PolarState.of(channel).plane
+    if plane is not None:
+        channel.memory.diameters.pop(plane.linear, None)
         leave_polar(channel)
 
 

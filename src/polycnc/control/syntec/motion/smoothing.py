@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.syntec.five_axes import tip_control
 from polycnc.control.syntec.parameters import has_option
 from polycnc.control.word_address.motion import nurbs
+from polycnc.control.word_address.motion.path_modes import PathModeState
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -43,7 +44,7 @@ def smooth_path(channel: Channel, words: Words) -> None:
             value = words.typed(address)
             if value is not None and not low <= value <= high:
                 raise words.fail("smoothing_format", address)
-    channel.memory.contour_control = kind != 0
+    PathModeState.of(channel).contour_control = kind != 0
     channel.context_changed()
 
 
@@ -63,7 +64,7 @@ def high_precision(channel: Channel, words: Words) -> None:
         raise words.fail("tip_smoothing", "G5")
     if switch == ON and channel.mode["path"] in STOPPING_MODES:
         raise words.fail("smoothing_stops", "G5")
-    channel.memory.contour_control = switch == ON
+    PathModeState.of(channel).contour_control = switch == ON
     channel.context_changed()
 
 

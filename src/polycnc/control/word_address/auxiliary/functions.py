@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.tool_change import check_change_points
-from polycnc.control.word_address.memory import RigidTapping
 from polycnc.control.word_address.motion.path import FEED_MODES
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Conversion, Note, SetFeed, Way, Word, declare
@@ -102,11 +103,26 @@ def spindle_stop(channel: Channel, _words: Words) -> None:
     channel.context_changed()
 
 
+@dataclass(frozen=True, slots=True)
+class RigidTapping:
+    """Where the axes stood and how fast the spindle was to turn when rigid tapping was commanded."""
+
+    machine: tuple[float, ...]
+    speed: float
+
+
+@dataclass(slots=True)
+class RigidTappingState(State, lifetime=Lifetime.RESET):
+    """What M29 found, until the tapping cycle that it is meant for."""
+
+    armed: RigidTapping | None = None
+
+
 def arm_rigid_tapping(channel: Channel, words: Words) -> None:
     """M29 S: the next tapping cycle is rigid; nothing may move in between."""
     speed = words.typed("S")
     memory = channel.memory
-    memory.armed_tapping = RigidTapping(
+    RigidTappingState.of(channel).armed = RigidTapping(
         tuple(channel.coordinates.machine), memory.spindle_speed if speed is None else speed
     )
 

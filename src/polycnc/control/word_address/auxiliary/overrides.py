@@ -5,8 +5,10 @@ The toolpath's context says which overrides and whether feed hold act; what runs
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
+
+from polycnc.channel.state import Lifetime, State
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -19,6 +21,19 @@ NO_HOLD, NO_FEED_OVERRIDE, NO_EXACT_STOP = 1, 2, 4
 #: Under tapping mode neither feed override nor feed hold act.
 TAPPING_MODE = "G63"
 CUTTING_MODE = "G64"
+
+
+@dataclass(slots=True)
+class OverrideState(State, lifetime=Lifetime.RESET):
+    """What of the operator's overrides does not act.
+
+    Attributes:
+        cancelled: Overrides that the program has switched off.
+        tapping: A tapping cycle works.
+    """
+
+    cancelled: frozenset[str] = frozenset()
+    tapping: bool = False
 
 
 def cancel_feed_override(channel: Channel, _words: Words) -> None:
@@ -42,8 +57,8 @@ def allow_spindle_override(channel: Channel, _words: Words) -> None:
 
 
 def _cancel(channel: Channel, name: str, *, cancelled: bool) -> None:
-    kept: frozenset[str] = channel.memory.cancelled_overrides
-    channel.memory.cancelled_overrides = kept | {name} if cancelled else kept - {name}
+    state = OverrideState.of(channel)
+    state.cancelled = state.cancelled | {name} if cancelled else state.cancelled - {name}
     channel.context_changed()
 
 
@@ -58,16 +73,16 @@ def in_tapping_mode(context: Context) -> Context:
 
 def overridden(channel: Channel, context: Context) -> Context:
     """A context with what the operator's switches may do in it."""
-    memory = channel.memory
-    switches = memory.control_switches.get("cntl2", 0)
+    state = OverrideState.of(channel)
+    switches = channel.memory.control_switches.get("cntl2", 0)
     tapping = context.path_mode == TAPPING_MODE
-    if not (tapping or memory.tapping or switches or memory.cancelled_overrides):
+    if not (tapping or state.tapping or switches or state.cancelled):
         return context
     return replace(
         context,
-        feed_override=not (tapping or memory.tapping or FEED in memory.cancelled_overrides)
+        feed_override=not (tapping or state.tapping or FEED in state.cancelled)
         and not switches & NO_FEED_OVERRIDE,
-        spindle_override=not (memory.tapping or SPINDLE in memory.cancelled_overrides),
+        spindle_override=not (state.tapping or SPINDLE in state.cancelled),
         feed_hold=not tapping and not switches & NO_HOLD,
         path_mode=CUTTING_MODE if switches & NO_EXACT_STOP and not tapping else context.path_mode,
     )

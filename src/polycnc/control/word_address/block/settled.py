@@ -10,7 +10,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.coordinates.systems import zero_offsets
+from polycnc.control.word_address.macro_b.macro_calls import ModalCallState
 from polycnc.control.word_address.tools.radius import active_compensation
+from polycnc.control.word_address.transformations.cylinder import CylinderState
+from polycnc.control.word_address.transformations.tilted_plane import TiltState
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -24,7 +27,7 @@ def plane(channel: Channel) -> bool:
     memory, control = channel.memory, channel.control
     return (
         channel.coordinates.geometry == tuple(memory.basic_geometry)
-        and memory.cylinder is None
+        and CylinderState.of(channel).active is None
         and not memory.side
         and not any(control.axis_role(channel, axis) in _PARALLELS for axis in range(len(channel.axes)))
     )
@@ -44,7 +47,7 @@ def compensation(channel: Channel) -> bool:
 
 def frame(channel: Channel) -> bool:
     """G50, G69: nothing is scaled, rotated or tilted."""
-    return channel.coordinates.direct and channel.memory.tilted_plane is None
+    return channel.coordinates.direct and TiltState.of(channel).plane is None
 
 
 def length(channel: Channel) -> bool:
@@ -58,7 +61,7 @@ def length(channel: Channel) -> bool:
 def modal_call(channel: Channel) -> bool:
     """G67: there is no modal call, and its end without one is allowed (6000#0)."""
     memory = channel.memory
-    return not memory.modal_calls and bool(memory.parameters.bit(6000, 0, default=True))
+    return not ModalCallState.of(channel).calls and bool(memory.parameters.bit(6000, 0, default=True))
 
 
 def stroke_limit(channel: Channel) -> bool:

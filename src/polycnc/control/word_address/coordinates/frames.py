@@ -6,9 +6,11 @@ control's memory; the programming frame is their product.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import hypot
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.motion.path import PLANES, target
 from polycnc.geometry.frames import IDENTITY, about, cos_sin_deg, rotation, scaling
 
@@ -126,13 +128,22 @@ def _set_mirror(channel: Channel) -> None:
     _refresh(channel)
 
 
+@dataclass(slots=True)
+class PolarCoordinateState(State, lifetime=Lifetime.POWER):
+    """Polar coordinates (G16): pole and last radius, mm; last angle, degrees."""
+
+    pole: tuple[float, float] = (0.0, 0.0)
+    radius: float = 0.0
+    angle: float = 0.0
+
+
 def polar_target(channel: Channel, plan: Plan, values: list[float]) -> list[float]:
     """End point of a block under G16: first plane axis radius, second angle (counter-clockwise from the first axis).
 
     Absolute: about the work zero. Incremental radius: about the present position. An incremental angle adds to the last
     one. A word that is missing keeps its last value.
     """
-    memory, c = channel.memory, channel.coordinates
+    polar, c = PolarCoordinateState.of(channel), channel.coordinates
     u, v, _ = PLANES[channel.mode["plane"]]
     first, second = c.geometry[u], c.geometry[v]
     plane_words = [word for word in plan.axis_words if word.axis in (first, second)]
@@ -142,23 +153,21 @@ def polar_target(channel: Channel, plan: Plan, values: list[float]) -> list[floa
     for word in plane_words:
         value = word.convert(values[word.slot]) if word.convert else values[word.slot]
         if word.axis == first:
-            memory.polar_radius = value
-            memory.polar_pole = (
-                (c.programmed[first], c.programmed[second]) if word.incremental else (0.0, 0.0)
-            )
+            polar.radius = value
+            polar.pole = (c.programmed[first], c.programmed[second]) if word.incremental else (0.0, 0.0)
         else:
             angle = value
-            memory.polar_angle = memory.polar_angle + angle if word.incremental else angle
-    cosine, sine = cos_sin_deg(memory.polar_angle)
-    end[first] = memory.polar_pole[0] + memory.polar_radius * cosine
-    end[second] = memory.polar_pole[1] + memory.polar_radius * sine
+            polar.angle = polar.angle + angle if word.incremental else angle
+    cosine, sine = cos_sin_deg(polar.angle)
+    end[first] = polar.pole[0] + polar.radius * cosine
+    end[second] = polar.pole[1] + polar.radius * sine
     return end
 
 
 def start_polar(channel: Channel, _words: Words) -> None:
     """G16: radius and angle begin at the present position."""
-    memory, c = channel.memory, channel.coordinates
+    polar, c = PolarCoordinateState.of(channel), channel.coordinates
     u, v, _ = PLANES[channel.mode["plane"]]
-    memory.polar_pole = (0.0, 0.0)
-    memory.polar_radius = hypot(c.programmed[c.geometry[u]], c.programmed[c.geometry[v]])
-    memory.polar_angle = 0.0
+    polar.pole = (0.0, 0.0)
+    polar.radius = hypot(c.programmed[c.geometry[u]], c.programmed[c.geometry[v]])
+    polar.angle = 0.0

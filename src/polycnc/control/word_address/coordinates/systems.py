@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.auxiliary.interlocks import note_reference_return
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.radius import suspended
@@ -97,6 +99,13 @@ def move_in_machine_system_absolute(channel: Channel, words: Words) -> None:
         move_in_machine_system(channel, words)
 
 
+@dataclass(slots=True)
+class ReferenceState(State, lifetime=Lifetime.RESET):
+    """The intermediate point of the last G28 or G30, programmed coordinates, for G29; None before the first."""
+
+    intermediate: list[float] | None = None
+
+
 def intermediate_point(channel: Channel, words: Words) -> list[float]:
     """The intermediate point that a reference return names, programmed coordinates; kept by axis for G29."""
     c = channel.coordinates
@@ -105,8 +114,9 @@ def intermediate_point(channel: Channel, words: Words) -> list[float]:
     for axis, value, incremental in words.axes():
         point[axis] = point[axis] + value if incremental else value
         named.add(axis)
-    kept = channel.memory.intermediate or point
-    channel.memory.intermediate = [
+    state = ReferenceState.of(channel)
+    kept = state.intermediate or point
+    state.intermediate = [
         value if axis in named else old for axis, (value, old) in enumerate(zip(point, kept, strict=True))
     ]
     return point
@@ -142,7 +152,7 @@ def return_to_further_reference(channel: Channel, words: Words) -> None:
 def return_from_reference(channel: Channel, words: Words) -> None:
     """G29: rapid to the intermediate point of the last G28/G30, then to the target (an increment counts from there)."""
     c = channel.coordinates
-    middle = channel.memory.intermediate
+    middle = ReferenceState.of(channel).intermediate
     if middle is None:
         raise words.fail("no_intermediate", "G29")
     named = words.axes()

@@ -13,7 +13,9 @@ from enum import Enum
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State, lasting
 from polycnc.control.word_address.auxiliary.functions import stand
+from polycnc.control.word_address.auxiliary.overrides import OverrideState
 from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.motion.path import FEED_MODES, PLANES, target
 from polycnc.control.word_address.tools.radius import suspended
@@ -21,7 +23,7 @@ from polycnc.cycles.drilling import lathe
 from polycnc.cycles.drilling.holes import Action, Cycle, Hole, Stroke, tap
 from polycnc.language.word_address.functions import round_half_away
 from polycnc.toolpath import Kind
-from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS, STROKE
+from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS, STROKE, Overlap
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -63,6 +65,26 @@ class DrillCycle:
     bottom_from_initial: bool = False
     axis: str = ""
     once: Sequence[str] = ""
+
+
+@dataclass(slots=True)
+class CycleState(State, lifetime=Lifetime.RESET):
+    """The drilling cycle that is active.
+
+    Attributes:
+        data: What it remembers; None before the first one.
+        overlap: How the stroke that comes meets the next one (`toolpath.context`).
+    """
+
+    data: CycleData | None = None
+    overlap: Overlap = lasting(Lifetime.POWER, NO_OVERLAP)
+
+    @property
+    def active(self) -> CycleData:
+        """What the cycle remembers that works."""
+        if self.data is None:
+            raise LookupError
+        return self.data
 
 
 def third_axis(builder: Builder) -> int:
@@ -247,15 +269,15 @@ def plan_drilling(builder: Builder, plan: Plan) -> Step:
     control = builder.control
 
     def run(channel: Channel, values: list[float]) -> None:
-        memory, c = channel.memory, channel.coordinates
-        before: CycleData | None = None if entering else memory.cycle_data
+        state, c = CycleState.of(channel), channel.coordinates
+        before = None if entering else state.data
         if before is None or before.axis != words.axis:
             # An offset that waits for the next move is not in the programmed point yet; the level counts with it.
             initial = c.programmed[words.axis] + c.pending[words.axis]
-            memory.cycle_data = CycleData(words.axis, initial, before.amounts() if before else {})
+            before = state.data = CycleData(words.axis, initial, before.amounts() if before else {})
         if not words.drills:
             return
-        data: CycleData = memory.cycle_data
+        data = before
         words.store(data, values)
         count = words.count(values)
         if count and any(not data.amount(address) for address in cycle.needs):
@@ -356,7 +378,7 @@ class _Words:
 
 def drill_here(channel: Channel) -> None:
     """Drill with the data of the active cycle where the tool stands (hole patterns)."""
-    code, data = channel.mode["cycle"], channel.memory.cycle_data
+    code, data = channel.mode["cycle"], CycleState.of(channel).active
     _perform(channel, _strokes(channel, code, data), data)
 
 
@@ -411,13 +433,13 @@ def _perform(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> No
     """Let the tool make the strokes of one hole."""
     rules: Drilling = channel.control.drilling_rules(channel)
     if rules.cycles[channel.mode["cycle"]].strokes in TAPS:
-        channel.memory.tapping = True
+        OverrideState.of(channel).tapping = True
         channel.context_changed()
     try:
         _work(channel, strokes, data)
     finally:
-        if channel.memory.tapping:
-            channel.memory.tapping = False
+        if OverrideState.of(channel).tapping:
+            OverrideState.of(channel).tapping = False
             channel.context_changed()
         _meet(channel, None)
 
@@ -425,8 +447,9 @@ def _perform(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> No
 def _meet(channel: Channel, overlaps: bool | None) -> None:
     """Say how the next stroke ends: whether the one behind it may begin before the axes rest."""
     kind = NO_OVERLAP if overlaps is None else OVERLAPS if overlaps else STROKE
-    if channel.memory.overlap != kind:
-        channel.memory.overlap = kind
+    state = CycleState.of(channel)
+    if state.overlap != kind:
+        state.overlap = kind
         channel.context_changed()
 
 

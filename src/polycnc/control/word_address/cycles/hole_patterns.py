@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.cycles.drilling import drill_here, is_active
+from polycnc.control.word_address.cycles.drilling import CycleState, drill_here, is_active
 from polycnc.control.word_address.motion.path import PLANES
 from polycnc.cycles.drilling import patterns
 from polycnc.toolpath import Kind
@@ -86,7 +86,7 @@ def drill_points(channel: Channel, points: Iterable[Point]) -> None:
     """Rapid over each point, and the active cycle there if one is active."""
     c = channel.coordinates
     u, v, _ = PLANES[channel.mode["plane"]]
-    drills = is_active(channel) and channel.memory.cycle_data is not None
+    drills = is_active(channel) and CycleState.of(channel).data is not None
     for point in points:
         end = c.programmed[:]
         end[c.geometry[u]], end[c.geometry[v]] = point

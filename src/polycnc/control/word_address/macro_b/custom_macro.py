@@ -9,6 +9,7 @@ from polycnc.control.word_address.block.numbers import NumberRules, length_conve
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.macro_b import code_calls, interruption, macro_calls
 from polycnc.control.word_address.transformations import cylinder, polar_interpolation
+from polycnc.control.word_address.transformations.cylinder import CylinderState
 from polycnc.language.word_address.executable import SkippedBlock
 from polycnc.messages import AlarmError
 from polycnc.program import ProgramFileError
@@ -77,7 +78,7 @@ class CustomMacroControl(WordAddressControl):
         if polar_interpolation.is_length(channel, axis):
             return length_converter(form, builder.rules, inch=builder.inch)
         convert = super().axis_converter(builder, axis, form)
-        unrolled = channel.memory.cylinder
+        unrolled = CylinderState.of(channel).active
         if unrolled is None or axis != unrolled.axis:
             return convert
         return lambda value: cylinder.unroll(channel, axis, convert(value) if convert else value)

@@ -6,9 +6,10 @@ follows from what the interruption program does (FANUC macro B §6).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.block.codes import MCode
 from polycnc.control.word_address.macro_b.variables import LOCALS
 from polycnc.control.word_address.motion.skip import signal_position
@@ -41,13 +42,19 @@ class Interrupted:
     rows: int
 
 
-class Interruptions:
-    """The interruption program of a channel, and which inputs have come."""
+@dataclass(slots=True)
+class InterruptionState(State, lifetime=Lifetime.RESET):
+    """The interruption program.
 
-    def __init__(self, program: Program) -> None:
-        self.program = program
-        self.came: set[int] = set()
-        self.running: list[Interrupted] = []
+    Attributes:
+        program: What M96 has named last.
+        came: Numbers of the inputs that have come since.
+        running: What has been cut and is not finished yet.
+    """
+
+    program: Program | None = None
+    came: set[int] = field(default_factory=set)
+    running: list[Interrupted] = field(default_factory=list)
 
 
 def enable(channel: Channel, words: Words) -> None:
@@ -55,7 +62,9 @@ def enable(channel: Channel, words: Words) -> None:
     number = words.integer("P")
     if number is None:
         raise words.fail("no_program", "M96")
-    channel.memory.interruptions = Interruptions(channel.control.find_program(channel, number))
+    program = channel.control.find_program(channel, number)
+    state = InterruptionState.of(channel)
+    state.program, state.came, state.running = program, set(), []
     channel.mode = channel.mode.with_code("interruption", "M96")
 
 
@@ -86,7 +95,7 @@ def interruptible(builder: Builder, motion: Step) -> Step:
     def move(channel: Channel, values: list[float]) -> None:
         start, mark = channel.coordinates.position, channel.toolpath.mark()
         motion(channel, values)
-        if not channel.memory.interruptions.running:
+        if not InterruptionState.of(channel).running:
             _interrupt(channel, start, mark)
 
     return move
@@ -94,25 +103,27 @@ def interruptible(builder: Builder, motion: Step) -> Step:
 
 def _interrupt(channel: Channel, start: list[float], mark: int) -> None:
     """Look whether an input comes on the way just made, and call the program there."""
-    interruptions: Interruptions = channel.memory.interruptions
+    state = InterruptionState.of(channel)
     chunk, end = channel.toolpath.chunk, channel.coordinates.position
+    if state.program is None:
+        return
     for number, interrupt in enumerate(channel.setup.switches.interrupts):
-        if number in interruptions.came or not _runs(channel, interrupt) or end == start:
+        if number in state.came or not _runs(channel, interrupt) or end == start:
             continue
         stop = signal_position(channel, start, end, dict(interrupt.at))
         if stop is None:
             continue
         if len(chunk) != mark + 1 or chunk.kind[-1] not in (Kind.RAPID, Kind.FEED):
             raise AlarmError("PC0001", hint="hint.not-supported", code="M96")
-        interruptions.came.add(number)
+        state.came.add(number)
         kind, feed = Kind(chunk.kind[-1]), chunk.feed[-1]
         if not channel.memory.parameters.bit(6003, BLOCK_FIRST_BIT):
             channel.toolpath.truncate(mark)
             channel.coordinates.arrive(start)
             channel.straight(kind, stop, feed)
         cut = Interrupted(kind, end, feed, channel.mode, len(channel.toolpath))
-        interruptions.running.append(cut)
-        _call(channel, interruptions.program)
+        state.running.append(cut)
+        _call(channel, state.program)
         return
 
 
@@ -138,8 +149,8 @@ def finish(channel: Channel, *, jumps: bool) -> None:
         channel: The channel, on the interrupted level again.
         jumps: M99 P: it goes on elsewhere, with the modal state as the interruption left it.
     """
-    interruptions: Interruptions = channel.memory.interruptions
-    cut = interruptions.running.pop()
+    state = InterruptionState.of(channel)
+    cut = state.running.pop()
     if jumps:
         return
     channel.mode = cut.mode

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.macro_b import subprograms
@@ -38,6 +39,13 @@ class ModalCall:
     repeats: int
     arguments: list[float | None]
     each_block: bool
+
+
+@dataclass(slots=True)
+class ModalCallState(State, lifetime=Lifetime.RESET):
+    """The modal calls that are active, the last one called first."""
+
+    calls: list[ModalCall] = field(default_factory=list)
 
 
 def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) -> list[float | None]:
@@ -95,7 +103,7 @@ def start_modal(
 ) -> None:
     """From the next block on a macro follows every block that moves, or every block."""
     channel.mode = channel.mode.with_code("macro", "G66.1" if each else "G66")
-    channel.memory.modal_calls.append(ModalCall(program, repeats, arguments, each))
+    ModalCallState.of(channel).calls.append(ModalCall(program, repeats, arguments, each))
 
 
 def refuse_g_behind(words: Words, call: str) -> None:
@@ -107,7 +115,7 @@ def refuse_g_behind(words: Words, call: str) -> None:
 
 def end_modal_call(channel: Channel, words: Words) -> None:
     """G67: the last modal call ends."""
-    calls = channel.memory.modal_calls
+    calls = ModalCallState.of(channel).calls
     if calls:
         calls.pop()
         if calls:
@@ -150,7 +158,7 @@ def plan_modal_call(builder: Builder, plan: Plan) -> Step | None:
         return None
 
     def follow(channel: Channel, _values: list[float]) -> None:
-        calls = channel.memory.modal_calls
+        calls = ModalCallState.of(channel).calls
         inside = sum(1 for level in channel.stack if level.kind in ("modal", "b-macro"))
         if inside < len(calls):
             call = calls[-1 - inside]
@@ -167,7 +175,7 @@ def plan_argument_block(builder: Builder, plan: Plan) -> Step | None:
         return None
 
     def call(channel: Channel, values: list[float]) -> None:
-        modal = channel.memory.modal_calls[-1]
+        modal = ModalCallState.of(channel).calls[-1]
         arguments = _block_arguments(Words(plan, values), builder)
         enter_macro(channel, modal.program, arguments, modal.repeats, kind="b-macro")
         note_level(channel)

@@ -84,6 +84,8 @@ class MacroMemory(Memory):
             the same input gives the same output.
     """
 
+    CLEARED = (*Memory.CLEARED, "locals")
+
     def __init__(self, channel: Channel, registry: Registry) -> None:
         super().__init__(channel)
         self.channel = channel

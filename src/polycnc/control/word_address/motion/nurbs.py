@@ -7,6 +7,7 @@ from itertools import pairwise
 from math import dist
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.motion import path
 from polycnc.geometry.nurbs import nurbs_chords
 from polycnc.toolpath import Kind
@@ -39,6 +40,13 @@ class Curve:
         return len(self.knots) == len(self.poles) + self.order
 
 
+@dataclass(slots=True)
+class CurveState(State, lifetime=Lifetime.RESET):
+    """The curve that blocks of G06.2 are telling; None for none."""
+
+    curve: Curve | None = None
+
+
 def plan_nurbs(builder: Builder, plan: Plan) -> Step | None:
     """G06.2 [P] K X Y Z [R]: a pole with its knot; K alone: one of the knots that remain."""
     control = builder.control
@@ -51,14 +59,14 @@ def plan_nurbs(builder: Builder, plan: Plan) -> Step | None:
         return None
 
     def collect(channel: Channel, values: list[float]) -> None:
-        memory = channel.memory
+        state = CurveState.of(channel)
         if begins:
             check_complete(channel)
             order = DEFAULT_ORDER if order_slot is None else values[order_slot]
             if order not in ORDERS:
                 raise control.fail("curve_order", address="P")
-            memory.curve = Curve(int(order))
-        curve: Curve | None = memory.curve
+            state.curve = Curve(int(order))
+        curve = state.curve
         if curve is None or (curve.knots and values[knot] < curve.knots[-1]):
             raise control.fail("curve_knot", address="K")
         curve.knots.append(values[knot])
@@ -80,7 +88,7 @@ def plan_nurbs(builder: Builder, plan: Plan) -> Step | None:
             curve.poles.append(tuple(point))
             curve.weights.append(factor)
         elif curve.is_complete:
-            memory.curve = None
+            state.curve = None
             _cut(channel, curve)
 
     return collect
@@ -99,7 +107,7 @@ def then(step: Step | None) -> Step:
 
 def check_complete(channel: Channel) -> None:
     """Alarm for a curve whose knots have not all come."""
-    if channel.memory.curve is not None:
+    if CurveState.of(channel).curve is not None:
         raise channel.control.fail("curve_knot", address="K")
 
 

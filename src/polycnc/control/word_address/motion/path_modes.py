@@ -2,22 +2,38 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from polycnc.channel.state import Lifetime, State, lasting
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
 
 
+@dataclass(slots=True)
+class PathModeState(State, lifetime=Lifetime.RESET):
+    """How the path is driven beside the modal codes.
+
+    Attributes:
+        contour_control: A high-speed mode is on.
+        exact_stop: G09 stands in the running block.
+    """
+
+    contour_control: bool = False
+    exact_stop: bool = lasting(Lifetime.BLOCK, default=False)
+
+
 def exact_stop_block(channel: Channel, _words: Words) -> None:
     """G09: exact stop at the end of this block."""
-    channel.memory.exact_stop_block = True
+    PathModeState.of(channel).exact_stop = True
     channel.context_changed()
 
 
 def end_of_exact_stop(channel: Channel, _values: list[float]) -> None:
     """The block of a G09 ends."""
-    channel.memory.exact_stop_block = False
+    PathModeState.of(channel).exact_stop = False
     channel.context_changed()
 
 
@@ -33,7 +49,7 @@ def high_speed_machining(channel: Channel, words: Words) -> None:
     _refuse_company(words, "G5", "P")
     if words.integer("P") not in (0, 10000):
         raise words.fail("address", "P")
-    channel.memory.contour_control = words.integer("P") == 10000
+    PathModeState.of(channel).contour_control = words.integer("P") == 10000
     channel.context_changed()
 
 
@@ -42,7 +58,7 @@ def high_speed_mode(channel: Channel, words: Words) -> None:
     number = words.integer("P")
     if number not in (0, 1, 2, 10000):
         raise words.fail("address", "P")
-    channel.memory.contour_control = number != 0
+    PathModeState.of(channel).contour_control = number != 0
     channel.context_changed()
 
 
@@ -52,7 +68,7 @@ def contour_control(channel: Channel, words: Words) -> None:
     level = words.integer("R") if "R" in words else None
     if words.integer("Q") not in (0, 1) or (level is not None and not 1 <= level <= 10):
         raise words.fail("address", "Q")
-    channel.memory.contour_control = words.integer("Q") == 1
+    PathModeState.of(channel).contour_control = words.integer("Q") == 1
     channel.context_changed()
 
 
@@ -60,5 +76,5 @@ def advance_preview(channel: Channel, words: Words) -> None:
     """G08 P1 / P0."""
     if words.integer("P") not in (0, 1):
         raise words.fail("preview_value", "P")
-    channel.memory.contour_control = words.integer("P") == 1
+    PathModeState.of(channel).contour_control = words.integer("P") == 1
     channel.context_changed()

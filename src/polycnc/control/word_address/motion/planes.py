@@ -58,12 +58,11 @@ def lay_axes(channel: Channel, words: Words) -> None:
         if role in (5, 6, 7):
             basic[role - 5] = axis
     geometry = (basic[0], basic[1], basic[2])
-    if memory.cylinder is None:
+    state = cylinder.CylinderState.of(channel)
+    if state.active is None:
         choose_axes(channel, geometry)
         return
-    memory.geometry_before = geometry
-    memory.cylinder = replace(
-        memory.cylinder, geometry=cylinder.unrolled_geometry(channel, memory.cylinder.axis)
-    )
-    c.transform(memory.cylinder, memory.cylinder.geometry)
+    state.geometry_before = geometry
+    state.active = replace(state.active, geometry=cylinder.unrolled_geometry(channel, state.active.axis))
+    c.transform(state.active, state.active.geometry)
     channel.context_changed()

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.tools.radius import active_compensation
 
@@ -51,25 +52,38 @@ class Cylinder:
         return scaled
 
 
+@dataclass(slots=True)
+class CylinderState(State, lifetime=Lifetime.RESET):
+    """Cylindrical interpolation.
+
+    Attributes:
+        active: The unrolled surface; None while it is off.
+        geometry_before: The columns of X, Y and Z that hold again at its end.
+    """
+
+    active: Cylinder | None = None
+    geometry_before: tuple[int, int, int] = (-1, -1, -1)
+
+
 def cylinder(channel: Channel, words: Words) -> None:
     """G07.1 C r (G107): C is unrolled at the radius r; r = 0 ends the mode."""
     named = words.plan.axis_words
     if len(named) != 1 or not channel.axis_data[named[0].axis].rotary:
         raise words.fail("cylinder_axis", "G7.1")
     radius = abs(words.length(named[0].address) or 0.0)
-    memory = channel.memory
+    memory, state = channel.memory, CylinderState.of(channel)
     if not radius:
         end_cylinder(channel)
         return
-    if memory.cylinder is not None:
+    if state.active is not None:
         raise words.fail("cylinder_axis", "G7.1")
-    if channel.mode["motion"] not in _CUTS or memory.side or memory.polar is not None:
+    if channel.mode["motion"] not in _CUTS or memory.side or channel.coordinates.transformation is not None:
         raise words.fail("cylinder_code", "G7.1")
     axis, c = named[0].axis, channel.coordinates
     channel.flush()
-    memory.geometry_before = c.geometry
-    memory.cylinder = Cylinder(axis, radius * pi / 180.0, unrolled_geometry(channel, axis))
-    c.transform(memory.cylinder, memory.cylinder.geometry)
+    state.geometry_before = c.geometry
+    state.active = Cylinder(axis, radius * pi / 180.0, unrolled_geometry(channel, axis))
+    c.transform(state.active, state.active.geometry)
     channel.mode = channel.mode.with_code(GROUP, "G7.1")
     _forget_compensation(channel)
     channel.context_changed()
@@ -83,7 +97,7 @@ def unrolled_geometry(channel: Channel, axis: int) -> tuple[int, int, int]:
     own = _turns_about(channel, axis)
     # Where neither plane axis is the cylinder's own (a plane across it), 1022 should have said which one gives way.
     slot = role - 5 if role in (5, 6, 7) else u if v == own or (own < 0 and plane == "G19") else v
-    geometry = list(channel.memory.geometry_before)
+    geometry = list(CylinderState.of(channel).geometry_before)
     geometry[slot] = axis
     return (geometry[0], geometry[1], geometry[2])
 
@@ -99,14 +113,14 @@ def _turns_about(channel: Channel, axis: int) -> int:
 
 def end_cylinder(channel: Channel) -> None:
     """The axis turns by degrees again (also at reset); nothing moves."""
-    memory = channel.memory
-    if memory.cylinder is None:
+    state = CylinderState.of(channel)
+    if state.active is None:
         return
     channel.flush()
     _forget_compensation(channel)
-    memory.cylinder = None
+    state.active = None
     channel.mode = channel.mode.with_code(GROUP, "")
-    channel.coordinates.transform(None, memory.geometry_before)
+    channel.coordinates.transform(None, state.geometry_before)
     channel.context_changed()
 
 
@@ -121,7 +135,7 @@ def check_block(builder: Builder, refused: frozenset[str]) -> None:
 
 def unroll(channel: Channel, axis: int, angle_deg: float) -> float:
     """A word of the unrolled axis as a length on the surface, mm."""
-    active: Cylinder | None = channel.memory.cylinder
+    active = CylinderState.of(channel).active
     return angle_deg * active.mm_per_degree if active is not None and active.axis == axis else angle_deg
 
 

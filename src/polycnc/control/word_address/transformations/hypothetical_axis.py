@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.path import Rank, Stage
+from polycnc.channel.state import Lifetime, State
 from polycnc.geometry import arcs
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS
@@ -41,15 +42,22 @@ class Standing:
         return list(real)
 
 
+@dataclass(slots=True)
+class HypotheticalState(State, lifetime=Lifetime.RESET):
+    """Axes that stand while the path moves them (G07); None for none."""
+
+    standing: Standing | None = None
+
+
 def switch(channel: Channel, words: Words) -> None:
     """G07 Y0: the axis becomes hypothetical; G07 Y1: it moves again, and the path begins where it stands."""
     named = {word.axis: words.typed(word.address) for word in words.plan.axis_words}
     if not named or any(value not in (0.0, 1.0) for value in named.values()):
         raise words.fail("hypothetical_format", "G7")
-    memory, c = channel.memory, channel.coordinates
-    before: Standing | None = memory.hypothetical
+    state, c = HypotheticalState.of(channel), channel.coordinates
+    before = state.standing
     foreign = c.transformation is not None and c.transformation is not before
-    if foreign or memory.side:
+    if foreign or channel.memory.side:
         raise words.fail("hypothetical_mode", "G7")
     position = c.from_machine(c.machine)
     kept = {} if before is None else before.axes
@@ -57,17 +65,18 @@ def switch(channel: Channel, words: Words) -> None:
     standing = {**{axis: value for axis, value in kept.items() if axis not in named}, **standing}
     end(channel)
     if standing:
-        memory.hypothetical = c.transformation = Standing(standing, c.geometry)
-        channel.path.put(StandingStage(memory.hypothetical))
+        state.standing = c.transformation = Standing(standing, c.geometry)
+        channel.path.put(StandingStage(state.standing))
 
 
 def end(channel: Channel) -> None:
     """Every axis moves again (also at reset)."""
-    if channel.memory.hypothetical is None:
+    state = HypotheticalState.of(channel)
+    if state.standing is None:
         return
     channel.flush()
     channel.path.take(StandingStage)
-    channel.memory.hypothetical = None
+    state.standing = None
     channel.coordinates.transform(None)
 
 

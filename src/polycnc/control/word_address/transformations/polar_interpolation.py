@@ -10,7 +10,9 @@ from dataclasses import dataclass
 from math import atan2, cos, degrees, hypot, radians, sin
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.motion.path import PLANES
+from polycnc.control.word_address.transformations.cylinder import CylinderState
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -73,6 +75,20 @@ class PolarPlane:
         return shown
 
 
+@dataclass(slots=True)
+class PolarState(State, lifetime=Lifetime.RESET):
+    """The plane of polar coordinate interpolation, and what its end brings back.
+
+    Attributes:
+        plane: None while it is off.
+        plane_before: Code of the plane that holds again then; `geometry_before` its axes.
+    """
+
+    plane: PolarPlane | None = None
+    plane_before: str = "G17"
+    geometry_before: tuple[int, int, int] = (-1, -1, -1)
+
+
 def start_polar(channel: Channel, words: Words) -> None:
     """G12.1 (G112): the axes of 5460 and 5461 become a Cartesian plane; the tool stands at angle 0."""
     memory, c = channel.memory, channel.coordinates
@@ -85,9 +101,9 @@ def start_polar(channel: Channel, words: Words) -> None:
         or not channel.axis_data[rotary].rotary
     ):
         raise words.fail("polar_axes", "G12.1")
-    if memory.side or memory.cylinder is not None or not c.zero.is_identity:
+    if memory.side or CylinderState.of(channel).active is not None or not c.zero.is_identity:
         raise words.fail("polar_code", "G12.1")
-    if memory.polar is not None:
+    if PolarState.of(channel).plane is not None:
         return
     channel.flush()
     here = c.position
@@ -109,9 +125,9 @@ def start_polar(channel: Channel, words: Words) -> None:
 
 def enter_polar(channel: Channel, polar: PolarPlane, plane: str) -> None:
     """From here on the words name points of the plane, which is `plane` (G17 to G19); nothing moves."""
-    memory = channel.memory
-    memory.plane_before, memory.geometry_before = channel.mode["plane"], channel.coordinates.geometry
-    memory.polar = polar
+    state = PolarState.of(channel)
+    state.plane_before, state.geometry_before = channel.mode["plane"], channel.coordinates.geometry
+    state.plane = polar
     channel.mode = channel.mode.with_code("plane", plane)
     channel.coordinates.transform(polar, polar.geometry)
     channel.context_changed()
@@ -119,7 +135,7 @@ def enter_polar(channel: Channel, polar: PolarPlane, plane: str) -> None:
 
 def end_polar(channel: Channel, words: Words) -> None:
     """G13.1 (G113): the axes are axes of their own again; the former plane returns."""
-    if channel.memory.polar is None:
+    if PolarState.of(channel).plane is None:
         return
     if channel.memory.side:
         raise words.fail("polar_code", "G13.1")
@@ -129,18 +145,18 @@ def end_polar(channel: Channel, words: Words) -> None:
 
 def leave_polar(channel: Channel) -> None:
     """The axes are named themselves again (also at reset); nothing moves."""
-    memory = channel.memory
-    if memory.polar is None:
+    state = PolarState.of(channel)
+    if state.plane is None:
         return
-    memory.polar = None
-    channel.mode = channel.mode.with_code("plane", memory.plane_before)
-    channel.coordinates.transform(None, memory.geometry_before)
+    state.plane = None
+    channel.mode = channel.mode.with_code("plane", state.plane_before)
+    channel.coordinates.transform(None, state.geometry_before)
     channel.context_changed()
 
 
 def is_length(channel: Channel, axis: int) -> bool:
     """Whether words of a rotary axis are lengths now."""
-    plane: PolarPlane | None = channel.memory.polar
+    plane = PolarState.of(channel).plane
     return plane is not None and axis == plane.rotary
 
 

@@ -6,9 +6,11 @@ with the table when the tool is aligned; on one with a swivel head the length of
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from math import hypot, nan
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.tools import length
@@ -32,6 +34,14 @@ SHORTEST_MM = 1e-6
 ORDERS = {123, 132, 213, 231, 312, 321}
 
 
+@dataclass(slots=True)
+class TiltState(State, lifetime=Lifetime.RESET):
+    """The tilted plane inside the work system, and what blocks have told of the next one (P2, P3)."""
+
+    plane: Frame | None = None
+    told: list[tuple[Vector, Vector]] = field(default_factory=list)
+
+
 def tilt_plane(channel: Channel, words: Words) -> None:
     """G68.2 [P0, P1 Q] X Y Z I J K: origin in the work system, and the turn of the plane; P2, P3 in several blocks."""
     way = words.integer("P") if "P" in words else EULER
@@ -44,23 +54,23 @@ def tilt_plane(channel: Channel, words: Words) -> None:
         raise words.fail("tilt_format", "P")
     i, j, k = (words.angle(letter) or 0.0 for letter in "IJK")
     turn = _euler(i, j, k) if way == EULER else _roll_pitch_yaw(words, (i, j, k))
-    channel.memory.tilted_plane = translation(*named_point(channel, words, "tilt_format")) @ turn
-    _renew(channel, channel.memory.tilted_plane, None)
+    plane = TiltState.of(channel).plane = translation(*named_point(channel, words, "tilt_format")) @ turn
+    _renew(channel, plane, None)
 
 
 def _tell(channel: Channel, words: Words, way: int) -> None:
     """One block of P2 (Q1 to Q3: origin, a point of X, a point on the side of Y) or P3 (Q1 origin and X, Q2 Z)."""
-    memory = channel.memory
+    state = TiltState.of(channel)
     number = words.integer("Q") if "Q" in words else 0
-    told: list[tuple[Vector, Vector]] = memory.told_plane if number != 1 else []
+    told = state.told if number != 1 else []
     if number != len(told) + 1 or number > BLOCKS[way]:
         raise words.fail("tilt_format", "Q")
     i, j, k = (words.length(letter) or 0.0 for letter in "IJK")
-    memory.told_plane = [*told, (named_point(channel, words, "tilt_format"), (i, j, k))]
+    state.told = [*told, (named_point(channel, words, "tilt_format"), (i, j, k))]
     if number < BLOCKS[way]:
         return
-    (origin, first), *others = memory.told_plane
-    memory.told_plane = []
+    (origin, first), *others = state.told
+    state.told = []
     if way == POINTS:
         (second, _), (third, _) = others
         along = _unit(words, minus(second, origin))
@@ -70,8 +80,8 @@ def _tell(channel: Channel, words: Words, way: int) -> None:
         upright = _unit(words, cross(along, cross(wanted, along)))
     across = cross(upright, along)
     rows = tuple(zip(along, across, upright, strict=True))
-    memory.tilted_plane = translation(*origin) @ Frame((rows[0], rows[1], rows[2]))
-    _renew(channel, memory.tilted_plane, None)
+    state.plane = translation(*origin) @ Frame((rows[0], rows[1], rows[2]))
+    _renew(channel, state.plane, None)
 
 
 def _unit(words: Words, vector: Vector) -> Vector:
@@ -120,12 +130,12 @@ def align_tool_about_tip(channel: Channel, words: Words) -> None:
 
 
 def _align(channel: Channel, words: Words, code: str, *, holds_tip: bool) -> None:
-    memory, c = channel.memory, channel.coordinates
-    if memory.tilted_plane is None:
+    memory, c, plane = channel.memory, channel.coordinates, TiltState.of(channel).plane
+    if plane is None:
         raise words.fail("tilt_missing", code)
     kinematics = Kinematics.of(channel.machine)
     near = dict(zip(channel.axes, c.machine, strict=True))
-    wanted = memory.tilted_plane.direct(0.0, 0.0, 1.0)
+    wanted = plane.direct(0.0, 0.0, 1.0)
     if not kinematics.axes and abs(wanted[2] - 1.0) < 1e-9:
         return
     angles = kinematics.angles_for(wanted, near)
@@ -133,7 +143,7 @@ def _align(channel: Channel, words: Words, code: str, *, holds_tip: bool) -> Non
         raise words.fail("tilt_unreachable", code)
     zero = [c.offsets[axis] - memory.length_offset[axis] if axis >= 0 else 0.0 for axis in c.geometry]
     shift = translation(zero[0], zero[1], zero[2])
-    turned = shift.inverse() @ kinematics.work_turn(angles) @ shift @ memory.tilted_plane
+    turned = shift.inverse() @ kinematics.work_turn(angles) @ shift @ plane
     tip, end = c.position, c.machine
     for name, angle in angles.items():
         end[channel.axis_index[name]] = angle
@@ -150,15 +160,16 @@ def _align(channel: Channel, words: Words, code: str, *, holds_tip: bool) -> Non
 def end_tilt(channel: Channel, words: Words) -> None:
     """G69: ends the rotation of G68 and the tilted plane."""
     frames.end_rotation(channel, words)
-    if channel.memory.tilted_plane is not None:
-        channel.memory.tilted_plane = None
+    state = TiltState.of(channel)
+    if state.plane is not None:
+        state.plane = None
         _renew(channel, IDENTITY, None)
 
 
 def forget(channel: Channel) -> None:
     """Reset: no plane is tilted; the coordinates follow when the zero is worked out anew."""
     memory = channel.memory
-    memory.tilted_plane = memory.tool_direction = None
+    TiltState.of(channel).plane = memory.tool_direction = None
     memory.zero_frame = IDENTITY
 
 

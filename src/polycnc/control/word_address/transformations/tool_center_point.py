@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.motion.path import target
+from polycnc.control.word_address.transformations.tilted_plane import TiltState
 from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
 
@@ -81,7 +82,7 @@ def start_following(channel: Channel, words: Words) -> None:
     kinematics = Kinematics.of(channel.machine)
     if not kinematics.axes or not set(kinematics.axes) <= set(channel.axes) or -1 in c.geometry:
         raise words.fail("tip_machine", "G43.4")
-    if memory.tilted_plane is not None or memory.side:
+    if TiltState.of(channel).plane is not None or memory.side:
         raise words.fail("tip_mode", "G43.4")
     number = words.integer("H") if "H" in words else None
     memory.h = memory.h if number is None else number

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe.cycles import tapping
 from polycnc.control.word_address.cycles import drilling as base
-from polycnc.control.word_address.cycles.drilling import DrillCycle, Drilling, Halts
+from polycnc.control.word_address.cycles.drilling import CycleState, DrillCycle, Drilling, Halts
 from polycnc.control.word_address.motion.path import PLANES
 from polycnc.cycles.drilling import holes, lathe
 from polycnc.cycles.drilling.lathe import Joint
@@ -158,7 +158,7 @@ def _drilling_axis(builder: Builder, mode: Mode) -> int:
 
 def _relief(channel: Channel, code: str) -> float:
     """Retract or clearance between pecks: `,D`, else the cycle's parameter, mm."""
-    data = channel.memory.cycle_data
+    data = CycleState.of(channel).active
     if ",D" in data:
         amount: float = data.amount(",D")
         return amount
@@ -246,7 +246,7 @@ def _turn(channel: Channel, direction: int) -> None:
 def _dress(channel: Channel, code: str, hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
     """Clamping of the C axis about the hole, and the speed of a rigid tap on its way out."""
     if code in tapping.TAPS:
-        tapping.check(channel, channel.memory.cycle_data)
+        tapping.check(channel, CycleState.of(channel).active)
         strokes = lathe.with_extraction(strokes, hole, tapping.extraction(channel))
     else:
         strokes = lathe.overlapping(strokes, hole, _apart(channel))

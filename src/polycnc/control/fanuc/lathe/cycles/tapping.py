@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.motion.path import FEED_MODES
 
 if TYPE_CHECKING:
@@ -117,7 +118,7 @@ def extraction(channel: Channel) -> float:
 
 def _wanted_extraction(channel: Channel) -> float:
     memory = channel.memory
-    parameters, data, speed = memory.parameters, memory.cycle_data, memory.spindle_speed
+    parameters, data, speed = memory.parameters, CycleState.of(channel).active, memory.spindle_speed
     if "J" in data and parameters.bit(5201, 4):
         rpm = data.amount("J") * (1.0 if channel.control.number_rules(channel).calculator else 1000.0)
         factor = rpm / speed
