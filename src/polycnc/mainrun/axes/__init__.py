@@ -1,6 +1,8 @@
-"""What moves an axis beside its program.
+"""The axes in the main run: where each shall be is the sum of its sources.
 
-manual         jog, steps, handwheel, reference approach
+axis           an axis and its sources; how another one is added
+hand           jog, steps, handwheel, reference approach
 manual_offset  what an operator has moved while a program waits, until the program takes it back
-shared_axes    axes that several channels can move
+channel_axes   the axes of a channel, all at once
+machine_axes   the axes of the machine, and which channel leads each
 """

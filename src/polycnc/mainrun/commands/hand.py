@@ -33,9 +33,9 @@ class HandCommands:
         self._permission.ask(Command.JOG)
         run, i = self._axis(axis, channel)
         self._permission.ask_machine(*_move_words(run, i))
-        here, data = self._hand_of(run)[i], run.channel.axis_data[i]
+        here, data, hand = self._take_in_hand(run)[i], run.channel.axis_data[i], run.axes[i].hand
         speed = self._switches.rapid_speed(data) if rapid else self._switches.jog_speed(data)
-        run.manual.towards(i, run.manual.along(i, direction, here), speed, self._clock.time)
+        hand.towards(hand.end_of_travel(direction, here), speed, self._clock.time)
 
     def stop_jog(self, axis: str | None, *, channel: int) -> None:
         """Let a jog key go; all of them where no axis is named."""
@@ -43,7 +43,7 @@ class HandCommands:
             self._runs.brake_hands()
         else:
             run, i = self._axis(axis, channel)
-            run.manual.brake(i, self._clock.time)
+            run.axes[i].hand.brake(self._clock.time)
 
     def increment(self, axis: str, way: float, *, channel: int) -> None:
         """Move by a way, as the machine display counts."""
@@ -63,24 +63,24 @@ class HandCommands:
         run = self._runs.named(channel)
         named = range(len(run.channel.axes)) if axis is None else (self._axis(axis, channel)[1],)
         self._permission.ask_machine(*(f"HOME_{run.channel.axes[i]}" for i in named))
-        self._hand_of(run)
+        self._take_in_hand(run)
         for i in named:
             data = run.channel.axis_data[i]
-            run.execution.manual_offset.shift[i] = 0.0
+            run.axes.forget_shift(i)
             speed = self._switches.rapid_speed(data)
-            run.manual.towards(i, data.reference_points[0], speed, self._clock.time)
+            run.axes[i].hand.towards(data.reference_points[0], speed, self._clock.time)
 
     def _shift(self, run: ChannelRun, axis: int, shown: float, speed: float) -> None:
         self._permission.ask_machine(*_move_words(run, axis))
-        here = self._hand_of(run)[axis]
+        here, hand = self._take_in_hand(run)[axis], run.axes[axis].hand
         factor = run.display.machine_factor(axis, run.execution.context)
-        run.manual.towards(axis, run.manual.goal(axis, here) + shown / factor, speed, self._clock.time)
+        hand.towards(hand.goal(here) + shown / factor, speed, self._clock.time)
 
-    def _hand_of(self, run: ChannelRun) -> list[float]:
+    def _take_in_hand(self, run: ChannelRun) -> list[float]:
         """Machine position from which axes of a channel are moved by hand."""
         if self._runs.move:
             raise CommandRefused("mainrun.moving")
-        run.manual.begin(run.machine_position)
+        run.take_in_hand(run.machine_position)
         return run.machine_position
 
     def _axis(self, name: str, channel: int) -> tuple[ChannelRun, int]:
@@ -100,4 +100,5 @@ def _move_words(run: ChannelRun, axis: int) -> list[str]:
     rotary = [i for i, data in enumerate(channel.axis_data) if data.rotary]
     words = [f"MOVE_{channel.axes[axis]}"]
     words += ["MOVE_FIFTH_AXIS"] if axis in rotary[1:2] else []
-    return words + (["MOVE_SECOND_AXIS"] if run.manual.moving - {axis} else [])
+    others = any(other.hand.moves for column, other in enumerate(run.axes) if column != axis)
+    return words + (["MOVE_SECOND_AXIS"] if others else [])

@@ -85,8 +85,8 @@ class ProgramCommands:
         if found is None:
             operation.give_up()
             raise CommandRefused("mainrun.search", target=target)
-        run.manual.begin(here)
         run.execution.stand_before(found.position, found.context, found.modal)
+        run.take_in_hand(here)
         operation.collected, operation.searched = found.functions, True
         self._status.become(State.STOPPED, halt="search")
 

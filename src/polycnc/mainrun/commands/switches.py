@@ -113,8 +113,8 @@ class SwitchCommands:
         in_reference = operation.status.mode is Mode.REFERENCE
         speed = switches.rapid_speed if in_reference else switches.jog_speed
         for run in operation.runs:
-            for axis in run.manual.goals:
-                run.manual.change_speed(axis, speed(run.channel.axis_data[axis]), operation.clock.time)
+            for axis in run.axes:
+                axis.hand.change_speed(speed(axis.data), operation.clock.time)
 
     def set_switches(self, changes: dict[str, Any]) -> None:
         """Turn panel switches, by the names of `PanelSwitches`."""

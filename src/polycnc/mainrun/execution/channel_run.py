@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from polycnc.channel.channel import Channel
-    from polycnc.mainrun.axes.manual import ManualAxes
-    from polycnc.mainrun.axes.shared_axes import SharedAxes
+    from polycnc.mainrun.axes.channel_axes import ChannelAxes
+    from polycnc.mainrun.axes.machine_axes import MachineAxes
     from polycnc.mainrun.execution.execution import Execution
     from polycnc.mainrun.execution.machinery import Machinery
     from polycnc.mainrun.preparation.items import Rates
@@ -34,10 +34,9 @@ class ChannelRun:
         execution: Executes that.
         machinery: Carries out its events.
         display: Shows its axes.
-        manual: Its axes while an operator moves them.
+        axes: Its axes, with what moves them beside the path.
         rates: What the operator has set.
-        others: Every channel of the control by number, this one too.
-        shared: The axes that channels share.
+        machine_axes: All axes of the machine.
     """
 
     channel: Channel
@@ -45,10 +44,9 @@ class ChannelRun:
     execution: Execution
     machinery: Machinery
     display: MainRunDisplay
-    manual: ManualAxes
+    axes: ChannelAxes
     rates: Rates
-    others: Mapping[int, ChannelRun]
-    shared: SharedAxes
+    machine_axes: MachineAxes
 
     @property
     def number(self) -> int:
@@ -62,52 +60,65 @@ class ChannelRun:
         return group is not None and group.is_running(self.number)
 
     @property
-    def real(self) -> list[float]:
-        """Commanded position of the real axes, mm (radius) and degrees, as their programs have led them."""
-        position = self.led
-        for column, mover, there in self.shared.elsewhere(self.number, self.channel.group):
-            position[column] = self.others[mover].led[there]
-        return position
+    def path(self) -> list[float]:
+        """Where programs have led the real axes, mm (radius) and degrees: of the channel that moved each last."""
+        path = self.own_path
+        for column, place in self.machine_axes.led_by_others(self.number, self.channel.group):
+            path[column] = place
+        return path
 
     @property
-    def led(self) -> list[float]:
+    def own_path(self) -> list[float]:
         """Where its own program has led the real axes, those too that another channel has moved since."""
-        execution = self.execution
-        return execution.manual_offset.applied_to(self.display.real(execution.machine, execution.place))
+        return self.display.real(self.execution.machine, self.execution.place)
+
+    @property
+    def prepared_path(self) -> list[float]:
+        """Machine position behind everything prepared."""
+        return self.preprocessing.position
+
+    @property
+    def without_hand(self) -> list[float]:
+        """Where the real axes would be if nobody had moved them by hand since."""
+        return self.axes.without_hand(self.path)
 
     @property
     def machine_position(self) -> list[float]:
-        """Commanded position of the real axes, mm (radius) and degrees, by hand or by program."""
-        return self.real if self.manual.place is None else self.manual.positions(self.execution.clock.time)
+        """Commanded position of the real axes, mm (radius) and degrees: the sums of their sources."""
+        return self.axes.setpoints(self.path)
 
     def positions(self, locked: Mapping[int, float] | None = None) -> Positions:
         """Positions as the displays show them; `locked` axes stand there, and the displays run on."""
         execution, context, display = self.execution, self.execution.context, self.display
-        axes = self.machine_position
+        axes, uncounted = self.machine_position, self.axes.uncounted()
         real = [(locked or {}).get(i, value) for i, value in enumerate(axes)]
-        shift = execution.manual_offset.shift
-        if self.manual.place is not None:
-            here = [a - b for a, b in zip(axes, shift, strict=True)]
+        if self.axes.by_hand:
+            here = self.axes.path_at(axes)
             shown = display.positions(here, here, real, without_transformation(context))
         else:
             here, end = (
-                execution.manual_offset.counted(carried(place, execution.place, context, display.geometry))
+                self.axes.counted(carried(place, execution.place, context, display.geometry))
                 for place in (execution.machine, execution.row_end)
             )
-            for column, _, _ in self.shared.elsewhere(self.number, self.channel.group):
-                here[column] = end[column] = axes[column] - shift[column]
+            for column, _ in self.machine_axes.led_by_others(self.number, self.channel.group):
+                here[column] = end[column] = axes[column] - uncounted[column]
             shown = display.positions(here, end, real, context)
-        if not any(shift):
+        if not any(uncounted):
             return shown
         return replace(
             shown, machine=display.positions(axes, axes, real, without_transformation(context)).machine
         )
 
+    def take_in_hand(self, place: Sequence[float]) -> None:
+        """An operator has the axes from now on, which stand at a place."""
+        self.axes.take_in_hand(place, self.path)
+
     def intervene(self, *, absolute: bool) -> None:
         """The program goes on from where an operator has left the axes; manual absolute is on or off."""
-        if self.manual.place is not None:
-            way = [a - b for a, b in zip(self.manual.place, self.real, strict=True)]
-            self.manual.leave()
+        if self.axes.by_hand:
+            time = self.execution.clock.time
+            way = [axis.hand.at(time) for axis in self.axes]
+            self.axes.leave()
             self.execution.intervene(way, absolute=absolute)
 
     def skip_signal(self) -> None:
@@ -118,14 +129,16 @@ class ChannelRun:
 
     def forget_shift(self) -> None:
         """What was moved with manual absolute off shifts the coordinates no more."""
-        here, manual_offset = self.machine_position, self.execution.manual_offset
-        manual_offset.shift = [0.0] * len(manual_offset.shift)
+        here = self.machine_position
+        for axis in self.axes:
+            axis.offset.shift = 0.0
         self.stand_at(here)
 
     def stand_at(self, position: Sequence[float]) -> None:
         """The real axes stand here and no program runs."""
-        self.manual.leave()
-        self.execution.position, self.execution.place = self.execution.manual_offset.path(position), Context()
+        path = self.axes.path_at(position)  # while everything is still where it was
+        self.axes.leave()
+        self.execution.position, self.execution.place = path, Context()
         self.preprocessing.clear(self.execution.position)
         self.show_own_state()
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import TYPE_CHECKING, Protocol
 
 from polycnc.channel.channel import Channel
 from polycnc.channel.group import ChannelGroup
-from polycnc.mainrun.axes.manual import ManualAxes
-from polycnc.mainrun.axes.shared_axes import SharedAxes
+from polycnc.mainrun.axes.channel_axes import ChannelAxes
+from polycnc.mainrun.axes.machine_axes import MachineAxes
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.execution.channel_run import ChannelRun
 from polycnc.mainrun.execution.execution import Execution
@@ -59,6 +60,7 @@ class ChannelRuns:
     Attributes:
         first: The channel that a control has in any case.
         group: What the channels share.
+        axes: The axes of the machine.
     """
 
     def __init__(
@@ -76,8 +78,8 @@ class ChannelRuns:
         self._control, self._machine, self._setup, self._programs = control, machine, setup, programs
         self._clock, self._rates, self._signals, self._interlocks = clock, rates, signals, interlocks
         self._supervisor = supervisor
-        self._shared = SharedAxes(machine)
         self._runs: dict[int, ChannelRun] = {}
+        self.axes = MachineAxes(machine, self._runs)
         self.first = self._make(machine.channels[0].number, setup)
         self.group = ChannelGroup(self.first.channel, self._further, supervisor.started)
 
@@ -107,7 +109,7 @@ class ChannelRuns:
     @property
     def due(self) -> float:
         """When something happens next on any channel; inf where nothing will without a command."""
-        return min(min(run.manual.due, run.execution.next_event) for run in self._runs.values())
+        return min(min(run.axes.due, run.execution.next_event) for run in self._runs.values())
 
     @property
     def move(self) -> bool:
@@ -117,17 +119,22 @@ class ChannelRuns:
     @property
     def move_by_hand(self) -> bool:
         """Whether an axis moves because of an operator."""
-        return any(run.manual.moving for run in self._runs.values())
+        return any(run.axes.move_by_hand for run in self._runs.values())
+
+    @property
+    def move_beside_path(self) -> bool:
+        """Whether something else than a program moves an axis."""
+        return any(run.axes.due < inf for run in self._runs.values())
 
     @property
     def shall_move_by_hand(self) -> bool:
         """Whether an axis is not yet where an operator wants it."""
-        return any(run.manual.goals for run in self._runs.values())
+        return any(run.axes.shall_move_by_hand for run in self._runs.values())
 
     @property
     def left_path(self) -> bool:
         """Whether an axis has been moved by hand since a program led it."""
-        return any(run.manual.place is not None for run in self._runs.values())
+        return any(run.axes.by_hand for run in self._runs.values())
 
     def revise(self) -> None:
         """What bounds the speeds has changed."""
@@ -137,14 +144,14 @@ class ChannelRuns:
     def brake_hands(self) -> None:
         """Axes that are moved by hand come to rest."""
         for run in self:
-            run.manual.brake_all(self._clock.time)
+            run.axes.brake_hands()
 
     # ---- making channels -----------------------------------------------------------------------------------
 
     def _make(self, number: int, setup: Setup) -> ChannelRun:
         """A channel; `switch_on` starts it."""
         machine = self._machine
-        preprocessing = Preprocessing(machine, number, self._shared)
+        preprocessing = Preprocessing(machine, number, self.axes)
         channel = Channel(
             self._control,
             machine,
@@ -154,17 +161,18 @@ class ChannelRuns:
             toolpath=preprocessing.toolpath,
         )
         machinery = Machinery(number, machine, self._signals, self._clock, self._interlocks, self._supervisor)
+        axes = ChannelAxes(
+            self.axes.of(number, channel.axis_data, self._control.motion_settings(channel)), self._clock
+        )
         execution = Execution(
-            preprocessing, self._rates, machinery, channel.coordinates.machine, self._clock,
+            preprocessing, self._rates, machinery, axes, channel.coordinates.machine, self._clock,
             setup.switches.skip_signal_after,
         )  # fmt: skip
         run = self._runs[number] = ChannelRun(
             channel, preprocessing, execution, machinery,
             MainRunDisplay(preprocessing.toolpath, machine, number),
-            ManualAxes(channel.axis_data, self._control.motion_settings(channel)),
-            self._rates, self._runs, self._shared,
+            axes, self._rates, self.axes,
         )  # fmt: skip
-        self._shared.paths[number] = preprocessing
         return run
 
     def _further(self, number: int) -> Channel:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from polycnc.channel.intervention import NOTHING_BACK
 from polycnc.channel.waits import TYPED_BLOCKS_DONE
-from polycnc.mainrun.axes.manual_offset import NO_WAY, ManualOffset
+from polycnc.mainrun.motion.axis_move import NO_WAY
 from polycnc.mainrun.motion.follower import Follower
 from polycnc.mainrun.motion.geometry import Line
 from polycnc.mainrun.motion.piece_motion import AxesMotion, Motion, PathMotion
@@ -24,6 +24,7 @@ from polycnc.toolpath import Context, Kind
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
+    from polycnc.mainrun.axes.channel_axes import ChannelAxes
     from polycnc.mainrun.execution.clock import Clock
     from polycnc.mainrun.preparation.items import Item, Piece
     from polycnc.mainrun.preparation.preprocessing import Preprocessing
@@ -72,6 +73,7 @@ class Execution:
         preprocessing: What is prepared.
         rates: What the operator has set; tell `revise` when it changes.
         machinery: Carries out events.
+        axes: The axes of the channel.
         position: Machine position at the start.
         clock: The time; an interpolation cycle lasts what a program computes between two moves.
         skip_after_s: How long after the start of a skip move the skip input comes; None where it does not.
@@ -83,7 +85,7 @@ class Execution:
         single_block: Halt behind every block.
         block: The block in execution.
         context: What holds in it.
-        manual_offset: How far the axes are beside the path, because they were moved by hand.
+        axes: The axes, with what moves them beside the path.
         position: Where on the path the axes last were at a joint, and `place` what held there.
     """
 
@@ -92,6 +94,7 @@ class Execution:
         preprocessing: Preprocessing,
         rates: Rates,
         machinery: Machinery,
+        axes: ChannelAxes,
         position: Sequence[float],
         clock: Clock,
         skip_after_s: float | None = None,
@@ -109,7 +112,7 @@ class Execution:
         self.motion: Motion | None = None
         self.position = list(position)
         self.place = Context()
-        self.manual_offset = ManualOffset(len(position))
+        self.axes = axes
         self._machinery = machinery
         self._x2 = 0.0
         self._cap2 = inf
@@ -262,7 +265,7 @@ class Execution:
         motion = self.motion
         if not isinstance(motion, PathMotion) or motion.piece.kind != Kind.SKIP or motion.piece.is_coasting:
             return None
-        here = self.manual_offset.counted(self.machine)
+        here = self.axes.counted(self.machine)
         self.position = motion.machine(self.clock.time)
         self._coast(motion, 0.0)
         if self.motion is None:
@@ -301,7 +304,7 @@ class Execution:
             self._until = self.clock.time + self.clock.cycle_s  # the program computes
             return True
         waiting = self.preprocessing.waiting
-        self._take_in_manual_offset()
+        self._take_in_offset()
         if self.preprocessing.finished or waiting is None:
             return self._end("end")
         if waiting.until is not None and not waiting.until():
@@ -371,7 +374,7 @@ class Execution:
 
     def _begin(self, move: Move) -> bool:
         """Start along the next piece of a move."""
-        if self.manual_offset and self._x2 == 0.0:
+        if self._x2 == 0.0 and self.axes.have_offset:
             if (error := self._beyond(move)) is not None:
                 self.preprocessing.refuse(error)
                 return True
@@ -424,7 +427,7 @@ class Execution:
             self._cap2,
             gated=self._machinery.busy,
             single_block=self.single_block,
-            stops=self._stops_beside() if self.manual_offset else None,
+            stops=self._stops_beside() if self.axes.have_offset else None,
         )
 
     def revise(self) -> None:
@@ -444,7 +447,7 @@ class Execution:
 
     def intervene(self, way: Sequence[float], *, absolute: bool) -> None:
         """The axes, which stand, have been moved by hand; manual absolute is on or off."""
-        self.manual_offset.moved(way, absolute=absolute)
+        self.axes.moved(way, absolute=absolute)
         motion = self.motion
         if motion is not None and self._take_back(motion.piece, motion.machine(self.clock.time)):
             self.motion, self._x2, self._skips_at = None, 0.0, inf
@@ -456,9 +459,9 @@ class Execution:
         back = self.block.takes_back
         moved = sum(1 << i for i, (a, b) in enumerate(zip(here, piece.way.end, strict=True)) if a != b)
         axes = back.at_once | (back.by_move & moved)
-        if not self.manual_offset.is_pending(axes):
+        if not self.axes.is_pending(axes):
             return False
-        taken = self.manual_offset.take_back(axes)
+        taken = self.axes.take_back(axes)
         self.position = [a + b for a, b in zip(here, taken, strict=True)]
         self.preprocessing.begin_elsewhere(piece, self.position)
         return True
@@ -471,12 +474,10 @@ class Execution:
             nonlocal back
             if isinstance(item, Block):
                 back = item.takes_back
-                return self.manual_offset.is_pending(back.at_once | back.by_move)
+                return self.axes.is_pending(back.at_once | back.by_move)
             if not isinstance(item, Move):
                 return False
-            return (item.done == 0.0 and self.manual_offset.is_pending(back.by_move)) or self._beyond(
-                item
-            ) is not None
+            return (item.done == 0.0 and self.axes.is_pending(back.by_move)) or self._beyond(item) is not None
 
         return stops
 
@@ -486,7 +487,7 @@ class Execution:
         shares = (1.0,) if isinstance(move.way, Line) else (k / ARC_POINTS for k in range(1, ARC_POINTS + 1))
         for share in shares:
             place = move.way.at(share)
-            end = self.manual_offset.applied_to(real_of(place, move.context, channel.coordinates.geometry))
+            end = self.axes.without_hand(real_of(place, move.context, channel.coordinates.geometry))
             for axis, (value, (low, high)) in enumerate(zip(end, channel.limits, strict=False)):
                 if not low - NO_WAY <= value <= high + NO_WAY:
                     error: AlarmError = channel.control.over_travel(
@@ -496,11 +497,11 @@ class Execution:
                     return error
         return None
 
-    def _take_in_manual_offset(self) -> None:
+    def _take_in_offset(self) -> None:
         """Nothing is prepared: what the axes were moved by hand is where the program goes on from."""
-        if any(self.manual_offset.pending):
-            self.position = self.manual_offset.counted(self.position)
-            self._by_hand = tuple(self.manual_offset.take_back(-1))
+        if self.axes.have_pending:
+            self.position = self.axes.counted(self.position)
+            self._by_hand = tuple(self.axes.take_back(-1))
             self._moved_on = True
 
     def stand_before(self, position: list[float], context: Context, modal: Mapping[str, str]) -> None:
@@ -524,8 +525,8 @@ class Execution:
 
     def abandon(self) -> None:
         """Give up what is left: reset. The axes stand where they are, or have been braked before."""
-        self.position = self.manual_offset.counted(self.machine)
-        self.manual_offset.take_back(-1)
+        self.position = self.axes.counted(self.machine)
+        self.axes.take_back(-1)
         self.motion = None
         self.running, self.halt = False, ""
         self._x2, self._until, self._skips_at = 0.0, self.clock.time, inf

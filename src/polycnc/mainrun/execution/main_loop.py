@@ -35,7 +35,7 @@ class MainLoop:
     def is_busy(self) -> bool:
         """Whether something runs or moves."""
         operation = self._operation
-        moving = operation.runs.move or operation.runs.move_by_hand
+        moving = operation.runs.move or operation.runs.move_beside_path
         return moving or operation.status.state in (State.RUNNING, State.BRAKING)
 
     def step(self, seconds: float | None) -> None:
@@ -97,5 +97,5 @@ class MainLoop:
                 run.execution.advance(time)
         operation.look_for_deadlock()
         for run in operation.runs:
-            run.manual.arrive(time)
+            run.axes.arrive(time)
         operation.follow_up()

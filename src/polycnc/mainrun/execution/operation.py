@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.waits import TYPED_BLOCKS_DONE
@@ -110,7 +111,8 @@ class Operation:
     def runs_freely(self) -> bool:
         """Whether one channel runs its program, and nothing else happens."""
         run, quiet = self.runs.first, not (self._giving_up or self._returning)
-        return quiet and len(self.runs) == 1 and run.manual.place is None and run.execution.running
+        beside = run.axes.by_hand or run.axes.due < inf
+        return quiet and len(self.runs) == 1 and not beside and run.execution.running
 
     # ---- from state to state -------------------------------------------------------------------------------
 
@@ -141,7 +143,7 @@ class Operation:
         rates = self.switches.rates
         self._returning = self.searched = rates.hold = rates.gives_up = False
         for run in self.runs:
-            run.manual.leave()
+            run.axes.leave()
         self._end_halt()
         self.status.become(State.RUNNING)
         for run in self.runs:
@@ -163,10 +165,9 @@ class Operation:
         self.collected = []
         self._returning = True
         for run in self.runs:
-            if run.manual.place is not None:
-                for axis, target in enumerate(run.real):
-                    speed = self.switches.jog_speed(run.channel.axis_data[axis])
-                    run.manual.towards(axis, target, speed, self.clock.time)
+            if run.axes.by_hand:
+                for axis, target in zip(run.axes, run.without_hand, strict=True):
+                    axis.hand.towards(target, self.switches.jog_speed(axis.data), self.clock.time)
 
     def hold(self) -> None:
         """Feed hold."""
@@ -209,8 +210,8 @@ class Operation:
     def _stand(self) -> None:
         """No program runs: axes that were moved by hand are where one would begin."""
         for run in self.runs:
-            if run.manual.place is not None:
-                run.stand_at(run.manual.place)
+            if run.axes.by_hand:
+                run.stand_at(run.machine_position)
                 self.prepare(run)
 
     def _note_references(self) -> None:

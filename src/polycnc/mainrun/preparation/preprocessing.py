@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from polycnc.channel.intervention import TakesBack
     from polycnc.machine.model import Machine
     from polycnc.machine.motion_settings import MotionSettings
-    from polycnc.mainrun.axes.shared_axes import SharedAxes
+    from polycnc.mainrun.axes.machine_axes import MachineAxes
     from polycnc.messages import AlarmError
     from polycnc.motion.pole import Turn
     from polycnc.program import Program
@@ -74,7 +74,7 @@ class Preprocessing:
     Args:
         machine: The machine.
         number: Number of the channel.
-        left: Where channels leave the axes that they share.
+        machine_axes: The axes of the machine, which channels may share.
 
     Attributes:
         items: What is prepared, in order.
@@ -85,7 +85,7 @@ class Preprocessing:
         has_caught_up: Everything that the channel has written is executed.
     """
 
-    def __init__(self, machine: Machine, number: int, left: SharedAxes) -> None:
+    def __init__(self, machine: Machine, number: int, machine_axes: MachineAxes) -> None:
         self.toolpath = Toolpath(machine.channel_axes(number), chunk_rows=1, on_full=self._take)
         self.items: deque[Item] = deque()
         self.channel: Channel
@@ -106,7 +106,7 @@ class Preprocessing:
         self._open: tuple[tuple[int, int], str] | None = None
         self._stopped = self._skips = False
         self._geometry = machine.geometry_indices(number)
-        self._last_context, self._left = Context(), left
+        self._last_context, self._machine_axes = Context(), machine_axes
         self._facing = -1
         self._real: RealAxes
 
@@ -327,7 +327,7 @@ class Preprocessing:
 
     def _take_over(self) -> None:
         """An axis that another channel has moved since is where that one has left it."""
-        for column, position in self._left.taken(self._number, self.channel.group):
+        for column, position in self._machine_axes.taken_over(self._number, self.channel.group):
             self._buffer.move_axis(column, position)
 
     def _end_waits(self) -> None:

@@ -66,9 +66,13 @@ class Readings:
     def restart(self) -> Mapping[str, tuple[float, float]]:
         """Where a program waits while its axes stand elsewhere: axis to position and way that is left, work units."""
         run = self._runs.first
-        if run.manual.place is None or self._operation.status.state not in (State.HOLD, State.STOPPED):
+        if not run.axes.by_hand or self._operation.status.state not in (State.HOLD, State.STOPPED):
             return {}
-        context, here, waits = without_transformation(run.execution.context), run.machine_position, run.real
+        context, here, waits = (
+            without_transformation(run.execution.context),
+            run.machine_position,
+            run.without_hand,
+        )
         target = run.display.positions(waits, waits, waits, context).work
         left = run.display.positions(here, waits, here, context).to_go
         return {axis: (target[axis], left[axis]) for axis in target}
@@ -77,7 +81,7 @@ class Readings:
     def feed(self) -> float:
         """Path speed now, mm/min; of the fastest axis where axes are moved by hand."""
         run = self._runs.first
-        return 60.0 * max(run.execution.speed, run.manual.speed(self._operation.clock.time))
+        return 60.0 * max(run.execution.speed, run.axes.hand_speed())
 
     @property
     def snapshot(self) -> Snapshot:
