@@ -22,7 +22,7 @@ def name_of(case: tuple[Path, int, Any]) -> str:
 
 @pytest.mark.parametrize("case", CASES, ids=name_of)
 def test_the_control_does_what_its_manual_says(case: tuple[Path, int, Any]) -> None:
-    outcome = run_case(parse_case(case[2]), HERE)
+    outcome = run_case(parse_case(case[2]), case[0].parent)
     assert outcome.status == "passed", outcome.message
 
 
@@ -33,3 +33,8 @@ def test_no_two_cases_have_the_same_id() -> None:
 
 def test_the_shipped_list_of_features_is_current() -> None:
     assert shipped() == claimed(data for _, _, data in CASES), "run `make features`"
+
+
+def test_cases_lie_by_control_and_function() -> None:
+    for path, number, data in CASES:
+        assert path.parent.name == data["control"], f"{path.name}: {case_id(data, number)}"

@@ -43,8 +43,8 @@ def in_manual_order(counts: Mapping[str, int]) -> list[str]:
 
 
 def case_files(folder: Path) -> list[Path]:
-    """The case files of a folder, in order of their names."""
-    return sorted(folder.glob("*.yaml"))
+    """The case files of a folder and of those in it, in order of their names."""
+    return sorted(folder.rglob("*.yaml"))
 
 
 def proved(folder: Path) -> Features:
