@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from polycnc.motion import plan
 from polycnc.motion.kernels.columns import Limits, PathLimits
-from polycnc.motion.pace import Way, edge_factor, pace_of
+from polycnc.motion.pace import Travel, edge_factor, pace_of
 from polycnc.motion.settings import BRISK, Settings
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.context import Pace
@@ -68,7 +68,7 @@ def test_a_line_keeps_the_velocity_and_acceleration_of_every_axis(
 ) -> None:
     factors = (share[0], share[1], share[2])
     context = Context(pace=Pace(velocity=factors, acceleration=factors))
-    moved = Way([abs(part) for part in way])
+    moved = Travel([abs(part) for part in way])
     _, top, ease = pace_of(context, moved, WEIGHTS, LIMITS, rapid=False)
     length = moved.length(WEIGHTS)
     pull = ease * min(1000.0 / (part / length) for part in moved.moved if part)
@@ -83,7 +83,7 @@ def test_the_edge_of_the_tool_moves_at_the_feed(radius: float, tool: float, ccw:
     centre = radius - tool if inside else radius + tool
     if centre <= 0.01:
         return
-    way = Way([0.0] * 3, (0, 1), centre * pi, centre, ccw)
+    way = Travel([0.0] * 3, (0, 1), centre * pi, centre, ccw)
     context = Context(side=side, radius_mm=tool)
     edge = edge_factor(Pace(edge="always"), context, way) * radius / centre
     assert edge == pytest.approx(1.0)
@@ -94,19 +94,19 @@ def test_the_edge_of_the_tool_moves_at_the_feed(radius: float, tool: float, ccw:
 
 
 def test_about_a_corner_the_tool_turns_at_the_feed() -> None:
-    way = Way([0.0] * 3, (0, 1), 5.0, 5.0, ccw=False)
+    way = Travel([0.0] * 3, (0, 1), 5.0, 5.0, ccw=False)
     assert edge_factor(Pace(edge="always"), Context(side=1, radius_mm=5.0), way) == 1.0
 
 
 def test_an_arc_counts_its_whole_length_once() -> None:
-    way = Way([0.0, 0.0, 30.0], (0, 1), 40.0, 10.0, ccw=True)
+    way = Travel([0.0, 0.0, 30.0], (0, 1), 40.0, 10.0, ccw=True)
     assert way.length(WEIGHTS) == 50.0
     assert way.length([1.0, 0.0, 0.0]) == 40.0
     assert way.length([0.0, 0.0, 1.0]) == 30.0
 
 
 def test_a_slower_arc_keeps_the_acceleration_across_it() -> None:
-    way = Way([0.0] * 3, (0, 1), 40.0, 10.0, ccw=True)
+    way = Travel([0.0] * 3, (0, 1), 40.0, 10.0, ccw=True)
     context = Context(pace=Pace(acceleration=(0.5, 1.0, 1.0)))
     _, top, ease = pace_of(context, way, WEIGHTS, LIMITS, rapid=False)
     assert top == pytest.approx(sqrt(0.5 * 1000.0 * 10.0))
@@ -115,4 +115,4 @@ def test_a_slower_arc_keeps_the_acceleration_across_it() -> None:
 
 def test_nothing_moves_without_a_way() -> None:
     context = Context(pace=Pace(feed=0.5))
-    assert pace_of(context, Way([0.0] * 3), WEIGHTS, LIMITS, rapid=False) == (1.0, inf, 1.0)
+    assert pace_of(context, Travel([0.0] * 3), WEIGHTS, LIMITS, rapid=False) == (1.0, inf, 1.0)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 CORNER = 1e-6
 
 
-class Way(NamedTuple):
+class Travel(NamedTuple):
     """How far the columns of a toolpath go in a row.
 
     Attributes:
@@ -52,7 +52,7 @@ class Way(NamedTuple):
 
 
 def pace_of(
-    context: Context, way: Way, weights: Sequence[float], limits: Limits, *, rapid: bool
+    context: Context, way: Travel, weights: Sequence[float], limits: Limits, *, rapid: bool
 ) -> tuple[float, float, float]:
     """What a row's pace makes of it.
 
@@ -82,7 +82,7 @@ def pace_of(
     )
 
 
-def edge_factor(pace: Pace, context: Context, way: Way) -> float:
+def edge_factor(pace: Pace, context: Context, way: Travel) -> float:
     """How much faster than the edge of the tool its centre moves on an arc, where F is the speed of the edge."""
     if pace.edge == "never" or not way.plane or context.side == 0:
         return 1.0
@@ -94,7 +94,9 @@ def edge_factor(pace: Pace, context: Context, way: Way) -> float:
     return factor if factor < 1.0 or pace.edge == "always" else 1.0
 
 
-def _top(pace: Pace, way: Way, length: float, moving: Sequence[int], limits: Limits, *, rapid: bool) -> float:
+def _top(
+    pace: Pace, way: Travel, length: float, moving: Sequence[int], limits: Limits, *, rapid: bool
+) -> float:
     """The path speed at which no axis passes its velocity, and at which an arc keeps the accelerations."""
     top, tops = inf, limits.top_rapid if rapid else limits.top_feed
     for i in moving:
@@ -109,7 +111,7 @@ def _top(pace: Pace, way: Way, length: float, moving: Sequence[int], limits: Lim
     return top
 
 
-def _ease(pace: Pace, way: Way, length: float, moving: Sequence[int], limits: Limits) -> float:
+def _ease(pace: Pace, way: Travel, length: float, moving: Sequence[int], limits: Limits) -> float:
     """The factor on the limits of all columns at which the row keeps those of its axes."""
     ease = inf
     for own, factors in ((limits.acceleration, pace.acceleration), (limits.jerk, pace.jerk)):

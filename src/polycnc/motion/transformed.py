@@ -20,12 +20,12 @@ from __future__ import annotations
 
 from array import array
 from math import hypot, inf, sqrt
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.frames import carried, laid_of, machine_of, real_of, work_of
 from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
 from polycnc.motion.limits import averages, axis_limits, channel_axes, rotary_weight
-from polycnc.motion.pace import Way, pace_of
+from polycnc.motion.pace import Travel, pace_of
 from polycnc.motion.pole import RING_MM, Pole, Turn, legs_of, turn_records
 from polycnc.motion.row_path import arc_path, line_path
 from polycnc.motion.settings import SOFT
@@ -38,6 +38,7 @@ if TYPE_CHECKING:
 
     from polycnc.machine import Machine
     from polycnc.motion.row_path import Path
+    from polycnc.motion.sampling.run import Moved
     from polycnc.motion.settings import Settings
     from polycnc.toolpath.context import Transformation
     from polycnc.toolpath.table import Chunk
@@ -233,11 +234,11 @@ class RealAxes:
             bounds.shares.top[k] = min(bounds.shares.top[k], top)
             bounds.shares.ease[k] *= ease
 
-    def _way_of(self, chunk: Chunk, row: int, goal: list[float], context: Context) -> Way:
+    def _way_of(self, chunk: Chunk, row: int, goal: list[float], context: Context) -> Travel:
         """The way of a row in the columns' machine coordinates."""
         moved, curve = [abs(b - a) for a, b in zip(self._laid, goal, strict=True)], self._curve(chunk, row)
         if not curve:
-            return Way(moved)
+            return Travel(moved)
         ccw = chunk.kind[row] in CCW_KINDS
         start, end = (work_of(place, context, self._geometry) for place in (self._laid, goal))
         arc = arc_path(start, end, curve, self._geometry, ccw=ccw)
@@ -247,7 +248,7 @@ class RealAxes:
                 plane.append(i)
             elif i >= 0:
                 moved[i] = abs(part * arc.lift)
-        return Way(moved, tuple(plane), arc.planar, arc.radius, ccw)
+        return Travel(moved, tuple(plane), arc.planar, arc.radius, ccw)
 
     def _carried(self, context: Context) -> list[float]:
         """Where the path goes on under another transformation: next to its pole in the direction of the rotary axis."""
@@ -292,7 +293,7 @@ class RealAxes:
         soft, rapid = self._is_soft(context), kind == Kind.RAPID
         return turn_records(turn, axis, context, self._geometry, soft=soft, rapid=rapid, row=row, slot=slot)
 
-    def motion(self, moved: tuple[Any, Any, Any], context: Context) -> tuple[Any, Any, Any]:
+    def motion(self, moved: Moved, context: Context) -> Moved:
         """Position, velocity and acceleration of the real axes, (k, axes), for those of the columns."""
         if context.transformation is None:
             return moved

@@ -22,7 +22,7 @@ Step = Callable[[Any, Any], Any]
 Condition = Callable[[Any], bool]
 
 
-class Way(IntEnum):
+class Scaling(IntEnum):
     """How a typed number becomes one in internal units."""
 
     AS_IS = layout.AS_IS
@@ -37,9 +37,9 @@ class Way(IntEnum):
 
 
 class Conversion(NamedTuple):
-    """A conversion of a typed number; see `Way`."""
+    """A conversion of a typed number; see `Scaling`."""
 
-    way: Way = Way.AS_IS
+    way: Scaling = Scaling.AS_IS
     scale: float = 1.0
     unit: float = 1.0
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 from xml.sax.saxutils import escape
 
 from polycnc.messages import text
@@ -11,6 +11,7 @@ from polycnc.toolpath.plot import FONT, GRID_COLOUR, TEXT_COLOUR, TOOL_COLOURS, 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from polycnc.motion.sampling.run import Moved, Numbers
     from polycnc.motion.sampling.samples import Samples
 
 #: Pixels: width and height of a panel, its left margin, and the top of the first one.
@@ -30,7 +31,7 @@ class Profile:
 
     def __init__(self, axes: tuple[str, ...], rotary: set[int]) -> None:
         self._axes, self._rotary = axes, rotary
-        self._samples: list[tuple[Any, Any, Any]] = []
+        self._samples: list[Moved] = []
 
     def take(self, samples: Samples) -> None:
         """Note samples."""
@@ -71,7 +72,7 @@ class Profile:
         return "\n".join([*lines, "</svg>", ""])
 
 
-def _panel(top: float, title: str, time: Any, curves: list[tuple[Any, str]]) -> Iterator[str]:
+def _panel(top: float, title: str, time: Numbers, curves: list[tuple[Numbers, str]]) -> Iterator[str]:
     """One panel: grid with numbers, and the curves."""
     low = min(float(values.min()) for values, _ in curves)
     high = max(float(values.max()) for values, _ in curves)
@@ -97,7 +98,7 @@ def _panel(top: float, title: str, time: Any, curves: list[tuple[Any, str]]) -> 
         yield f'<path d="M{points}" fill="none" stroke="{colour}" stroke-width="1.1"/>'
 
 
-def _thinned(time: Any, values: Any) -> Iterator[tuple[float, float]]:
+def _thinned(time: Numbers, values: Numbers) -> Iterator[tuple[float, float]]:
     """Lowest and highest value of each part of the time, where they are many."""
     step = max(len(time) // PARTS, 1)
     for k in range(0, len(time), step):

@@ -10,7 +10,7 @@ averages are for).
 from __future__ import annotations
 
 from math import sqrt
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -18,6 +18,12 @@ from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+Numbers: TypeAlias = "NDArray[np.float64]"
+#: Position, velocity and acceleration, or what stands for them along the path.
+Moved: TypeAlias = "tuple[Numbers, Numbers, Numbers]"
 
 #: Parts of each half of the window over which positions are averaged by Simpson's rule; even.
 PARTS = 8
@@ -32,7 +38,7 @@ class TimeLaw:
         rate: Acceleration of each, (m,).
     """
 
-    def __init__(self, seconds: Any, speed: Any, rate: Any) -> None:
+    def __init__(self, seconds: Numbers, speed: Numbers, rate: Numbers) -> None:
         keep = seconds > 0.0
         self._speed, self._rate, seconds = speed[keep], rate[keep], seconds[keep]
         self._start = np.concatenate([[0.0], np.cumsum(seconds)])
@@ -48,7 +54,7 @@ class TimeLaw:
         """Duration."""
         return float(self._start[-1])
 
-    def at(self, time: Any) -> tuple[Any, Any, Any, Any]:
+    def at(self, time: Numbers) -> tuple[Numbers, Numbers, Numbers, Numbers]:
         """Integral of the way, way, speed, acceleration at times; at rest outside of the run."""
         inside = time > 0.0
         time = np.maximum(time, 0.0)
@@ -70,12 +76,13 @@ class TimeLaw:
         k = int(np.argmax(self._speed >= speed * (1.0 - 1e-9))) if speed > 0.0 else 0
         return float(self._start[k] - self._way[k] / speed) if k else 0.0
 
-    def averaged(self, time: Any, window: float) -> tuple[Any, Any, Any]:
+    def averaged(self, time: Numbers, window: float) -> Moved:
         """Way, speed and acceleration, averaged over a window around each time."""
         if window == 0.0:
             return self.at(time)[1:]
-        before, after = self.at(time - 0.5 * window), self.at(time + 0.5 * window)
-        return tuple((b - a) / window for a, b in zip(before[:3], after[:3], strict=True))
+        total, way, speed, _ = self.at(time - 0.5 * window)
+        later, way_later, speed_later, _ = self.at(time + 0.5 * window)
+        return (later - total) / window, (way_later - way) / window, (speed_later - speed) / window
 
 
 class Run:
@@ -87,7 +94,7 @@ class Run:
         limits: For a rapid of each axis by itself: velocity and acceleration of every axis.
     """
 
-    def __init__(self, pieces: Any, n: int, limits: Sequence[tuple[float, float]] = ()) -> None:
+    def __init__(self, pieces: Numbers, n: int, limits: Sequence[tuple[float, float]] = ()) -> None:
         self._ramp, self._blend, self._n = (
             float(pieces[0, PieceRecord.RAMP]),
             float(pieces[0, PieceRecord.BLEND]),
@@ -119,9 +126,10 @@ class Run:
         return self.law.seconds + self._ramp + 2.0 * self._blend
 
     @property
-    def end(self) -> Any:
+    def end(self) -> Numbers:
         """Position of the axes at the end, (n,)."""
-        return self._end[-1]
+        last: Numbers = self._end[-1]
+        return last
 
     @property
     def main_axis(self) -> int:
@@ -142,12 +150,12 @@ class Run:
         share = abs(self._end[0] - self._start[0])[self.main_axis] / self._length[0]
         return 0.5 * self._ramp + self._blend + self.law.lag(axis_speed / max(float(share), 1e-12))
 
-    def piece_at(self, time: Any) -> Any:
+    def piece_at(self, time: Numbers) -> NDArray[np.intp]:
         """Index of the piece at times from the start of the run."""
         way = self.law.averaged(time - 0.5 * self._ramp - self._blend, self._ramp)[0]
         return self._index(way)
 
-    def at(self, time: Any) -> tuple[Any, Any, Any]:
+    def at(self, time: Numbers) -> Moved:
         """Position, velocity and acceleration of the axes at times from the start of the run, each (k, n)."""
         time = np.asarray(time) - 0.5 * self._ramp - self._blend
         blend = self._blend
@@ -162,14 +170,14 @@ class Run:
         acceleration = (places[0] - 2.0 * places[PARTS] + places[-1]) / blend**2
         return position, (after - before) / blend, acceleration
 
-    def on_path(self, time: Any) -> Any:
+    def on_path(self, time: Numbers) -> Numbers:
         """Positions on the path itself, before they are averaged, at times from the start of the run, (k, n)."""
         return self._on_path(np.asarray(time) - 0.5 * self._ramp - self._blend)[0]
 
-    def _index(self, way: Any) -> Any:
+    def _index(self, way: Numbers) -> NDArray[np.intp]:
         return np.clip(np.searchsorted(self._ways, way, "right") - 1, 0, len(self._length) - 1)
 
-    def _on_path(self, time: Any) -> tuple[Any, Any, Any]:
+    def _on_path(self, time: Numbers) -> Moved:
         """Position, velocity and acceleration on the path itself."""
         if self._alone:
             return self._each_alone(time)
@@ -184,9 +192,9 @@ class Run:
         second = (6.0 * f - 4.0) * leave + (6.0 * f - 2.0) * arrive
         return position, first * speed / length, second * (speed / length) ** 2 + first * rate / length
 
-    def _each_alone(self, time: Any) -> tuple[Any, Any, Any]:
+    def _each_alone(self, time: Numbers) -> Moved:
         """Every axis by its own time law."""
-        columns: list[tuple[Any, Any, Any]] = []
+        columns: list[Moved] = []
         for i, law in enumerate(self._alone):
             sense = 1.0 if self._end[0, i] >= self._start[0, i] else -1.0
             way, speed, rate = law.averaged(time, self._ramp)
@@ -195,7 +203,7 @@ class Run:
         return position, velocity, acceleration
 
 
-def _phases(pieces: Any) -> tuple[Any, Any, Any]:
+def _phases(pieces: Numbers) -> Moved:
     """Three phases a piece: to its peak, along it, and down."""
     start, peak, end = (
         np.sqrt(pieces[:, field]) for field in (PieceRecord.SPEED2, PieceRecord.PEAK2, PieceRecord.END2)

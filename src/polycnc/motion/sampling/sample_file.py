@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from typing import IO, TYPE_CHECKING, Any, Protocol
+from typing import IO, TYPE_CHECKING, Protocol, TypeAlias
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    import numpy as np
+    from numpy.typing import NDArray
+
     from polycnc.motion.sampling.samples import Samples
+
+#: A column: numbers, or the names of programs.
+Column: TypeAlias = "NDArray[np.float64] | NDArray[np.int64] | list[str]"
 
 _KINDS = ("position", "velocity", "acceleration")
 
@@ -22,11 +28,11 @@ class SampleWriter(Protocol):
         """Write what belongs behind the last sample."""
 
 
-def columns(axes: tuple[str, ...], programs: list[str], samples: Samples) -> dict[str, Any]:
+def columns(axes: tuple[str, ...], programs: list[str], samples: Samples) -> dict[str, Column]:
     """Samples as columns by name: `x_position`, `x_velocity`, `x_acceleration` for every axis."""
-    named = {"time": samples.time}
-    for kind in _KINDS:
-        values = getattr(samples, kind)
+    named: dict[str, Column] = {"time": samples.time}
+    moved = samples.position, samples.velocity, samples.acceleration
+    for kind, values in zip(_KINDS, moved, strict=True):
         named.update({f"{axis.lower()}_{kind}": values[:, i] for i, axis in enumerate(axes)})
     named["spindle_rpm"], named["spindle_angle"] = samples.spindle_rpm, samples.spindle_angle
     named["program"] = [programs[k] if k < len(programs) else "" for k in samples.program]

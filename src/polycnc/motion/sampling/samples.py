@@ -7,7 +7,7 @@ gives columns of samples, run by run; what it has given it forgets.
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.kernels.columns import Form, PieceRecord, piece_width
 from polycnc.toolpath import Context, Kind
@@ -15,11 +15,14 @@ from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
     from array import array
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
+
+    import numpy as np
+    from numpy.typing import NDArray
 
     from polycnc.machine import Machine
     from polycnc.motion.planner import Planner
-    from polycnc.motion.sampling.run import Run
+    from polycnc.motion.sampling.run import Moved, Numbers, Run
     from polycnc.motion.settings import Settings
     from polycnc.toolpath import Toolpath
     from polycnc.toolpath.table import Chunk
@@ -42,14 +45,14 @@ class Samples(NamedTuple):
         line: Line of the program, (k,).
     """
 
-    time: Any
-    position: Any
-    velocity: Any
-    acceleration: Any
-    spindle_rpm: Any
-    spindle_angle: Any
-    program: Any
-    line: Any
+    time: Numbers
+    position: Numbers
+    velocity: Numbers
+    acceleration: Numbers
+    spindle_rpm: Numbers
+    spindle_angle: Numbers
+    program: NDArray[np.int64]
+    line: NDArray[np.int64]
 
 
 class RowFacts(NamedTuple):
@@ -90,13 +93,14 @@ class Sampler:
         self._n = len(toolpath.axes)
         self._facts: dict[int, RowFacts] = {}
         self._waits: dict[int, list[tuple[str, float]]] = {}
-        self._open: list[Any] = []
+        self._open: list[Numbers] = []
         self._time, self._count, self._angle, self._rpm = 0.0, 0, 0.0, 0.0
-        self._tap_way: Any = None
+        self._tap_way: Numbers | None = None
         self._tails: list[tuple[Run, float]] = []
         self._row = RowFacts(Kind.EVENT, 0, 0, Context(), 0.0, 0.0, 0.0)
         self._forgotten = 0
-        self._position = self._rest = planner.position
+        self._position: Sequence[float] | Numbers = planner.position
+        self._rest: Sequence[float] | Numbers = self._position
         planner.on_pieces, planner.on_wait = self._pieces, self._wait
 
     # ---- what the planner tells ----------------------------------------------------------------------------
@@ -196,12 +200,13 @@ class Sampler:
         sense = 1.0 if self._row.rpm > 0.0 else -1.0
         return ((ahead - sense * self._angle) % 360.0) / degrees_s
 
-    def _times(self, seconds: float) -> Any:
+    def _times(self, seconds: float) -> Numbers:
         """Sample times within the next seconds, from now."""
         import numpy as np
 
         last = int(np.ceil((self._time + seconds) / self._period - 1e-9))
-        times = np.arange(self._count, max(last, self._count)) * self._period - self._time
+        counts = np.arange(self._count, max(last, self._count), dtype=np.float64)
+        times: Numbers = counts * self._period - self._time
         self._count = max(last, self._count)
         return times
 
@@ -254,7 +259,7 @@ class Sampler:
             self._rpm = float(rpm[-1])
         self._time += seconds
 
-    def _with_tails(self, times: Any, moved: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
+    def _with_tails(self, times: Numbers, moved: Moved) -> Moved:
         """What the axes do while runs before this one still come to rest."""
         position, velocity, acceleration = moved
         for tail, at in self._tails:
@@ -275,7 +280,7 @@ class Sampler:
         return turning if float((way * self._tap_way).sum()) > 0.0 else -turning
 
     def _say(
-        self, times: Any, moved: tuple[Any, Any, Any], rpm: Any, angle: Any, facts: list[RowFacts] | None
+        self, times: Numbers, moved: Moved, rpm: Numbers, angle: Numbers, facts: list[RowFacts] | None
     ) -> None:
         import numpy as np
 
@@ -286,5 +291,5 @@ class Sampler:
             self._give(Samples(times + self._time, *moved, rpm, angle, program, line))
 
 
-def _batches(times: Any) -> list[Any]:
+def _batches(times: Numbers) -> list[Numbers]:
     return [times[k : k + BATCH] for k in range(0, len(times), BATCH)]

@@ -12,8 +12,17 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.block.positions import AxisTerm, Way
 from polycnc.control.sinumerik.limits.working_area import MACHINE
-from polycnc.language.bulk import Conditions, Conversion, Recipe, SetFeed, Spelling, Straight, Target, Word
-from polycnc.language.bulk import Way as Reading
+from polycnc.language.bulk import (
+    Conditions,
+    Conversion,
+    Recipe,
+    Scaling,
+    SetFeed,
+    Spelling,
+    Straight,
+    Target,
+    Word,
+)
 from polycnc.language.bulk.layout import CR_FORM, FIRST_CODE, FORMS
 from polycnc.language.sinumerik.words import Block
 from polycnc.messages import AlarmError
@@ -49,7 +58,7 @@ def targets(terms: Sequence[AxisTerm]) -> tuple[Target, ...] | None:
     return tuple(
         Target(
             term.position,
-            Conversion(Reading.TIMES, 1.0, term.factor),
+            Conversion(Scaling.TIMES, 1.0, term.factor),
             term.column,
             term.way is Way.INCREMENTAL,
         )
@@ -73,7 +82,7 @@ def feed(position: int, factor: float) -> SetFeed:
 
 def length(position: int, factor: float) -> Word:
     """A word with a factor as data."""
-    return Word(position, Conversion(Reading.TIMES, 1.0, factor))
+    return Word(position, Conversion(Scaling.TIMES, 1.0, factor))
 
 
 # ---- what the scanner asks

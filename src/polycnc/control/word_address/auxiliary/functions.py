@@ -9,7 +9,7 @@ from polycnc.channel.state import Lifetime, State
 from polycnc.control.tool_change import check_change_points
 from polycnc.control.word_address.motion.path import FEED_MODES
 from polycnc.geometry.units import INCH_MM
-from polycnc.language.bulk import Conversion, Note, SetFeed, Way, Word, declare
+from polycnc.language.bulk import Conversion, Note, Scaling, SetFeed, Word, declare
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -29,12 +29,12 @@ def plan_feed(builder: Builder) -> Step:
         def set_feed_per_revolution(channel: Channel, values: list[float]) -> None:
             channel.feed = values[slot] * factor
 
-        return declare(set_feed_per_revolution, SetFeed(Word(slot, Conversion(Way.TIMES, 1.0, factor))))
+        return declare(set_feed_per_revolution, SetFeed(Word(slot, Conversion(Scaling.TIMES, 1.0, factor))))
 
     def set_feed(channel: Channel, values: list[float]) -> None:
         channel.feed = values[slot] * factor / 60.0
 
-    return declare(set_feed, SetFeed(Word(slot, Conversion(Way.RATIO, 60.0, factor))))
+    return declare(set_feed, SetFeed(Word(slot, Conversion(Scaling.RATIO, 60.0, factor))))
 
 
 def plan_spindle_speed(builder: Builder) -> Step:

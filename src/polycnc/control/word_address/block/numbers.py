@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from math import copysign, floor
 
 from polycnc.geometry.units import INCH_MM
-from polycnc.language.bulk import Conversion, Way, declare, declared
+from polycnc.language.bulk import Conversion, Scaling, declare, declared
 
 #: Half an increment and a guard: halves go away from zero as they do in the control's decimal arithmetic.
 ROUNDING = 0.5 + 1e-7
@@ -51,7 +51,7 @@ def angle_converter(form: str, rules: NumberRules) -> Convert | None:
 def _converter(form: str, rules: NumberRules, decimals: int, unit: float) -> Convert | None:
     scale = 10.0**decimals
     if form == "" and not rules.calculator:
-        return declare(lambda value: value / scale * unit, Conversion(Way.INCREMENTS, scale, unit))
+        return declare(lambda value: value / scale * unit, Conversion(Scaling.INCREMENTS, scale, unit))
     if form == "#":
         return lambda value: (
             floor(value * scale + ROUNDING) / scale * unit
@@ -62,9 +62,9 @@ def _converter(form: str, rules: NumberRules, decimals: int, unit: float) -> Con
     if written > decimals and rules.cuts_digits:
         return declare(
             lambda value: copysign(floor(abs(value) * scale + 1e-6), value) / scale * unit,
-            Conversion(Way.CUT, scale, unit),
+            Conversion(Scaling.CUT, scale, unit),
         )
-    return None if unit == 1.0 else declare(lambda value: value * unit, Conversion(Way.TIMES, 1.0, unit))
+    return None if unit == 1.0 else declare(lambda value: value * unit, Conversion(Scaling.TIMES, 1.0, unit))
 
 
 def conversion(convert: Convert | None) -> Conversion | None:
