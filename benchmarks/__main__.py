@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from benchmarks import bulk, interpreter, mainrun, planner, sinumerik, startup, turning
+from benchmarks import bulk, interpreter, mainrun, planner, sinumerik, snapshots, startup, turning
 
 BENCHMARKS = (
     interpreter.plain_blocks,
@@ -21,6 +21,7 @@ BENCHMARKS = (
     planner.speed,
     planner.optimum,
     mainrun.real_time,
+    snapshots.milling,
 )
 
 

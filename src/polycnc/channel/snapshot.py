@@ -260,7 +260,8 @@ def _by_memento(thing: Any, undo: list[Undo]) -> Iterable[object]:
 
 def _slots_of(cls: type) -> tuple[types.MemberDescriptorType, ...]:
     found = (value for base in cls.__mro__ for value in vars(base).values())
-    return tuple(value for value in found if isinstance(value, types.MemberDescriptorType))
+    slots = (value for value in found if isinstance(value, types.MemberDescriptorType))
+    return tuple(slot for slot in slots if slot.__name__ != "__dict__")
 
 
 def _in_slots(thing: object, slots: tuple[types.MemberDescriptorType, ...]) -> list[object]:

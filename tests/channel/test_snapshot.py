@@ -1,0 +1,246 @@
+"""Snapshots: what a program does from a block on is the same however often one goes back there.
+
+A control is added by a `Language`: blocks of which random programs are made. Together they should use every feature
+that has state of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from random import Random
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from polycnc.channel.channel import Channel
+from polycnc.channel.group import ChannelGroup
+from polycnc.channel.snapshot import Snapshot, SnapshotError
+from polycnc.channel.waits import Wait
+from polycnc.control.registry import control
+from polycnc.language.bulk.kernels import scan
+from polycnc.language.bulk.scanner import Bulk
+from polycnc.machine import load_machine, parse_setup
+from polycnc.program import Form, ProgramStore
+
+
+@dataclass(frozen=True)
+class Language:
+    """What random programs of a control are made of: `blocks` in any order, between `head` and `tail`."""
+
+    head: str
+    blocks: tuple[str, ...]
+    tail: str = "M30"
+    files: dict[str, str] = field(default_factory=dict)
+    setup: dict[str, Any] = field(default_factory=dict)
+    machine: str = ""
+
+
+MILL_FILES = {
+    "O2": "O2\nG91 G1 X1.\nG90\n#102=#102+1\nM99\n",
+    "O3": "O3\n#103=#1+#103\nG1 Z#2\nM99\n",
+    "O4": "O4\n#104=#5041\nG91 G0 Z5.\nG90\nM99\n",
+}
+MILL = Language(
+    "O1\nM96 P4\nG90 G54 G17 G0 X0 Y0 Z20. S800 M3 F300.",
+    (
+        "G1 X10. Y5.", "G0 Z5.", "G3 X0 Y-5. R15.", "G91 G1 X1. Y-1.\nG90", "#100=#100+1.5", "T2",
+        "G41 D1 G1 X5. Y10.\nX20.\nY30.", "G40 G1 X0 Y0", "G43 H2 Z15.", "G49",
+        "G83 X10. Y10. Z-10. R2. Q3. F100.", "X20.", "G80", "G84 X5. Z-5. R2. F80.\nG80",
+        "M98 P2", "G65 P3 A1. B2.", "G66 P3 A2. B1.\nX8.\nG67",
+        "#101=0\nWHILE[#101LT3]DO1\nG1 X#101\n#101=#101+1\nEND1", "G68 X0 Y0 R30.", "G69", "M0", "M1",
+        "G10 L2 P1 X1.", "G55", "G54", "G52 X1.", "G92 X3.", "G16\nG1 X10. Y30.\nG15", "G28 Z0", "G95 F.2", "G94 F100.",
+        "G9 G1 X3.", "G4 P100", "G20\nX.5\nG21", "#3001=0", "M8", "N5 G1 X[#100]", "G51 X0 Y0 P2.", "G50",
+    ),
+    files=MILL_FILES,
+    setup={
+        "tools": {1: {"radius": 2.0}, 2: {"length": 30.0}},
+        "switches": {"interrupts": [{"input": 1, "line": 5, "at": {"X": 4}}]},
+    },
+)  # fmt: skip
+ROUGHING = """G71 U2. R1.
+G71 P10 Q20 U.5 W.1 F.3
+N10 G0 X20.
+G1 Z-10. F.1
+X40. Z-30.
+N20 X60.
+G70 P10 Q20"""
+LATHE = Language(
+    "O1\nT0101\nG50 S2000\nG97 S500 M3\nG0 X60. Z5.",
+    (
+        "G1 X50. Z0 F.2", "G0 X60. Z5.", "G96 S100", "G97 S400", "U-2. W-1.", "G2 U4. W-2. R3. F.1", "T0202", "T0200",
+        "G42 G1 X40. Z2. F.2\nZ-10.\nX50. Z-15.", "G40 G0 X70. Z10.", "G92 X30. Z-20. F1.5", "G90 X40. Z-10. F.2\nX38.",
+        "G76 P010060 Q100 R.1\nG76 X28. Z-20. P900 Q300 F1.5", ROUGHING, "G83 Z-20. R-3. Q2000 F.1", "G80 G0 Z10.",
+        "M98 P2", "#100=#100+1.5", "#101=0\nWHILE[#101LT3]DO1\nG0 X[60.+#101]\n#101=#101+1\nEND1", "M0", "G4 U.1",
+        "G10 L2 P1 Z1.", "G55", "G54", "G52 Z1.", "G28 U0", "G99", "G98 F50.", "G32 Z-5. F1.",
+    ),
+    files={"O2": "O2\nG0 U1.\n#102=#102+1\nM99\n"},
+    setup={"tools": {1: {"radius": 0.4, "tip": 3, "x": 5.0}, 2: {"x": 10.0, "z": 3.0}}},
+)  # fmt: skip
+MELDAS = replace(MILL, head=MILL.head.replace("M96 P4\n", ""))
+SYNTEC = replace(
+    MELDAS,
+    blocks=(
+        *(each for each in MILL.blocks if not each.startswith(("G20", "G68"))),
+        "@1=@1+2",
+        "G70\nX.5\nG71",
+    ),
+)
+LANGUAGES = {"fanuc-m": MILL, "meldas-m": MELDAS, "fanuc-0i-tf": LATHE, "syntec-mill": SYNTEC}
+
+
+def group_of(control_id: str, text: str, language: Language, bulk: Bulk | None = None) -> Iterator[Wait]:
+    """A run of all channels, block by block."""
+    chosen = control(control_id)
+    store = ProgramStore(form=chosen.form)
+    folder = "/_N_MPF_DIR/" if chosen.form is Form.SINUMERIK else ""
+    main = store.add_text(f"{folder}MAIN", text)
+    for name, more in language.files.items():
+        store.add_text(folder + name, more)
+    machine = load_machine(language.machine or chosen.default_machine)
+    channel = Channel(chosen, machine, parse_setup(language.setup), store, block_limit=3000, bulk=bulk)
+    channel.single_block = channel.block_by_block = bulk is None
+    return ChannelGroup(channel).run(main)
+
+
+def state_of(group: ChannelGroup) -> list[object]:
+    """Everything that one sees of the channels of a group."""
+    seen: list[object] = []
+    for channel in group.channels:
+        names = [] if channel.memory is None else channel.control.variable_names(channel)
+        seen.append((
+            [repr(row) for row in channel.toolpath.rows()],
+            channel.toolpath.contexts[:],
+            {name: repr(channel.control.read_variable(channel, name)) for name in names},
+            [repr(alarm) for alarm in channel.alarms],
+            (channel.blocks, channel.coordinates.machine, channel.mode.codes, repr(channel.feed)),
+            [(level.index, level.kind, level.repeats) for level in channel.stack],
+            getattr(channel.memory, "waited", 0.0),
+        ))  # fmt: skip
+    return seen
+
+
+def rest_of(run: Iterator[Wait], group: ChannelGroup) -> tuple[list[tuple[str, str]], list[object]]:
+    """Waits to the end of a run, and how it ends."""
+    return [(wait.reason, wait.code) for wait in run], state_of(group)
+
+
+def check_from(run: Iterator[Wait], blocks: int) -> None:
+    """Go some blocks on; from there, every time, the same must happen."""
+    group: ChannelGroup = run._group  # type: ignore[attr-defined]
+    for _ in range(blocks):
+        if next(run, None) is None:
+            break
+    here, snapshot = state_of(group), Snapshot(group)
+    first = rest_of(run, group)
+    for _ in range(2):
+        snapshot.restore()
+        assert state_of(group) == here
+        assert rest_of(run, group) == first
+
+
+@pytest.mark.parametrize("control_id", LANGUAGES)
+@settings(max_examples=40, deadline=None)
+@given(data=st.data())
+def test_what_a_program_does_from_a_block_on_is_the_same_every_time(
+    control_id: str, data: st.DataObject
+) -> None:
+    language = LANGUAGES[control_id]
+    chosen = data.draw(st.lists(st.sampled_from(language.blocks), min_size=2, max_size=12))
+    text = "\n".join([language.head, *chosen, language.tail, ""])
+    check_from(group_of(control_id, text, language), data.draw(st.integers(0, text.count("\n") + 10)))
+
+
+@pytest.mark.parametrize("blocks", range(9))
+def test_a_snapshot_of_one_channel_covers_those_that_run_beside_it(blocks: int) -> None:
+    second = "WAITM(1,1)\nR1=R1+1\nG0 X=R1\n$A_DLD[0]=$A_DLD[0]+1\nWAITM(2,1)\nR2=7\nM30\n"
+    first = 'INIT(2,"B")\nSTART(2)\nR1=1\nWAITM(1,2)\nG0 Y=R1\n$A_DLD[0]=$A_DLD[0]*2\nWAITM(2,2)\nR1=5\nM30\n'
+    language = Language("", (), files={"_N_B_MPF": second}, machine="mill3-2ch")
+    check_from(group_of("sinumerik-840d", first, language), blocks)
+
+
+@pytest.mark.parametrize("blocks", [0, 1, 2])
+def test_rows_that_were_scanned_in_bulk_come_again(blocks: int) -> None:
+    lines = [f"G1 X{i / 7:.3f} Y{i % 5}." for i in range(60)]
+    text = "\n".join(
+        [
+            "O1",
+            "G90 G54 G0 X0 Y0 F100.",
+            *lines,
+            "M0",
+            "M98 P2",
+            *lines,
+            "G10 L2 P1 X1.",
+            "M0",
+            *lines,
+            "M30",
+            "",
+        ]
+    )
+    check_from(group_of("fanuc-m", text, MILL, Bulk(0, scan)), blocks)
+
+
+def test_a_generator_in_flight_is_refused() -> None:
+    language = Language("", (), setup={"tools": {1: {"radius": 2.0}}})
+    text = "T1 D1 M6\nG0 X0 Y0 Z10 S500 M3 F100\nCYCLE83(5,0,1,-20,,-5,,2,,,1,0)\nM30\n"
+    run = group_of("sinumerik-840d", text, language)
+    group: ChannelGroup = run._group  # type: ignore[attr-defined]
+    while group.first.level.kind != "cycle" if group.first.stack else True:
+        next(run)
+    with pytest.raises(SnapshotError, match="generator in flight"):
+        Snapshot(group)
+
+
+# ---- what objects may look like ----------------------------------------------------------------------------------
+
+
+class Slotted:
+    """An object whose fields lie in slots; one has no value yet."""
+
+    __slots__ = ("later", "values")
+    later: int
+
+    def __init__(self) -> None:
+        self.values = [1]
+
+
+def counter() -> Any:
+    """A closure over a number that changes."""
+    count = 0
+
+    def step() -> int:
+        nonlocal count
+        count += 1
+        return count
+
+    return step
+
+
+def test_objects_stay_the_same_ones_and_get_their_contents_back() -> None:
+    slotted, step, random = Slotted(), counter(), Random(1)
+    inner: list[int] = []
+    root = SimpleNamespace(
+        slotted=slotted, step=step, add=inner.append, random=random, table={"a": inner}, seen={1}
+    )
+    snapshot = Snapshot(root)  # type: ignore[arg-type]  # anything may be a root
+    for _ in range(2):
+        root.add(5)
+        root.extra, root.table["b"], slotted.later, slotted.values = 1, [], 3, []
+        root.seen.add(2)
+        drawn = random.random()
+        assert step() == 1
+        snapshot.restore()
+        assert (inner, root.table, root.seen, slotted.values) == ([], {"a": inner}, {1}, [1])
+        assert not hasattr(slotted, "later")
+        assert not hasattr(root, "extra")
+        assert root.table["a"] is inner
+        assert random.random() == drawn
+        snapshot.restore()
+
+
+def test_what_cannot_be_noted_is_refused() -> None:
+    with pytest.raises(SnapshotError, match="list_iterator"):
+        Snapshot(SimpleNamespace(rest=iter([1, 2])))  # type: ignore[arg-type]
