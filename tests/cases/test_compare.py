@@ -6,6 +6,8 @@ import pytest
 
 from polycnc.cases import compare
 from polycnc.cases.format import ExpectedAlarm, ExpectedEvent, ExpectedMove, ExpectedPosition
+from polycnc.control import registry
+from polycnc.control.alarm_text import alarm_key
 from polycnc.messages import Alarm
 
 NEAR = compare.Positions(0.001)
@@ -139,13 +141,16 @@ def test_a_variable_that_the_control_does_not_have_is_a_difference() -> None:
 def test_alarm_codes_are_compared_as_each_control_counts_them(
     control: str, one: str | int, other: str | int, same: bool
 ) -> None:
-    assert (compare.alarm_key(control, one) == compare.alarm_key(control, other)) is same
+    known = registry.control(control)
+    assert (alarm_key(known, one) == alarm_key(known, other)) is same
 
 
 def alarms(expected: list[dict[str, Any]], *codes: str, line: int = 2) -> list[str]:
     came = [Alarm("fanuc-m", code, "O1", line) for code in codes]
     wanted = [ExpectedAlarm.model_validate(alarm) for alarm in expected]
-    return compare.compare_alarms("fanuc-m", wanted, came, lambda _: "N0040", lambda alarm: alarm.code)
+    return compare.compare_alarms(
+        registry.control("fanuc-m"), wanted, came, lambda _: "N0040", lambda alarm: alarm.code
+    )
 
 
 def test_alarms_must_come_in_order_none_missing_and_none_more() -> None:

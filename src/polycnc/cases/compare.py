@@ -5,20 +5,18 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.alarm_text import alarm_key
 from polycnc.messages import text
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from polycnc.cases.format import ExpectedAlarm, ExpectedEvent, ExpectedMove, ExpectedPosition
+    from polycnc.control.interface import Control
     from polycnc.messages import Alarm
 
 Record = dict[str, Any]
 ANY_ALARM = "any"
-#: Controls whose alarm codes need their prefix to be told apart; all others compare by their digits alone.
-PREFIX_COUNTS = frozenset({"syntec-mill"})
-#: Prefixes that name the same series of alarms.
-SAME_PREFIX = {"MAR": "MACRO"}
 #: The name in the trace of what an expected event writes short.
 EVENT_FIELDS = {
     "m": "code",
@@ -31,16 +29,6 @@ EVENT_FIELDS = {
     "print": "text",
 }
 _TURN_DEG = 360.0
-
-
-def alarm_key(control: str, code: str | int) -> tuple[str, int | str]:
-    """What two alarm codes of a control must share to be the same alarm."""
-    written = str(code).strip().upper()
-    match = re.fullmatch(r"\D*?([A-Z]*)[-\s]*0*(\d+)", written)
-    if match is None:
-        return "", written
-    prefix = match[1] if control in PREFIX_COUNTS else ""
-    return SAME_PREFIX.get(prefix, prefix), int(match[2])
 
 
 def values_equal(expected: object, actual: object, tolerance: float) -> bool:
@@ -154,7 +142,7 @@ def compare_variables(
 
 
 def compare_alarms(
-    control: str,
+    control: Control,
     expected: Sequence[ExpectedAlarm],
     actual: Sequence[Alarm],
     block: Callable[[Alarm], str],
@@ -176,7 +164,7 @@ def compare_alarms(
     return differences
 
 
-def _alarm_fits(control: str, wanted: ExpectedAlarm, came: Alarm, block: Callable[[Alarm], str]) -> bool:
+def _alarm_fits(control: Control, wanted: ExpectedAlarm, came: Alarm, block: Callable[[Alarm], str]) -> bool:
     if str(wanted.code) != ANY_ALARM and alarm_key(control, wanted.code) != alarm_key(control, came.code):
         return False
     if wanted.block is not None and _label(wanted.block) != _label(block(came)):

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.cases import compare
 from polycnc.cases.format import CaseError
+from polycnc.control import registry
 from polycnc.control.alarm_text import alarm_text
 from polycnc.mainrun import CommandRefused, VirtualControl
 from polycnc.messages import text
@@ -75,7 +76,11 @@ def operated(case: Case, folder: Path) -> list[str]:
         operator.does(step)
     expect = case.expect
     differences = compare.compare_alarms(
-        case.control, expect.alarms, control.alarms, lambda alarm: alarm.block, lambda a: _shown(control, a)
+        registry.control(case.control),
+        expect.alarms,
+        control.alarms,
+        lambda alarm: alarm.block,
+        lambda a: _shown(control, a),
     )
     if expect.final is not None:
         shown = control.positions

@@ -103,7 +103,7 @@ def _differences(case: Case, folder: Path) -> list[str]:
     moves = [row for row in result.rows if row["type"] in _MOVES]
     events = [row for row in result.rows if row["type"] not in _MOVES]
     differences = compare.compare_alarms(
-        case.control,
+        result.control,
         expect.alarms,
         result.alarms,
         lambda alarm: _block(result, alarm),

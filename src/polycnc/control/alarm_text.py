@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from importlib import resources
 from typing import TYPE_CHECKING
 
@@ -25,3 +26,13 @@ def alarm_text(control: Control, alarm: Alarm, lang: str | None = None) -> str:
     told = alarm.detail or (catalogue.text(alarm.code, lang, **alarm.args) if alarm.code in catalogue else "")
     hint = text(alarm.hint, lang, **alarm.args) if alarm.hint else ""
     return (": " if (lang or language()) == "en" else "：").join(filter(None, (told, hint)))
+
+
+def alarm_key(control: Control, code: str | int) -> tuple[str, int | str]:
+    """What two alarm codes of a control must share to be the same alarm: `33`, `"033"` and `"PS0033"` are one."""
+    written = str(code).strip().upper()
+    match = re.fullmatch(r"\D*?([A-Z]*)[-\s]*0*(\d+)", written)
+    if match is None:
+        return "", written
+    series = control.alarm_series
+    return "" if series is None else series.get(match[1], match[1]), int(match[2])

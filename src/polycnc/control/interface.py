@@ -21,12 +21,15 @@ class Control(ChannelControl, Protocol):
     """A control: what a channel needs, and what reports, cases and the command line ask.
 
     Attributes:
+        alarm_series: None where alarm codes are told apart by their digits alone. Else their prefixes name series of
+            alarms; other spellings of a prefix, to the one in the catalogue.
         form: How program files are marked off.
         default_machine: Built-in machine of a run that names none.
         tools_have_names: Programs may call a tool by its name; else by number alone.
         mdi_intervenes: Blocks can be typed in and run while a program waits, which then goes on behind them.
     """
 
+    alarm_series: Mapping[str, str] | None
     form: Form
     default_machine: str
     tools_have_names: bool

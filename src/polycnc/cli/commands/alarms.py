@@ -62,12 +62,13 @@ def alarms(
 
 def _alarms(control: str, code: str | None) -> Iterator[dict[str, str]]:
     """All alarms of a control, or those that a user may mean by a code."""
-    from polycnc.cases.compare import alarm_key
     from polycnc.control import registry
+    from polycnc.control.alarm_text import alarm_key
 
-    catalogue = registry.control(control).catalogue
+    known_control = registry.control(control)
+    catalogue = known_control.catalogue
     for known in catalogue:
-        if code is None or alarm_key(control, known) == alarm_key(control, code):
+        if code is None or alarm_key(known_control, known) == alarm_key(known_control, code):
             notes: dict[str, str] = {kind: catalogue.note(known, kind) for kind in NOTES}
             yield {
                 "control": control,

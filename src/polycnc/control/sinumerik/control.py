@@ -68,6 +68,7 @@ class Sinumerik:
     """SINUMERIK 840D sl with its full NC language."""
 
     id: ClassVar[str] = "sinumerik-840d"
+    alarm_series: ClassVar[Mapping[str, str] | None] = None
     default_machine: ClassVar[str] = "mill3"
     tools_have_names: ClassVar[bool] = True
     mdi_intervenes: ClassVar[bool] = False

@@ -55,6 +55,7 @@ class SyntecMill(WordAddressControl):
     """SYNTEC milling controls of the 900M … 220MA-5 family."""
 
     id: ClassVar[str] = "syntec-mill"
+    alarm_series: ClassVar[Mapping[str, str] | None] = {"MAR": "MACRO"}
     alarm_files: ClassVar[tuple[str, ...]] = ("syntec/alarms.toml", "syntec/alarms_special.toml")
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES

@@ -54,6 +54,7 @@ class WordAddressControl:
 
     Attributes:
         id: Control id.
+        alarm_series: As `Control` says.
         alarm_files: Files with the alarm texts, as `folder/file`; of two texts for a number the later counts.
         plc_files: The machine's own controller: its rules and its alarms, as `folder/file`.
         form: How program files are marked off.
@@ -77,6 +78,7 @@ class WordAddressControl:
     """
 
     id: ClassVar[str] = ""
+    alarm_series: ClassVar[Mapping[str, str] | None] = None
     alarm_files: ClassVar[tuple[str, ...]] = ()
     plc_files: ClassVar[tuple[str, ...]] = ()
     g_codes: ClassVar[Mapping[str, GCode]] = {}
