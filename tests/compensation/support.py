@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeVar
 from polycnc.channel.path import Move, PlacedEvent, Sink, Stage
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane
-from polycnc.compensation.policies import Policy, Violation
+from polycnc.compensation.policy import Policy, Violation
 from polycnc.toolpath import Event, Kind
 
 if TYPE_CHECKING:

@@ -15,12 +15,12 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from polycnc.channel.path import Move, PlacedEvent
-from polycnc.compensation import policies
 from polycnc.compensation.cutter import CutterCompensation
-from polycnc.compensation.policies import Policy
+from polycnc.compensation.policy import Policy
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Event, Kind
+from tests.compensation import policies
 from tests.compensation.support import CODES, G17, Recorder, into
 
 #: What counts as a cut, mm.

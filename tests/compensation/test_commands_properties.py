@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from polycnc.compensation import policies
-from polycnc.compensation.policies import Policy
+from polycnc.compensation.policy import Policy
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.messages import AlarmError
+from tests.compensation import policies
 from tests.compensation.support import CODES, Reader
 
 _AVOIDS = replace(policies.FANUC_A, avoids=True, read_blocks=8)

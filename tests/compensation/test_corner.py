@@ -12,17 +12,15 @@ from hypothesis import strategies as st
 
 from polycnc.channel.path import Move, PlacedEvent
 from polycnc.compensation.corner import (
-    FANUC_CORNERS,
-    SINUMERIK_CORNERS,
     CornerPolicy,
     CornerStage,
     CornerViolation,
     Shape,
 )
 from polycnc.compensation.cutter import CutterCompensation
-from polycnc.compensation.policies import FANUC_A
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Event, Kind
+from tests.compensation.policies import FANUC_A, FANUC_CORNERS, SINUMERIK_CORNERS
 from tests.compensation.support import G17, Recorder, into
 
 if TYPE_CHECKING:

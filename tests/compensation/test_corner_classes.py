@@ -12,11 +12,11 @@ from math import cos, hypot, pi, radians, sin
 import pytest
 
 from polycnc.channel.path import Move
-from polycnc.compensation import policies
 from polycnc.compensation.cutter import CutterCompensation
-from polycnc.compensation.policies import Policy
+from polycnc.compensation.policy import Policy
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.toolpath import Kind
+from tests.compensation import policies
 from tests.compensation.support import CODES, G17, Recorder, into
 
 Spot = tuple[float, float]

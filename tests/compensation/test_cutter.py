@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from polycnc.compensation import policies
-from polycnc.compensation.policies import Policy, Violation
+from polycnc.compensation.policy import Policy, Violation
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.messages import AlarmError
+from tests.compensation import policies
 from tests.compensation.support import CODES, Reader, run
 
 if TYPE_CHECKING:

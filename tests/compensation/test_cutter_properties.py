@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 from shapely.geometry import LineString, Point, Polygon
 
 from polycnc.channel.path import Move, PlacedEvent
-from polycnc.compensation import policies
 from polycnc.compensation.cutter import CutterCompensation
-from polycnc.compensation.policies import Policy, Violation
+from polycnc.compensation.policy import Policy, Violation
 from polycnc.geometry import arcs
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Event, Kind
+from tests.compensation import policies
 from tests.compensation.support import CODES, G17, Recorder, into
 
 Corner = tuple[float, float]

@@ -1,13 +1,13 @@
 """Tool compensation as stages of the path: cutter and nose radius, and corners that are chamfered or rounded.
 
 `cutter` is the one engine for all controls (`CutterCompensation`): it holds a window of steps (`step`) until
-`ends` and `vectors` tell where each ends; `rows` writes them. `policies` says how controls differ.
+`ends` and `vectors` tell where each ends; `rows` writes them. `policy` says how controls differ.
 `interference` finds vectors that have changed places, `avoidance` leads round them. `corner` is the stage of
 chamfers and roundings; `plane` is what both share.
 """
 
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane
-from polycnc.compensation.policies import Approach, Policy, Violation
+from polycnc.compensation.policy import Approach, Policy, Violation
 
 __all__ = ["Approach", "CutterCompensation", "Plane", "Policy", "Violation"]

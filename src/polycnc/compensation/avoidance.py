@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from polycnc.compensation.ends import blind_end
-from polycnc.compensation.policies import Violation
+from polycnc.compensation.policy import Violation
 from polycnc.compensation.step import Role
 from polycnc.geometry import arcs, distance, offset
 from polycnc.geometry.offset import Corner, Joint

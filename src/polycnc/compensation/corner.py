@@ -53,7 +53,8 @@ class CornerPolicy:
     """The behaviour of one control.
 
     Attributes:
-        idle_blocks: Blocks without plane motion that may stand between the two moves.
+        idle_blocks: Blocks without plane motion that may stand between the two moves; none where the next block must
+            be the next move (FANUC 0i-TF Plus 4.7).
         shrinks: A size that does not fit is reduced to the largest that does (SINUMERIK).
         least_turn_deg: Between directions that differ by less there is no corner.
         start_up_between: Radius compensation may start up between the two moves.
@@ -63,12 +64,6 @@ class CornerPolicy:
     shrinks: bool = False
     least_turn_deg: float = degrees(1e-6)
     start_up_between: bool = False
-
-
-#: The next block must be the next move (FANUC 0i-TF Plus 4.7); too short is an alarm.
-FANUC_CORNERS = CornerPolicy()
-#: Blocks without motion are bridged as for radius compensation; too large a size is reduced.
-SINUMERIK_CORNERS = CornerPolicy(idle_blocks=5, shrinks=True)
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ How it works, and why it is right:
 2. Everything else (moves of other axes, events, block ends) is hung on the step in front and passed on after it, with
    the tool where that step left it. So order is kept by construction.
 3. Closing a corner changes nothing before it. That is why a step may be passed on as soon as its corner is known and
-   nothing that could still object to it is to come: when N blocks have been read (see `policies`). A step that must
+   nothing that could still object to it is to come: when N blocks have been read (see `policy`). A step that must
    go before its corner is known ends square on itself: look-ahead too short and `flush` are the same case.
 4. A move is gouged away when the vectors at its two ends have changed places. That is seen when its second corner is
    closed, while the move in front still waits in the window: the alarm comes before the tool gets there
@@ -31,7 +31,7 @@ from polycnc.channel.path import EndOfBlock, Item, Move, PlacedEvent, Rank, Stag
 from polycnc.compensation import vectors
 from polycnc.compensation.ends import blind_end, end_before, square_ends, starts_blind
 from polycnc.compensation.interference import InterferenceCheck, Objections
-from polycnc.compensation.policies import Violation
+from polycnc.compensation.policy import Violation
 from polycnc.compensation.rows import RowWriter
 from polycnc.compensation.step import NO_VECTOR, Role, Step
 from polycnc.geometry import arcs, offset
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.compensation.plane import Plane
-    from polycnc.compensation.policies import Policy
+    from polycnc.compensation.policy import Policy
     from polycnc.geometry.arcs import Point
 
 

@@ -15,7 +15,7 @@ from polycnc.compensation.avoidance import (
     least_harmful,
     leave_out_crossing_vectors,
 )
-from polycnc.compensation.policies import Violation
+from polycnc.compensation.policy import Violation
 from polycnc.compensation.step import Role
 from polycnc.geometry import offset
 from polycnc.messages import AlarmError

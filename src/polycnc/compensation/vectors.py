@@ -11,12 +11,12 @@ from __future__ import annotations
 from math import asin, atan2, cos, hypot, pi, sin
 from typing import TYPE_CHECKING
 
-from polycnc.compensation.policies import Approach
+from polycnc.compensation.policy import Approach
 from polycnc.geometry import offset
 from polycnc.geometry.offset import Corner, Edge, Joint
 
 if TYPE_CHECKING:
-    from polycnc.compensation.policies import Policy
+    from polycnc.compensation.policy import Policy
     from polycnc.geometry.arcs import Point
 
 

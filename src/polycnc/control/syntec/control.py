@@ -7,7 +7,7 @@ from functools import cached_property
 from math import hypot, inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from polycnc.compensation.policies import SYNTEC, Policy
+from polycnc.compensation.policy import Policy
 from polycnc.control.syntec import cycles
 from polycnc.control.syntec.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.syntec.axis_groups import borrowing, groups
@@ -339,7 +339,7 @@ class SyntecMill(WordAddressControl):
     def compensation_policy(self, channel: Channel) -> Policy:
         """Radius compensation; Pr3819 = 1 checks for overcut."""
         checked = parameter(channel.setup.parameters, 3819) == 1
-        return replace(SYNTEC, checks_direction=checked)
+        return Policy(checks_direction=checked)
 
     # ---- reports -----------------------------------------------------------------------------------------
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from polycnc.compensation.policies import HARTFORD, Policy
+from polycnc.compensation.policy import Policy
 from polycnc.control.word_address.auxiliary.interlocks import guarded, guarded_motion, unlisted
 from polycnc.control.word_address.block import settled
 from polycnc.control.word_address.block.codes import MCode
@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 
 
 CUTTING = frozenset({"G1", "G2", "G3"})
+#: Two blocks are read ahead, and a start-up that does not see the next plane motion makes no offset (training manual
+#: 3.3.1 D of Hartford machining centres, FANUC and MELDAS).
+HARTFORD = Policy(recommand_is_square=True, blind_start_is_square=False)
 
 
 class MillingControl(CustomMacroControl):

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from polycnc.channel.intervention import TakesBack
     from polycnc.channel.stack import Level
     from polycnc.channel.steps import Step as ProgramStep
-    from polycnc.compensation.policies import Policy
+    from polycnc.compensation.policy import Policy
     from polycnc.control.data_files import DataFiles
     from polycnc.control.word_address.block.codes import GCode, Handler, Planner, Step
     from polycnc.control.word_address.block.plan import Builder, Plan

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
-from polycnc.compensation.policies import HARTFORD, Approach, Policy
+from polycnc.compensation.policy import Approach, Policy
 from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.fanuc.code_calls import registered_codes
 from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, POWER_ON
@@ -13,7 +13,7 @@ from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.fanuc.milling.variables import MILLING_VARIABLES
 from polycnc.control.fanuc.operation import dry_run
 from polycnc.control.hartford import m_codes as hartford
-from polycnc.control.word_address.machining_centre import MillingControl
+from polycnc.control.word_address.machining_centre import HARTFORD, MillingControl
 from polycnc.control.word_address.macro_b import interruption
 from polycnc.control.word_address.macro_b.variables import MacroMemory
 

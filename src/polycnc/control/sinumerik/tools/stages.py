@@ -11,21 +11,15 @@ from dataclasses import replace
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.compensation.corner import SINUMERIK_CORNERS, CornerStage, CornerViolation, Shape
+from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane
-from polycnc.compensation.policies import (
-    SINUMERIK_KONT_G450,
-    SINUMERIK_KONT_G451,
-    SINUMERIK_NORM_G450,
-    SINUMERIK_NORM_G451,
-    Policy,
-    Violation,
-)
+from polycnc.compensation.policy import Approach, Policy, Violation
 from polycnc.control.sinumerik.motion.spline_stage import SplineStage
 from polycnc.control.sinumerik.tables import PLANES
 from polycnc.control.sinumerik.tools.memory import DP_TIP
 from polycnc.control.sinumerik.tools.smooth_stage import SmoothApproach
+from polycnc.geometry.offset import Joint, Outer
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -33,12 +27,19 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.geometry.arcs import Point
 
+#: MD20250 = 5 blocks without motion are bridged, by compensation and between the two moves of a corner.
+BRIDGED_BLOCKS = 5
+_G450 = Policy(outer=Outer(0.0, Joint.ARC), read_blocks=BRIDGED_BLOCKS + 2, avoids=True)
+#: MD20210 = 100 degrees.
+_G451 = replace(_G450, outer=Outer(100.0, Joint.ARC, extend_as_circles=True))
 POLICIES = {
-    ("NORM", "G450"): SINUMERIK_NORM_G450,
-    ("NORM", "G451"): SINUMERIK_NORM_G451,
-    ("KONT", "G450"): SINUMERIK_KONT_G450,
-    ("KONT", "G451"): SINUMERIK_KONT_G451,
+    ("NORM", "G450"): _G450,
+    ("NORM", "G451"): _G451,
+    ("KONT", "G450"): replace(_G450, approach=Approach.TANGENT),
+    ("KONT", "G451"): replace(_G451, approach=Approach.TANGENT),
 }
+#: Too large a size is reduced.
+CORNERS = CornerPolicy(idle_blocks=BRIDGED_BLOCKS, shrinks=True)
 VIOLATIONS = {
     Violation.ARC_START: "10753",
     Violation.ARC_CANCEL: "10754",
@@ -70,7 +71,7 @@ def cutter(channel: Channel) -> CutterCompensation:
     change_plane(channel)
     stage = channel.path.find(CutterCompensation)
     if stage is None:
-        stage = channel.path.put(CutterCompensation(plane(channel), SINUMERIK_NORM_G450, VIOLATIONS))
+        stage = channel.path.put(CutterCompensation(plane(channel), _G450, VIOLATIONS))
         suspend(channel)
     return stage
 
@@ -85,7 +86,7 @@ def corner(channel: Channel) -> CornerStage:
     """The stage of chamfers and roundings, in the path."""
     change_plane(channel)
     stage = channel.path.find(CornerStage)
-    return stage or channel.path.put(CornerStage(plane(channel), SINUMERIK_CORNERS, CORNER_VIOLATIONS))
+    return stage or channel.path.put(CornerStage(plane(channel), CORNERS, CORNER_VIOLATIONS))
 
 
 def approach(channel: Channel) -> SmoothApproach:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.compensation import Plane
-from polycnc.compensation.corner import FANUC_CORNERS, CornerStage, CornerViolation, Shape
+from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
 from polycnc.control.word_address.motion.path import PLANES
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def corner_stage(channel: Channel) -> CornerStage:
     alarms = channel.control.alarms
     codes = {violation: alarms[mistake] for violation, mistake in MISTAKES.items()}
     plane = Plane(u, v, w, channel.coordinates.geometry)
-    return channel.path.put(CornerStage(plane, FANUC_CORNERS, codes))
+    return channel.path.put(CornerStage(plane, CornerPolicy(), codes))
 
 
 def refuse_start_up(channel: Channel) -> None:

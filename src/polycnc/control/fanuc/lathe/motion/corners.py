@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.compensation import Plane
-from polycnc.compensation.corner import FANUC_CORNERS, CornerPolicy, CornerStage, CornerViolation, Shape
+from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
 from polycnc.control.word_address.motion.path import PLANES
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 _CENTERS = "IJK"
 #: Angle between lines, degrees, up to which drawing dimensions find no intersection and put in no corner.
 LEAST_ANGLE_DEG = 1.0
-_COMMANDED = replace(FANUC_CORNERS, start_up_between=True)
+#: Corners that a block commands.
+_COMMANDED = CornerPolicy(start_up_between=True)
 #: Corners of drawing dimensions: one block without motion may stand between the two moves.
 _DRAWN = CornerPolicy(idle_blocks=1, least_turn_deg=LEAST_ANGLE_DEG, start_up_between=True)
 #: Moves that a figure of drawing dimensions is made of.

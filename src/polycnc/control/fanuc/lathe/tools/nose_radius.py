@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from polycnc.compensation.policies import FANUC_A, Approach, Policy
+from polycnc.compensation.policy import Approach, Policy
 from polycnc.control.fanuc.lathe.motion import corners
 from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.tools import radius
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
 
+#: 5003#0 SUP = 0, #1 SUV = 0 (0i-TF Plus 5.4.1), 19625 = 3.
+TYPE_A = Policy(recommand_is_square=True)
 LINES = frozenset({"G0", "G1"})
 #: Kind of the program level in which G70 runs a shape.
 SHAPE_KIND = "shape"
@@ -29,10 +31,10 @@ def policy(channel: Channel) -> Policy:
     parameters = channel.memory.parameters
     bit = parameters.bit
     return replace(
-        FANUC_A,
+        TYPE_A,
         approach=Approach.CORNER if bit(5003, 0) else Approach.SQUARE,
         shifts_without_motion=bool(bit(5003, 1)),
-        outer=Outer(90.0, Joint.ARC) if bit(19607, 2) else FANUC_A.outer,
+        outer=Outer(90.0, Joint.ARC) if bit(19607, 2) else TYPE_A.outer,
         read_blocks=min(max(int(parameters.number(19625, default=3)), 3), 8),
         least_move_mm=parameters.number(5010, default=0.001),
         checks_direction=not (bit(5008, 3) or bit(5008, 1)),

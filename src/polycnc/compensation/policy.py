@@ -1,4 +1,4 @@
-"""How each control compensates: differences as data, the engine knows no control.
+"""How controls compensate: differences as data. The engine knows no control; each states its own `Policy`.
 
 `N` stands for the number of blocks that a control reads before it executes the first of them. FANUC 0i-TF
 Plus 5.4.3 and 5.4.6 state what follows from it: the intersection at a block's end is possible while at most
@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import Enum
 
-from polycnc.geometry.offset import Joint, Outer
+from polycnc.geometry.offset import Outer
 
 
 class Approach(Enum):
@@ -69,25 +69,3 @@ class Policy:
     checks_arcs: bool = True
     avoids: bool = False
     dares: bool = False
-
-
-#: FANUC 5003#0 SUP = 0, #1 SUV = 0 (0i-TF Plus 5.4.1), 19625 = 3.
-FANUC_A = Policy(recommand_is_square=True)
-#: SUP = 1.
-FANUC_B = Policy(approach=Approach.CORNER, recommand_is_square=True)
-#: SUV = 1, blocks with motion as type A or B.
-FANUC_C = Policy(shifts_without_motion=True, recommand_is_square=True)
-#: FANUC and MELDAS of a Hartford machining centre: two blocks are read ahead, and a start-up that does not
-#: see the next plane motion makes no offset (training manual 3.3.1 D).
-HARTFORD = Policy(recommand_is_square=True, blind_start_is_square=False)
-#: MELDAS with its own look-ahead of five blocks.
-MELDAS = Policy(read_blocks=5)
-#: SYNTEC 2.27; its figures of outer corners are those of the word-address family.
-SYNTEC = Policy()
-#: SINUMERIK: MD20250 = 5 blocks without motion are bridged; MD20210 = 100 degrees.
-SINUMERIK_NORM_G450 = Policy(outer=Outer(0.0, Joint.ARC), read_blocks=7, avoids=True)
-SINUMERIK_NORM_G451 = Policy(
-    outer=Outer(100.0, Joint.ARC, extend_as_circles=True), read_blocks=7, avoids=True
-)
-SINUMERIK_KONT_G450 = Policy(Approach.TANGENT, outer=SINUMERIK_NORM_G450.outer, read_blocks=7, avoids=True)
-SINUMERIK_KONT_G451 = Policy(Approach.TANGENT, outer=SINUMERIK_NORM_G451.outer, read_blocks=7, avoids=True)
