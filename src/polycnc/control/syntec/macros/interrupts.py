@@ -99,9 +99,7 @@ def with_interrupt(builder: Builder, plan: Plan, step: Step) -> Step:
         if kind is None:
             raise channel.control.not_yet(f"M96 {builder.mode['motion']}")
         c = channel.coordinates
-        owed = c.pending[:]
         end = c.to_position(path.target(channel, plan.axis_words, values))
-        c.pending[:] = owed
         stopped = skip.signal_position(channel, c.position, end, at)
         if stopped is None:
             step(channel, values)

@@ -138,7 +138,7 @@ def _end(channel: Channel, plan: Plan, values: list[float], *, polar: bool) -> l
     """The programmed end point; the start where no axis word is given."""
     if polar:
         return channel.control.polar_target(channel, plan, values)  # type: ignore[no-any-return]
-    return path.target(channel, plan.axis_words, values)
+    return path.reach(channel, plan.axis_words, values)
 
 
 def _turns(channel: Channel, words: ArcWords, values: list[float]) -> int | None:
@@ -215,7 +215,7 @@ def plan_three_point_arc(builder: Builder, plan: Plan) -> Step | None:
     def move(channel: Channel, values: list[float]) -> None:
         memory, c = channel.memory, channel.coordinates
         if memory.mid_point is None:
-            memory.mid_point = path.target(channel, plan.axis_words, values)
+            memory.mid_point = path.reach(channel, plan.axis_words, values)
             return
         if feed_named:
             raise control.fail("three_point_format", address="F")
@@ -224,7 +224,7 @@ def plan_three_point_arc(builder: Builder, plan: Plan) -> Step | None:
         start = c.programmed
         c.programmed = mid
         try:
-            end = path.target(channel, plan.axis_words, values)
+            end = path.reach(channel, plan.axis_words, values)
         finally:
             c.programmed = start
         _three_point_moves(channel, mid, end)

@@ -56,7 +56,7 @@ def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
         if polar:
             programmed = channel.control.polar_target(channel, plan, values)
         else:
-            programmed = path.target(channel, plan.axis_words, values)
+            programmed = path.reach(channel, plan.axis_words, values)
         with _rapid_at(channel, values[speed] * unit) as feed:
             channel.straight(Kind.RAPID, c.to_position(programmed), feed, programmed)
 
@@ -189,9 +189,7 @@ def with_inverse_time(builder: Builder, plan: Plan, step: Step) -> Step:
 def _length(channel: Channel, plan: Plan, values: list[float]) -> float:
     """Length of the straight way that a block will make, over all axes."""
     c = channel.coordinates
-    owed = c.pending[:]
     end = c.to_position(path.target(channel, plan.axis_words, values))
-    c.pending[:] = owed
     return sqrt(sum((e - s) ** 2 for s, e in zip(c.position, end, strict=True)))
 
 
@@ -206,7 +204,7 @@ def skip_move(channel: Channel, words: Words) -> None:
     if deceleration is not None and (deceleration < 0 or deceleration != int(deceleration)):
         raise words.fail("number", "P")
     c = channel.coordinates
-    end = c.to_position(path.target(channel, words.plan.axis_words, words.values))
+    end = c.to_position(path.reach(channel, words.plan.axis_words, words.values))
     stopped = skip.signal_position(channel, c.position, end, skip_source(channel, words))
     memory = channel.memory
     memory.skip_flags = int(stopped is not None)
@@ -239,7 +237,7 @@ def plan_thread(builder: Builder, plan: Plan) -> Step | None:
         if not lead > 0.0:
             raise builder.control.fail("no_feed", address="F")
         c = channel.coordinates
-        programmed = path.target(channel, words, values)
+        programmed = path.reach(channel, words, values)
         end = c.to_position(programmed)
         if end != c.position:
             channel.curve(Kind.THREAD, end, lead, parameters=(lead, 0.0), programmed=programmed)
@@ -284,7 +282,7 @@ def _lengthened_arc(channel: Channel, words: Words, growth: float, *, ccw: bool)
     control, c = channel.control, channel.coordinates
     u, v, w = PLANES[channel.mode["plane"]]
     first, second = c.geometry[u], c.geometry[v]
-    programmed = path.target(channel, words.plan.axis_words, words.values)
+    programmed = path.reach(channel, words.plan.axis_words, words.values)
     begin = (c.programmed[first], c.programmed[second])
     end = (programmed[first], programmed[second])
     shift = (words.length(CENTER_WORDS[u]) or 0.0, words.length(CENTER_WORDS[v]) or 0.0)

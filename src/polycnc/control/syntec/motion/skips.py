@@ -33,7 +33,7 @@ def define_group(channel: Channel, words: Words) -> None:
     deceleration = words.typed("P")
     if deceleration is not None and (deceleration < 0 or deceleration != int(deceleration)):
         raise words.fail("number", "P")
-    target = path.target(channel, words.plan.axis_words, words.values)
+    target = path.reach(channel, words.plan.axis_words, words.values)
     axes = [word.axis for word in words.plan.axis_words]
     taken = {axis for group in memory.skip_groups for axis in group.ends}
     follows = not memory.skip_groups or _follows(channel)
@@ -86,7 +86,7 @@ def position_at_sensor(channel: Channel, words: Words) -> None:
     memory: SyntecMemory = channel.memory
     c = channel.coordinates
     axis, begin = word.axis, c.programmed[word.axis]
-    first = path.target(channel, (word,), words.values)
+    first = path.reach(channel, (word,), words.values)
     stroke = words.length("Q")
     stroke = first[axis] - begin if stroke is None else stroke
     memory.skip_flags = 0

@@ -11,7 +11,7 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
-from polycnc.control.word_address.motion.path import PLANES, target
+from polycnc.control.word_address.motion.path import PLANES, reach
 from polycnc.geometry.frames import IDENTITY, about, cos_sin_deg, rotation, scaling
 
 if TYPE_CHECKING:
@@ -147,7 +147,7 @@ def polar_target(channel: Channel, plan: Plan, values: list[float]) -> list[floa
     u, v, _ = PLANES[channel.mode["plane"]]
     first, second = c.geometry[u], c.geometry[v]
     plane_words = [word for word in plan.axis_words if word.axis in (first, second)]
-    end = target(channel, tuple(w for w in plan.axis_words if w not in plane_words), values)
+    end = reach(channel, tuple(w for w in plan.axis_words if w not in plane_words), values)
     if not plane_words:
         return end
     for word in plane_words:

@@ -17,7 +17,7 @@ from polycnc.channel.state import Lifetime, State, lasting
 from polycnc.control.word_address.auxiliary.functions import stand
 from polycnc.control.word_address.auxiliary.overrides import OverrideState
 from polycnc.control.word_address.block.numbers import length_converter
-from polycnc.control.word_address.motion.path import FEED_MODES, PLANES, target
+from polycnc.control.word_address.motion.path import FEED_MODES, PLANES, reach
 from polycnc.control.word_address.tools.radius import suspended
 from polycnc.cycles.drilling import lathe
 from polycnc.cycles.drilling.holes import Action, Cycle, Hole, Stroke, tap
@@ -372,7 +372,7 @@ class _Words:
             end = self.control.polar_target(channel, self.plan, values)
             end[self.axis] = c.programmed[self.axis]
         else:
-            end = target(channel, self.positions, values)
+            end = reach(channel, self.positions, values)
         channel.straight(Kind.RAPID, c.to_position(end), nan, end)
 
 

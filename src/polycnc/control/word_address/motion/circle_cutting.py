@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.motion.arcs import emit_arc
-from polycnc.control.word_address.motion.path import CENTER_WORDS, PLANES, target
+from polycnc.control.word_address.motion.path import CENTER_WORDS, PLANES, reach
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -68,5 +68,5 @@ def _spiral(channel: Channel, words: Words, *, ccw: bool) -> None:
     shift = [words.length(letter) or 0.0 for letter in letters]
     center: Point = (c.programmed[u] + shift[0], c.programmed[v] + shift[1])
     turns = words.integer("P") or 0
-    end = target(channel, words.plan.axis_words, words.values)
+    end = reach(channel, words.plan.axis_words, words.values)
     emit_arc(channel, end, center, plane, ccw=ccw, feed=channel.feed, turns=float(turns))

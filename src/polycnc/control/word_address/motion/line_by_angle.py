@@ -6,7 +6,7 @@ from math import nan, radians, sin, tan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.numbers import angle_converter
-from polycnc.control.word_address.motion.path import PLANES, target
+from polycnc.control.word_address.motion.path import PLANES, reach
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -44,7 +44,7 @@ def plan_line_by_angle(builder: Builder, plan: Plan) -> Step | None:
         c = channel.coordinates
         first, second = c.geometry[u], c.geometry[v]
         angle = convert(values[slot]) if convert else values[slot]
-        end = target(channel, plan.axis_words, values)
+        end = reach(channel, plan.axis_words, values)
         if len(named) == 1:
             across = angle - 90.0 if first in named else angle
             if abs(sin(radians(across))) < sin(radians(LEAST_ANGLE_DEG)):

@@ -76,7 +76,7 @@ def plan_nurbs(builder: Builder, plan: Plan) -> Step | None:
             factor = DEFAULT_WEIGHT if weight is None else values[weight]
             if not WEIGHTS[0] <= factor <= WEIGHTS[1]:
                 raise control.fail("curve_weight", address="R")
-            pole = path.target(channel, plan.axis_words, values)
+            pole = path.reach(channel, plan.axis_words, values)
             point = channel.coordinates.to_position(pole)
             if (
                 begins

@@ -31,20 +31,35 @@ CENTER_WORDS = "IJK"
 
 
 def target(channel: Channel, words: tuple[AxisWord, ...], values: list[float]) -> list[float]:
-    """The programmed end point that axis words name."""
+    """The programmed end point that axis words name; changed offsets still owe their difference to increments."""
     c = channel.coordinates
-    end = c.programmed[:]
+    end, owed = c.programmed[:], c.pending[:] if c.owes else c.pending
     for word in words:
         value = values[word.slot]
         if word.convert is not None:
             value = word.convert(value)
         axis = word.axis
         if word.incremental:
-            end[axis] += value + c.pending[axis]
+            end[axis] += value + owed[axis]
         else:
             end[axis] = value
         if c.owes:
-            c.pending[axis] = 0.0
+            owed[axis] = 0.0  # a second word of the axis gets nothing more
+    return end
+
+
+def pay(channel: Channel, words: tuple[AxisWord, ...]) -> None:
+    """Axes that a block moves are owed nothing any more."""
+    c = channel.coordinates
+    if c.owes:
+        for word in words:
+            c.pending[word.axis] = 0.0
+
+
+def reach(channel: Channel, words: tuple[AxisWord, ...], values: list[float]) -> list[float]:
+    """The programmed end point that axis words name, for a block that goes there: what was owed to them is paid."""
+    end = target(channel, words, values)
+    pay(channel, words)
     return end
 
 
@@ -86,7 +101,7 @@ def _plan_straight(builder: Builder, plan: Plan, kind: Kind) -> Step | None:
                 corner(channel, values)
             channel.straight(kind, end, feed)
             return
-        programmed = control.polar_target(channel, plan, values) if polar else target(channel, words, values)
+        programmed = control.polar_target(channel, plan, values) if polar else reach(channel, words, values)
         if corner is not None:
             corner(channel, values)
         channel.straight(kind, c.to_position(programmed), feed, programmed)
@@ -145,7 +160,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
         if polar:
             programmed = control.polar_target(channel, plan, values)
         else:
-            programmed = target(channel, words, values) if words else c.programmed[:]
+            programmed = reach(channel, words, values) if words else c.programmed[:]
         begin = (c.programmed[geometry[u]], c.programmed[geometry[v]])
         end = (programmed[geometry[u]], programmed[geometry[v]])
         told_by = center_words(values)

@@ -6,7 +6,7 @@ from math import copysign, nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.motion.arcs import center_by_radius, emit_arc
-from polycnc.control.word_address.motion.path import CENTER_WORDS, PLANES, target
+from polycnc.control.word_address.motion.path import CENTER_WORDS, PLANES, reach
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def offset_move(channel: Channel, words: Words) -> None:
     number = words.integer("D") if "D" in words else None
     memory.d = memory.d if number is None else number
     amount = TIMES[code] * channel.control.radius_value(channel, memory.d)
-    end = target(channel, words.plan.axis_words, words.values)
+    end = reach(channel, words.plan.axis_words, words.values)
     for word in words.plan.axis_words:
         end[word.axis] += amount * _direction(words, word, end[word.axis] - c.programmed[word.axis])
     if motion in ARCS:
@@ -80,7 +80,7 @@ def _direction(words: Words, word: AxisWord, way: float) -> float:
 def position_one_way(channel: Channel, words: Words) -> None:
     """G60: rapid past the target by each axis's overrun, then on to it always from the same side."""
     c = channel.coordinates
-    end = target(channel, words.plan.axis_words, words.values)
+    end = reach(channel, words.plan.axis_words, words.values)
     via = end[:]
     for word in words.plan.axis_words:
         via[word.axis] -= channel.control.overrun(channel, word.axis)

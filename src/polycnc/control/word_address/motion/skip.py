@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import dist
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.motion.path import target
+from polycnc.control.word_address.motion.path import reach
 from polycnc.geometry.surfaces import first_touch
 from polycnc.machine.setup.values import SkipInput
 from polycnc.messages import AlarmError
@@ -32,7 +32,7 @@ def skip_move(channel: Channel, words: Words) -> None:
     if not channel.feed > 0.0:
         raise words.fail("no_feed")
     c = channel.coordinates
-    programmed = target(channel, words.plan.axis_words, words.values)
+    programmed = reach(channel, words.plan.axis_words, words.values)
     end = c.to_position(programmed)
     stopped = signal_position(channel, c.position, end, channel.setup.switches.skip_input)
     move_to_signal(channel, end, stopped)

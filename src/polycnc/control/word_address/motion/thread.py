@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.motion.path import FEED_MODES, target
+from polycnc.control.word_address.motion.path import FEED_MODES, reach
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 
@@ -33,7 +33,7 @@ def plan_thread(builder: Builder, plan: Plan) -> Step | None:
         if not lead > 0.0:
             raise control.fail("no_feed")
         angle = 0.0 if angle_slot is None else values[angle_slot]
-        end = target(channel, words, values)
+        end = reach(channel, words, values)
         position = channel.coordinates.to_position(end)
         if position != channel.coordinates.position:
             channel.curve(Kind.THREAD, position, lead, parameters=(lead, angle % 360.0), programmed=end)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.coordinates.systems import refresh_zero
-from polycnc.control.word_address.motion.path import target
+from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.transformations.tilted_plane import TiltState
 from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
@@ -109,7 +109,7 @@ def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
         if not rapid and not channel.feed > 0.0:
             raise words.fail("no_feed")
         c = channel.coordinates
-        end = c.to_position(target(channel, plan.axis_words, values))
+        end = c.to_position(reach(channel, plan.axis_words, values))
         i, j, k = (words.typed(letter) or 0.0 for letter in "IJK")
         near = dict(zip(channel.axes, c.machine, strict=True))
         angles = Kinematics.of(channel.machine).angles_for((i, j, k), near) if i or j or k else None

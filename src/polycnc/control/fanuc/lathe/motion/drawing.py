@@ -69,7 +69,7 @@ def plan_line(builder: Builder, plan: Plan) -> Step | None:
 def plan_end(builder: Builder, plan: Plan) -> Callable[[Channel, list[float]], list[float]]:
     """The end point of a thread block: ,A completes it where drawing dimensions are chosen (G33 of note 2)."""
     if not (is_on(builder) and builder.has(",A")):
-        return lambda channel, values: path.target(channel, plan.axis_words, values)
+        return lambda channel, values: path.reach(channel, plan.axis_words, values)
     words = _DrawingWords(builder, plan)
     return lambda channel, values: words.completed(channel, words.angle(values) or 0.0, values)
 
@@ -91,7 +91,7 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
         if vector is not None:
             vector(channel, values)
         if line is None and angle is None:
-            _move(channel, path.target(channel, plan.axis_words, values), corner)
+            _move(channel, path.reach(channel, plan.axis_words, values), corner)
         elif line is not None:
             _close(channel, words, line, angle, corner, values)
         elif not plan.axis_words:
@@ -149,7 +149,7 @@ class _DrawingWords:
 
     def completed(self, channel: Channel, angle_deg: float, values: list[float]) -> list[float]:
         """The end point of a line with an angle: the axis that is not named is worked out."""
-        end = path.target(channel, self.plan.axis_words, values)
+        end = path.reach(channel, self.plan.axis_words, values)
         first, second = plane_axes(channel)
         start = channel.coordinates.programmed
         named = {word.axis for word in self.plan.axis_words}
@@ -186,7 +186,7 @@ def _close(
         raise control.fail("drawing_next")
     if any(word.incremental for word in plane_words):
         raise control.fail("drawing_increment", address=plane_words[0].address)
-    end = path.target(channel, words.plan.axis_words, values)
+    end = path.reach(channel, words.plan.axis_words, values)
     start: Point = (c.programmed[axes[0]], c.programmed[axes[1]])
     last: Point = (end[axes[0]], end[axes[1]])
     between = radians(angle - line.angle_deg)

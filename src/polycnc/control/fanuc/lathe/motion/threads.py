@@ -10,7 +10,7 @@ from polycnc.control.fanuc.lathe.coordinates.systems import feed_number, plane_a
 from polycnc.control.fanuc.lathe.motion import drawing
 from polycnc.control.fanuc.lathe.tools.offsets import THREADS
 from polycnc.control.word_address.motion.arcs import center_by_radius
-from polycnc.control.word_address.motion.path import CENTER_WORDS, PLANES, target
+from polycnc.control.word_address.motion.path import CENTER_WORDS, PLANES, reach
 from polycnc.geometry import arcs
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
@@ -114,7 +114,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
             for letter, (slot, convert) in amounts.items()
         }
         lead, c = lead_in_force(channel), channel.coordinates
-        programmed = target(channel, words, values)
+        programmed = reach(channel, words, values)
         first, second = c.geometry[u], c.geometry[v]
         begin: Point = (c.programmed[first], c.programmed[second])
         end: Point = (programmed[first], programmed[second])
