@@ -24,6 +24,7 @@ from polycnc.control.word_address.coordinates import stroke_check, systems
 from polycnc.control.word_address.motion import nurbs, path, path_modes
 from polycnc.control.word_address.tools import length as base_length
 from polycnc.control.word_address.tools import radius
+from polycnc.control.word_address.transformations import normal_line
 
 MOTION = Order.MOTION
 
@@ -70,9 +71,9 @@ G_CODES = table(
     GCode("G37", handler=tool_setting.measure_length, takes="R D F P", axis_words=True, order=MOTION),
     GCode("G37.2", handler=tool_setting.measure_into_work_system, takes="K R F P Q", axis_words=True, order=MOTION),
     GCode("G37.3", handler=tool_setting.measure_into_length, takes="H R F P Q", axis_words=True, order=MOTION),
-    GCode("G40.1", normal_direction.NORMAL, normal_direction.cancel),
-    GCode("G41.1", normal_direction.NORMAL, normal_direction.start, takes="Q P E R", order=MOTION),
-    GCode("G42.1", normal_direction.NORMAL, normal_direction.start, takes="Q P E R", order=MOTION),
+    GCode("G40.1", normal_line.GROUP, normal_line.cancel),
+    GCode("G41.1", normal_line.GROUP, normal_direction.start, takes="Q P E R", order=MOTION),
+    GCode("G42.1", normal_line.GROUP, normal_direction.start, takes="Q P E R", order=MOTION),
     GCode("G40", "compensation", cycles.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
     GCode("G41", "compensation", cycles.compensate_left, takes="D", order=Order.COMPENSATION),
     GCode("G42", "compensation", cycles.compensate_right, takes="D", order=Order.COMPENSATION),
@@ -81,7 +82,7 @@ G_CODES = table(
     GCode("G44", "length", tip_control.compensate_length, takes="H", order=Order.LENGTH),
     GCode("G43.4", "length", tip_control.start, takes="H Q L I", order=Order.LENGTH),
     GCode("G43.5", "length", tip_control.start, takes="H", order=Order.LENGTH),
-    GCode("G49", "length", tip_control.cancel, order=Order.LENGTH, ends=normal_direction.NORMAL),
+    GCode("G49", "length", tip_control.cancel, order=Order.LENGTH, ends=normal_line.GROUP),
     GCode("G45", handler=moves.lengthened, takes="D I J K", axis_words=True, order=MOTION),
     GCode("G46", handler=moves.shortened, takes="D I J K", axis_words=True, order=MOTION),
     GCode("G47", handler=moves.lengthened_twice, takes="D I J K", axis_words=True, order=MOTION),
@@ -169,6 +170,6 @@ ADDRESSES = {
 POWER_ON = MILLING_POWER_ON | {
     "unit": "G71",
     polar.POLAR: "G13.1",
-    normal_direction.NORMAL: normal_direction.OFF,
+    normal_line.GROUP: normal_line.OFF,
     oscillation.OSCILLATION: oscillation.OFF,
 }

@@ -25,6 +25,7 @@ from polycnc.control.word_address.block.numbers import Convert, NumberRules, len
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.motion import nurbs
+from polycnc.control.word_address.transformations import normal_line
 from polycnc.control.word_address.transformations.polar_interpolation import is_length
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.syntec import executable, iso_grammar
@@ -56,6 +57,7 @@ class SyntecMill(WordAddressControl):
 
     id: ClassVar[str] = "syntec-mill"
     alarm_series: ClassVar[Mapping[str, str] | None] = {"MAR": "MACRO"}
+    NORMAL_LINE_RULES: ClassVar[normal_line.NormalLineRules] = normal_direction.RULES
     alarm_files: ClassVar[tuple[str, ...]] = ("syntec/alarms.toml", "syntec/alarms_special.toml")
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
@@ -153,7 +155,7 @@ class SyntecMill(WordAddressControl):
     def reset(self, channel: Channel) -> None:
         """The state after reset: Pr3014 may keep the tilted plane, Pr413 the turn of G92.1."""
         quiet.switch_quiet(channel, on=False)
-        normal_direction.end(channel)
+        normal_line.end(channel)
         spatial.end(channel)
         polar.leave_plane(channel)
         if not parameter(channel.setup.parameters, 413):
@@ -224,7 +226,7 @@ class SyntecMill(WordAddressControl):
         mode = channel.mode
         builder = SyntecBuilder(channel, self, signature)
         polar.check_block(builder)
-        normal_direction.check_block(builder)
+        normal_line.check_block(builder)
         oscillation.check_block(builder)
         spatial.check_block(builder)
         plan = mode.plans[signature] = builder.build()

@@ -20,6 +20,7 @@ from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.path_modes import PathModeState
 from polycnc.control.word_address.reset import reset
 from polycnc.control.word_address.transformations.cylinder import CylinderState
+from polycnc.control.word_address.transformations.normal_line import NormalLineRules
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.geometry.arcs import radius_mismatch
 from polycnc.language.bulk import Spelling
@@ -72,6 +73,7 @@ class WordAddressControl:
         FEED_AT_START: Feed that holds before any F (mm/s), or None for the alarm of a missing feed.
         DIAMETER_PROGRAMMING: Axes marked as transverse are programmed in diameters.
         CURVE_BEGINS_AT_TOOL: The first pole of a G06.2 curve must be where the tool stands.
+        NORMAL_LINE_RULES: What G41.1 and G42.1 refuse.
         INCREMENTAL_ADDRESSES: Addresses that are increments of an axis whatever the mode (U is X …).
         LATER_AXIS_WORD_COUNTS: Of an absolute and an incremental word of one axis the later one counts alone.
         POINT_IN_WHOLE_NUMBERS: A decimal point behind a whole number is read over where no point belongs.
@@ -93,6 +95,7 @@ class WordAddressControl:
     FEED_AT_START: ClassVar[float | None] = None
     DIAMETER_PROGRAMMING: ClassVar[bool] = False
     CURVE_BEGINS_AT_TOOL: ClassVar[bool] = False
+    NORMAL_LINE_RULES: ClassVar[NormalLineRules] = NormalLineRules()
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {}
     LATER_AXIS_WORD_COUNTS: ClassVar[bool] = False
     INCH_CODE: ClassVar[str] = "G20"

@@ -1,4 +1,4 @@
-"""Normal direction control G40.1, G41.1, G42.1 (manual 2.83): a rotary axis keeps a knife at an angle to the path.
+"""How normal direction control G41.1, G42.1 begins (manual 2.83): a rotary axis keeps a knife at an angle to the path.
 
 The shape vector points along +X while the axis, about Z or Y, stands at machine zero, and along +Y for an axis about X.
 The control plane is the one across the axis.
@@ -11,17 +11,15 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.parameters import has_option
 from polycnc.control.word_address.motion.path import PLANES
+from polycnc.control.word_address.transformations.normal_line import GROUP, LEFT, NormalLineRules, end
 from polycnc.control.word_address.transformations.normal_stage import Direction, NormalStage
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.geometry.units import INCH_MM
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
 
-NORMAL, OFF = "normal_direction", "G40.1"
-LEFT = "G41.1"
 OPTION = 59
 AXIS, DIRECTION, POSITION, NOSE, SHORTEST, LONGEST = 5801, 5802, 5803, (5804, 5805, 5806), 5809, 5810
 AXIS_TYPE, ROTARY_TYPES = 221, (2, 5)
@@ -29,8 +27,7 @@ AXIS_TYPE, ROTARY_TYPES = 221, (2, 5)
 SHORTEST_RANGE, LONGEST_RANGE = (0.001, 10.0), (0.001, 999_999.0)
 #: Control plane of an axis along X, Y or Z, and the angle of the shape vector from its first axis at machine zero.
 CONTROL_PLANES = {0: ("G19", 0.0), 1: ("G18", 90.0), 2: ("G17", 0.0)}
-#: What each code is called in the table of mistakes while the control is on.
-FORBIDDEN = {
+_FORBIDDEN: dict[str | tuple[str, str], str] = {
     **dict.fromkeys(("G41", "G42", "G43.4", "G43.5"), "normal_compensation"),
     **dict.fromkeys(("G41.2", "G42.2", "G41.6", "G42.6"), "normal_spatial"),
     **dict.fromkeys(("G53", "G28", "G29", "G30"), "normal_machine"),
@@ -39,13 +36,15 @@ FORBIDDEN = {
     **dict.fromkeys(("G33", "G34"), "normal_thread"),
     **dict.fromkeys(("G81.1", "G81.2"), "normal_oscillation"),
     **dict.fromkeys(("G12.1", "G68.2", "G68.3", "G92.1"), "normal_frame"),
+    ("G5", "P"): "normal_smoothing",
 }
+RULES = NormalLineRules(_FORBIDDEN, preset="", axis_word="normal_rotary_word", with_its_end=False)
 
 
 def start(channel: Channel, words: Words) -> None:
     """G41.1, G42.1 [Q] [P] [E] [R]: from here on the axis follows the cuts."""
     memory, mode = channel.memory, channel.mode
-    code = mode[NORMAL]
+    code = mode[GROUP]
     if not has_option(memory.parameters, OPTION) or channel.number != 1:
         raise words.fail("option", code)
     if mode["compensation"] != "G40" or mode["length"] in ("G43.4", "G43.5"):
@@ -114,7 +113,7 @@ def _words(channel: Channel, words: Words) -> tuple[float, bool, float, float]:
     shortest = _parameter(channel, SHORTEST, 0.0) if shortest is None else shortest
     longest = _parameter(channel, LONGEST, inf) if longest is None else longest
     if shortest >= longest:
-        raise words.fail("normal_lengths", channel.mode[NORMAL])
+        raise words.fail("normal_lengths", channel.mode[GROUP])
     return angle, way == 1, shortest, longest
 
 
@@ -122,37 +121,3 @@ def _parameter(channel: Channel, number: int, default: float) -> float:
     """A length of the parameters, mm; the default where it is not set."""
     value = channel.setup.parameters.get(number)
     return float(value) if isinstance(value, int | float) and value > 0 else default
-
-
-def cancel(channel: Channel, _words: Words) -> None:
-    """G40.1: the axis stays where it is; length compensation goes on."""
-    end(channel)
-
-
-def end(channel: Channel) -> None:
-    """Take the stage out of the path."""
-    if channel.path.find(NormalStage) is None:
-        return
-    channel.flush()
-    channel.path.take(NormalStage)
-    channel.coordinates.arrive(channel.coordinates.position[:])
-
-
-def check_block(builder: Builder) -> None:
-    """Refuse what normal direction control does not allow."""
-    if builder.before[NORMAL] == OFF or builder.mode[NORMAL] == OFF:
-        return
-    fail = builder.control.fail
-    for row in builder.codes:
-        if row.code in FORBIDDEN:
-            raise fail(FORBIDDEN[row.code], address=row.code)
-        if row.code == "G5" and builder.has("P"):
-            raise fail("normal_smoothing", address=row.code)
-    stage = builder.channel.path.find(NormalStage)
-    if stage is None:
-        return
-    name = builder.channel.axes[stage.direction.axis]
-    if builder.has(name) and not any(row.axis_words for row in builder.codes):
-        raise fail("normal_rotary_word", address=name)
-    if PLANES[builder.mode["plane"]][:2] != stage.direction.places:
-        raise fail("normal_plane", address=builder.mode["plane"])

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates import length as tool_length
-from polycnc.control.syntec.five_axes import normal_direction
 from polycnc.control.word_address.block.words import Words
-from polycnc.control.word_address.transformations import tool_center_point
+from polycnc.control.word_address.transformations import normal_line, tool_center_point
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 
 if TYPE_CHECKING:
@@ -49,7 +48,7 @@ def compensate_length(channel: Channel, words: Words) -> None:
 
 def cancel(channel: Channel, words: Words) -> None:
     """G49: ends every kind of length compensation, and normal direction control."""
-    normal_direction.end(channel)
+    normal_line.end(channel)
     end(channel)
     tool_length.cancel_length(channel, words)
 

@@ -1,14 +1,17 @@
-"""Normal line control G40.1, G41.1, G42.1 of FANUC and MELDAS: a rotary axis stays square to the path.
+"""Normal line control G40.1, G41.1, G42.1: a rotary axis stays square to the path.
 
 The angle of the axis is that of a direction in the active plane: 0 along its first axis, 90 along the second.
 G41.1 keeps it on the normal that points to the left of the way, G42.1 to the right. In front of every block, rapids
 included, the axis turns the short way round onto the normal of that block; along an arc it turns with the arc.
 Words of the axis have no effect while the control is on.
+
+So FANUC and MELDAS have it, which `start` is for. What a control refuses meanwhile are its `NormalLineRules`; the end
+and the stage of the path (`normal_stage`) are the same on all.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.motion.path import PLANES
@@ -16,6 +19,8 @@ from polycnc.control.word_address.transformations.normal_stage import CUTS, SAME
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
@@ -36,14 +41,29 @@ class NormalLineParameters:
         turn_feed: Feed of turns in front of cuts, degrees a minute.
         least_turn: Turns that are not greater are left out, degrees.
         shortest: In blocks that are not longer the axis stands, mm.
-        preset: The code that sets positions; it may not name the axis while the control is on.
     """
 
     axis: int
     turn_feed: int = 0
     least_turn: int = 0
     shortest: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class NormalLineRules:
+    """What a control refuses while normal line control is on, beside another plane. Mistakes stand by their names.
+
+    Attributes:
+        forbidden: Mistakes by code, or by code and an address that stands with it.
+        preset: The code that sets positions and may not name the axis; empty for none.
+        axis_word: The mistake of a word of the axis; empty where such words have no effect.
+        with_its_end: The block that ends the control is looked at as well.
+    """
+
+    forbidden: Mapping[str | tuple[str, str], str] = field(default_factory=dict)
     preset: str = "G92"
+    axis_word: str = ""
+    with_its_end: bool = True
 
 
 def start(channel: Channel, words: Words) -> None:
@@ -73,7 +93,7 @@ def start(channel: Channel, words: Words) -> None:
         turn_feed=turn_feed or None,
         follows=CUTS | {Kind.RAPID},
     )
-    channel.path.put(NormalStage(direction, preset=numbers.preset))
+    channel.path.put(NormalStage(direction))
 
 
 def cancel(channel: Channel, _words: Words) -> None:
@@ -95,15 +115,22 @@ def end(channel: Channel) -> None:
 
 
 def check_block(builder: Builder) -> None:
-    """Refuse another plane, and G92 of the axis."""
-    if builder.before.codes.get(GROUP, OFF) == OFF:
+    """Refuse what the control does not allow while the axis follows the path."""
+    rules: NormalLineRules = builder.control.NORMAL_LINE_RULES
+    if builder.before.codes.get(GROUP, OFF) == OFF or not (rules.with_its_end or builder.mode[GROUP] != OFF):
         return
+    fail, codes = builder.control.fail, [row.code for row in builder.codes]
+    for code in codes:
+        for key, mistake in rules.forbidden.items():
+            if key == code or (isinstance(key, tuple) and key[0] == code and builder.has(key[1])):
+                raise fail(mistake, address=code)
     stage = builder.channel.path.find(NormalStage)
     if stage is None:
         return
-    if PLANES[builder.mode["plane"]][:2] != stage.direction.places:
-        raise builder.control.fail("normal_plane", address=builder.mode["plane"])
     name = builder.channel.axes[stage.direction.axis]
-    preset = stage.preset
-    if builder.has(name) and any(row.code == preset for row in builder.codes):
-        raise builder.control.fail("normal_preset", address=preset, code=preset)
+    if rules.axis_word and builder.has(name) and not any(row.axis_words for row in builder.codes):
+        raise fail(rules.axis_word, address=name)
+    if PLANES[builder.mode["plane"]][:2] != stage.direction.places:
+        raise fail("normal_plane", address=builder.mode["plane"])
+    if builder.has(name) and rules.preset in codes:
+        raise fail("normal_preset", address=rules.preset, code=rules.preset)

@@ -118,10 +118,8 @@ class NormalStage(Stage):
 
     rank = Rank.NORMAL
 
-    def __init__(self, direction: Direction, *, preset: str = "") -> None:
+    def __init__(self, direction: Direction) -> None:
         self.direction = direction
-        #: The code that would set the axis' position, which the control refuses.
-        self.preset = preset
         self._held: Move | None = None
         self._patience = 0
         #: Where the axis stands behind the last move.
