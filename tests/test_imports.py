@@ -21,6 +21,7 @@ LAYERS = (
     "toolpath",
     "machine",
     "program",
+    "memory",
     "channel",
     "language",
     "cycles",

@@ -28,6 +28,7 @@ from polycnc.channel.waits import (
     PreprocessingStop,
     Wait,
 )
+from polycnc.memory.retained import InMemoryStore
 from polycnc.messages import AlarmError
 from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
 from polycnc.toolpath.table import CHUNK_ROWS
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector
     from polycnc.machine.model import Axis, Machine
     from polycnc.machine.setup.values import Setup
+    from polycnc.memory.retained import RetainedStore
     from polycnc.messages import Alarm
     from polycnc.program import Program
     from polycnc.program.store import ProgramStore
@@ -75,6 +77,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
             None where a clock runs, which knows.
         group: The channels of the control, which the first one belongs to as well; None where it runs alone.
         memory: The control's own state (variables, offsets, tools), set by `Control.start`.
+        retained: What outlives the channel; a new one in memory where nobody gives another.
         states: The states that features own, one of each class; see `State.of`.
         passes: What ends a main program that would begin again for ever; None where somebody else ends it.
         bulk: Whether and how plain blocks are scanned in bulk; None interprets every block.
@@ -96,11 +99,13 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         block_limit: int = DEFAULT_BLOCK_LIMIT,
         toolpath: Toolpath | None = None,
         bulk: Bulk | None = None,
+        retained: RetainedStore | None = None,
     ) -> None:
         self.control = control
         self.machine = machine
         self.setup = setup
         self.store = store
+        self.retained: RetainedStore = InMemoryStore() if retained is None else retained
         self.number = number
         definition = machine.channel(number)
         self.axes: tuple[str, ...] = definition.names

@@ -119,7 +119,7 @@ class ChannelGroup:
         first = self.first
         channel = Channel(
             first.control, first.machine, first.setup, first.store, number=number,
-            block_limit=first.block_limit, bulk=first.bulk,
+            block_limit=first.block_limit, bulk=first.bulk, retained=first.retained,
         )  # fmt: skip
         channel.share_after = first.share_after
         return channel

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.geometry.frames import IDENTITY, Frame
+from polycnc.memory.retained import WORK_OFFSETS
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -91,10 +92,12 @@ class Memory:
         setup = channel.setup
         count = len(channel.axes)
         self.parameters = setup.parameters
-        self.work_offsets: dict[str, list[float]] = {EXTERNAL: [0.0] * count} | {
-            name: [values.get(axis, 0.0) for axis in channel.axes]
-            for name, values in setup.work_offsets.items()
-        }
+        self.work_offsets: dict[str, list[float]] = channel.retained.table(WORK_OFFSETS, channel.number)
+        if not self.work_offsets:
+            self.work_offsets[EXTERNAL] = [0.0] * count
+            for name, values in setup.work_offsets.items():
+                shown = [values.get(axis, 0.0) for axis in channel.axes]
+                self.work_offsets[name] = self.from_setup(channel, shown)
         self.tools = {int(number): ToolOffset.of(tool) for number, tool in setup.tools.items()}
         self.wcs = "G54"
         self.local_shift = [0.0] * count
@@ -122,6 +125,10 @@ class Memory:
         self.basic_geometry = channel.coordinates.geometry
         self.parallel: ParallelAxes | None = None
         self._count = count
+
+    def from_setup(self, _channel: Channel, shown: list[float]) -> list[float]:
+        """Offsets of all axes as the control keeps them, from what its displays show."""
+        return shown
 
     def work_offset(self, name: str) -> list[float]:
         """The offset of a work coordinate system; zero until it is set."""

@@ -137,10 +137,10 @@ class TurningMemory(MacroMemory):
         self.programmed_zone: Zone | None = None
         self.reading_shape = False
         self.shape: Shape | None = None
-        for name in self.work_offsets:
-            self.work_offsets[name] = [
-                self.radius_of(i, value) for i, value in enumerate(self.work_offsets[name])
-            ]
+
+    def from_setup(self, channel: Channel, shown: list[float]) -> list[float]:
+        """Offsets as radii, where the setup says diameters."""
+        return [channel.control.from_display(channel, axis, value) for axis, value in enumerate(shown)]
 
     def radius_of(self, axis: int, shown: float) -> float:
         """A value of the displays (diameter where the axis has one), mm, in internal units."""

@@ -15,6 +15,7 @@ from polycnc.channel.snapshot import unchanging
 from polycnc.control.word_address.memory import Memory
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.word_address.functions import round_half_away
+from polycnc.memory.retained import VARIABLE_NAMES
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -93,7 +94,7 @@ class MacroMemory(Memory):
         self.locals: list[float | None] = [None] * LOCALS
         self.common: list[float | None] = [None] * COMMONS
         self.more: dict[int, float | None] = {}
-        self.names: dict[str, int] = {}
+        self.names: dict[str, int] = channel.retained.table(VARIABLE_NAMES, channel.number)
         self.printing = False
         self.signals: dict[str, int] = {
             name: int(bool(value)) for name, value in channel.setup.switches.signals.items()
