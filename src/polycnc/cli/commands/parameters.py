@@ -37,7 +37,7 @@ def list_parameters(
     values = _values(setup)
     for parameter in known:
         shown = " ".join(_shown(parameter, values))
-        say(f"{parameter.name:9} {shown:12} {_meaning(parameter)}")
+        say(f"{parameter.number:9} {shown:12} {_meaning(parameter)}")
     return 0
 
 
@@ -53,12 +53,14 @@ def show_parameter(
     if isinstance(known, int):
         return known
     wanted = number.strip().upper()
-    found = [p for p in known if wanted in (p.name, p.name.partition("#")[0], p.name.zfill(len(wanted)))]
+    found = [
+        p for p in known if wanted in (p.number, p.number.partition("#")[0], p.number.zfill(len(wanted)))
+    ]
     if not found:
         return fail(text("parameters.unknown", control=control, number=number), 2)
     values = _values(setup)
     for parameter in found:
-        say(f"{parameter.name} {_meaning(parameter)}")
+        say(f"{parameter.number} {_meaning(parameter)}")
         if parameter.delivered is not None:
             say(f"  {text('parameters.delivered')}: {parameter.delivered:g}")
         given = list(_given(parameter, values))
@@ -141,7 +143,9 @@ def _meaning(parameter: KnownParameter) -> str:
     from polycnc.messages.catalogue import language
 
     unit = f" [{parameter.unit}]" if parameter.unit else ""
-    return parameter.texts[language()] + unit
+    meaning = parameter.texts[language()] + unit
+    name = parameter.mnemonic
+    return text("parameters.named", name=name, meaning=meaning) if name else meaning
 
 
 def _shown(parameter: KnownParameter, values: Parameters) -> Iterator[str]:

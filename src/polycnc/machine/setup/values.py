@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
+    from typing import Self
 
     from polycnc.geometry.surfaces import Surface
 
@@ -83,6 +84,10 @@ class Parameters:
     def items(self) -> Iterator[tuple[ParameterKey, Value]]:
         """All keys with their values."""
         return iter(self._values.items())
+
+    def having(self, key: ParameterKey, value: Value) -> Self:
+        """The same parameters, but for one."""
+        return type(self)({**self._values, key: value})
 
     def get(
         self,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.macro_b.parameter_input import set_parameter
 from polycnc.control.word_address.macro_b.variables import MacroMemory
 from polycnc.control.word_address.memory import ProgrammingFrames
@@ -106,6 +107,7 @@ class TurningMemory(MacroMemory):
 
     def __init__(self, channel: Channel, registry: Registry) -> None:
         super().__init__(channel, registry)
+        self.parameters: LatheParameters = LatheParameters(dict(channel.setup.parameters.items()))
         count = len(channel.axes)
         self.frames: TurningFrames = TurningFrames(count, channel.coordinates.geometry)
         self.tool_shift = [0.0] * count

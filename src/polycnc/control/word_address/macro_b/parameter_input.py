@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.macro_b.subprograms import sequences_of
-from polycnc.machine.setup.values import ParameterKey, Parameters
+from polycnc.machine.setup.values import ParameterKey
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -68,10 +68,9 @@ def set_parameter(channel: Channel, key: ParameterKey, value: float, *, keeps_pl
         value: Its new value.
         keeps_plans: No plan of a block rests on the parameter.
     """
-    setup = channel.setup
     whole = int(value) if value == int(value) else value
-    parameters = Parameters({**dict(setup.parameters.items()), key: whole})
-    channel.setup = replace(setup, parameters=parameters)
-    channel.memory.parameters = parameters
+    memory = channel.memory
+    memory.parameters = memory.parameters.having(key, whole)
+    channel.setup = replace(channel.setup, parameters=memory.parameters)
     if not keeps_plans:
         channel.modes.forget_plans()
