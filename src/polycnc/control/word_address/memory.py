@@ -9,7 +9,7 @@ from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.memory.retained import WORK_OFFSETS
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.control.word_address.motion.planes import ParallelAxes
     from polycnc.geometry.frames import Vector
     from polycnc.machine.setup.values import Tool
@@ -88,7 +88,7 @@ class Memory:
     #: common variables, shifts of work coordinate systems, the tool, S and the direction of the spindle stay.
     CLEARED: ClassVar[tuple[str, ...]] = ("wcs", "length_offset", "h", "d", "side", "engaged_side")
 
-    def __init__(self, channel: Channel) -> None:
+    def __init__(self, channel: WordAddressChannel) -> None:
         setup = channel.setup
         count = len(channel.axes)
         self.parameters = setup.parameters
@@ -126,7 +126,7 @@ class Memory:
         self.parallel: ParallelAxes | None = None
         self._count = count
 
-    def from_setup(self, _channel: Channel, shown: list[float]) -> list[float]:
+    def from_setup(self, _channel: WordAddressChannel, shown: list[float]) -> list[float]:
         """Offsets of all axes as the control keeps them, from what its displays show."""
         return shown
 

@@ -15,10 +15,10 @@ from polycnc.control.word_address.transformations import (
 from polycnc.geometry.frames import IDENTITY
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.family import WordAddressChannel
 
 
-def reset(channel: Channel) -> None:
+def reset(channel: WordAddressChannel) -> None:
     """Modal codes of power-on, compensations and programmed frames off; the axes stay where they are."""
     polar_interpolation.leave_polar(channel)
     cylinder.end_cylinder(channel)

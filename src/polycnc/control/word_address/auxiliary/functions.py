@@ -12,10 +12,10 @@ from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Conversion, Note, Scaling, SetFeed, Word, declare
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import WordAddressChannel
 
 
 def plan_feed(builder: Builder) -> Step:
@@ -26,12 +26,12 @@ def plan_feed(builder: Builder) -> Step:
     factor = builder.control.feed_factor(builder, builder.slots["F"][1], mode) * unit
     if mode == "G95":
 
-        def set_feed_per_revolution(channel: Channel, values: list[float]) -> None:
+        def set_feed_per_revolution(channel: WordAddressChannel, values: list[float]) -> None:
             channel.feed = values[slot] * factor
 
         return declare(set_feed_per_revolution, SetFeed(Word(slot, Conversion(Scaling.TIMES, 1.0, factor))))
 
-    def set_feed(channel: Channel, values: list[float]) -> None:
+    def set_feed(channel: WordAddressChannel, values: list[float]) -> None:
         channel.feed = values[slot] * factor / 60.0
 
     return declare(set_feed, SetFeed(Word(slot, Conversion(Scaling.RATIO, 60.0, factor))))
@@ -42,7 +42,7 @@ def plan_spindle_speed(builder: Builder) -> Step:
     slot = builder.slots["S"][0]
     chosen = builder.control.spindle_slot(builder)
 
-    def set_speed(channel: Channel, values: list[float]) -> None:
+    def set_speed(channel: WordAddressChannel, values: list[float]) -> None:
         memory, speed = channel.memory, values[slot]
         if memory.spindle_speed != speed:
             memory.spindle_speed = speed
@@ -57,7 +57,7 @@ def plan_tool(builder: Builder) -> Step:
     """T: selects the next tool; M06 brings it into the spindle."""
     slot = builder.slots["T"][0]
 
-    def select(channel: Channel, values: list[float]) -> None:
+    def select(channel: WordAddressChannel, values: list[float]) -> None:
         channel.memory.next_tool = int(values[slot])
         channel.event("t", tool=_number(values[slot]))
 
@@ -68,7 +68,7 @@ def plan_second_auxiliary(builder: Builder) -> Step:
     """B (where no axis has that name): second auxiliary function, for the machine's builder."""
     slot = builder.slots["B"][0]
 
-    def send(channel: Channel, values: list[float]) -> None:
+    def send(channel: WordAddressChannel, values: list[float]) -> None:
         channel.event("b", code=_number(values[slot]))
 
     return send
@@ -78,26 +78,26 @@ def _number(value: float) -> float | int:
     return int(value) if value == int(value) else value
 
 
-def change_tool(channel: Channel, _words: Words) -> None:
+def change_tool(channel: WordAddressChannel, _words: Words) -> None:
     """M06: the selected tool comes into the spindle."""
     check_change_points(channel)
     channel.memory.tool = channel.memory.next_tool
     channel.context_changed()
 
 
-def spindle_clockwise(channel: Channel, _words: Words) -> None:
+def spindle_clockwise(channel: WordAddressChannel, _words: Words) -> None:
     """M03."""
     channel.memory.spindle_direction = 1
     channel.context_changed()
 
 
-def spindle_counter_clockwise(channel: Channel, _words: Words) -> None:
+def spindle_counter_clockwise(channel: WordAddressChannel, _words: Words) -> None:
     """M04."""
     channel.memory.spindle_direction = -1
     channel.context_changed()
 
 
-def spindle_stop(channel: Channel, _words: Words) -> None:
+def spindle_stop(channel: WordAddressChannel, _words: Words) -> None:
     """M05."""
     channel.memory.spindle_direction = 0
     channel.context_changed()
@@ -118,7 +118,7 @@ class RigidTappingState(State, lifetime=Lifetime.RESET):
     armed: RigidTapping | None = None
 
 
-def arm_rigid_tapping(channel: Channel, words: Words) -> None:
+def arm_rigid_tapping(channel: WordAddressChannel, words: Words) -> None:
     """M29 S: the next tapping cycle is rigid; nothing may move in between."""
     speed = words.typed("S")
     memory = channel.memory
@@ -127,23 +127,23 @@ def arm_rigid_tapping(channel: Channel, words: Words) -> None:
     )
 
 
-def stop(channel: Channel, _words: Words) -> None:
+def stop(channel: WordAddressChannel, _words: Words) -> None:
     """M00: stop until the operator starts again."""
     channel.stop("M00")
 
 
-def optional_stop(channel: Channel, _words: Words) -> None:
+def optional_stop(channel: WordAddressChannel, _words: Words) -> None:
     """M01: as M00 while the operator's switch is on."""
     if channel.optional_stop:
         channel.stop("M01")
 
 
-def end_program(channel: Channel, _words: Words) -> None:
+def end_program(channel: WordAddressChannel, _words: Words) -> None:
     """M02, M30: the run is over."""
     channel.end()
 
 
-def dwell(channel: Channel, words: Words) -> None:
+def dwell(channel: WordAddressChannel, words: Words) -> None:
     """G04 X or U (seconds; without a point least increments of time) or P (milliseconds)."""
     for word in words.plan.axis_words:
         if word.address not in "XU":
@@ -158,7 +158,7 @@ def dwell(channel: Channel, words: Words) -> None:
             return
 
 
-def stand(channel: Channel, seconds: float) -> None:
+def stand(channel: WordAddressChannel, seconds: float) -> None:
     """A dwell, which the clocks of the macro variables count."""
     channel.memory.waited += max(seconds, 0.0)
     channel.dwell(seconds=seconds)

@@ -17,10 +17,10 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import MCode, Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.machine.plc import Plc, PlcAlarm
 
 #: What the rules call an M code that is in no list.
@@ -29,18 +29,18 @@ UNKNOWN_M = "UNKNOWN_M"
 BRAKES = ("FOURTH_AXIS_CLAMPED", "FIFTH_AXIS_CLAMPED")
 
 
-def _z_is_referenced(channel: Channel) -> bool:
+def _z_is_referenced(channel: WordAddressChannel) -> bool:
     z = channel.coordinates.geometry[2]
     return z < 0 or stands_at(channel, z, (1,))
 
 
-def _z_is_at_change_point(channel: Channel) -> bool:
+def _z_is_at_change_point(channel: WordAddressChannel) -> bool:
     z = channel.coordinates.geometry[2]
     return z < 0 or stands_at(channel, z, change_points(channel, z))
 
 
 #: Signals that follow from the state of the program.
-STATES: Mapping[str, Callable[[Channel], bool]] = {
+STATES: Mapping[str, Callable[[WordAddressChannel], bool]] = {
     "Z_AT_REFERENCE": _z_is_referenced,
     "Z_AT_CHANGE_POINT": _z_is_at_change_point,
     "AUTO": lambda channel: channel.setup.switches.mode.lower() != "mdi",
@@ -48,7 +48,7 @@ STATES: Mapping[str, Callable[[Channel], bool]] = {
 }
 
 
-def refuse(channel: Channel, word: str, address: str = "") -> None:
+def refuse(channel: WordAddressChannel, word: str, address: str = "") -> None:
     """Raise the machine's alarm if it refuses a word now; else let its rules answer to the word.
 
     Args:
@@ -70,7 +70,7 @@ def refuse(channel: Channel, word: str, address: str = "") -> None:
     plc.latch(word, signals)
 
 
-def _refusal(channel: Channel, word: str, signals: dict[str, float]) -> PlcAlarm | None:
+def _refusal(channel: WordAddressChannel, word: str, signals: dict[str, float]) -> PlcAlarm | None:
     """The row that refuses a word in the state of the program and of the machine."""
 
     def value(name: str) -> float:
@@ -88,7 +88,7 @@ def guarded(row: MCode, plc: Plc) -> MCode:
         return row
     handler = row.handler
 
-    def act(channel: Channel, block: Words) -> None:
+    def act(channel: WordAddressChannel, block: Words) -> None:
         refuse(channel, word)
         if handler is not None:
             handler(channel, block)
@@ -101,13 +101,13 @@ def unlisted(row: MCode, plc: Plc) -> MCode:
     if not plc.knows(UNKNOWN_M):
         return row
 
-    def act(channel: Channel, _block: Words) -> None:
+    def act(channel: WordAddressChannel, _block: Words) -> None:
         refuse(channel, UNKNOWN_M, f"M{row.code}")
 
     return replace(row, handler=act)
 
 
-def nothing(_channel: Channel, _values: list[float]) -> None:
+def nothing(_channel: WordAddressChannel, _values: list[float]) -> None:
     """A word that only the machine's rules answer to."""
 
 
@@ -115,7 +115,7 @@ def guarded_step(step: Step, words: Iterable[str], plc: Plc) -> Step:
     """A step behind the interlocks of some words, asked in their order."""
     mine = [word for word in words if plc.knows(word)]
 
-    def act(channel: Channel, values: list[float]) -> None:
+    def act(channel: WordAddressChannel, values: list[float]) -> None:
         for word in mine:
             refuse(channel, word)
         step(channel, values)
@@ -135,7 +135,7 @@ def guarded_speed(step: Step, builder: Builder) -> Step:
     return declare(act, told._replace(condition=_lets_speeds_pass, step=step))
 
 
-def _lets_speeds_pass(channel: Channel) -> bool:
+def _lets_speeds_pass(channel: WordAddressChannel) -> bool:
     """Whether the machine refuses no S now: its tool is clamped. Neither moves nor S itself change that."""
     signals: dict[str, float] | None = channel.memory.machine_signals
     return signals is None or _refusal(channel, "S_CODE", signals) is None
@@ -153,19 +153,19 @@ def guarded_motion(step: Step, builder: Builder, plan: Plan) -> Step:
     return act if told is None else declare(act, told)  # plain as long as no brake is on
 
 
-def holds_an_axis(channel: Channel) -> bool:
+def holds_an_axis(channel: WordAddressChannel) -> bool:
     """Whether a brake is on, so that moves have to be asked for."""
     signals: dict[str, float] = getattr(channel.memory, "machine_signals", None) or {}
     return any(signals.get(brake) for brake in BRAKES)
 
 
-def note_reference_return(channel: Channel, axes: Iterable[str]) -> None:
+def note_reference_return(channel: WordAddressChannel, axes: Iterable[str]) -> None:
     """Axes have returned to a reference point: their position is known again."""
     if channel.memory.machine_signals is not None:
         channel.memory.machine_signals.update({f"NOT_REFERENCED_{axis}": 0.0 for axis in axes})
 
 
-def note_tool_number(channel: Channel) -> None:
+def note_tool_number(channel: WordAddressChannel) -> None:
     """The block of a tool change that is a macro names its tool as an argument: the machine has its number."""
     plc: Plc = channel.control.plc
     if channel.memory.machine_signals is not None:

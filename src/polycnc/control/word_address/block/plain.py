@@ -17,9 +17,9 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Hashable, Sequence
 
-    from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
     from polycnc.control.word_address.block.plan import Plan
+    from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.language.bulk.scanner import LastMoves
 
 #: How a number was written, as the scanner counts it; see `language.word_address.words`.
@@ -37,7 +37,7 @@ class PlainBlocks:
         self.spelling = spelling
         self._conditions = Conditions()
 
-    def ready(self, channel: Channel) -> bool:
+    def ready(self, channel: WordAddressChannel) -> bool:
         """Single blocks are watched; forbidden zones, unrolled surfaces and held moves are the interpreter's."""
         if channel.single_block or channel.stroke_zone is not None or not channel.path.is_idle:
             return False
@@ -45,35 +45,35 @@ class PlainBlocks:
             return False
         return channel.coordinates.direct or _keeps_circles(channel)
 
-    def generation(self, channel: Channel) -> Hashable:
+    def generation(self, channel: WordAddressChannel) -> Hashable:
         """Changes when plans are forgotten, and with the conditions on which recipes rest."""
         return channel.modes.generation, self._conditions.hold(channel)
 
-    def state(self, channel: Channel) -> Mode:
+    def state(self, channel: WordAddressChannel) -> Mode:
         """The modal state."""
         return channel.mode
 
-    def enter(self, channel: Channel, state: Mode) -> None:
+    def enter(self, channel: WordAddressChannel, state: Mode) -> None:
         """Another modal state."""
         channel.mode = state
 
-    def owes(self, channel: Channel) -> bool:
+    def owes(self, channel: WordAddressChannel) -> bool:
         """Whether incremental words are owed a change of offsets."""
         return channel.coordinates.owes
 
-    def limits(self, channel: Channel) -> Sequence[tuple[float, float]]:
+    def limits(self, channel: WordAddressChannel) -> Sequence[tuple[float, float]]:
         """The channel's own."""
         return channel.limits
 
-    def tolerance(self, channel: Channel) -> float:
+    def tolerance(self, channel: WordAddressChannel) -> float:
         """The control's arc tolerance, mm."""
         control = channel.control
         return min(float(control.arc_tolerance(channel)), float(control.spiral_tolerance(channel)))
 
-    def moved(self, channel: Channel, last: LastMoves) -> None:
+    def moved(self, channel: WordAddressChannel, last: LastMoves) -> None:
         """Nothing is remembered of a move."""
 
-    def recipe(self, channel: Channel, keys: Sequence[int], _line: str) -> Recipe | None:
+    def recipe(self, channel: WordAddressChannel, keys: Sequence[int], _line: str) -> Recipe | None:
         """What the plan of a shape does, if all of it can be told."""
         signature = tuple(_key(key) for key in keys)
         plan: Plan | None = channel.mode.plans.get(signature)
@@ -88,7 +88,7 @@ class PlainBlocks:
         return None if any(geometry[axis] < 0 for axis in recipe.motion.plane[:2]) else recipe
 
 
-def _keeps_circles(channel: Channel) -> bool:
+def _keeps_circles(channel: WordAddressChannel) -> bool:
     """Whether the programming frame leaves circles of the plane circles, mirrored as a whole or not at all."""
     frame, plane = channel.coordinates.programming, path.PLANES[channel.mode["plane"]]
     mirrored = arcs.mirrors_plane(frame, plane) == frame.mirrors

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import WordAddressChannel
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +20,7 @@ class StrokeZone:
     inside: bool
     number: int = 2
 
-    def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:
+    def check(self, channel: WordAddressChannel, machine: list[float], *, straight: bool) -> None:
         """The control's alarm for a way into the zone, or out of it; of a curve the end and points on it."""
         start = channel.coordinates.machine if straight else machine
         axis = self._entered(start, machine) if self.inside else self._left(machine)
@@ -28,7 +28,7 @@ class StrokeZone:
             direction = 1 if machine[axis] >= channel.coordinates.machine[axis] else -1
             raise channel.control.forbidden_zone(channel.axes[axis], direction, self.number)
 
-    def check_point(self, channel: Channel, machine: list[float]) -> None:
+    def check_point(self, channel: WordAddressChannel, machine: list[float]) -> None:
         """The control's alarm for a point of a curve."""
         self.check(channel, machine, straight=False)
 
@@ -53,7 +53,7 @@ class StrokeZone:
         return blamed if first <= last else -1
 
 
-def stroke_check_on(channel: Channel, words: Words) -> None:
+def stroke_check_on(channel: WordAddressChannel, words: Words) -> None:
     """G22 X Y Z I J K: stored stroke check 2; X Y Z the upper corner, I J K the lower, machine coordinates."""
     upper = {axis: value for axis, value, _ in words.axes()}
     named: list[tuple[int, float, float]] = []
@@ -69,6 +69,6 @@ def stroke_check_on(channel: Channel, words: Words) -> None:
         channel.stroke_zone = StrokeZone(tuple(lows), tuple(highs), tuple(axes), inside)
 
 
-def stroke_check_off(channel: Channel, _words: Words) -> None:
+def stroke_check_off(channel: WordAddressChannel, _words: Words) -> None:
     """G23: the zone of G22 may be entered again."""
     channel.stroke_zone = None

@@ -28,10 +28,10 @@ from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS, STROKE, Overlap
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.numbers import NumberRules
     from polycnc.control.word_address.block.plan import AxisWord, Builder, Plan
+    from polycnc.control.word_address.family import WordAddressChannel
 
 #: A value of the cycle data: in internal units (P as typed), and whether it is an increment.
 Datum = tuple[float, bool]
@@ -97,18 +97,20 @@ def in_milliseconds(value: float, _form: str, _rules: NumberRules) -> float:
     return value / 1000.0
 
 
-def turn_spindle(channel: Channel, direction: int) -> None:
+def turn_spindle(channel: WordAddressChannel, direction: int) -> None:
     """The spindle turns the other way, or stops."""
     channel.memory.spindle_direction = direction
     channel.context_changed()
 
 
-def as_it_is(_channel: Channel, _code: str, _hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
+def as_it_is(
+    _channel: WordAddressChannel, _code: str, _hole: Hole, strokes: Iterator[Stroke]
+) -> Iterator[Stroke]:
     """The strokes of the cycle and nothing else."""
     return strokes
 
 
-def lead_from_feed(channel: Channel) -> float:
+def lead_from_feed(channel: WordAddressChannel) -> float:
     """Lead of a tap, mm: the feed per revolution, or the feed per minute over the spindle's speed."""
     if FEED_MODES[channel.mode["feed"]] == "G95":
         return channel.feed
@@ -116,21 +118,23 @@ def lead_from_feed(channel: Channel) -> float:
     return channel.feed * 60.0 / speed if speed > 0.0 else 0.0
 
 
-def any_override(_channel: Channel) -> float:
+def any_override(_channel: WordAddressChannel) -> float:
     """The machine sets no bound."""
     return 0.0
 
 
-def no_relief(_channel: Channel, _code: str) -> float:
+def no_relief(_channel: WordAddressChannel, _code: str) -> float:
     """Pecks follow each other without a retract."""
     return 0.0
 
 
-def nothing_to_check(_channel: Channel, _code: str) -> None:
+def nothing_to_check(_channel: WordAddressChannel, _code: str) -> None:
     """The control has no conditions of its own."""
 
 
-def shift_by_center_words(_channel: Channel, data: CycleData, plane: tuple[int, int]) -> tuple[float, float]:
+def shift_by_center_words(
+    _channel: WordAddressChannel, data: CycleData, plane: tuple[int, int]
+) -> tuple[float, float]:
     """I, J, K are the shift along X, Y, Z."""
     return data.amount("IJK"[plane[0]]), data.amount("IJK"[plane[1]])
 
@@ -143,11 +147,11 @@ class Halts(Enum):
     ALL = "behind every stroke"
 
 
-def no_overlap(_channel: Channel, _code: str) -> None:
+def no_overlap(_channel: WordAddressChannel, _code: str) -> None:
     """Every stroke begins when the axes rest."""
 
 
-def halts_nowhere(_channel: Channel, _code: str) -> Halts:
+def halts_nowhere(_channel: WordAddressChannel, _code: str) -> Halts:
     """A block that drills is one block."""
     return Halts.NONE
 
@@ -194,16 +198,18 @@ class Drilling:
     dwells_at_r: bool = False
     axis: Callable[[Builder], int] = third_axis
     seconds: Callable[[float, str, NumberRules], float] = in_milliseconds
-    relief: Callable[[Channel, str], float] = no_relief
-    shift: Callable[[Channel, CycleData, tuple[int, int]], tuple[float, float]] = shift_by_center_words
-    lead: Callable[[Channel], float] = lead_from_feed
-    largest_override: Callable[[Channel], float] = any_override
-    turn: Callable[[Channel, int], None] = turn_spindle
-    check: Callable[[Channel, str], None] = nothing_to_check
+    relief: Callable[[WordAddressChannel, str], float] = no_relief
+    shift: Callable[[WordAddressChannel, CycleData, tuple[int, int]], tuple[float, float]] = (
+        shift_by_center_words
+    )
+    lead: Callable[[WordAddressChannel], float] = lead_from_feed
+    largest_override: Callable[[WordAddressChannel], float] = any_override
+    turn: Callable[[WordAddressChannel, int], None] = turn_spindle
+    check: Callable[[WordAddressChannel, str], None] = nothing_to_check
     least_increments: Sequence[str] = ""
-    dress: Callable[[Channel, str, Hole, Iterator[Stroke]], Iterator[Stroke]] = as_it_is
-    halts: Callable[[Channel, str], Halts] = halts_nowhere
-    overlaps: Callable[[Channel, str], bool | None] = no_overlap
+    dress: Callable[[WordAddressChannel, str, Hole, Iterator[Stroke]], Iterator[Stroke]] = as_it_is
+    halts: Callable[[WordAddressChannel, str], Halts] = halts_nowhere
+    overlaps: Callable[[WordAddressChannel, str], bool | None] = no_overlap
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -248,7 +254,7 @@ class CycleData:
         return base + value if incremental else value
 
 
-def is_active(channel: Channel) -> bool:
+def is_active(channel: WordAddressChannel) -> bool:
     """Whether a drilling cycle is modal now."""
     return channel.mode.codes.get("cycle", "") in channel.control.drilling_rules(channel).cycles
 
@@ -268,7 +274,7 @@ def plan_drilling(builder: Builder, plan: Plan) -> Step:
     entering = builder.before["cycle"] not in rules.cycles
     control = builder.control
 
-    def run(channel: Channel, values: list[float]) -> None:
+    def run(channel: WordAddressChannel, values: list[float]) -> None:
         state, c = CycleState.of(channel), channel.coordinates
         before = None if entering else state.data
         if before is None or before.axis != words.axis:
@@ -365,7 +371,7 @@ class _Words:
             raise self.control.fail("minus" if value < 0 else "too_many_digits", address=self.repeats)
         return int(value)
 
-    def position(self, channel: Channel, values: list[float]) -> None:
+    def position(self, channel: WordAddressChannel, values: list[float]) -> None:
         """Rapid over the hole, at the level where the tool stands."""
         c = channel.coordinates
         if self.polar:
@@ -376,20 +382,20 @@ class _Words:
         channel.straight(Kind.RAPID, c.to_position(end), nan, end)
 
 
-def drill_here(channel: Channel) -> None:
+def drill_here(channel: WordAddressChannel) -> None:
     """Drill with the data of the active cycle where the tool stands (hole patterns)."""
     code, data = channel.mode["cycle"], CycleState.of(channel).active
     _perform(channel, _strokes(channel, code, data), data)
 
 
-def _strokes(channel: Channel, code: str, data: CycleData) -> Iterator[Stroke]:
+def _strokes(channel: WordAddressChannel, code: str, data: CycleData) -> Iterator[Stroke]:
     """What the tool does at the next hole."""
     rules: Drilling = channel.control.drilling_rules(channel)
     hole = _hole(channel, code, data)
     return rules.dress(channel, code, hole, rules.cycles[code].strokes(hole))
 
 
-def _hole(channel: Channel, code: str, data: CycleData) -> Hole:
+def _hole(channel: WordAddressChannel, code: str, data: CycleData) -> Hole:
     """Levels and amounts of the next hole."""
     rules: Drilling = channel.control.drilling_rules(channel)
     cycle = rules.cycles[code]
@@ -409,7 +415,7 @@ def _hole(channel: Channel, code: str, data: CycleData) -> Hole:
     )
 
 
-def _with_halts(channel: Channel, strokes: Iterator[Stroke], halts: Halts) -> Iterator[Stroke]:
+def _with_halts(channel: WordAddressChannel, strokes: Iterator[Stroke], halts: Halts) -> Iterator[Stroke]:
     """Note where single block halts: behind strokes and dwells; the end of the hole is not counted here.
 
     A dwell behind an M code (unclamping an axis) belongs to the action that the code ends.
@@ -429,7 +435,7 @@ def _with_halts(channel: Channel, strokes: Iterator[Stroke], halts: Halts) -> It
         yield stroke
 
 
-def _perform(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> None:
+def _perform(channel: WordAddressChannel, strokes: Iterator[Stroke], data: CycleData) -> None:
     """Let the tool make the strokes of one hole."""
     rules: Drilling = channel.control.drilling_rules(channel)
     if rules.cycles[channel.mode["cycle"]].strokes in TAPS:
@@ -444,7 +450,7 @@ def _perform(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> No
         _meet(channel, None)
 
 
-def _meet(channel: Channel, overlaps: bool | None) -> None:
+def _meet(channel: WordAddressChannel, overlaps: bool | None) -> None:
     """Say how the next stroke ends: whether the one behind it may begin before the axes rest."""
     kind = NO_OVERLAP if overlaps is None else OVERLAPS if overlaps else STROKE
     state = CycleState.of(channel)
@@ -453,7 +459,7 @@ def _meet(channel: Channel, overlaps: bool | None) -> None:
         channel.context_changed()
 
 
-def _work(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> None:
+def _work(channel: WordAddressChannel, strokes: Iterator[Stroke], data: CycleData) -> None:
     center = channel.coordinates.programmed[:]
     direction = channel.memory.spindle_direction
     rules: Drilling = channel.control.drilling_rules(channel)
@@ -475,7 +481,7 @@ def _work(channel: Channel, strokes: Iterator[Stroke], data: CycleData) -> None:
             _stroke(channel, data.axis, stroke)
 
 
-def _stroke(channel: Channel, axis: int, stroke: Stroke) -> None:
+def _stroke(channel: WordAddressChannel, axis: int, stroke: Stroke) -> None:
     """Along the drilling axis to a level."""
     c = channel.coordinates
     end = c.programmed[:]
@@ -496,7 +502,7 @@ def _stroke(channel: Channel, axis: int, stroke: Stroke) -> None:
         channel.curve(Kind.TAP, position, feed, parameters=parameters, programmed=end)
 
 
-def _shift(channel: Channel, center: list[float], data: CycleData, part: float) -> None:
+def _shift(channel: WordAddressChannel, center: list[float], data: CycleData, part: float) -> None:
     """Off the hole's axis by the shift, or back over it; only the axes of the plane."""
     c = channel.coordinates
     w = c.geometry.index(data.axis)

@@ -16,14 +16,14 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.arcs import Point
 
 MOST_HOLES = 9999
 
 
-def circle_of_holes(channel: Channel, words: Words) -> None:
+def circle_of_holes(channel: WordAddressChannel, words: Words) -> None:
     """MELDAS G34: X Y centre, I radius, J angle of the first hole, K count (negative: clockwise)."""
     count = _count(words, "K", signed=True)
     radius = abs(_length(words, "I"))
@@ -32,14 +32,14 @@ def circle_of_holes(channel: Channel, words: Words) -> None:
     )
 
 
-def line_of_holes(channel: Channel, words: Words) -> None:
+def line_of_holes(channel: WordAddressChannel, words: Words) -> None:
     """MELDAS G35: X Y first hole, I pitch, J angle of the line, K count."""
     count = _count(words, "K")
     pitch = _length(words, "I")
     drill_points(channel, patterns.line(plane_point(channel, words), pitch, words.angle("J") or 0.0, count))
 
 
-def arc_of_holes(channel: Channel, words: Words) -> None:
+def arc_of_holes(channel: WordAddressChannel, words: Words) -> None:
     """MELDAS G36: X Y centre, I radius, J angle of the first hole, P angle from hole to hole, K count."""
     count = _count(words, "K")
     radius = abs(_length(words, "I"))
@@ -49,7 +49,7 @@ def arc_of_holes(channel: Channel, words: Words) -> None:
     drill_points(channel, patterns.arc(plane_point(channel, words), radius, start, pitch, count))
 
 
-def grid_of_holes(channel: Channel, words: Words) -> None:
+def grid_of_holes(channel: WordAddressChannel, words: Words) -> None:
     """MELDAS G37.1: X Y first hole, I pitch and P count along the first axis, J pitch and K count along the second."""
     columns, rows = _count(words, "P"), _count(words, "K")
     pitches = (_length(words, "I"), _length(words, "J"))
@@ -72,7 +72,7 @@ def _length(words: Words, address: str) -> float:
     return value
 
 
-def plane_point(channel: Channel, words: Words) -> Point:
+def plane_point(channel: WordAddressChannel, words: Words) -> Point:
     """The point in the active plane that the axis words name."""
     c = channel.coordinates
     point = c.programmed[:]
@@ -82,7 +82,7 @@ def plane_point(channel: Channel, words: Words) -> Point:
     return point[c.geometry[u]], point[c.geometry[v]]
 
 
-def drill_points(channel: Channel, points: Iterable[Point]) -> None:
+def drill_points(channel: WordAddressChannel, points: Iterable[Point]) -> None:
     """Rapid over each point, and the active cycle there if one is active."""
     c = channel.coordinates
     u, v, _ = PLANES[channel.mode["plane"]]

@@ -18,7 +18,7 @@ from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import arc_kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.frames import Frame, Vector
 
@@ -27,7 +27,7 @@ SAME_SCALE = 1e-9
 
 
 def center_by_radius(
-    channel: Channel, begin: arcs.Point, end: arcs.Point, radius: float, ccw: bool
+    channel: WordAddressChannel, begin: arcs.Point, end: arcs.Point, radius: float, ccw: bool
 ) -> arcs.Point | None:
     """The centre for an R word; None where start and end coincide (an arc of 0 degrees: no motion in the plane)."""
     control = channel.control
@@ -48,7 +48,7 @@ def mirrors_plane(frame: Frame, plane: tuple[int, int, int]) -> bool:
 
 
 def emit_arc(
-    channel: Channel,
+    channel: WordAddressChannel,
     programmed: list[float],
     center: arcs.Point,
     plane: tuple[int, int, int],
@@ -106,7 +106,7 @@ def is_stretched(frame: Frame, plane: tuple[int, int, int]) -> bool:
 
 
 def emit_stretched(
-    channel: Channel,
+    channel: WordAddressChannel,
     programmed: list[float],
     plane: tuple[int, int, int],
     told_by: float | Point,
@@ -137,7 +137,7 @@ def emit_stretched(
 
 
 def write_with_rest(
-    channel: Channel,
+    channel: WordAddressChannel,
     position: list[float],
     center: Point,
     plane: tuple[int, int, int],

@@ -8,22 +8,22 @@ from polycnc.control.word_address.motion.arcs import emit_arc
 from polycnc.control.word_address.motion.path import CENTER_WORDS, PLANES, reach
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.arcs import Point
 
 
-def cut_circle_cw(channel: Channel, words: Words) -> None:
+def cut_circle_cw(channel: WordAddressChannel, words: Words) -> None:
     """G12 I D: from its centre onto a circle of radius I - D, once round clockwise, and back to the centre."""
     _cut_circle(channel, words, ccw=False)
 
 
-def cut_circle_ccw(channel: Channel, words: Words) -> None:
+def cut_circle_ccw(channel: WordAddressChannel, words: Words) -> None:
     """G13 I D: the same, counter-clockwise."""
     _cut_circle(channel, words, ccw=True)
 
 
-def _cut_circle(channel: Channel, words: Words, *, ccw: bool) -> None:
+def _cut_circle(channel: WordAddressChannel, words: Words, *, ccw: bool) -> None:
     """A half circle out to the first axis, the full circle, a half circle back: tangential on and off."""
     control, memory, c = channel.control, channel.memory, channel.coordinates
     if channel.mode["compensation"] != "G40":
@@ -46,17 +46,17 @@ def _cut_circle(channel: Channel, words: Words, *, ccw: bool) -> None:
         emit_arc(channel, end[:], center, plane, ccw=ccw, feed=feed)
 
 
-def spiral_cw(channel: Channel, words: Words) -> None:
+def spiral_cw(channel: WordAddressChannel, words: Words) -> None:
     """G02.1 X Y Z I J P: spiral about the centre, clockwise, with P full turns beyond the first part."""
     _spiral(channel, words, ccw=False)
 
 
-def spiral_ccw(channel: Channel, words: Words) -> None:
+def spiral_ccw(channel: WordAddressChannel, words: Words) -> None:
     """G03.1: the same, counter-clockwise."""
     _spiral(channel, words, ccw=True)
 
 
-def _spiral(channel: Channel, words: Words, *, ccw: bool) -> None:
+def _spiral(channel: WordAddressChannel, words: Words, *, ccw: bool) -> None:
     c = channel.coordinates
     plane = PLANES[channel.mode["plane"]]
     if not channel.feed > 0.0:

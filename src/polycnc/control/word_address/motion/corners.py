@@ -9,9 +9,9 @@ from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolati
 from polycnc.control.word_address.motion.path import PLANES
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.family import WordAddressChannel
 
 SHAPES = {",C": Shape.CHAMFER, ",R": Shape.ROUNDING}
 #: What each violation is called in a control's table of mistakes.
@@ -32,7 +32,7 @@ def plan_corner_words(builder: Builder) -> Step | None:
     shape = SHAPES[address]
     assert slot is not None
 
-    def insert(channel: Channel, values: list[float]) -> None:
+    def insert(channel: WordAddressChannel, values: list[float]) -> None:
         size = convert(values[slot]) if convert else values[slot]
         if size < 0.0:
             raise channel.control.fail("minus", address=address)
@@ -42,7 +42,7 @@ def plan_corner_words(builder: Builder) -> Step | None:
     return insert
 
 
-def corner_stage(channel: Channel) -> CornerStage:
+def corner_stage(channel: WordAddressChannel) -> CornerStage:
     """The channel's corner stage for the active plane, put into its path when it is first needed."""
     u, v, w = PLANES[channel.mode["plane"]]
     stage = channel.path.find(CornerStage)
@@ -56,7 +56,7 @@ def corner_stage(channel: Channel) -> CornerStage:
     return channel.path.put(CornerStage(plane, CornerPolicy(), codes))
 
 
-def refuse_start_up(channel: Channel) -> None:
+def refuse_start_up(channel: WordAddressChannel) -> None:
     """Compensation may not start up between the two moves of a corner, but where the control's corners let it."""
     corners = channel.path.find(CornerStage)
     if corners is not None and corners.active and not corners.policy.start_up_between:

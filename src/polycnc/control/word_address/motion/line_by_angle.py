@@ -11,9 +11,9 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.family import WordAddressChannel
 
 ANGLE = ",A"
 #: A line that runs nearer than this to an axis does not say where it reaches a coordinate of the other one.
@@ -37,7 +37,7 @@ def plan_line_by_angle(builder: Builder, plan: Plan) -> Step | None:
         raise AlarmError("PC0001", address=ANGLE, hint="hint.not-supported", code=ANGLE)
     corner = control.plan_corner(builder)
 
-    def move(channel: Channel, values: list[float]) -> None:
+    def move(channel: WordAddressChannel, values: list[float]) -> None:
         rapid = kind == Kind.RAPID
         if not rapid and not channel.feed > 0.0:
             raise control.fail("no_feed")

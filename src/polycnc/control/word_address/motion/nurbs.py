@@ -13,9 +13,9 @@ from polycnc.geometry.nurbs import nurbs_chords
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.family import WordAddressChannel
 
 ORDERS, DEFAULT_ORDER = (2, 3, 4), 4
 WEIGHTS, DEFAULT_WEIGHT = (0.001, 1000.0), 1.0
@@ -58,7 +58,7 @@ def plan_nurbs(builder: Builder, plan: Plan) -> Step | None:
             raise control.fail("curve_format", address="K")
         return None
 
-    def collect(channel: Channel, values: list[float]) -> None:
+    def collect(channel: WordAddressChannel, values: list[float]) -> None:
         state = CurveState.of(channel)
         if begins:
             check_complete(channel)
@@ -97,7 +97,7 @@ def plan_nurbs(builder: Builder, plan: Plan) -> Step | None:
 def then(step: Step | None) -> Step:
     """A step of another motion code behind a curve, which must be complete."""
 
-    def act(channel: Channel, values: list[float]) -> None:
+    def act(channel: WordAddressChannel, values: list[float]) -> None:
         check_complete(channel)
         if step is not None:
             step(channel, values)
@@ -105,13 +105,13 @@ def then(step: Step | None) -> Step:
     return act
 
 
-def check_complete(channel: Channel) -> None:
+def check_complete(channel: WordAddressChannel) -> None:
     """Alarm for a curve whose knots have not all come."""
     if CurveState.of(channel).curve is not None:
         raise channel.control.fail("curve_knot", address="K")
 
 
-def _cut(channel: Channel, curve: Curve) -> None:
+def _cut(channel: WordAddressChannel, curve: Curve) -> None:
     order, poles = curve.order, curve.poles
     if not channel.feed > 0.0:
         raise channel.control.fail("no_feed")

@@ -18,10 +18,10 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.numbers import Convert
     from polycnc.control.word_address.block.plan import AxisWord, Builder, Plan
+    from polycnc.control.word_address.family import WordAddressChannel
 
 #: Feed codes of all word-address families to the meaning that the toolpath uses.
 FEED_MODES = {"G93": "G93", "G94": "G94", "G95": "G95", "G98": "G94", "G99": "G95"}
@@ -30,7 +30,7 @@ PLANES: dict[str, tuple[int, int, int]] = {"G17": (0, 1, 2), "G18": (2, 0, 1), "
 CENTER_WORDS = "IJK"
 
 
-def target(channel: Channel, words: tuple[AxisWord, ...], values: list[float]) -> list[float]:
+def target(channel: WordAddressChannel, words: tuple[AxisWord, ...], values: list[float]) -> list[float]:
     """The programmed end point that axis words name; changed offsets still owe their difference to increments."""
     c = channel.coordinates
     end, owed = c.programmed[:], c.pending[:] if c.owes else c.pending
@@ -48,7 +48,7 @@ def target(channel: Channel, words: tuple[AxisWord, ...], values: list[float]) -
     return end
 
 
-def pay(channel: Channel, words: tuple[AxisWord, ...]) -> None:
+def pay(channel: WordAddressChannel, words: tuple[AxisWord, ...]) -> None:
     """Axes that a block moves are owed nothing any more."""
     c = channel.coordinates
     if c.owes:
@@ -56,7 +56,7 @@ def pay(channel: Channel, words: tuple[AxisWord, ...]) -> None:
             c.pending[word.axis] = 0.0
 
 
-def reach(channel: Channel, words: tuple[AxisWord, ...], values: list[float]) -> list[float]:
+def reach(channel: WordAddressChannel, words: tuple[AxisWord, ...], values: list[float]) -> list[float]:
     """The programmed end point that axis words name, for a block that goes there: what was owed to them is paid."""
     end = target(channel, words, values)
     pay(channel, words)
@@ -85,7 +85,7 @@ def _plan_straight(builder: Builder, plan: Plan, kind: Kind) -> Step | None:
     absolute = not polar and not any(word.incremental for word in words)
     targets = tuple((word.axis, word.slot, word.convert) for word in words)
 
-    def move(channel: Channel, values: list[float]) -> None:
+    def move(channel: WordAddressChannel, values: list[float]) -> None:
         if rapid:
             feed = channel.feed if feed_named else nan
         else:
@@ -149,7 +149,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
     )
     center_words = _center_words(radius_slot, radius_of, slots, converts)
 
-    def move(channel: Channel, values: list[float]) -> None:
+    def move(channel: WordAddressChannel, values: list[float]) -> None:
         feed = channel.feed
         if not feed > 0.0:
             raise control.fail("no_feed")
@@ -183,7 +183,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
 
 
 def _center(
-    channel: Channel, begin: arcs.Point, end: arcs.Point, told_by: float | arcs.Point, ccw: bool
+    channel: WordAddressChannel, begin: arcs.Point, end: arcs.Point, told_by: float | arcs.Point, ccw: bool
 ) -> tuple[arcs.Point | None, bool]:
     """The centre, None for an arc by R that is a line; and whether the end lies beside the circle about it."""
     control = channel.control

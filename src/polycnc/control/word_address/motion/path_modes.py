@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from polycnc.channel.state import Lifetime, State, lasting
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import WordAddressChannel
 
 
 @dataclass(slots=True)
@@ -25,13 +25,13 @@ class PathModeState(State, lifetime=Lifetime.RESET):
     exact_stop: bool = lasting(Lifetime.BLOCK, default=False)
 
 
-def exact_stop_block(channel: Channel, _words: Words) -> None:
+def exact_stop_block(channel: WordAddressChannel, _words: Words) -> None:
     """G09: exact stop at the end of this block."""
     PathModeState.of(channel).exact_stop = True
     channel.context_changed()
 
 
-def end_of_exact_stop(channel: Channel, _values: list[float]) -> None:
+def end_of_exact_stop(channel: WordAddressChannel, _values: list[float]) -> None:
     """The block of a G09 ends."""
     PathModeState.of(channel).exact_stop = False
     channel.context_changed()
@@ -44,7 +44,7 @@ def _refuse_company(words: Words, *own: str) -> None:
             raise words.fail("address", key)
 
 
-def high_speed_machining(channel: Channel, words: Words) -> None:
+def high_speed_machining(channel: WordAddressChannel, words: Words) -> None:
     """G05 P10000 / P0, alone in its block: the path is unchanged; the planner looks further ahead."""
     _refuse_company(words, "G5", "P")
     if words.integer("P") not in (0, 10000):
@@ -53,7 +53,7 @@ def high_speed_machining(channel: Channel, words: Words) -> None:
     channel.context_changed()
 
 
-def high_speed_mode(channel: Channel, words: Words) -> None:
+def high_speed_mode(channel: WordAddressChannel, words: Words) -> None:
     """G05 P0, P1, P2, P10000 of MELDAS: high-speed modes; the path is unchanged."""
     number = words.integer("P")
     if number not in (0, 1, 2, 10000):
@@ -62,7 +62,7 @@ def high_speed_mode(channel: Channel, words: Words) -> None:
     channel.context_changed()
 
 
-def contour_control(channel: Channel, words: Words) -> None:
+def contour_control(channel: WordAddressChannel, words: Words) -> None:
     """G05.1 Q1 [R1 … R10] / Q0, alone in its block: AI contour control; R chooses a level of precision."""
     _refuse_company(words, "G5.1", "Q", "R")
     level = words.integer("R") if "R" in words else None
@@ -72,7 +72,7 @@ def contour_control(channel: Channel, words: Words) -> None:
     channel.context_changed()
 
 
-def advance_preview(channel: Channel, words: Words) -> None:
+def advance_preview(channel: WordAddressChannel, words: Words) -> None:
     """G08 P1 / P0."""
     if words.integer("P") not in (0, 1):
         raise words.fail("preview_value", "P")

@@ -12,15 +12,15 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import WordAddressChannel
 
 #: P of G31: which skip input ends the move. All inputs come at the same place here.
 SKIP_INPUTS = range(1, 9)
 TORQUE_LIMIT_SKIP = (98, 99)
 
 
-def skip_move(channel: Channel, words: Words) -> None:
+def skip_move(channel: WordAddressChannel, words: Words) -> None:
     """G31 (MELDAS also G31.1 to G31.3): straight at F to the target or to the skip signal; what is left is dropped."""
     if channel.mode["compensation"] != "G40":
         raise words.fail("comp_skip", "G31")
@@ -39,7 +39,7 @@ def skip_move(channel: Channel, words: Words) -> None:
     channel.memory.note_skip(list(channel.coordinates.position))
 
 
-def move_to_signal(channel: Channel, end: list[float], stopped: list[float] | None) -> None:
+def move_to_signal(channel: WordAddressChannel, end: list[float], stopped: list[float] | None) -> None:
     """The row of a skip move: to where the signal comes, with the way that is then left; else to its end."""
     if stopped is None:
         channel.straight(Kind.SKIP, end, channel.feed)
@@ -48,7 +48,7 @@ def move_to_signal(channel: Channel, end: list[float], stopped: list[float] | No
 
 
 def signal_position(
-    channel: Channel, start: list[float], end: list[float], signal: object
+    channel: WordAddressChannel, start: list[float], end: list[float], signal: object
 ) -> list[float] | None:
     """Where on the way a signal comes.
 
@@ -72,7 +72,9 @@ def signal_position(
     return [s + (e - s) * fraction for s, e in zip(start, end, strict=True)]
 
 
-def _fraction_at(channel: Channel, start: list[float], end: list[float], at: object) -> float | None:
+def _fraction_at(
+    channel: WordAddressChannel, start: list[float], end: list[float], at: object
+) -> float | None:
     """The share of the way after which every axis that a work position names has reached it."""
     fraction = 0.0
     if not isinstance(at, dict) or not at:

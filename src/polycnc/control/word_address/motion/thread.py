@@ -9,9 +9,9 @@ from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.family import WordAddressChannel
 
 
 def plan_thread(builder: Builder, plan: Plan) -> Step | None:
@@ -26,7 +26,7 @@ def plan_thread(builder: Builder, plan: Plan) -> Step | None:
     angle_slot, per_inch_slot = builder.slot("Q"), builder.slot("E")
     per_revolution = FEED_MODES[builder.mode["feed"]] == "G95"
 
-    def cut(channel: Channel, values: list[float]) -> None:
+    def cut(channel: WordAddressChannel, values: list[float]) -> None:
         lead = channel.feed if per_revolution else channel.feed * 60.0
         if per_inch_slot is not None:
             lead = INCH_MM / values[per_inch_slot] if values[per_inch_slot] > 0.0 else 0.0

@@ -9,13 +9,13 @@ from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import place_of_block
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.compensation import CutterCompensation
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.arcs import Point
 
 
-def hold_vector(channel: Channel, words: Words) -> None:
+def hold_vector(channel: WordAddressChannel, words: Words) -> None:
     """G38: the vector at the end of the block in front is kept; with I J K it is square on that direction."""
     stage = _stage(channel, words, "G38")
     direction = _direction(channel, words)
@@ -25,37 +25,37 @@ def hold_vector(channel: Channel, words: Words) -> None:
         stage.forced_vector(direction)
 
 
-def corner_arc(channel: Channel, words: Words) -> None:
+def corner_arc(channel: WordAddressChannel, words: Words) -> None:
     """G39: an arc of the tool's radius about the corner; I J K give the direction on which it ends square."""
     _stage(channel, words, "G39").corner_arc(place_of_block(channel), _direction(channel, words))
 
 
-def compensate_left(channel: Channel, words: Words) -> None:
+def compensate_left(channel: WordAddressChannel, words: Words) -> None:
     """G41 D [I J K]: left of the contour; with I J K the block ends square on that direction."""
     radius.compensate_left(channel, words)
     _force(channel, words)
 
 
-def compensate_right(channel: Channel, words: Words) -> None:
+def compensate_right(channel: WordAddressChannel, words: Words) -> None:
     """G42 D [I J K]."""
     radius.compensate_right(channel, words)
     _force(channel, words)
 
 
-def _force(channel: Channel, words: Words) -> None:
+def _force(channel: WordAddressChannel, words: Words) -> None:
     direction, stage = _direction(channel, words), radius.active_compensation(channel)
     if direction is not None and stage is not None:
         stage.forced_vector(direction)
 
 
-def _stage(channel: Channel, words: Words, code: str) -> CutterCompensation:
+def _stage(channel: WordAddressChannel, words: Words, code: str) -> CutterCompensation:
     stage = radius.active_compensation(channel)
     if stage is None or not channel.memory.side:
         raise words.fail("comp_format", code)
     return stage
 
 
-def _direction(channel: Channel, words: Words) -> Point | None:
+def _direction(channel: WordAddressChannel, words: Words) -> Point | None:
     u, v, _ = PLANES[channel.mode["plane"]]
     first, second = words.length("IJK"[u]) or 0.0, words.length("IJK"[v]) or 0.0
     return (first, second) if first or second else None

@@ -15,9 +15,9 @@ from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.channel.path import Move
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import WordAddressChannel
 
 #: How far the chords of a sine curve may leave it, mm.
 CHORD_TOLERANCE_MM = 0.001
@@ -49,7 +49,7 @@ class HypotheticalState(State, lifetime=Lifetime.RESET):
     standing: Standing | None = None
 
 
-def switch(channel: Channel, words: Words) -> None:
+def switch(channel: WordAddressChannel, words: Words) -> None:
     """G07 Y0: the axis becomes hypothetical; G07 Y1: it moves again, and the path begins where it stands."""
     named = {word.axis: words.typed(word.address) for word in words.plan.axis_words}
     if not named or any(value not in (0.0, 1.0) for value in named.values()):
@@ -69,7 +69,7 @@ def switch(channel: Channel, words: Words) -> None:
         channel.path.put(StandingStage(state.standing))
 
 
-def end(channel: Channel) -> None:
+def end(channel: WordAddressChannel) -> None:
     """Every axis moves again (also at reset)."""
     state = HypotheticalState.of(channel)
     if state.standing is None:

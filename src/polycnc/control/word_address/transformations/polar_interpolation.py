@@ -15,9 +15,9 @@ from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.transformations.cylinder import CylinderState
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import WordAddressChannel
 
 #: Modal group of G12.1 and G13.1.
 GROUP = "polar_interpolation"
@@ -89,7 +89,7 @@ class PolarState(State, lifetime=Lifetime.RESET):
     geometry_before: tuple[int, int, int] = (-1, -1, -1)
 
 
-def start_polar(channel: Channel, words: Words) -> None:
+def start_polar(channel: WordAddressChannel, words: Words) -> None:
     """G12.1 (G112): the axes of 5460 and 5461 become a Cartesian plane; the tool stands at angle 0."""
     memory, c = channel.memory, channel.coordinates
     number = memory.parameters.number
@@ -123,7 +123,7 @@ def start_polar(channel: Channel, words: Words) -> None:
     enter_polar(channel, polar, plane)
 
 
-def enter_polar(channel: Channel, polar: PolarPlane, plane: str) -> None:
+def enter_polar(channel: WordAddressChannel, polar: PolarPlane, plane: str) -> None:
     """From here on the words name points of the plane, which is `plane` (G17 to G19); nothing moves."""
     state = PolarState.of(channel)
     state.plane_before, state.geometry_before = channel.mode["plane"], channel.coordinates.geometry
@@ -133,7 +133,7 @@ def enter_polar(channel: Channel, polar: PolarPlane, plane: str) -> None:
     channel.context_changed()
 
 
-def end_polar(channel: Channel, words: Words) -> None:
+def end_polar(channel: WordAddressChannel, words: Words) -> None:
     """G13.1 (G113): the axes are axes of their own again; the former plane returns."""
     if PolarState.of(channel).plane is None:
         return
@@ -143,7 +143,7 @@ def end_polar(channel: Channel, words: Words) -> None:
     leave_polar(channel)
 
 
-def leave_polar(channel: Channel) -> None:
+def leave_polar(channel: WordAddressChannel) -> None:
     """The axes are named themselves again (also at reset); nothing moves."""
     state = PolarState.of(channel)
     if state.plane is None:
@@ -154,7 +154,7 @@ def leave_polar(channel: Channel) -> None:
     channel.context_changed()
 
 
-def is_length(channel: Channel, axis: int) -> bool:
+def is_length(channel: WordAddressChannel, axis: int) -> bool:
     """Whether words of a rotary axis are lengths now."""
     plane = PolarState.of(channel).plane
     return plane is not None and axis == plane.rotary

@@ -21,8 +21,8 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.frames import Vector
 
 #: P of G68.2: how the plane is told.
@@ -42,7 +42,7 @@ class TiltState(State, lifetime=Lifetime.RESET):
     told: list[tuple[Vector, Vector]] = field(default_factory=list)
 
 
-def tilt_plane(channel: Channel, words: Words) -> None:
+def tilt_plane(channel: WordAddressChannel, words: Words) -> None:
     """G68.2 [P0, P1 Q] X Y Z I J K: origin in the work system, and the turn of the plane; P2, P3 in several blocks."""
     way = words.integer("P") if "P" in words else EULER
     if way in BLOCKS:
@@ -58,7 +58,7 @@ def tilt_plane(channel: Channel, words: Words) -> None:
     _renew(channel, plane, None)
 
 
-def _tell(channel: Channel, words: Words, way: int) -> None:
+def _tell(channel: WordAddressChannel, words: Words, way: int) -> None:
     """One block of P2 (Q1 to Q3: origin, a point of X, a point on the side of Y) or P3 (Q1 origin and X, Q2 Z)."""
     state = TiltState.of(channel)
     number = words.integer("Q") if "Q" in words else 0
@@ -108,7 +108,7 @@ def _roll_pitch_yaw(words: Words, angles: Vector) -> Frame:
     return turn
 
 
-def named_point(channel: Channel, words: Words, mistake: str) -> Vector:
+def named_point(channel: WordAddressChannel, words: Words, mistake: str) -> Vector:
     """X Y Z in the work system, absolute whatever the mode; missing ones are zero, other axes are a `mistake`."""
     geometry = channel.coordinates.geometry
     point = [0.0, 0.0, 0.0]
@@ -119,17 +119,17 @@ def named_point(channel: Channel, words: Words, mistake: str) -> Vector:
     return (point[0], point[1], point[2])
 
 
-def align_tool(channel: Channel, words: Words) -> None:
+def align_tool(channel: WordAddressChannel, words: Words) -> None:
     """G53.1: the rotary axes turn at rapid until the tool stands on the tilted plane; X, Y and Z stay."""
     _align(channel, words, "G53.1", holds_tip=False)
 
 
-def align_tool_about_tip(channel: Channel, words: Words) -> None:
+def align_tool_about_tip(channel: WordAddressChannel, words: Words) -> None:
     """G53.6: as G53.1, while X, Y and Z go along so that the tip stays where it is on the work."""
     _align(channel, words, "G53.6", holds_tip=True)
 
 
-def _align(channel: Channel, words: Words, code: str, *, holds_tip: bool) -> None:
+def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: bool) -> None:
     memory, c, plane = channel.memory, channel.coordinates, TiltState.of(channel).plane
     if plane is None:
         raise words.fail("tilt_missing", code)
@@ -157,7 +157,7 @@ def _align(channel: Channel, words: Words, code: str, *, holds_tip: bool) -> Non
     channel.straight(Kind.RAPID, goal, nan)
 
 
-def end_tilt(channel: Channel, words: Words) -> None:
+def end_tilt(channel: WordAddressChannel, words: Words) -> None:
     """G69: ends the rotation of G68 and the tilted plane."""
     frames.end_rotation(channel, words)
     state = TiltState.of(channel)
@@ -166,14 +166,14 @@ def end_tilt(channel: Channel, words: Words) -> None:
         _renew(channel, IDENTITY, None)
 
 
-def forget(channel: Channel) -> None:
+def forget(channel: WordAddressChannel) -> None:
     """Reset: no plane is tilted; the coordinates follow when the zero is worked out anew."""
     memory = channel.memory
     TiltState.of(channel).plane = memory.tool_direction = None
     memory.zero_frame = IDENTITY
 
 
-def _renew(channel: Channel, frame: Frame, tool: Vector | None) -> None:
+def _renew(channel: WordAddressChannel, frame: Frame, tool: Vector | None) -> None:
     """Another frame of the work system, and the direction in which the tool's length counts; the machine stays."""
     memory = channel.memory
     memory.zero_frame = frame

@@ -18,9 +18,9 @@ from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.frames import Vector
 
 
@@ -76,7 +76,7 @@ class TipFollowing:
         return moved
 
 
-def start_following(channel: Channel, words: Words) -> None:
+def start_following(channel: WordAddressChannel, words: Words) -> None:
     """G43.4, G43.5 H: from here on positions are those of the tip. Without motion in its block nothing moves."""
     memory, c = channel.memory, channel.coordinates
     kinematics = Kinematics.of(channel.machine)
@@ -104,7 +104,7 @@ def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
     builder.take(*letters)
     rapid = builder.mode["motion"] == "G0"
 
-    def move(channel: Channel, values: list[float]) -> None:
+    def move(channel: WordAddressChannel, values: list[float]) -> None:
         words = Words(plan, values)
         if not rapid and not channel.feed > 0.0:
             raise words.fail("no_feed")
@@ -123,7 +123,7 @@ def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
     return move
 
 
-def end_following(channel: Channel) -> None:
+def end_following(channel: WordAddressChannel) -> None:
     """G49 or another length code: the axes are named themselves again; nothing moves."""
     c = channel.coordinates
     if not isinstance(c.transformation, TipFollowing):

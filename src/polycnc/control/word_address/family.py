@@ -1,0 +1,17 @@
+"""The channels that handlers of the word-address base work with, as a type checker knows them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.control import WordAddressControl
+    from polycnc.control.word_address.macro_b.custom_macro import CustomMacroControl
+    from polycnc.control.word_address.macro_b.variables import MacroMemory
+    from polycnc.control.word_address.memory import Memory
+
+#: Of every word-address control.
+WordAddressChannel: TypeAlias = "Channel[WordAddressControl, Memory]"
+#: Of those with custom macro B.
+MacroChannel: TypeAlias = "Channel[CustomMacroControl, MacroMemory]"
