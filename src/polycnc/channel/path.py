@@ -18,6 +18,7 @@ from math import nan
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from polycnc.geometry import arcs
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, Kind
 
 if TYPE_CHECKING:
@@ -55,10 +56,6 @@ class Rank(IntEnum):
     SINK = auto()
     #: Writes rows; always there.
     TABLE = auto()
-
-
-#: A way shorter than this on every axis (mm, degrees) is the rounding of a changed offset: no way.
-NO_WAY = 1e-9
 
 
 @dataclass(slots=True)

@@ -3,7 +3,7 @@
 `cutter` is the one engine for all controls (`CutterCompensation`): it holds a window of steps (`step`) until
 `ends` and `vectors` tell where each ends; `rows` writes them. `policy` says how controls differ.
 `interference` finds vectors that have changed places, `avoidance` leads round them. `corner` is the stage of
-chamfers and roundings; `plane` is what both share.
+chamfers and roundings; `plane` is what both share. `tips` has the imaginary tips of turning tools.
 """
 
 from polycnc.compensation.cutter import CutterCompensation

@@ -17,6 +17,7 @@ from polycnc.compensation.policy import Violation
 from polycnc.compensation.step import Role
 from polycnc.geometry import arcs, distance, offset
 from polycnc.geometry.offset import Corner, Joint
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
@@ -108,8 +109,8 @@ def cuts(step: Step, known: Iterable[Step], way: Sequence[Edge] | None = None) -
 
 def _crosses_itself(one: Edge, two: Edge) -> bool:
     """Whether blocks that do not follow each other meet, as the ways into and out of a contour do."""
-    follow = min(arcs.radius_of(one.end, two.start), arcs.radius_of(two.end, one.start)) <= arcs.SAME_POINT_MM
-    return not follow and one is not two and distance.between(one, two) <= arcs.SAME_POINT_MM
+    follow = min(arcs.radius_of(one.end, two.start), arcs.radius_of(two.end, one.start)) <= NO_WAY
+    return not follow and one is not two and distance.between(one, two) <= NO_WAY
 
 
 def leave_out_crossing_vectors(previous: Step, step: Step) -> bool:

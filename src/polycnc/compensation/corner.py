@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.path import EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.geometry import arcs, offset
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import Kind
 
@@ -309,7 +310,7 @@ def _part(edge: offset.Edge, point: Point) -> float:
     if edge.center is None:
         du, dv = edge.departing
         return ((point[0] - edge.start[0]) * du + (point[1] - edge.start[1]) * dv) / edge.length
-    if hypot(point[0] - edge.start[0], point[1] - edge.start[1]) <= arcs.SAME_POINT_MM:
+    if hypot(point[0] - edge.start[0], point[1] - edge.start[1]) <= NO_WAY:
         return 0.0
     return abs(arcs.sweep_angle(edge.start, point, edge.center, edge.ccw)) / edge.sweep
 

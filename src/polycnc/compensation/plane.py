@@ -7,6 +7,7 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.geometry import arcs, offset
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.kinds import CCW_KINDS, Kind, arc_kind
 
 if TYPE_CHECKING:
@@ -78,7 +79,7 @@ class Plane:
         if move.center is not None:
             return abs(move.normal[self.w]) > 1.0 - 1e-9
         (u0, v0), (u1, v1) = self.point(move.start), self.point(move.end)
-        return hypot(u1 - u0, v1 - v0) > arcs.SAME_POINT_MM
+        return hypot(u1 - u0, v1 - v0) > NO_WAY
 
     def moves_elsewhere(self, move: Move) -> bool:
         """Whether a move has a way along other axes than the plane's."""
@@ -89,7 +90,7 @@ class Plane:
         start, end, center = self.point(move.start), self.point(move.end), self.center(move)
         if center is None:
             return offset.line(start, end)
-        if min(arcs.radius_of(center, start), arcs.radius_of(center, end)) <= arcs.SAME_POINT_MM:
+        if min(arcs.radius_of(center, start), arcs.radius_of(center, end)) <= NO_WAY:
             return None
         return offset.arc(start, end, center, self.is_ccw(move))
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from polycnc.compensation.step import NO_VECTOR
 from polycnc.geometry import arcs
 from polycnc.geometry.offset import Joint
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
@@ -70,12 +71,12 @@ class RowWriter:
             target, way = start, inf
         row = replace(move, start=plane.at(move.start, start), end=plane.at(move.end, target))
         if move.center is not None:
-            if edge.center is None or step.straight or way <= arcs.SAME_POINT_MM:
+            if edge.center is None or step.straight or way <= NO_WAY:
                 row = replace(row, kind=Kind.FEED, center=None, turns=0.0)
             else:
                 along = arcs.plus(step.shift, step.first) if step.suspended else step.shift
                 row = replace(row, center=plane.moved_center(move, along))
-        if row.center is not None or way > arcs.SAME_POINT_MM or plane.moves_elsewhere(move):
+        if row.center is not None or way > NO_WAY or plane.moves_elsewhere(move):
             self._stage.after.move(row)
         template = replace(step.corner_arc[0] if step.corner_arc else move, start=row.end, end=row.end)
         for vector in corner.vectors[1:]:
@@ -99,7 +100,7 @@ class RowWriter:
             normal=plane.normal, turns=0.0, parameters=(),
         )  # fmt: skip
         u, v = plane.point(template.end)
-        if hypot(target[0] - u, target[1] - v) > arcs.SAME_POINT_MM:
+        if hypot(target[0] - u, target[1] - v) > NO_WAY:
             self._stage.after.move(row)
         return replace(row, kind=template.kind)
 

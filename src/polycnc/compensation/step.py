@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Joint
+from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
     from polycnc.channel.path import Item, Move
@@ -112,7 +113,7 @@ class Step:
 
 def _row(start: Point, end: Point, center: Point | None, ccw: bool) -> Edge:
     """A line, or an arc about a centre; a tool as large as an inner arc passes through its centre on a line."""
-    if center is None or arcs.radius_of(start, end) <= arcs.SAME_POINT_MM:
+    if center is None or arcs.radius_of(start, end) <= NO_WAY:
         return offset.line(start, end)
     nearest = min(arcs.radius_of(center, point) for point in (start, end))
-    return offset.line(start, end) if nearest <= arcs.SAME_POINT_MM else offset.arc(start, end, center, ccw)
+    return offset.line(start, end) if nearest <= NO_WAY else offset.arc(start, end, center, ccw)

@@ -11,14 +11,13 @@ from math import acos, atan2, ceil, cos, hypot, pi, sin, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.geometry import vectors
+from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector
 
 Point = tuple[float, float]
 TAU = 2.0 * pi
-#: Two points nearer than this (mm) are the same point: far below any control's least input increment.
-SAME_POINT_MM = 1e-9
 
 
 def plus(a: Point, b: Point) -> Point:
@@ -51,7 +50,7 @@ def center_from_radius(start: Point, end: Point, radius: float, ccw: bool, toler
     """
     du, dv = end[0] - start[0], end[1] - start[1]
     chord = sqrt(du * du + dv * dv)  # not hypot: compiled code must find the same bits
-    if radius == 0.0 or chord <= SAME_POINT_MM:
+    if radius == 0.0 or chord <= NO_WAY:
         raise ValueError("no circle")
     if chord > 2.0 * abs(radius) + tolerance:
         raise ValueError("chord longer than the diameter")
@@ -77,7 +76,7 @@ def sweep_angle(start: Point, end: Point, center: Point, ccw: bool) -> float:
     The angle from `a = start - center` to `b = end - center` is `atan2(a x b, a · b)`: no difference of two
     angles, so that short arcs of large circles keep their digits.
     """
-    if hypot(end[0] - start[0], end[1] - start[1]) <= SAME_POINT_MM:
+    if hypot(end[0] - start[0], end[1] - start[1]) <= NO_WAY:
         return TAU if ccw else -TAU
     au, av = start[0] - center[0], start[1] - center[1]
     bu, bv = end[0] - center[0], end[1] - center[1]
@@ -161,7 +160,7 @@ def contains_direction(
 ) -> bool:
     """Whether the ray from the centre through `point` meets the arc; `slack` (radians) widens both ends."""
     total = abs(sweep_angle(start, end, center, ccw))
-    if hypot(point[0] - start[0], point[1] - start[1]) <= SAME_POINT_MM:
+    if hypot(point[0] - start[0], point[1] - start[1]) <= NO_WAY:
         return True
     part = abs(sweep_angle(start, point, center, ccw))
     return part <= total + slack or part >= TAU - slack
@@ -196,7 +195,7 @@ def three_point_circle(a: Vector, b: Vector, c: Vector) -> tuple[Vector, Vector]
     n = vectors.cross(p, q)
     nn, pp, qq = vectors.dot(n, n), vectors.dot(p, p), vectors.dot(q, q)
     # |n| = |p||q| sin: below a sine of 1e-9 the centre has no digit left.
-    if nn <= 1e-18 * pp * qq or min(pp, qq) <= SAME_POINT_MM**2:
+    if nn <= 1e-18 * pp * qq or min(pp, qq) <= NO_WAY**2:
         raise ValueError("points on a line")
     qn, np = vectors.cross(q, n), vectors.cross(n, p)
     center = tuple(a[i] + (pp * qn[i] + qq * np[i]) / (2.0 * nn) for i in range(3))

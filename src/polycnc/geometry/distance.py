@@ -6,6 +6,7 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.geometry import arcs, offset
+from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
     from polycnc.geometry.arcs import Point
@@ -50,7 +51,7 @@ def _square_on(a: Edge, b: Edge) -> list[Point]:
         return [_foot(b.center, a)]
     du, dv = arcs.minus(b.center, a.center)
     way = hypot(du, dv)
-    if way <= arcs.SAME_POINT_MM:
+    if way <= NO_WAY:
         return []
     reach = arcs.radius_of(a.center, a.end) / way
     return [(a.center[0] + sign * reach * du, a.center[1] + sign * reach * dv) for sign in (1.0, -1.0)]

@@ -15,6 +15,7 @@ from math import atan2, cos, degrees, hypot, pi, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.geometry import arcs
+from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
     from polycnc.geometry.arcs import Point
@@ -174,7 +175,7 @@ def _circle_circle(a: Edge, b: Edge, offset_a: float, offset_b: float) -> list[P
     (c1, r1), (c2, r2) = _parallel_circle(a, a.end, offset_a), _parallel_circle(b, b.start, offset_b)
     du, dv = c2[0] - c1[0], c2[1] - c1[1]
     distance = hypot(du, dv)
-    if distance < arcs.SAME_POINT_MM:
+    if distance < NO_WAY:
         return []
     du, dv = du / distance, dv / distance
     along = (distance * distance + r1 * r1 - r2 * r2) / (2.0 * distance)

@@ -10,13 +10,11 @@ from dataclasses import dataclass
 from math import hypot, sqrt
 from typing import TYPE_CHECKING
 
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.vectors import dot, minus, times
 
 if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector
-
-#: Ways and distances (mm) that count as none.
-NOTHING_MM = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,13 +54,13 @@ class Surface:
         square, along = dot(way, way), dot(place, way)
         gap = dot(place, place) - reach * reach
         sense = 1.0 if self.inside else -1.0
-        if square <= NOTHING_MM * NOTHING_MM or reach < 0.0:
+        if square <= NO_WAY * NO_WAY or reach < 0.0:
             return None
         root = along * along - square * gap
         if root < 0.0:
             return None  # the way passes by
         share = (-along + sense * sqrt(root)) / square
-        slack = NOTHING_MM / sqrt(square)
+        slack = NO_WAY / sqrt(square)
         return min(max(share, 0.0), 1.0) if -slack <= share <= 1.0 + slack else None
 
 
@@ -74,6 +72,6 @@ def first_touch(surfaces: tuple[Surface, ...], start: Vector, end: Vector) -> fl
 
 def _crossing(gap: float, change: float) -> float | None:
     """When a distance that changes evenly comes to zero from above."""
-    if change >= 0.0 or gap < -NOTHING_MM or gap + change > NOTHING_MM:
+    if change >= 0.0 or gap < -NO_WAY or gap + change > NO_WAY:
         return None
     return min(max(-gap / change, 0.0), 1.0)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from math import acos, atan2, degrees, hypot, sqrt
 from typing import TYPE_CHECKING
 
+from polycnc.geometry.angles import nearest_turn
 from polycnc.geometry.frames import IDENTITY, Frame, cos_sin_deg, translation
 from polycnc.geometry.vectors import cross, dot
 
@@ -147,8 +148,7 @@ def _angle_about(axis: Vector, start: Vector, end: Vector) -> float | None:
 
 def _nearest(angle: float, near: float) -> float:
     """The same angle on the turn nearest to another."""
-    turned = angle + 360.0 * round((near - angle) / 360.0)
-    return round(turned, 10) + 0.0
+    return round(nearest_turn(angle, near), 10) + 0.0
 
 
 def _unit(v: Vector) -> Vector:

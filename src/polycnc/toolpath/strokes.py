@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 from math import atan2, cos, dist, sin, sqrt, tau
 from typing import TYPE_CHECKING
 
-from polycnc.geometry.arcs import SAME_POINT_MM, parts_for_chord_error
+from polycnc.geometry.arcs import parts_for_chord_error
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.vectors import cross, dot, minus
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, Kind
 
@@ -120,7 +121,7 @@ def arc_points(
     radius_a, radius_b = sqrt(dot(u, u)), sqrt(dot(w, w))
     if radius_a == 0.0:
         return [end]
-    is_full = dist(u, w) <= SAME_POINT_MM
+    is_full = dist(u, w) <= NO_WAY
     u = (u[0] / radius_a, u[1] / radius_a, u[2] / radius_a)
     v = cross(n, u)
     sweep = (tau if is_full else atan2(dot(w, v), dot(w, u)) % tau) + tau * turns

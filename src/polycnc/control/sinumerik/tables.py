@@ -11,9 +11,6 @@ TURN = 360.0
 MINUTE = 60.0
 MM_PER_M = 1000.0
 
-#: Geometry axes (0 X, 1 Y, 2 Z) of a plane: first, second, third.
-PLANES = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
-
 
 class FeedType(NamedTuple):
     """How F is meant under a function of group 15.

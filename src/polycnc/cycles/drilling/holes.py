@@ -18,8 +18,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
 
-#: Depths closer than this to the bottom are the bottom, mm.
-_SAME_LEVEL_MM = 1e-9
+from polycnc.geometry.tolerances import NO_WAY
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +87,7 @@ def depths(hole: Hole) -> Iterator[float]:
     sign = 1.0 if hole.bottom > hole.r else -1.0
     peck = abs(hole.peck)
     k = 1
-    while peck > 0.0 and k * peck < total - _SAME_LEVEL_MM:
+    while peck > 0.0 and k * peck < total - NO_WAY:
         yield hole.r + sign * k * peck
         k += 1
     yield hole.bottom

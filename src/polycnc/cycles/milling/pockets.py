@@ -11,7 +11,8 @@ from enum import Enum
 from math import ceil, radians, tan
 from typing import TYPE_CHECKING
 
-from polycnc.cycles.milling.stroke import SAME_MM, Cavity, Place, arc, cut, rapid, ring, steps
+from polycnc.cycles.milling.stroke import Cavity, Place, arc, cut, rapid, ring, steps
+from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -104,7 +105,7 @@ def finish(pocket: Pocket) -> Iterator[MillStroke]:
     for below in steps(pocket.total, pocket.infeed):
         last = below == pocket.total
         yield cut(pocket.depth_feed, w=pocket.level(below))
-        if last and pocket.base_allowance > SAME_MM:
+        if last and pocket.base_allowance > NO_WAY:
             yield from clear(pocket, 0.0, below)
             continue
         yield from onto_edge(pocket, half_length)
@@ -117,7 +118,7 @@ def onto_edge(pocket: Pocket, half_length: float) -> Iterator[MillStroke]:
     """A half circle from the inside onto the middle of the right side."""
     reach = _approach(pocket, half_length)
     yield cut(pocket.feed, pocket.place(half_length - 2.0 * reach, 0.0))
-    if reach > SAME_MM:
+    if reach > NO_WAY:
         end, middle = pocket.place(half_length, 0.0), pocket.place(half_length - reach, 0.0)
         yield arc(pocket.feed, end, middle, pocket.ccw)
 
@@ -125,7 +126,7 @@ def onto_edge(pocket: Pocket, half_length: float) -> Iterator[MillStroke]:
 def off_edge(pocket: Pocket, half_length: float) -> Iterator[MillStroke]:
     """A half circle from the middle of the right side to the inside, and to the middle of the pocket."""
     reach = _approach(pocket, half_length)
-    if reach > SAME_MM:
+    if reach > NO_WAY:
         end, middle = pocket.place(half_length - 2.0 * reach, 0.0), pocket.place(half_length - reach, 0.0)
         yield arc(pocket.feed, end, middle, pocket.ccw)
     yield cut(pocket.feed, pocket.place(0.0, 0.0))
@@ -180,8 +181,8 @@ def clear(pocket: Pocket, allowance: float, below: float) -> Iterator[MillStroke
     half_length, half_width, corner = pocket.path(allowance)
     shorter = min(half_length, half_width)
     core = _core(pocket, below)
-    count = max(1, ceil(shorter / pocket.width - 1e-6)) if shorter > SAME_MM else 0
-    if half_length - half_width > SAME_MM and not core:
+    count = max(1, ceil(shorter / pocket.width - 1e-6)) if shorter > NO_WAY else 0
+    if half_length - half_width > NO_WAY and not core:
         yield cut(pocket.feed, pocket.place(half_width - half_length, 0.0))
         yield cut(pocket.feed, pocket.place(half_length - half_width, 0.0))
     for k in range(1, count + 1):
@@ -197,7 +198,7 @@ def clear(pocket: Pocket, allowance: float, below: float) -> Iterator[MillStroke
 
 def _core(pocket: Pocket, below: float) -> tuple[float, float] | None:
     """Half sizes of what is already milled out at a depth; None for nothing."""
-    if pocket.core_length <= 0.0 or below > pocket.core_depth + SAME_MM:
+    if pocket.core_length <= 0.0 or below > pocket.core_depth + NO_WAY:
         return None
     return pocket.core_length / 2.0, (pocket.core_width or pocket.core_length) / 2.0
 
@@ -205,4 +206,4 @@ def _core(pocket: Pocket, below: float) -> tuple[float, float] | None:
 def fits(pocket: Pocket) -> bool:
     """Whether the tool goes into the pocket at all."""
     half_length, half_width, _ = pocket.path(pocket.allowance)
-    return min(half_length, half_width) >= -SAME_MM
+    return min(half_length, half_width) >= -NO_WAY

@@ -7,8 +7,9 @@ from math import asin, degrees, hypot, radians, tan
 from typing import TYPE_CHECKING, Protocol
 
 from polycnc.cycles.milling.pockets import Insertion
-from polycnc.cycles.milling.stroke import SAME_MM, Cavity, Place, arc, cut, rapid, slot_ring, steps
+from polycnc.cycles.milling.stroke import Cavity, Place, arc, cut, rapid, slot_ring, steps
 from polycnc.geometry.frames import cos_sin_deg
+from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -50,7 +51,7 @@ class Straight:
     def round(self, half_width: float, ccw: bool, feed: float) -> Iterator[MillStroke]:
         """Lines and half circles."""
         yield from slot_ring(self.place, self.length, half_width, ccw, feed)
-        if half_width > SAME_MM:
+        if half_width > NO_WAY:
             yield cut(feed, self.start)
 
     def along(self, feed: float, w: float, back: float) -> Iterator[MillStroke]:
@@ -84,7 +85,7 @@ class Curved:
     def round(self, half_width: float, ccw: bool, feed: float) -> Iterator[MillStroke]:
         """The outer arc, the half circle about the end, the inner arc, the half circle about the start."""
         center, angle = self.place(0.0, 0.0), self.angle_deg
-        if half_width <= SAME_MM:
+        if half_width <= NO_WAY:
             yield arc(feed, self._at(self.radius, angle), center, True)
             yield arc(feed, self.start, center, False)
             return
@@ -136,7 +137,7 @@ class Slotting(Cavity):
     @property
     def leaves_allowance(self) -> bool:
         """Whether roughing leaves something for finishing."""
-        return self.allowance > SAME_MM or self.base_allowance > SAME_MM
+        return self.allowance > NO_WAY or self.base_allowance > NO_WAY
 
 
 def rough(slotting: Slotting, shape: Shape) -> Iterator[MillStroke]:

@@ -7,6 +7,7 @@ from math import ceil, nan
 from typing import TYPE_CHECKING
 
 from polycnc.geometry.frames import cos_sin_deg
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -14,8 +15,6 @@ if TYPE_CHECKING:
 
     from polycnc.geometry.arcs import Point
 
-#: Ways shorter than this are none, mm.
-SAME_MM = 1e-9
 #: Divisions that miss a whole number by this much hit it: 6/2 are three steps.
 _WHOLE = 1e-6
 
@@ -98,8 +97,8 @@ def ring(
     A rectangle whose corners leave no straight sides is a circle, and one without corner radius four lines.
     """
     a, b = half_length, half_width
-    if abs(a - corner) < SAME_MM and abs(b - corner) < SAME_MM:
-        if corner > SAME_MM:
+    if abs(a - corner) < NO_WAY and abs(b - corner) < NO_WAY:
+        if corner > NO_WAY:
             yield arc(feed, place(a, 0.0), place(0.0, 0.0), ccw)
         return
     side = 1.0 if ccw else -1.0
@@ -110,7 +109,7 @@ def ring(
         along_y = x * y > 0.0
         first, last = ((x, inner[1]), (inner[0], y)) if along_y else ((inner[0], y), (x, inner[1]))
         yield cut(feed, place(first[0], side * first[1]))
-        if corner > SAME_MM:
+        if corner > NO_WAY:
             yield arc(feed, place(last[0], side * last[1]), place(inner[0], side * inner[1]), ccw)
     yield cut(feed, place(a, 0.0))
 
@@ -126,7 +125,7 @@ def slot_ring(place: Place, length: float, half_width: float, ccw: bool, feed: f
         feed: Feed.
     """
     h = half_width if ccw else -half_width
-    if half_width <= SAME_MM:
+    if half_width <= NO_WAY:
         yield cut(feed, place(length, 0.0))
         yield cut(feed, place(0.0, 0.0))
         return

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.geometry import arcs, offset
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
 
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.offset import Edge
-
-_SAME = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,14 +103,14 @@ def crossings(edge: Edge, level: float) -> list[Point]:
     """Points of an edge at a level of `b`, in the order of travel; a run along the level gives none."""
     if edge.center is None:
         (a0, b0), (a1, b1) = edge.start, edge.end
-        if abs(b1 - b0) <= _SAME or not min(b0, b1) - _SAME <= level <= max(b0, b1) + _SAME:
+        if abs(b1 - b0) <= NO_WAY or not min(b0, b1) - NO_WAY <= level <= max(b0, b1) + NO_WAY:
             return []
         part = min(max((level - b0) / (b1 - b0), 0.0), 1.0)
         return [(a0 + part * (a1 - a0), level)]
     center = edge.center
     radius = arcs.radius_of(center, edge.start)
     height = level - center[1]
-    if abs(height) > radius + _SAME:
+    if abs(height) > radius + NO_WAY:
         return []
     half = sqrt(max(radius * radius - height * height, 0.0))
     points = [(edge.center[0] + sign * half, level) for sign in (1.0, -1.0)]
@@ -144,10 +143,10 @@ def gaps(contour: Sequence[Piece], level: float, towards: float) -> list[Gap]:
     opened: float | None = None
     for number, piece in enumerate(contour):
         for part in _split(piece.edge, level):
-            deeper = towards * (_middle(part)[1] - level) > _SAME
+            deeper = towards * (_middle(part)[1] - level) > NO_WAY
             if deeper and opened is None:
                 opened = part.start[0]
-            elif not deeper and opened is not None and towards * (_middle(part)[1] - level) < -_SAME:
+            elif not deeper and opened is not None and towards * (_middle(part)[1] - level) < -NO_WAY:
                 result.append(Gap(opened, part.start[0], number))
                 opened = None
     if opened is not None:
@@ -159,7 +158,7 @@ def _split(edge: Edge, level: float) -> Iterator[Edge]:
     """The parts of an edge between its crossings of a level."""
     last = edge.start
     for point in [*crossings(edge, level), edge.end]:
-        if abs(point[0] - last[0]) + abs(point[1] - last[1]) > _SAME:
+        if abs(point[0] - last[0]) + abs(point[1] - last[1]) > NO_WAY:
             yield _between(edge, last, point)
             last = point
 
@@ -185,8 +184,8 @@ def climb(contour: Sequence[Piece], gap: Gap, level: float, until: float, toward
             if part.end == at or _is_before(part, at):
                 continue
             start = at if not path else part.start
-            rising = towards * (part.end[1] - start[1]) < -_SAME
-            if not rising or towards * (_middle(part)[1] - until) < -_SAME:
+            rising = towards * (part.end[1] - start[1]) < -NO_WAY
+            if not rising or towards * (_middle(part)[1] - until) < -NO_WAY:
                 return path
             path.append(Piece(_between(piece.edge, start, part.end), piece.is_rapid))
     return path
@@ -194,7 +193,7 @@ def climb(contour: Sequence[Piece], gap: Gap, level: float, until: float, toward
 
 def _is_before(part: Edge, at: Point) -> bool:
     """Whether a part of an edge ends where the climb begins."""
-    return abs(part.end[0] - at[0]) + abs(part.end[1] - at[1]) <= _SAME
+    return abs(part.end[0] - at[0]) + abs(part.end[1] - at[1]) <= NO_WAY
 
 
 def deepest(contour: Sequence[Piece], towards: float) -> float:
@@ -215,12 +214,12 @@ def runs(contour: Sequence[Piece], level: float, towards: float) -> list[tuple[b
     for piece in contour:
         edge = piece.edge
         below, above = _heights(edge, level, towards)
-        if below <= _SAME or above <= _SAME:
+        if below <= NO_WAY or above <= NO_WAY:
             parts, is_whole = [edge], True  # most pieces do not cross the level
         else:
             parts, is_whole = list(_split(edge, level)), False
         for part in parts:
-            is_deep = above <= _SAME if is_whole else towards * (_middle(part)[1] - level) > -_SAME
+            is_deep = above <= NO_WAY if is_whole else towards * (_middle(part)[1] - level) > -NO_WAY
             if not result or result[-1][0] != is_deep:
                 result.append((is_deep, []))
             result[-1][1].append(piece if is_whole else Piece(part, piece.is_rapid))
@@ -245,11 +244,11 @@ def bumps(contour: Sequence[Piece], towards: float) -> list[Contour]:
     falls = True
     for piece in pieces:
         fall = towards * (piece.edge.end[1] - piece.edge.start[1])
-        is_ridge = fall > _SAME and not falls
+        is_ridge = fall > NO_WAY and not falls
         if not parts or is_ridge:
             parts.append([])
         parts[-1].append(piece)
-        falls = fall > _SAME if abs(fall) > _SAME else falls
+        falls = fall > NO_WAY if abs(fall) > NO_WAY else falls
     return [part for part in parts if _sags(part, towards)]
 
 
@@ -264,7 +263,7 @@ def slopes(contour: Sequence[Piece]) -> Contour:
         Piece(_between(piece.edge, start, end), piece.is_rapid)
         for piece in contour
         for start, end in pairwise(points(piece.edge))
-        if piece.edge.center is None or abs(end[0] - start[0]) + abs(end[1] - start[1]) > _SAME
+        if piece.edge.center is None or abs(end[0] - start[0]) + abs(end[1] - start[1]) > NO_WAY
     ]
 
 
@@ -290,7 +289,7 @@ def parallel(contour: Sequence[Piece], distance: float) -> Contour:
     Raises:
         ValueError: An inner corner or arc is too narrow for the distance.
     """
-    if abs(distance) <= _SAME:
+    if abs(distance) <= NO_WAY:
         return list(contour)
     edges = [piece.edge for piece in contour]
     corners = []
@@ -314,7 +313,7 @@ def parallel(contour: Sequence[Piece], distance: float) -> Contour:
         if number < len(corners) and corners[number].joint is offset.Joint.ARC:
             onto = _plus(edge.end, corners[number].vectors[-1])
             result.append(Piece(offset.arc(end, onto, edge.end, distance < 0.0), piece.is_rapid))
-    return [piece for piece in result if piece.edge.length > _SAME]
+    return [piece for piece in result if piece.edge.length > NO_WAY]
 
 
 def _plus(point: Point, vector: Point) -> Point:

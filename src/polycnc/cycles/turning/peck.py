@@ -10,13 +10,12 @@ from math import copysign
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.stroke import PlaneStroke, feed, rapid
+from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from polycnc.geometry.arcs import Point
-
-_SAME = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +39,7 @@ def peck_columns(start: Point, end: Point, pecks: Pecks) -> Iterator[PlaneStroke
     """Columns of pecks from the start to the far corner, and back to the start."""
     columns = list(_stops(start[1], end[1], pecks.step))
     across = copysign(1.0, end[1] - start[1])
-    alone = abs(end[1] - start[1]) <= _SAME
+    alone = abs(end[1] - start[1]) <= NO_WAY
     for number, column in enumerate(columns):
         if number:
             yield rapid(start[0], column)
@@ -57,7 +56,7 @@ def _pecks(top: float, bottom: float, column: float, pecks: Pecks) -> Iterator[P
     onwards = copysign(1.0, bottom - top)
     for depth in _stops(top, bottom, pecks.peck, first=False):
         yield feed(depth, column)
-        if abs(depth - bottom) > _SAME:
+        if abs(depth - bottom) > NO_WAY:
             yield rapid(depth - onwards * pecks.back, column)
 
 
@@ -65,11 +64,11 @@ def _stops(begin: float, end: float, step: float, *, first: bool = True) -> Iter
     """From the beginning to exactly the end in steps."""
     if first:
         yield begin
-    if abs(end - begin) <= _SAME:
+    if abs(end - begin) <= NO_WAY:
         return
     onwards = copysign(1.0, end - begin)
     number = 1
-    while step > 0.0 and number * step < abs(end - begin) - _SAME:
+    while step > 0.0 and number * step < abs(end - begin) - NO_WAY:
         yield begin + onwards * number * step
         number += 1
     yield end

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.contour import bumps, deepest, runs, slopes
 from polycnc.cycles.turning.stroke import PlaneStroke, feed
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
     #: A stroke, or what makes further ones.
     _Work = PlaneStroke | Iterator["_Work"]
 
-_SAME = 1e-9
 #: Strokes shorter than this are points, mm.
 _HAIR = 1e-6
 
@@ -151,7 +151,7 @@ class _Clearing:
 
     def _up(self, above: float, tool: _Tool) -> Iterator[PlaneStroke]:
         """Out of a deeper pocket, to the height that is free."""
-        if self.towards * (tool.at[1] - above) > _SAME:
+        if self.towards * (tool.at[1] - above) > NO_WAY:
             tool.at = (tool.at[0], above)
             yield PlaneStroke(Kind.RAPID, tool.at)
 
@@ -160,7 +160,7 @@ class _Clearing:
         clearance = self.cuts.clearance
         yield from self._up(above, tool)
         a, b = tool.at
-        if abs(b - above) <= _SAME:
+        if abs(b - above) <= NO_WAY:
             short = min(clearance, abs(top[0] - a))
             yield PlaneStroke(Kind.RAPID, (top[0] - copysign(short, top[0] - a), above))
         else:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from polycnc.cycles.turning.contour import gaps, shifted
 from polycnc.cycles.turning.pockets import clear_pockets
 from polycnc.cycles.turning.stroke import PlaneStroke, feed
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -20,8 +21,6 @@ if TYPE_CHECKING:
 
     from polycnc.cycles.turning.contour import Contour
     from polycnc.geometry.arcs import Point
-
-_SAME = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +92,7 @@ def _home(contour: Contour, at: Point, cuts: Roughing, towards: float) -> Iterat
     """Back to the start; type II passes one depth above a shape that is as high as the start (II.4.2.1)."""
     start, shape = contour[0].edge.start, contour[1:] or contour
     highest = min(towards * piece.edge.end[1] for piece in shape)
-    if cuts.pockets and highest <= towards * start[1] + _SAME:
+    if cuts.pockets and highest <= towards * start[1] + NO_WAY:
         yield PlaneStroke(Kind.RAPID, (at[0], start[1] - towards * cuts.depth))
     yield PlaneStroke(Kind.RAPID, start)
 
@@ -102,7 +101,7 @@ def _levels(contour: Contour, depth: float, towards: float, *, to_bottom: bool) 
     """Levels from the start point to the first point of the shape; the last one, that point's own, if asked for."""
     begin, bottom = contour[0].edge.start[1], contour[0].edge.end[1]
     number = 1
-    while towards * (bottom - begin) - number * depth > _SAME:
+    while towards * (bottom - begin) - number * depth > NO_WAY:
         yield begin + towards * number * depth
         number += 1
     if to_bottom:
@@ -153,7 +152,7 @@ def _end_on(contour: Contour, level: float) -> float:
     """Where a stroke at the bottom level ends: where the shape leaves that level."""
     end = contour[0].edge.end[0]
     for piece in contour[1:]:
-        if abs(piece.edge.end[1] - level) > _SAME or piece.edge.center is not None:
+        if abs(piece.edge.end[1] - level) > NO_WAY or piece.edge.center is not None:
             break
         end = piece.edge.end[0]
     return end

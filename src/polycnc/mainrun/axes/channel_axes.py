@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.mainrun.motion.axis_move import NO_WAY
+from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

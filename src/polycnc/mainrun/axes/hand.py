@@ -5,7 +5,8 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from polycnc.mainrun.motion.axis_move import NO_WAY, AxisMove, axis_move
+from polycnc.geometry.tolerances import NO_WAY
+from polycnc.mainrun.motion.axis_move import AxisMove, axis_move
 from polycnc.mainrun.motion.follower import Law
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from polycnc.channel.intervention import NOTHING_BACK
 from polycnc.channel.waits import TYPED_BLOCKS_DONE
-from polycnc.mainrun.motion.axis_move import NO_WAY
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.mainrun.motion.follower import Follower
 from polycnc.mainrun.motion.geometry import Line
 from polycnc.mainrun.motion.piece_motion import AxesMotion, Motion, PathMotion

@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import copysign
 
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.mainrun.motion.speed import Phase, Profile, straight_profile
-
-#: Ways below this count as none, mm or degrees.
-NO_WAY = 1e-9
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.memory import Memory
 
 #: The plane of a cycle by the units of _DMODE; 0 and others: that of the caller.
-PLANES = {1: "G17", 2: "G18", 3: "G19"}
+PLANE_OF_DMODE = {1: "G17", 2: "G18", 3: "G19"}
 
 
 class CycleProgram:
@@ -102,7 +102,7 @@ def start(channel: Channel, name: str, values: tuple[Any, ...], column: int) -> 
 def _in_plane(channel: Channel, cycle: Cycle, arguments: Arguments) -> Iterator[None]:
     """The blocks of a cycle in the plane that _DMODE asks for."""
     memory: Memory = channel.memory
-    plane = PLANES.get(arguments.digit("_DMODE", 0))
+    plane = PLANE_OF_DMODE.get(arguments.digit("_DMODE", 0))
     if plane is not None and plane != channel.mode["plane"] and cycle.saves:
         channel.mode = channel.mode.with_code("plane", plane)
         stages.change_plane(channel)

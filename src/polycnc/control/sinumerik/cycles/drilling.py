@@ -30,7 +30,6 @@ METRIC_PITCHES = {
 }  # fmt: skip
 #: Retract between strokes where the call gives none.
 CHIP_BREAKING_MM = 1.0
-SAME_MM = 1e-9
 DP_TIP_ANGLE = 24
 DIRECTIONS = {3: 1, 4: -1, 5: 0}
 

@@ -11,7 +11,8 @@ from polycnc.control.sinumerik.cycles.moves import Moves, require_tool
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.milling import pockets, slots
 from polycnc.cycles.milling.pockets import Insertion, Pocket
-from polycnc.cycles.milling.stroke import SAME_MM, MillStroke, Place
+from polycnc.cycles.milling.stroke import MillStroke, Place
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -100,7 +101,7 @@ def width_of_cut(a: Arguments, radius: float, name: str = "_MIDA") -> float:
     width = abs(a[name])
     if a.digit("_AMODE", 1) == 1 and a.plain(name):
         width = abs(a.plain(name)) / 100.0 * diameter
-    if width > diameter + SAME_MM:
+    if width > diameter + NO_WAY:
         raise AlarmError("61111")
     return width or USUAL_WIDTH * diameter
 
@@ -129,9 +130,9 @@ def pocket3(channel: Channel, a: Arguments) -> Iterator[None]:
     length, width, corner = abs(a["_LENG"]), abs(a["_WID"]), abs(a["_CRAD"])
     if not length or not width:
         raise AlarmError("61118")
-    if 2.0 * corner > min(length, width) + SAME_MM:
+    if 2.0 * corner > min(length, width) + NO_WAY:
         raise AlarmError("61113")
-    if radius > corner + SAME_MM and corner > 0.0:
+    if radius > corner + NO_WAY and corner > 0.0:
         raise AlarmError("61105")
     core = (abs(a["_AP1"]), abs(a["_AP2"]) or abs(a["_AP1"]))
     yield from _pocket(moves, a, (length, width, corner), core, radius)
@@ -240,7 +241,7 @@ def older_pocket(channel: Channel, a: Arguments) -> Iterator[None]:
     circular = a.cycle == "POCKET2"
     length = 2.0 * abs(a["PRAD"]) if circular else abs(a["LENG"])
     width, corner = (length, length / 2.0) if circular else (abs(a["WID"]), abs(a["CRAD"]))
-    if 2.0 * corner > min(length, width) + SAME_MM:
+    if 2.0 * corner > min(length, width) + NO_WAY:
         raise AlarmError("61113")
     rough = Pocket(
         Place((a["CPA"], a["CPO"]), 0.0 if circular else a["STA1"]),
@@ -285,7 +286,7 @@ def _slotting(moves: Moves, a: Arguments, found: Levels, insertion: Insertion) -
     """How the slots of a call are milled; 61105 for a cutter that does not fit the width."""
     radius = cutter(moves)
     width = abs(a["WID"])
-    if 2.0 * radius > width + SAME_MM or 2.0 * radius <= width / 2.0:
+    if 2.0 * radius > width + NO_WAY or 2.0 * radius <= width / 2.0:
         raise AlarmError("61105")
     feed = feed_of(a, "FFP1")
     return slots.Slotting(

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.motion import circles
 from polycnc.control.sinumerik.motion import moves as motion
+from polycnc.geometry.planes import PLANES
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -38,7 +39,7 @@ class Moves:
     def __init__(self, channel: Channel, applicate: int = 3) -> None:
         self.channel = channel
         order = {1: (1, 2, 0), 2: (2, 0, 1)}.get(applicate, (0, 1, 2))
-        plane = tables.PLANES[channel.mode["plane"]]
+        plane = PLANES[channel.mode["plane"]]
         a, b, c = (plane[i] for i in order)
         self.axes = (a, b, c)
         geometry = channel.coordinates.geometry

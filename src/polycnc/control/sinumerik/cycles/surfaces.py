@@ -23,8 +23,9 @@ from polycnc.cycles.milling import contour as path_milling
 from polycnc.cycles.milling import facing, spigots
 from polycnc.cycles.milling import thread as thread_milling
 from polycnc.cycles.milling.contour import Approach, PathMilling, Way
-from polycnc.cycles.milling.stroke import SAME_MM, Place, steps
+from polycnc.cycles.milling.stroke import Place, steps
 from polycnc.cycles.turning.contour import parallel, turned_round
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -102,7 +103,7 @@ def _strip(a: Arguments, radius: float) -> float:
         strip = abs(a.plain("_MIDA")) / 100.0 * 2.0 * radius
     if not strip:
         raise AlarmError("61124")
-    if strip > 2.0 * radius + SAME_MM:
+    if strip > 2.0 * radius + NO_WAY:
         raise AlarmError("61111")
     return strip
 
@@ -183,7 +184,7 @@ def spigot(channel: Channel, a: Arguments) -> Iterator[None]:
     width, corner = (length, length / 2.0) if circular else (abs(a["_WID"]), abs(a["_CRAD"]))
     if not length or not width:
         raise AlarmError("61118")
-    if 2.0 * corner > min(length, width) + SAME_MM:
+    if 2.0 * corner > min(length, width) + NO_WAY:
         raise AlarmError("61113")
     outline = spigots.Rectangle(length / 2.0, width / 2.0, corner)
     yield from _mill_spigot(moves, a, outline, kind, radius, "_FFD")

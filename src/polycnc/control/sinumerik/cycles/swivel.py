@@ -18,6 +18,7 @@ from polycnc.control.sinumerik.frames import memory as frames
 from polycnc.control.sinumerik.frames.codes import crots
 from polycnc.control.sinumerik.motion import moves
 from polycnc.geometry.frames import IDENTITY, Frame, rotation
+from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, NcFrame
 from polycnc.machine.kinematics import Kinematics
 from polycnc.messages import AlarmError
@@ -42,7 +43,7 @@ AXIS_BY_AXIS, SOLID, PROJECTION, DIRECT = range(4)
 #: Order of rotations where _MODE names none: X, Y, Z.
 DEFAULT_ORDER = 57
 #: Plane whose third axis the tool stands on, by _DMODE; else that of the caller.
-PLANES = {1: "G17", 2: "G18", 3: "G19"}
+PLANE_OF_DMODE = {1: "G17", 2: "G18", 3: "G19"}
 HALF_TURN = 180.0
 
 
@@ -168,8 +169,8 @@ def _angles(channel: Channel, a: Arguments, record: Record, frame: NcFrame) -> d
         return dict(zip(record.axes, (a["_A"], a["_B"]), strict=True))
     state = memory.frames
     outer = frames.chain([state.system["$P_SETFRAME"], state.actual_base(), state.active_settable])
-    plane = PLANES.get(a.digit("_DMODE", 0), channel.mode["plane"])
-    index = tables.PLANES[plane][2]
+    plane = PLANE_OF_DMODE.get(a.digit("_DMODE", 0), channel.mode["plane"])
+    index = PLANES[plane][2]
     square = [1.0 if i == index else 0.0 for i in range(3)]
     normal = (outer @ frame).frame.direct(square[0], square[1], square[2])
     found = [

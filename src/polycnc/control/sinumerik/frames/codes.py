@@ -13,8 +13,8 @@ from polycnc.control.sinumerik.block.positions import AxisTerm, length_factor, n
 from polycnc.control.sinumerik.feed import spindle_speed
 from polycnc.control.sinumerik.frames import memory as frames
 from polycnc.control.sinumerik.limits import working_area
-from polycnc.control.sinumerik.tables import PLANES
 from polycnc.geometry.frames import Frame, Vector
+from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import cross
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NcFrame, cmirror, crot, crpl, cscale, ctrans
 from polycnc.language.sinumerik.words import WordAlarm

@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.limits import protection, working_area
+from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.names.variables import Array
 from polycnc.messages import AlarmError
@@ -74,7 +74,7 @@ def _machine_ways(channel: Channel, start: list[float], way: list[float]) -> tup
     geometry = channel.coordinates.geometry
     first = channel.coordinates.position.copy()
     last = first.copy()
-    for axis, a, b in zip(tables.PLANES[channel.mode["plane"]], start, way, strict=True):
+    for axis, a, b in zip(PLANES[channel.mode["plane"]], start, way, strict=True):
         column = geometry[axis]
         if column >= 0:
             first[column], last[column] = a, a + b
@@ -87,7 +87,7 @@ def _of_limits(
     """Software limit switches by machine axis, working area by geometry axis."""
     memory: Memory = channel.memory
     geometry = channel.coordinates.geometry
-    plane = tables.PLANES[channel.mode["plane"]]
+    plane = PLANES[channel.mode["plane"]]
     for limit in memory.limits:
         unit = OF_SWITCH if limit.alarm == working_area.SWITCH else OF_AREA
         if limit.column not in geometry or not tested & unit:

@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.path import Rank, Recorder, Stage
 from polycnc.channel.way import Way
-from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.cycles.contour import sent_away, without_away
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.geometry import arcs, zones
+from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.frame import NcFrame
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import CCW_KINDS
@@ -188,7 +188,7 @@ def check_end(channel: Channel) -> None:
 
 def _zone(channel: Channel, definition: Definition) -> Zone:
     number, of_tool, sides, upper, lower = (*definition.arguments, None, None, None)[:5]
-    axes = tables.PLANES[channel.mode["plane"]]
+    axes = PLANES[channel.mode["plane"]]
     outline = _outline(channel, definition.recorder.moves, axes)
     name = f"{definition.kind}PROTDEF({number})"
     sides = arguments.whole(sides or 0)

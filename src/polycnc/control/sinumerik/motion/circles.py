@@ -15,6 +15,8 @@ from polycnc.control.sinumerik.block.positions import Way, is_diameter, length_f
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion import moves
 from polycnc.geometry import arcs
+from polycnc.geometry.planes import PLANES
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.bulk import Arc as ArcAsData
 from polycnc.language.bulk import declare
 from polycnc.language.sinumerik.names.values import Axis
@@ -43,7 +45,7 @@ class Arc:
         self.draft = draft
         self.ccw = draft.mode["motion"] == "G3"
         self.columns = moves.plane_columns(draft)
-        self.axes = tables.PLANES[draft.mode["plane"]]
+        self.axes = PLANES[draft.mode["plane"]]
         self.factor = length_factor(draft.mode)
         self.feed = draft.take("FB")
         self.feed_factor = moves.feed_factor(draft)
@@ -112,7 +114,7 @@ class Arc:
         assert self.radius is not None
         radius = number(values, self.radius) * self.factor
         memory: Memory = channel.memory
-        if hypot(end[0] - begin[0], end[1] - begin[1]) <= arcs.SAME_POINT_MM:
+        if hypot(end[0] - begin[0], end[1] - begin[1]) <= NO_WAY:
             raise AlarmError("14040")
         try:
             tolerance = memory.data.number("$MC_CIRCLE_ERROR_CONST")
@@ -136,7 +138,7 @@ class Arc:
             end[u], end[v] = _turned(begin, center, turned)
             return center
         chord = hypot(end[u] - begin[0], end[v] - begin[1])
-        if chord <= arcs.SAME_POINT_MM:
+        if chord <= NO_WAY:
             raise AlarmError("14040")
         # The centre lies on the chord's bisector, at chord / (2·tan(angle/2)) to the left of the chord.
         height = 0.5 / _tan_half(turned)
@@ -193,7 +195,7 @@ def absolute_factor(channel: Channel, draft: Draft, column: int) -> float:
 def check_end(channel: Channel, begin: arcs.Point, end: arcs.Point, center: arcs.Point) -> None:
     """14040 if start and end are not equally far from the centre (MD21000), or there is no radius."""
     memory: Memory = channel.memory
-    if arcs.radius_of(center, begin) <= arcs.SAME_POINT_MM:
+    if arcs.radius_of(center, begin) <= NO_WAY:
         raise AlarmError("14040")
     if abs(arcs.radius_mismatch(begin, end, center)) > memory.data.number("$MC_CIRCLE_ERROR_CONST") + 1e-9:
         raise AlarmError("14040")
@@ -212,7 +214,7 @@ def arc(
     """Move along an arc of a plane; with a way along the third axis it is a helix."""
     start = channel.coordinates.position
     third = columns[2]
-    rises = third >= 0 and abs(end[third] - start[third]) > moves.SAME_MM
+    rises = third >= 0 and abs(end[third] - start[third]) > NO_WAY
     space, normal = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
     space[axes[0]], space[axes[1]] = center
     space[axes[2]] = start[third] if third >= 0 else 0.0
@@ -279,7 +281,7 @@ def _three_points(
     except ValueError:
         raise AlarmError("14920") from None
     kind = Kind.CCW
-    if normal[tables.PLANES[draft.mode["plane"]][2]] < -1e-12:
+    if normal[PLANES[draft.mode["plane"]][2]] < -1e-12:
         kind, normal = Kind.CW, (-normal[0], -normal[1], -normal[2])
     curve(channel, kind, end, moves.checked_feed(channel.feed), center, normal)
 
@@ -290,7 +292,7 @@ def _three_points(
 def tangential(draft: Draft) -> Step | None:
     """CT: the arc that leaves the previous move without a kink; straight ahead it is a line."""
     columns = moves.plane_columns(draft)
-    axes = tables.PLANES[draft.mode["plane"]]
+    axes = PLANES[draft.mode["plane"]]
     goal = moves.goal_of(draft)
     if goal is None:
         return None
@@ -305,7 +307,7 @@ def tangential(draft: Draft) -> Step | None:
         # Distance of the end point from the tangent; the centre is |chord|² / (2·distance) away on that side.
         side = tangent[0] * dv - tangent[1] * du
         chord = hypot(du, dv)
-        if chord <= arcs.SAME_POINT_MM:
+        if chord <= NO_WAY:
             raise AlarmError("14045")
         if abs(side) <= 1e-9 * chord:
             if tangent[0] * du + tangent[1] * dv < 0.0:
@@ -333,7 +335,7 @@ def last_direction(channel: Channel, columns: tuple[int, int, int], axes: tuple[
         return arcs.tangent_at((center[axes[0]], center[axes[1]]), (end[u], end[v]), ccw)
     du, dv = end[u] - start[u], end[v] - start[v]
     length = hypot(du, dv)
-    if length <= arcs.SAME_POINT_MM:
+    if length <= NO_WAY:
         raise AlarmError("14045")
     return du / length, dv / length
 

@@ -12,6 +12,8 @@ from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import plain
 from polycnc.control.sinumerik.block.positions import AxisTerm, Way, axis_term, length_factor, number, target
 from polycnc.control.sinumerik.limits import working_area
+from polycnc.geometry.planes import PLANES
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import declare
 from polycnc.language.sinumerik.names.values import Axis
@@ -23,9 +25,6 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
     from polycnc.control.sinumerik.memory import Memory
-
-#: Ways shorter than this (mm, degrees) are none: rounding left by frames.
-SAME_MM = 1e-9
 
 
 # ---- straight lines
@@ -90,7 +89,7 @@ def _plain_linear(draft: Draft) -> Step | None:
             if value.__class__ is not float:
                 value = number(values, position)
             value *= factor
-            if not moves and not -SAME_MM < value - end[column] < SAME_MM:
+            if not moves and not -NO_WAY < value - end[column] < NO_WAY:
                 moves = True
             end[column] = value
         if coordinates.owes:
@@ -134,7 +133,7 @@ def checked_feed(feed: float) -> float:
 def line(channel: Channel, kind: Kind, end: list[float], feed: float) -> None:
     """Move straight to a point; remembers where the move came from, for CT."""
     start = channel.coordinates.position
-    if any(abs(a - b) > SAME_MM for a, b in zip(end, start, strict=True)):
+    if any(abs(a - b) > NO_WAY for a, b in zip(end, start, strict=True)):
         memory: Memory = channel.memory
         if memory.limits:
             working_area.check(channel, end)
@@ -226,7 +225,7 @@ def polar_point(
         raise AlarmError("14280")
     if polar.radius < 0.0:
         raise AlarmError("14200")
-    i, j, _ = tables.PLANES[draft.mode["plane"]]
+    i, j, _ = PLANES[draft.mode["plane"]]
     turned = radians(polar.angle)
     return polar.pole[i] + polar.radius * cos(turned), polar.pole[j] + polar.radius * sin(turned)
 
@@ -238,7 +237,7 @@ def plane_columns(draft: Draft) -> tuple[int, int, int]:
         AlarmError: 12050 if the channel has no axis there.
     """
     geometry = draft.channel.coordinates.geometry
-    i, j, k = tables.PLANES[draft.mode["plane"]]
+    i, j, k = PLANES[draft.mode["plane"]]
     for index in (i, j):
         if geometry[index] < 0:
             raise AlarmError("12050", axis="XYZ"[index])
@@ -267,7 +266,7 @@ def _contour_angle(draft: Draft, terms: list[AxisTerm], position: int) -> Goal:
         u, v = columns[:2]
         if given[0] == u:
             end[v] = start[v] + (end[u] - start[u]) * slope
-        elif abs(slope) < SAME_MM:
+        elif abs(slope) < NO_WAY:
             raise WordAlarm("14040", position)
         else:
             end[u] = start[u] + (end[v] - start[v]) / slope
@@ -299,7 +298,7 @@ def _meeting_lines(draft: Draft, terms: list[AxisTerm], position: int, columns: 
         end = target(channel, terms, values)
         a, b = radians(memory.open_line), radians(number(values, position))
         across = sin(b - a)
-        if abs(across) < SAME_MM:
+        if abs(across) < NO_WAY:
             raise WordAlarm("14040", position)
         # From start along a and from the end back along b to one point: cross products with direction b.
         way = ((end[u] - start[u]) * sin(b) - (end[v] - start[v]) * cos(b)) / across
@@ -401,7 +400,7 @@ def special(channel: Channel, kind: Kind, end: list[float], feed: float, paramet
     """A straight move with curve parameters."""
     start = channel.coordinates.position
     memory: Memory = channel.memory
-    if any(abs(a - b) > SAME_MM for a, b in zip(end, start, strict=True)):
+    if any(abs(a - b) > NO_WAY for a, b in zip(end, start, strict=True)):
         if memory.limits:
             working_area.check(channel, end)
         memory.previous = (start, None, 0.0)

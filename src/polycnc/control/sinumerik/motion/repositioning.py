@@ -12,10 +12,11 @@ from dataclasses import dataclass
 from math import hypot, isnan, nan
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block.positions import length_factor, number
 from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.signals import interrupts
+from polycnc.geometry.planes import PLANES
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.statements.sections import end_of_subprogram
 from polycnc.messages import AlarmError
@@ -33,7 +34,6 @@ FUNCTIONS = (*LINES, *QUARTERS, *HALVES)
 POINTS = ("RMB", "RMI", "RME", "RMN")
 #: DISPR leads forwards from the start of the block, backwards from where it was interrupted or ends.
 _SENSE = {"RMB": 1.0, "RMI": -1.0, "RME": -1.0, "RMN": 0.0}
-_SAME = 1e-9
 Plane = tuple[int, int, int]
 
 
@@ -55,7 +55,7 @@ def reposition(draft: Draft) -> Step:
     factor = length_factor(draft.mode)
     named = {term.column for term in draft.take_axes()}
     point = draft.mode["repos_point"]
-    plane = tables.PLANES[draft.mode["plane"]]
+    plane = PLANES[draft.mode["plane"]]
     rapid = draft.mode["motion"] == "G0" and not draft.has("F")
     if code.endswith("A"):
         named = set(range(len(draft.channel.axes)))
@@ -106,7 +106,7 @@ def _touching_arc(
     direction = way.direction(part)
     along = (direction[plane[0]], direction[plane[1]])
     size = hypot(*along)
-    if radius <= 0.0 or size < _SAME or min(u, v) < 0:
+    if radius <= 0.0 or size < NO_WAY or min(u, v) < 0:
         return None
     along = (along[0] / size, along[1] / size)
     position, target = channel.coordinates.position, way.at(part)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.path import Rank, Stage
 from polycnc.geometry.nurbs import nurbs_chords
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
 TOLERANCE_MM = 0.001
 #: A weight of zero takes a control point away; the curve's formula needs a number.
 _LEAST_WEIGHT = 1e-6
-_SAME = 1e-9
 
 
 class SplineStage(Stage):
@@ -76,7 +76,7 @@ class SplineStage(Stage):
             while events and events[0][0] <= min(done, place):
                 self.after.event(events.pop(0)[1])
             move = held[min(place, len(held) - 1)]
-            if any(abs(a - b) > _SAME for a, b in zip(before, point, strict=True)):
+            if any(abs(a - b) > NO_WAY for a, b in zip(before, point, strict=True)):
                 self.after.move(replace(move, start=before, end=point, parameters=()))
             before, done = point, place + 1
         for _, event in events:
@@ -96,7 +96,7 @@ class SplineStage(Stage):
         chords = list(nurbs_chords(degree + 1, knots, poles, weights, TOLERANCE_MM))[1:]
         for k, chord in enumerate(chords, 1):
             share = k / len(chords) * len(held)
-            place = min(int(share - _SAME), len(held) - 1)
+            place = min(int(share - 1e-9), len(held) - 1)
             point = list(chord) if k < len(chords) else held[-1].end
             if self.columns is not None:
                 along = held[place]

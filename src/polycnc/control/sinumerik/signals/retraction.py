@@ -13,10 +13,10 @@ from __future__ import annotations
 from math import cos, nan, radians, sin
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import axis_term, number
+from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, cross
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
@@ -65,7 +65,7 @@ def _along(channel: Channel, tangent: Vector) -> list[float] | None:
     ):
         raise AlarmError("12560", text="ALF")
     angle = radians((direction - 1) * STEP_DEG)
-    first, second, third = tables.PLANES[channel.mode["plane"]]
+    first, second, third = PLANES[channel.mode["plane"]]
     if channel.mode["retraction_plane"] == "LFWP":
         along, across = axis_vector(first), axis_vector(second)
     else:

@@ -32,6 +32,8 @@ from polycnc.control.sinumerik.tools.smooth_stage import (
     Shape,
     with_value,
 )
+from polycnc.geometry.planes import PLANES
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -97,7 +99,7 @@ class Words:
             return plane
         value = number(values, self.clearance[0]) * length_factor(draft.mode)
         height = value if self.clearance[1] else plane + (value if far >= plane else -value)
-        if not min(far, plane) - moves.SAME_MM <= height <= max(far, plane) + moves.SAME_MM:
+        if not min(far, plane) - NO_WAY <= height <= max(far, plane) + NO_WAY:
             raise AlarmError("10741")
         return height
 
@@ -148,7 +150,7 @@ def retract(draft: Draft) -> Step | None:
     words = Words.take(draft)
     terms = draft.take_axes()
     columns = moves.plane_columns(draft)
-    axes = tables.PLANES[draft.mode["plane"]]
+    axes = PLANES[draft.mode["plane"]]
     names_point = any(term.column in columns[:2] for term in terms)
     draft.steps.append(_remember_feed)
 

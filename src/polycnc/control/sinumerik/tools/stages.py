@@ -15,11 +15,12 @@ from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolati
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane
 from polycnc.compensation.policy import Approach, Policy, Violation
+from polycnc.compensation.tips import tip_direction
 from polycnc.control.sinumerik.motion.spline_stage import SplineStage
-from polycnc.control.sinumerik.tables import PLANES
 from polycnc.control.sinumerik.tools.memory import DP_TIP
 from polycnc.control.sinumerik.tools.smooth_stage import SmoothApproach
 from polycnc.geometry.offset import Joint, Outer
+from polycnc.geometry.planes import PLANES
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -52,18 +53,6 @@ SIDES = {"G41": 1, "G42": -1}
 #: Stages that work in one plane.
 PlaneStage = SplineStage | SmoothApproach | CornerStage | CutterCompensation
 OF_PLANE: tuple[type[PlaneStage], ...] = (SplineStage, SmoothApproach, CornerStage, CutterCompensation)
-#: From the nose centre to the programmed tip along the plane's second and first axis (G18: X and Z), by
-#: $TC_DP2.
-TIPS = {
-    1: (1.0, 1.0),
-    2: (1.0, -1.0),
-    3: (-1.0, -1.0),
-    4: (-1.0, 1.0),
-    5: (0.0, 1.0),
-    6: (1.0, 0.0),
-    7: (0.0, -1.0),
-    8: (-1.0, 0.0),
-}
 
 
 def cutter(channel: Channel) -> CutterCompensation:
@@ -198,5 +187,4 @@ def tip(channel: Channel) -> Point:
     edge = memory.tools.edge
     if edge is None or not edge.is_turning:
         return (0.0, 0.0)
-    second, first = TIPS.get(int(edge.values[DP_TIP]), (0.0, 0.0))
-    return (first, second)
+    return tip_direction(int(edge.values[DP_TIP]))

@@ -11,10 +11,10 @@ from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.stroke_check import StrokeZone
 from polycnc.control.word_address.coordinates.systems import go_to_reference, refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.tools.data_input import TOOL_FIELDS
 from polycnc.control.word_address.tools.length import renew_length
 from polycnc.geometry.frames import IDENTITY, Frame, about, cos_sin_deg, rotation, scaling
+from polycnc.geometry.planes import PLANES
 from polycnc.language.syntec.values import to_long
 
 if TYPE_CHECKING:

@@ -10,10 +10,10 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.parameters import has_option
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.transformations.normal_line import GROUP, LEFT, NormalLineRules, end
 from polycnc.control.word_address.transformations.normal_stage import Direction, NormalStage
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
+from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
 
 if TYPE_CHECKING:

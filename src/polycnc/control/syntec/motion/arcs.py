@@ -10,8 +10,9 @@ from polycnc.control.syntec.parameters import has_option
 from polycnc.control.word_address.block.words_as_data import targets_as_data, word_as_data
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.arcs import emit_arc
-from polycnc.control.word_address.motion.path import CENTER_WORDS, PLANES
+from polycnc.control.word_address.motion.path import CENTER_WORDS
 from polycnc.geometry import arcs
+from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, declare
 from polycnc.toolpath import Kind
 

@@ -13,11 +13,12 @@ from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block import settled
 from polycnc.control.word_address.motion import path, skip
 from polycnc.control.word_address.motion.arcs import emit_arc
-from polycnc.control.word_address.motion.path import CENTER_WORDS, PLANES
+from polycnc.control.word_address.motion.path import CENTER_WORDS
 from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
+from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.motion.planes import choose_axes
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
+from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -9,7 +9,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.auxiliary.interlocks import holds_an_axis
-from polycnc.control.word_address.motion import arcs, path
+from polycnc.control.word_address.motion import arcs
+from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, Conditions, Recipe, Spelling
 from polycnc.language.bulk.layout import FIRST_CODE, FORMS
 from polycnc.messages import AlarmError
@@ -90,7 +91,7 @@ class PlainBlocks:
 
 def _keeps_circles(channel: WordAddressChannel) -> bool:
     """Whether the programming frame leaves circles of the plane circles, mirrored as a whole or not at all."""
-    frame, plane = channel.coordinates.programming, path.PLANES[channel.mode["plane"]]
+    frame, plane = channel.coordinates.programming, PLANES[channel.mode["plane"]]
     mirrored = arcs.mirrors_plane(frame, plane) == frame.mirrors
     return mirrored and not arcs.is_stretched(frame, plane)
 

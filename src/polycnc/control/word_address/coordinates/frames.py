@@ -11,8 +11,9 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
-from polycnc.control.word_address.motion.path import PLANES, reach
+from polycnc.control.word_address.motion.path import reach
 from polycnc.geometry.frames import IDENTITY, about, cos_sin_deg, rotation, scaling
+from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

@@ -17,10 +17,11 @@ from polycnc.channel.state import Lifetime, State, lasting
 from polycnc.control.word_address.auxiliary.functions import stand
 from polycnc.control.word_address.auxiliary.overrides import OverrideState
 from polycnc.control.word_address.block.numbers import length_converter
-from polycnc.control.word_address.motion.path import FEED_MODES, PLANES, reach
+from polycnc.control.word_address.motion.path import FEED_MODES, reach
 from polycnc.control.word_address.tools.radius import suspended
 from polycnc.cycles.drilling import lathe
 from polycnc.cycles.drilling.holes import Action, Cycle, Hole, Stroke, tap
+from polycnc.geometry.planes import PLANES
 from polycnc.language.word_address.functions import round_half_away
 from polycnc.toolpath import Kind
 from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS, STROKE, Overlap

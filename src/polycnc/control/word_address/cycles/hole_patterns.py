@@ -9,8 +9,8 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.cycles.drilling import CycleState, drill_here, is_active
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.cycles.drilling import patterns
+from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.motion.arcs import emit_arc
-from polycnc.control.word_address.motion.path import CENTER_WORDS, PLANES, reach
+from polycnc.control.word_address.motion.path import CENTER_WORDS, reach
+from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.compensation import Plane
 from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
-from polycnc.control.word_address.motion.path import PLANES
+from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step

@@ -6,7 +6,8 @@ from math import nan, radians, sin, tan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.numbers import angle_converter
-from polycnc.control.word_address.motion.path import PLANES, reach
+from polycnc.control.word_address.motion.path import reach
+from polycnc.geometry.planes import PLANES
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 

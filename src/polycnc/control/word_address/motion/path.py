@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.block.words_as_data import targets_as_data, word_as_data
 from polycnc.control.word_address.motion.arcs import center_by_radius, emit_arc, emit_stretched, is_stretched
 from polycnc.geometry import arcs
+from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, Straight, declare
 from polycnc.toolpath import Kind
 
@@ -25,8 +26,7 @@ if TYPE_CHECKING:
 
 #: Feed codes of all word-address families to the meaning that the toolpath uses.
 FEED_MODES = {"G93": "G93", "G94": "G94", "G95": "G95", "G98": "G94", "G99": "G95"}
-#: First, second and third axis of a plane as geometry axes, and the centre words of the first two.
-PLANES: dict[str, tuple[int, int, int]] = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
+#: The centre words of the geometry axes.
 CENTER_WORDS = "IJK"
 
 

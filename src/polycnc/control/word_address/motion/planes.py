@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from polycnc.compensation import CutterCompensation
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.transformations import cylinder
+from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

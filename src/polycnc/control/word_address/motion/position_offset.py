@@ -6,7 +6,8 @@ from math import copysign, nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.motion.arcs import center_by_radius, emit_arc
-from polycnc.control.word_address.motion.path import CENTER_WORDS, PLANES, reach
+from polycnc.control.word_address.motion.path import CENTER_WORDS, reach
+from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import place_of_block
+from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
     from polycnc.compensation import CutterCompensation

@@ -9,7 +9,7 @@ from polycnc.channel.path import Move
 from polycnc.compensation import CutterCompensation, Plane, Violation
 from polycnc.control.word_address.motion import corners
 from polycnc.control.word_address.motion.arcs import mirrors_plane
-from polycnc.control.word_address.motion.path import PLANES
+from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -11,8 +11,8 @@ from math import pi
 from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.tools.radius import active_compensation
+from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

@@ -14,8 +14,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.transformations.normal_stage import CUTS, SAME_DEG, Direction, NormalStage
+from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

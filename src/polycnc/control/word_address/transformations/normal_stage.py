@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.path import Rank, Stage
 from polycnc.geometry import arcs
+from polycnc.geometry.angles import nearest_turn
 from polycnc.toolpath.kinds import CCW_KINDS, Kind
 
 if TYPE_CHECKING:
@@ -61,7 +62,7 @@ class Direction:
     def angle(self, tangent: Point, near: float) -> float:
         """Position of the axis for a direction of travel, on the turn nearest to another position."""
         angle = self.sense * (degrees(atan2(tangent[1], tangent[0]))) + self.offset_deg
-        return angle + 360.0 * round((near - angle) / 360.0)
+        return nearest_turn(angle, near)
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,8 +11,8 @@ from math import atan2, cos, degrees, hypot, radians, sin
 from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.transformations.cylinder import CylinderState
+from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder

@@ -11,9 +11,9 @@ from polycnc.control.fanuc.lathe.tools.offsets import refresh
 from polycnc.control.word_address.block import settled
 from polycnc.control.word_address.coordinates import systems
 from polycnc.control.word_address.motion import planes
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.tools.radius import active_compensation, suspended
 from polycnc.geometry.frames import IDENTITY, about, rotation
+from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

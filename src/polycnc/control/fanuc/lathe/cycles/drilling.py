@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from polycnc.control.fanuc.lathe.cycles import tapping
 from polycnc.control.word_address.cycles import drilling as base
 from polycnc.control.word_address.cycles.drilling import CycleState, DrillCycle, Drilling, Halts
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.cycles.drilling import holes, lathe
 from polycnc.cycles.drilling.lathe import Joint
+from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

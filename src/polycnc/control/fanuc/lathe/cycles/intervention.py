@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.intervention import TakesBack
 from polycnc.control.fanuc.lathe.cycles import single as turning_single
-from polycnc.control.word_address.motion.path import PLANES
+from polycnc.geometry.planes import PLANES
+from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -16,8 +17,6 @@ if TYPE_CHECKING:
 #: Cycles with a shape, which P and Q name, and others; blocks without those words only give amounts.
 _SHAPE_CYCLES, _NAMED_AXES = frozenset({"G70", "G71", "G72", "G73"}), frozenset({"G74", "G75"})
 _AXIS_LETTERS = "XYZUVW"
-#: The axes stand where the operator has left them.
-SAME_MM = 1e-9
 
 
 def takes_back(builder: Builder) -> TakesBack | None:
@@ -42,7 +41,7 @@ def plan_return(builder: Builder, plan: Plan) -> list[Step]:
     def count_from_path(channel: Channel, _values: list[float]) -> None:
         moved, c = channel.moved_by_hand, channel.coordinates
         channel.moved_by_hand = None
-        if moved is None or any(abs(a - b) > SAME_MM for a, b in zip(c.machine, moved.machine, strict=True)):
+        if moved is None or any(abs(a - b) > NO_WAY for a, b in zip(c.machine, moved.machine, strict=True)):
             return
         c.arrive_machine(
             [

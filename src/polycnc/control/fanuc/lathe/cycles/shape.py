@@ -19,9 +19,10 @@ from polycnc.control.fanuc.lathe.motion.corners import corner_waits
 from polycnc.control.fanuc.lathe.tools.nose_radius import SHAPE_KIND
 from polycnc.control.fanuc.lathe.tools.offsets import nose_radius, nose_tip
 from polycnc.control.word_address.macro_b import interruption
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.tools.radius import violation_codes
 from polycnc.cycles.turning.contour import Contour, Piece
+from polycnc.geometry.planes import PLANES
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -35,8 +36,6 @@ if TYPE_CHECKING:
 #: Group and codes of the modal state in which the blocks of a shape are read for a cycle, or run by G70.
 GROUP, READING, FINISHING = "shape", "reading", "finishing"
 MAX_SHAPE_BLOCKS = 10_000
-#: Ways below this are none.
-SAME_MM = 1e-9
 _INFEED_CODES = ("G0", "G1")
 _ALLOWED = frozenset({"G0", "G1", "G2", "G3"})
 #: One-shot codes and macro calls.
@@ -94,7 +93,7 @@ def plan_note(builder: Builder, plan: Plan) -> Step | None:
             shape.first_axes, shape.first_code = axes, code
             ends = channel.coordinates.programmed
             shape.first_ways = frozenset(
-                axis for axis in axes if abs(ends[axis] - shape.start[axis]) > SAME_MM
+                axis for axis in axes if abs(ends[axis] - shape.start[axis]) > NO_WAY
             )
 
     return note

@@ -15,10 +15,10 @@ from polycnc.control.fanuc.lathe.motion.threads import (
     plan_start_angle,
     refuse_corners,
 )
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.motion.skip import signal_position
 from polycnc.cycles.turning import single
 from polycnc.cycles.turning.thread import Runout, thread_pass
+from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
 
 if TYPE_CHECKING:

@@ -16,9 +16,9 @@ from polycnc.control.fanuc.lathe.motion.threads import (
     thread_move,
 )
 from polycnc.control.fanuc.lathe.tools.offsets import nose_radius, nose_tip
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.tools.radius import active_compensation, suspended
 from polycnc.geometry import offset
+from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -10,8 +10,10 @@ from polycnc.control.fanuc.lathe.coordinates.systems import feed_number, plane_a
 from polycnc.control.fanuc.lathe.motion import drawing
 from polycnc.control.fanuc.lathe.tools.offsets import THREADS
 from polycnc.control.word_address.motion.arcs import center_by_radius
-from polycnc.control.word_address.motion.path import CENTER_WORDS, PLANES, reach
+from polycnc.control.word_address.motion.path import CENTER_WORDS, reach
 from polycnc.geometry import arcs
+from polycnc.geometry.planes import PLANES
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 
@@ -143,7 +145,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
 
 def _keeps_long_axis(begin: Point, end: Point, center: Point, ccw: bool) -> bool:
     """Whether the lead counts along one axis all the way: the arc's direction never passes 45 degrees, and it moves."""
-    if hypot(end[0] - begin[0], end[1] - begin[1]) <= arcs.SAME_POINT_MM:
+    if hypot(end[0] - begin[0], end[1] - begin[1]) <= NO_WAY:
         return False
     diagonals = [(center[0] + a, center[1] + b) for a in (1.0, -1.0) for b in (1.0, -1.0)]
     # The very ends may lie on a diagonal.

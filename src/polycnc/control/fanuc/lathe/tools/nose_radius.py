@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from polycnc.compensation.policy import Approach, Policy
 from polycnc.control.fanuc.lathe.motion import corners
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.tools import radius
 from polycnc.geometry.offset import Joint, Outer
+from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -9,12 +9,13 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING, Any
 
+from polycnc.compensation.tips import tip_direction
 from polycnc.control.tool_change import check_change_points
 from polycnc.control.word_address.block.plan import NOT_YET
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.macro_b.code_calls import calls_by_tool
-from polycnc.control.word_address.motion.path import PLANES
 from polycnc.control.word_address.tools.radius import compensation_stage, side_on_display
+from polycnc.geometry.planes import PLANES
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -24,8 +25,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
 
-#: Direction from the nose centre to the imaginary tip, along the plane's first and second axis (II.5.2.2).
-TIPS = {1: (1, 1), 2: (-1, 1), 3: (-1, -1), 4: (1, -1), 5: (1, 0), 6: (0, 1), 7: (-1, 0), 8: (0, -1)}
 THREADS = frozenset({"G32", "G34", "G35", "G36"})
 _ARCS = frozenset({"G2", "G3"})
 #: One-shot codes beside which a T is allowed.
@@ -259,8 +258,7 @@ def nose_tip(channel: Channel) -> tuple[float, float]:
     memory = channel.memory
     by_wear = memory.common_offsets or memory.parameters.bit(5002, 7)
     number = memory.offset_active if by_wear else memory.geometry_active
-    first, second = TIPS.get(memory.turning_offset(number).tip, (0, 0)) if number else (0, 0)
-    return (float(first), float(second))
+    return tip_direction(memory.turning_offset(number).tip if number else 0)
 
 
 def offset_changed(channel: Channel) -> None:
