@@ -10,9 +10,9 @@ from typing import Any
 
 from polycnc.channel.channel import Channel
 from polycnc.control.registry import control
-from polycnc.language.bulk import layout
 from polycnc.language.bulk.kernels import Tables
 from polycnc.language.bulk.kernels import scan as plain_scan
+from polycnc.language.bulk.layout import State
 from polycnc.language.bulk.moves import Columns
 from polycnc.language.bulk.scanner import Bulk
 from polycnc.machine import load_machine
@@ -60,10 +60,10 @@ def scanned(text: str, control_id: str, setup: Mapping[str, Any] | None = None, 
     """How many blocks of a program the scanner takes."""
     taken = 0
 
-    def scan(tables: Tables, columns: Columns) -> int:
+    def scan(tables: Tables, state: State, columns: Columns) -> int:
         nonlocal taken
-        outcome = plain_scan(tables, columns)
-        taken += tables.ints[layout.BLOCKS]
+        outcome = plain_scan(tables, state, columns)
+        taken += state.scan.blocks
         return outcome
 
     run(text, control_id, setup, replace(PLAIN, scan=scan), **limits)

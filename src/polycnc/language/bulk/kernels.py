@@ -15,48 +15,19 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32
+from polycnc.kernels.layout import Bytes, Floats, Ints32
 from polycnc.language.bulk.layout import (
-    AT_END,
-    BLANK_LINES_ARE_NONE,
-    BLOCKS,
     CR_FORM,
-    CR_RADIUS,
-    END,
-    EQUALS,
     FIRST_CODE,
-    FIRST_KEY,
-    FIRST_RULE,
     FORMS,
-    FORMS_COUNT,
-    FULL,
-    GRAMMAR,
-    HEXADECIMAL,
     KEY_COUNT,
-    KEYS,
     LAST_CODE,
-    LEAF_NOT_PLAIN,
-    LEAVES_NOTE,
-    LINE,
-    MOST_BLOCKS,
-    MOST_DIGITS,
     MOST_KEYS,
-    MOST_NOTES,
-    MOST_ROWS,
-    NEXT_STATE,
-    NOT_PLAIN,
-    NOTES,
-    OPEN_COMMENTS,
-    PLACE,
-    ROUND_COMMENTS,
-    ROWS,
-    RULE_WIDTH,
-    SEMICOLON_COMMENTS,
-    SLASH_COMMENTS,
-    STARRED_COMMENTS,
-    STATE,
-    UNKNOWN,
-    VALUES,
+    Grammar,
+    Leaf,
+    Outcome,
+    Rule,
+    State,
 )
 from polycnc.language.bulk.moves import Columns, act, note
 
@@ -85,90 +56,88 @@ NO_BLOCK = -1
 
 
 class Tables(NamedTuple):
-    """What a scan reads and carries on; see `layout`.
+    """What a scan reads; see `layout`.
 
     Attributes:
         text: Bytes, whole lines.
-        ints: Whole numbers of the scan.
-        floats: Numbers of the scan.
         nexts: The shape tree, `(nodes, KEY_COUNT)`.
         leaves: For each node the number of its rule.
-        rules: `(rules, RULE_WIDTH)`.
-        factors: `(rules, FACTOR_WIDTH)`.
+        rules: `(rules, Rule.SIZE)`.
+        factors: `(rules, Factor.SIZE)`.
     """
 
     text: Bytes
-    ints: Ints
-    floats: Floats
     nexts: Ints32
     leaves: Ints32
     rules: Ints32
     factors: Floats
 
 
-def scan(tables: Tables, columns: Columns) -> int:
-    """Work off plain blocks from `PLACE` on; rows go into `columns`. Gives how it ended."""
-    ints, floats, leaves = tables.ints, tables.floats, tables.leaves
-    rules, factors = tables.rules, tables.factors
-    while ints[PLACE] < ints[END]:
-        if ints[BLOCKS] >= ints[MOST_BLOCKS] or ints[ROWS] + ints[NOTES] >= ints[MOST_ROWS]:
-            return FULL
-        place, node = read_block(tables)
-        if place < 0 or place - ints[PLACE] > LONGEST_LINE:
-            return NOT_PLAIN
+def scan(tables: Tables, state: State, columns: Columns) -> int:
+    """Work off plain blocks from `scan.place` on; rows go into `columns`. Gives how it ended."""
+    leaves, rules, factors = tables.leaves, tables.rules, tables.factors
+    while state.scan.place < state.scan.end:
+        if (
+            state.scan.blocks >= state.scan.most_blocks
+            or state.scan.rows + state.scan.notes >= state.scan.most_rows
+        ):
+            return Outcome.FULL
+        place, node = read_block(tables, state)
+        if place < 0 or place - state.scan.place > LONGEST_LINE:
+            return Outcome.NOT_PLAIN
         if node != NO_BLOCK:
             leaf = leaves[node]
-            if leaf < FIRST_RULE:
-                return NOT_PLAIN if leaf == LEAF_NOT_PLAIN else UNKNOWN
-            notes = rules[leaf * RULE_WIDTH + LEAVES_NOTE]
-            if notes and ints[NOTES] >= ints[MOST_NOTES]:
-                return FULL
-            if notes and not note(ints, floats, rules, factors, leaf, columns):
-                return NOT_PLAIN
-            if not act(ints, floats, rules, factors, leaf, columns):
-                return NOT_PLAIN
-            ints[NOTES] += notes
-            ints[STATE] = rules[leaf * RULE_WIDTH + NEXT_STATE]
-        if node != NO_BLOCK or not ints[GRAMMAR] & BLANK_LINES_ARE_NONE:
-            ints[BLOCKS] += 1
-        ints[PLACE] = place + 1
-        ints[LINE] += 1
-    return AT_END
+            if leaf < Leaf.FIRST_RULE:
+                return Outcome.NOT_PLAIN if leaf == Leaf.NOT_PLAIN else Outcome.UNKNOWN
+            notes = rules[leaf * Rule.SIZE + Rule.LEAVES_NOTE]
+            if notes and state.scan.notes >= state.scan.most_notes:
+                return Outcome.FULL
+            if notes and not note(state, rules, factors, leaf, columns):
+                return Outcome.NOT_PLAIN
+            if not act(state, rules, factors, leaf, columns):
+                return Outcome.NOT_PLAIN
+            state.scan.notes += notes
+            state.scan.root = rules[leaf * Rule.SIZE + Rule.NEXT_STATE]
+        if node != NO_BLOCK or not state.scan.grammar & Grammar.BLANK_LINES_ARE_NONE:
+            state.scan.blocks += 1
+        state.scan.place = place + 1
+        state.scan.line += 1
+    return Outcome.AT_END
 
 
-def read_block(tables: Tables) -> tuple[int, int]:
+def read_block(tables: Tables, state: State) -> tuple[int, int]:
     """Place of the line end behind the next block, -1 for one that is not plain, and the node of its shape."""
-    text, ints, floats, nexts = tables.text, tables.ints, tables.floats, tables.nexts
-    place, node = ints[PLACE], ints[STATE]
+    text, nexts = tables.text, tables.nexts
+    place, node = state.scan.place, state.scan.root
     keys = values = 0
     is_block = False
     while True:
         char = int(text[place])
         if LETTER_A <= char <= LETTER_Z:
-            place, key, value = read_word(text, place, ints[GRAMMAR], ints[MOST_DIGITS])
+            place, key, value = read_word(text, place, state.scan.grammar, state.scan.most_digits)
             if key == NO_KEY or keys == MOST_KEYS or (key == BLOCK_NUMBER and is_block):
                 return -1, 0
             is_block = True
             if key == BLOCK_NUMBER:
                 continue
             if key < FIRST_CODE:
-                floats[VALUES + values] = value
+                state.values[values] = value
                 values += 1
-            ints[FIRST_KEY + keys] = key
+            state.keys[keys] = key
             keys += 1
-            ints[KEYS] = keys
+            state.scan.keys = keys
             node = nexts[node * KEY_COUNT + key]
         elif char in (BLANK, TAB):
             place += 1
         elif char == NEWLINE:
             break
         else:
-            ends_block = char == SEMICOLON and not ints[GRAMMAR] & SEMICOLON_COMMENTS
-            place = read_rest(text, place, ints[GRAMMAR])
+            ends_block = char == SEMICOLON and not state.scan.grammar & Grammar.SEMICOLON_COMMENTS
+            place = read_rest(text, place, state.scan.grammar)
             if place < 0:
                 return -1, 0
             is_block = is_block or ends_block
-    ints[KEYS] = keys
+    state.scan.keys = keys
     return place, node if is_block else NO_BLOCK
 
 
@@ -186,10 +155,10 @@ def read_word(text: Bytes, place: int, grammar: int, most_digits: int) -> tuple[
             return place, NO_KEY, 0.0
         return place, BLOCK_NUMBER if letter == LETTER_N else FIRST_CODE + number, 0.0
     form = 0
-    if text[place] == EQUALS_SIGN and grammar & EQUALS:
+    if text[place] == EQUALS_SIGN and grammar & Grammar.EQUALS:
         form = 1
         place += 1
-    elif letter == LETTER_C and text[place] == LETTER_R and grammar & CR_RADIUS:
+    elif letter == LETTER_C and text[place] == LETTER_R and grammar & Grammar.CR_RADIUS:
         if text[place + 1] != EQUALS_SIGN:
             return place, NO_KEY, 0.0
         form = CR_FORM
@@ -197,11 +166,11 @@ def read_word(text: Bytes, place: int, grammar: int, most_digits: int) -> tuple[
     place, value, decimals = read_number(text, place, most_digits)
     if place < 0:
         return place, NO_KEY, 0.0
-    if grammar & HEXADECIMAL and text[place] == LETTER_X and text[place - 1] == ZERO and value == 0.0:
+    if grammar & Grammar.HEXADECIMAL and text[place] == LETTER_X and text[place - 1] == ZERO and value == 0.0:
         return place, NO_KEY, 0.0
     if form and decimals < 0 and value == 0.0:
         value = 0.0  # behind `=`, `-0` is a whole number and has no sign
-    if decimals >= 0 and grammar & FORMS_COUNT:
+    if decimals >= 0 and grammar & Grammar.FORMS_COUNT:
         form = 1 if decimals <= 3 else 2 if decimals == 4 else 3
     return place, (letter - LETTER_A) * FORMS + form, value
 
@@ -234,7 +203,7 @@ def read_number(text: Bytes, place: int, most_digits: int) -> tuple[int, float, 
 
 def read_rest(text: Bytes, place: int, grammar: int) -> int:
     """What is no word: a comment, or `;` with nothing but comments behind it. Place behind it, -1 for others."""
-    if text[place] != SEMICOLON or grammar & SEMICOLON_COMMENTS:
+    if text[place] != SEMICOLON or grammar & Grammar.SEMICOLON_COMMENTS:
         return read_comment(text, place, grammar)
     place += 1
     while text[place] in (BLANK, TAB):
@@ -249,15 +218,15 @@ def read_rest(text: Bytes, place: int, grammar: int) -> int:
 def read_comment(text: Bytes, place: int, grammar: int) -> int:
     """Place behind the comment that begins here, -1 for none."""
     char = int(text[place])
-    if char == OPEN and grammar & ROUND_COMMENTS:
-        starred = text[place + 1] == STAR and grammar & STARRED_COMMENTS
+    if char == OPEN and grammar & Grammar.ROUND_COMMENTS:
+        starred = text[place + 1] == STAR and grammar & Grammar.STARRED_COMMENTS
         while text[place] not in (CLOSE, NEWLINE):
             place += 1
         if text[place] == CLOSE:
             return -1 if starred and text[place - 1] != STAR else place + 1
-        return place if grammar & OPEN_COMMENTS else -1
-    slashes = char == SLASH and text[place + 1] == SLASH and grammar & SLASH_COMMENTS
-    if slashes or (char == SEMICOLON and grammar & SEMICOLON_COMMENTS):
+        return place if grammar & Grammar.OPEN_COMMENTS else -1
+    slashes = char == SLASH and text[place + 1] == SLASH and grammar & Grammar.SLASH_COMMENTS
+    if slashes or (char == SEMICOLON and grammar & Grammar.SEMICOLON_COMMENTS):
         while text[place] != NEWLINE:
             place += 1
         return place

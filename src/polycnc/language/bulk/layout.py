@@ -1,101 +1,238 @@
-"""Where the scanner's numbers stand: its kernels know arrays only, so every number has a fixed place in one.
+"""The data of the scanner's kernels by name: what a scan carries along, rules, flags and outcomes.
 
-Python's side (`shapes`, `scanner`) and the kernels share these names. Compiled code takes them as constants.
+Python's side (`shapes`, `scanner`) and the kernels share it.
 """
 
 from __future__ import annotations
 
-# ---- whole numbers of a scan (`ints`) -----------------------------------------------------------------------
+from array import array
+from ctypes import Structure
+from typing import NamedTuple
 
-#: Byte of the text at which the next block begins, and behind the last line; the last byte is a line end.
-PLACE, END = 0, 1
-#: Line of the file of the next block.
-LINE = 2
-#: Blocks and rows taken so far, and how many may be; moves with curve parameters among them.
-BLOCKS, MOST_BLOCKS, ROWS, MOST_ROWS, CURVES, FIRST_CURVE = 3, 4, 5, 6, 7, 8
-#: Number of the shape tree's root for the modal state that holds.
-STATE = 9
-#: Axes of the channel, and for X, Y, Z of the geometry their columns, or -1.
-AXES, GEOMETRY = 10, 11
-#: Place of the programming frame and of the zero frame among the floats, or -1 for identity.
-PROGRAMMING_FRAME, ZERO_FRAME = 14, 15
-#: Whether programmed point and display are one, whether incremental words are owed something, whether there
-#: are shifts of single axes, whether the programming frame swaps left and right, whether axes have limits.
-DIRECT, OWES, SHIFTED, MIRRORS, LIMITED = 16, 17, 18, 19, 20
-#: What the control's text looks like: flags of `GRAMMAR_FLAGS`, and digits that a number may have.
-GRAMMAR, MOST_DIGITS = 21, 22
-#: Notes so far, and how many may be.
-NOTES, MOST_NOTES = 23, 24
-#: The keys of the block that is being read: how many, and from where on.
-KEYS, FIRST_KEY, MOST_KEYS = 25, 26, 24
-INTS = FIRST_KEY + MOST_KEYS
+from polycnc.kernels.layout import Floats, Ints, Places, place, record
 
-# ---- numbers of a scan (`floats`) ---------------------------------------------------------------------------
+#: Words that a block may have.
+MOST_KEYS = 24
 
-FEED, TOLERANCE = 0, 1
-#: Centre of the last arc less its start, on the geometry axes.
-LAST_CENTER = 2
-#: Values of the words of the block that is being read.
-VALUES = 5
-#: Frames: nine numbers by rows, then the shift.
-PROGRAMMING, ZERO = VALUES + MOST_KEYS, VALUES + MOST_KEYS + 12
-#: From here on vectors with a number for each axis, in this order.
-VECTORS = ZERO + 12
-POSITION, PROGRAMMED, PENDING, SHIFT, OFFSETS, LOW, HIGH = range(7)
-#: The same while a block is worked out, and where the last move began.
-NEW_POSITION, NEW_PROGRAMMED, NEW_PENDING, MACHINE, CAME_FROM = range(7, 12)
-VECTOR_COUNT = 12
+# ---- what a scan carries along ------------------------------------------------------------------------------
 
-# ---- what a block of a shape does (`rules`, whole numbers, and `factors`) -----------------------------------
 
-#: Root of the shape tree of the modal state that the block leaves.
-NEXT_STATE = 0
-#: Kind of motion, whether it needs a feed, whether a rapid names its feed, whether all words are absolute,
-#: whether ways below `TINY` are none.
-MOTION, NEEDS_FEED, NAMES_FEED, ABSOLUTE, SKIPS_TINY = 1, 2, 3, 4, 5
-#: Plane of an arc as geometry axes, its sense, and whether an arc without way in its plane is a line.
-PLANE, CCW, LINE_WITHOUT_WAY = 6, 9, 10
-#: Words beside axes: index of the value, or -1, and its conversion.
-FEED_WORD, FIRST_CENTER, SECOND_CENTER, RADIUS = 11, 13, 15, 17
-#: Axis words: how many, and from where on, each with index of the value, conversion, axis, incremental.
-TARGETS, FIRST_TARGET, TARGET_WIDTH = 19, 20, 4
-#: Whether a feed that is not above zero is the interpreter's.
-POSITIVE_FEED = FIRST_TARGET + TARGET_WIDTH * MOST_KEYS
-#: Whether the block leaves a note, and the index of that note's value, or -1.
-LEAVES_NOTE, NOTE_WORD = POSITIVE_FEED + 1, POSITIVE_FEED + 2
-RULE_WIDTH = POSITIVE_FEED + 3
-#: Factors: scale and unit of each conversion. A word's stand at the same index as its value's index in `rules`.
-FACTOR_WIDTH = RULE_WIDTH + 2
-#: How often the control's arc tolerance counts where a radius is given.
-RADIUS_TOLERANCES = RULE_WIDTH
-#: A smaller value of a note is the interpreter's.
-LOWEST_NOTE = RULE_WIDTH + 1
+@record
+class Scan(Structure):
+    """Where a scan stands, and what holds in it.
 
-NO_MOTION, RAPID_MOTION, FEED_MOTION, ARC_MOTION = range(4)
+    Attributes:
+        place: Byte of the text at which the next block begins.
+        end: Byte behind the last line; the last byte is a line end.
+        line: Line of the file of the next block.
+        blocks: Blocks taken so far; `most_blocks` how many may be. `rows` and `notes` likewise.
+        curves: Moves with curve parameters among the rows; `first_curve` is the number of the first.
+        root: Root of the shape tree for the modal state that holds.
+        axes: Axes of the channel.
+        has_programming: Whether the programming frame changes anything; `has_zero` likewise.
+        direct: Whether programmed point and display are one.
+        owes: Whether incremental words are owed something.
+        shifted: Whether there are shifts of single axes.
+        mirrors: Whether the programming frame swaps left and right.
+        limited: Whether axes have limits.
+        grammar: What the control's text looks like, flags of `Grammar`.
+        most_digits: Digits that a number may have.
+        keys: Keys of the block that is being read.
+        feed: The channel's feed.
+        tolerance: Allowed difference between the radii at an arc's start and end, mm.
+    """
 
-# ---- what blocks leave beside rows: notes ---------------------------------------------------------------------
+    place: int
+    end: int
+    line: int
+    blocks: int
+    most_blocks: int
+    rows: int
+    most_rows: int
+    notes: int
+    most_notes: int
+    curves: int
+    first_curve: int
+    root: int
+    axes: int
+    has_programming: int
+    has_zero: int
+    direct: int
+    owes: int
+    shifted: int
+    mirrors: int
+    limited: int
+    grammar: int
+    most_digits: int
+    keys: int
+    feed: float
+    tolerance: float
 
-#: Rows in front of the note, line and rule of its block. Its value and the position follow among the floats.
-NOTE_ROW, NOTE_LINE, NOTE_RULE = range(3)
-NOTE_WIDTH = 3
+
+class State(NamedTuple):
+    """What a scan carries along; see `new_state`.
+
+    Attributes:
+        scan: Where it stands, and what holds.
+        keys: Keys of the words of the block that is being read; `values` likewise.
+        geometry: For X, Y, Z of the geometry their columns, or -1.
+        last_center: Centre of the last arc less its start, on the geometry axes.
+        programming: The programming frame: nine numbers by rows, then the shift.
+        zero: The zero frame.
+        position: Where the channel stands, as the display shows it; from here on a number for each axis.
+        programmed: The programmed point.
+        pending: What incremental words are owed.
+        shift: Shifts of single axes.
+        offsets: From the zero frame's image to the machine position.
+        low: Lowest machine position; `high` likewise.
+        new_position: The same behind the block that is being worked out; `new_programmed`, `new_pending` likewise.
+        machine: Its machine position without offsets.
+        came_from: Where the last move began.
+    """
+
+    scan: Scan
+    keys: Ints
+    values: Floats
+    geometry: Ints
+    last_center: Floats
+    programming: Floats
+    zero: Floats
+    position: Floats
+    programmed: Floats
+    pending: Floats
+    shift: Floats
+    offsets: Floats
+    low: Floats
+    high: Floats
+    new_position: Floats
+    new_programmed: Floats
+    new_pending: Floats
+    machine: Floats
+    came_from: Floats
+
+
+def new_state(axes: int) -> State:
+    """Room for what a scan carries along."""
+
+    def zeros(count: int) -> array[float]:
+        return array("d", bytes(8 * count))
+
+    fixed = (
+        array("q", bytes(8 * MOST_KEYS)),
+        zeros(MOST_KEYS),
+        array("q", bytes(24)),
+        zeros(3),
+        zeros(12),
+        zeros(12),
+    )
+    standing = zeros(axes), zeros(axes), zeros(axes), zeros(axes), zeros(axes), zeros(axes), zeros(axes)
+    moving = zeros(axes), zeros(axes), zeros(axes), zeros(axes), zeros(axes)
+    return State(Scan(axes=axes), *fixed, *standing, *moving)
+
+
+# ---- what a block of a shape does ---------------------------------------------------------------------------
+
+#: Numbers of an axis word in a rule: index of its value, conversion, axis, whether it is an increment.
+TARGET_WIDTH = 4
+
+
+class Rule(Places):
+    """A record of `rules`: whole numbers. A word is the index of its value, or -1, and its conversion."""
+
+    #: Root of the shape tree of the modal state that the block leaves.
+    NEXT_STATE = place()
+    #: Kind of motion, whether it needs a feed, whether a rapid names its feed, whether all words are absolute,
+    #: whether ways below `TINY` are none.
+    MOTION = place()
+    NEEDS_FEED = place()
+    NAMES_FEED = place()
+    ABSOLUTE = place()
+    SKIPS_TINY = place()
+    #: Plane of an arc as geometry axes, its sense, and whether an arc without way in its plane is a line.
+    PLANE = place(3)
+    CCW = place()
+    LINE_WITHOUT_WAY = place()
+    #: Words beside axes.
+    FEED_WORD = place(2)
+    FIRST_CENTER = place(2)
+    SECOND_CENTER = place(2)
+    RADIUS = place(2)
+    #: Axis words: how many, and from where on.
+    TARGETS = place()
+    FIRST_TARGET = place(TARGET_WIDTH * MOST_KEYS)
+    #: Whether a feed that is not above zero is the interpreter's.
+    POSITIVE_FEED = place()
+    #: Whether the block leaves a note, and the index of that note's value, or -1.
+    LEAVES_NOTE = place()
+    NOTE_WORD = place()
+
+
+class Factor(Places):
+    """A record of `factors`."""
+
+    #: Scale and unit of each conversion. A word's stand at the same place as the word in its rule.
+    WORDS = place(Rule.SIZE)
+    #: How often the control's arc tolerance counts where a radius is given.
+    RADIUS_TOLERANCES = place()
+    #: A smaller value of a note is the interpreter's.
+    LOWEST_NOTE = place()
+
+
+class Motion(Places):
+    """Kinds of motion of a rule."""
+
+    NONE = place()
+    RAPID = place()
+    FEED = place()
+    ARC = place()
+
+
+class NoteRecord(Places):
+    """What blocks leave beside rows: rows in front of the note, line and rule of its block.
+
+    Its value and the position follow among the floats.
+    """
+
+    ROW = place()
+    LINE = place()
+    RULE = place()
+
 
 # ---- conversions --------------------------------------------------------------------------------------------
 
-#: As it is; value * unit; value / scale * unit; digits below 1/scale cut off, * unit; value * unit / scale.
-AS_IS, TIMES, INCREMENTS, CUT, RATIO = range(5)
+
+class Reading(Places):
+    """How a typed number becomes one in internal units; see `recipe.Scaling`."""
+
+    AS_IS = place()
+    TIMES = place()
+    INCREMENTS = place()
+    CUT = place()
+    RATIO = place()
+
 
 # ---- text ---------------------------------------------------------------------------------------------------
 
-#: Comments in round brackets; one without its end goes to the end of the line; `//` to the end of the line.
-ROUND_COMMENTS, OPEN_COMMENTS, SLASH_COMMENTS = 1, 2, 4
-#: `;` begins a comment (else it ends the block); `X=1` is a word.
-SEMICOLON_COMMENTS, EQUALS = 8, 16
-#: How a number was written is part of a block's shape; lines without a block are no blocks.
-FORMS_COUNT, BLANK_LINES_ARE_NONE = 32, 64
-#: `0X1` may be a hexadecimal number; `CR=` is an address.
-HEXADECIMAL, CR_RADIUS = 128, 256
-#: `(* … *)` may be a comment, which no other bracket ends.
-STARRED_COMMENTS = 512
+
+class Grammar(Places):
+    """What a control's text looks like: flags."""
+
+    #: Comments in round brackets; one without its end goes to the end of the line; `//` to the end of the line.
+    ROUND_COMMENTS = 1
+    OPEN_COMMENTS = 2
+    SLASH_COMMENTS = 4
+    #: `;` begins a comment (else it ends the block); `X=1` is a word.
+    SEMICOLON_COMMENTS = 8
+    EQUALS = 16
+    #: How a number was written is part of a block's shape; lines without a block are no blocks.
+    FORMS_COUNT = 32
+    BLANK_LINES_ARE_NONE = 64
+    #: `0X1` may be a hexadecimal number; `CR=` is an address.
+    HEXADECIMAL = 128
+    CR_RADIUS = 256
+    #: `(* … *)` may be a comment, which no other bracket ends.
+    STARRED_COMMENTS = 512
+
 
 #: Keys of words: letter and form (four each), then G codes below `LAST_CODE`.
 FORMS = 4
@@ -107,8 +244,23 @@ KEY_COUNT = FIRST_CODE + LAST_CODE
 
 # ---- outcome of a scan --------------------------------------------------------------------------------------
 
-#: The text is at its end; no room for another row or block; the next block has a shape that is not known yet;
-#: the next block is for the interpreter.
-AT_END, FULL, UNKNOWN, NOT_PLAIN = range(4)
-#: What a shape's leaf says beside the number of its rule.
-LEAF_UNKNOWN, LEAF_NOT_PLAIN, FIRST_RULE = 0, 1, 2
+
+class Outcome(Places):
+    """How a scan ended.
+
+    The text is at its end; no room for another row or block; the next block has a shape that is not known yet; the next
+    block is for the interpreter.
+    """
+
+    AT_END = place()
+    FULL = place()
+    UNKNOWN = place()
+    NOT_PLAIN = place()
+
+
+class Leaf(Places):
+    """What a shape's leaf says beside the number of its rule."""
+
+    UNKNOWN = place()
+    NOT_PLAIN = place()
+    FIRST_RULE = place()

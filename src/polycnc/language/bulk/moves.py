@@ -11,71 +11,7 @@ from math import copysign, floor, nan, sqrt
 from typing import NamedTuple
 
 from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Words32
-from polycnc.language.bulk.layout import (
-    ABSOLUTE,
-    ARC_MOTION,
-    AXES,
-    CAME_FROM,
-    CCW,
-    CURVES,
-    CUT,
-    DIRECT,
-    FACTOR_WIDTH,
-    FEED,
-    FEED_WORD,
-    FIRST_CENTER,
-    FIRST_CURVE,
-    FIRST_TARGET,
-    GEOMETRY,
-    HIGH,
-    INCREMENTS,
-    LAST_CENTER,
-    LIMITED,
-    LINE,
-    LINE_WITHOUT_WAY,
-    LOW,
-    LOWEST_NOTE,
-    MACHINE,
-    MIRRORS,
-    MOTION,
-    NAMES_FEED,
-    NEEDS_FEED,
-    NEW_PENDING,
-    NEW_POSITION,
-    NEW_PROGRAMMED,
-    NO_MOTION,
-    NOTE_LINE,
-    NOTE_ROW,
-    NOTE_RULE,
-    NOTE_WIDTH,
-    NOTE_WORD,
-    NOTES,
-    OFFSETS,
-    OWES,
-    PENDING,
-    PLANE,
-    POSITION,
-    POSITIVE_FEED,
-    PROGRAMMED,
-    PROGRAMMING_FRAME,
-    RADIUS,
-    RADIUS_TOLERANCES,
-    RAPID_MOTION,
-    RATIO,
-    ROWS,
-    RULE_WIDTH,
-    SECOND_CENTER,
-    SHIFT,
-    SHIFTED,
-    SKIPS_TINY,
-    TARGET_WIDTH,
-    TARGETS,
-    TIMES,
-    TOLERANCE,
-    VALUES,
-    VECTORS,
-    ZERO_FRAME,
-)
+from polycnc.language.bulk.layout import TARGET_WIDTH, Factor, Motion, NoteRecord, Reading, Rule, State
 from polycnc.toolpath.kinds import Kind
 from polycnc.toolpath.table import CURVE_WIDTH, NO_CURVE
 
@@ -106,180 +42,175 @@ class Columns(NamedTuple):
     said: Floats
 
 
-def act(ints: Ints, floats: Floats, rules: Ints32, factors: Floats, number: int, columns: Columns) -> bool:
+def act(state: State, rules: Ints32, factors: Floats, number: int, columns: Columns) -> bool:
     """Do what a rule says with the values read; false, and nothing done, where the interpreter must."""
-    rule, factor = number * RULE_WIDTH, number * FACTOR_WIDTH
-    feed = floats[FEED]
-    if rules[rule + FEED_WORD] >= 0:
-        feed = word(floats, rules, factors, rule, factor, FEED_WORD)
-        if rules[rule + POSITIVE_FEED] and not feed > 0.0:
+    rule, factor = number * Rule.SIZE, number * Factor.SIZE
+    feed = state.scan.feed
+    if rules[rule + Rule.FEED_WORD] >= 0:
+        feed = word(state, rules, factors, rule, factor, Rule.FEED_WORD)
+        if rules[rule + Rule.POSITIVE_FEED] and not feed > 0.0:
             return False
-    motion = rules[rule + MOTION]
-    if motion != NO_MOTION:
-        if rules[rule + NEEDS_FEED] and not feed > 0.0:
+    motion = rules[rule + Rule.MOTION]
+    if motion != Motion.NONE:
+        if rules[rule + Rule.NEEDS_FEED] and not feed > 0.0:
             return False
-        find_target(ints, floats, rules, factors, rule, factor)
-        if motion == ARC_MOTION:
-            done = arc(ints, floats, rules, factors, rule, factor, feed, columns)
+        find_target(state, rules, factors, rule, factor)
+        if motion == Motion.ARC:
+            done = arc(state, rules, factors, rule, factor, feed, columns)
         else:
-            row_feed = nan if motion == RAPID_MOTION and not rules[rule + NAMES_FEED] else feed
-            kind = RAPID if motion == RAPID_MOTION else STRAIGHT
-            done = straight(ints, floats, kind, row_feed, rules[rule + SKIPS_TINY] != 0, columns)
+            row_feed = nan if motion == Motion.RAPID and not rules[rule + Rule.NAMES_FEED] else feed
+            kind = RAPID if motion == Motion.RAPID else STRAIGHT
+            done = straight(state, kind, row_feed, rules[rule + Rule.SKIPS_TINY] != 0, columns)
         if not done:
             return False
-    floats[FEED] = feed
+    state.scan.feed = feed
     return True
 
 
-def note(ints: Ints, floats: Floats, rules: Ints32, factors: Floats, number: int, columns: Columns) -> bool:
+def note(state: State, rules: Ints32, factors: Floats, number: int, columns: Columns) -> bool:
     """Note down that a block begins here that does more than move; it counts when the block is done."""
-    place, axes = ints[NOTES] * NOTE_WIDTH, ints[AXES]
-    said = ints[NOTES] * (axes + 1)
-    slot = rules[number * RULE_WIDTH + NOTE_WORD]
-    value = floats[VALUES + slot] if slot >= 0 else 0.0
-    if slot >= 0 and value < factors[number * FACTOR_WIDTH + LOWEST_NOTE]:
+    place, axes = state.scan.notes * NoteRecord.SIZE, state.scan.axes
+    said = state.scan.notes * (axes + 1)
+    slot = rules[number * Rule.SIZE + Rule.NOTE_WORD]
+    value = state.values[slot] if slot >= 0 else 0.0
+    if slot >= 0 and value < factors[number * Factor.SIZE + Factor.LOWEST_NOTE]:
         return False
-    columns.notes[place + NOTE_ROW] = ints[ROWS]
-    columns.notes[place + NOTE_LINE] = ints[LINE]
-    columns.notes[place + NOTE_RULE] = number
+    columns.notes[place + NoteRecord.ROW] = state.scan.rows
+    columns.notes[place + NoteRecord.LINE] = state.scan.line
+    columns.notes[place + NoteRecord.RULE] = number
     columns.said[said] = value
     for i in range(axes):
-        columns.said[said + 1 + i] = floats[VECTORS + POSITION * axes + i]
+        columns.said[said + 1 + i] = state.position[i]
     return True
 
 
 def converted(value: float, way: int, scale: float, unit: float) -> float:
     """A typed number in internal units (`control.word_address.numbers`)."""
-    if way == TIMES:
+    if way == Reading.TIMES:
         return value * unit
-    if way == INCREMENTS:
+    if way == Reading.INCREMENTS:
         return value / scale * unit
-    if way == CUT:
+    if way == Reading.CUT:
         return copysign(float(floor(abs(value) * scale + 1e-6)), value) / scale * unit
-    if way == RATIO:
+    if way == Reading.RATIO:
         return value * unit / scale
     return value
 
 
-def word(floats: Floats, rules: Ints32, factors: Floats, rule: int, factor: int, which: int) -> float:
+def word(state: State, rules: Ints32, factors: Floats, rule: int, factor: int, which: int) -> float:
     """The value of a word in internal units."""
-    value = floats[VALUES + rules[rule + which]]
+    value = state.values[rules[rule + which]]
     return converted(value, rules[rule + which + 1], factors[factor + which], factors[factor + which + 1])
 
 
-def find_target(ints: Ints, floats: Floats, rules: Ints32, factors: Floats, rule: int, factor: int) -> None:
+def find_target(state: State, rules: Ints32, factors: Floats, rule: int, factor: int) -> None:
     """The programmed end point, the display's, and what incremental words are owed behind the block."""
-    axes = ints[AXES]
-    direct = rules[rule + ABSOLUTE] != 0 and ints[DIRECT] != 0 and ints[OWES] == 0
-    base = VECTORS + (POSITION if direct else PROGRAMMED) * axes
-    new, pending, owed = (
-        VECTORS + NEW_PROGRAMMED * axes,
-        VECTORS + NEW_PENDING * axes,
-        VECTORS + PENDING * axes,
-    )
+    axes = state.scan.axes
+    direct = rules[rule + Rule.ABSOLUTE] != 0 and state.scan.direct != 0 and state.scan.owes == 0
+    base = state.position if direct else state.programmed
+    new, pending, owed = state.new_programmed, state.new_pending, state.pending
     for i in range(axes):
-        floats[new + i] = floats[base + i]
-        floats[pending + i] = floats[owed + i]
-    for i in range(rules[rule + TARGETS]):
-        which = FIRST_TARGET + TARGET_WIDTH * i
-        value = word(floats, rules, factors, rule, factor, which)
+        new[i] = base[i]
+        pending[i] = owed[i]
+    for i in range(rules[rule + Rule.TARGETS]):
+        which = Rule.FIRST_TARGET + TARGET_WIDTH * i
+        value = word(state, rules, factors, rule, factor, which)
         axis = rules[rule + which + 2]
         if rules[rule + which + 3]:
-            floats[new + axis] += value + floats[pending + axis]
+            new[axis] += value + pending[axis]
         else:
-            floats[new + axis] = value
-        if ints[OWES]:
-            floats[pending + axis] = 0.0
-    position = VECTORS + NEW_POSITION * axes
-    image(ints, floats, ints[PROGRAMMING_FRAME], new, position)
-    if ints[SHIFTED]:
+            new[axis] = value
+        if state.scan.owes:
+            pending[axis] = 0.0
+    position = state.new_position
+    image(state, state.scan.has_programming, state.programming, new, position)
+    if state.scan.shifted:
         for i in range(axes):
-            floats[position + i] += floats[VECTORS + SHIFT * axes + i]
+            position[i] += state.shift[i]
 
 
-def image(ints: Ints, floats: Floats, frame: int, source: int, target: int) -> None:
-    """The image of a vector under a frame of the geometry axes; a frame of -1 changes nothing."""
-    for i in range(ints[AXES]):
-        floats[target + i] = floats[source + i]
-    if frame < 0:
+def image(state: State, moves: int, frame: Floats, source: Floats, target: Floats) -> None:
+    """The image of a vector under a frame of the geometry axes; `moves`: the frame changes anything."""
+    for i in range(state.scan.axes):
+        target[i] = source[i]
+    if not moves:
         return
-    x = floats[source + ints[GEOMETRY]] if ints[GEOMETRY] >= 0 else 0.0
-    y = floats[source + ints[GEOMETRY + 1]] if ints[GEOMETRY + 1] >= 0 else 0.0
-    z = floats[source + ints[GEOMETRY + 2]] if ints[GEOMETRY + 2] >= 0 else 0.0
+    x = source[state.geometry[0]] if state.geometry[0] >= 0 else 0.0
+    y = source[state.geometry[1]] if state.geometry[1] >= 0 else 0.0
+    z = source[state.geometry[2]] if state.geometry[2] >= 0 else 0.0
     for row in range(3):
-        if ints[GEOMETRY + row] >= 0:
-            floats[target + ints[GEOMETRY + row]] = mapped(floats, frame, row, x, y, z)
+        if state.geometry[row] >= 0:
+            target[state.geometry[row]] = mapped(frame, row, x, y, z)
 
 
-def mapped(floats: Floats, frame: int, row: int, x: float, y: float, z: float) -> float:
+def mapped(frame: Floats, row: int, x: float, y: float, z: float) -> float:
     """One coordinate of the image of a point."""
-    m = frame + 3 * row
-    value: float = floats[m] * x + floats[m + 1] * y + floats[m + 2] * z + floats[frame + 9 + row]
+    m = 3 * row
+    value: float = frame[m] * x + frame[m + 1] * y + frame[m + 2] * z + frame[9 + row]
     return value
 
 
-def within_limits(ints: Ints, floats: Floats) -> bool:
+def within_limits(state: State) -> bool:
     """Whether the target lies within the travel of every axis."""
-    if not ints[LIMITED]:
+    if not state.scan.limited:
         return True
-    axes = ints[AXES]
-    machine = VECTORS + MACHINE * axes
-    image(ints, floats, ints[ZERO_FRAME], VECTORS + NEW_POSITION * axes, machine)
+    axes = state.scan.axes
+    machine = state.machine
+    image(state, state.scan.has_zero, state.zero, state.new_position, machine)
     for i in range(axes):
-        value = floats[machine + i] + floats[VECTORS + OFFSETS * axes + i]
-        if value < floats[VECTORS + LOW * axes + i] or value > floats[VECTORS + HIGH * axes + i]:
+        value = machine[i] + state.offsets[i]
+        if value < state.low[i] or value > state.high[i]:
             return False
     return True
 
 
-def arrive(ints: Ints, floats: Floats, moves: bool) -> None:
+def arrive(state: State, moves: bool) -> None:
     """The block is done: positions are the new ones."""
-    axes = ints[AXES]
-    for i in range(VECTORS, VECTORS + axes):
+    axes = state.scan.axes
+    for i in range(axes):
         if moves:
-            floats[i + CAME_FROM * axes] = floats[i + POSITION * axes]
-        floats[i + POSITION * axes] = floats[i + NEW_POSITION * axes]
-        floats[i + PROGRAMMED * axes] = floats[i + NEW_PROGRAMMED * axes]
-        floats[i + PENDING * axes] = floats[i + NEW_PENDING * axes]
+            state.came_from[i] = state.position[i]
+        state.position[i] = state.new_position[i]
+        state.programmed[i] = state.new_programmed[i]
+        state.pending[i] = state.new_pending[i]
 
 
-def put_row(ints: Ints, floats: Floats, kind: int, feed: float, curve: int, columns: Columns) -> None:
+def put_row(state: State, kind: int, feed: float, curve: int, columns: Columns) -> None:
     """Write the move to the target as a row."""
-    row, axes = ints[ROWS], ints[AXES]
+    row, axes = state.scan.rows, state.scan.axes
     columns.kind[row] = kind
-    columns.line[row] = ints[LINE]
+    columns.line[row] = state.scan.line
     columns.feed[row] = feed
     columns.curve[row] = curve
     for i in range(axes):
-        columns.end[row * axes + i] = floats[VECTORS + NEW_POSITION * axes + i]
-    ints[ROWS] = row + 1
+        columns.end[row * axes + i] = state.new_position[i]
+    state.scan.rows = row + 1
 
 
-def straight(ints: Ints, floats: Floats, kind: int, feed: float, skips_tiny: bool, columns: Columns) -> bool:
+def straight(state: State, kind: int, feed: float, skips_tiny: bool, columns: Columns) -> bool:
     """A straight move to the target; no way, no row, and the position stays where `skips_tiny` says so."""
-    axes = ints[AXES]
+    axes = state.scan.axes
     moves = False
     for i in range(axes):
-        new = floats[VECTORS + NEW_POSITION * axes + i]
-        old = floats[VECTORS + POSITION * axes + i]
+        new = state.new_position[i]
+        old = state.position[i]
         if TINY_LOW < abs(new - old) < TINY_HIGH:
             return False
         moves = moves or abs(new - old) > TINY
     if moves:
-        if not within_limits(ints, floats):
+        if not within_limits(state):
             return False
-        put_row(ints, floats, kind, feed, NO_CURVE, columns)
+        put_row(state, kind, feed, NO_CURVE, columns)
     elif skips_tiny:
         for i in range(axes):
-            floats[VECTORS + PENDING * axes + i] = floats[VECTORS + NEW_PENDING * axes + i]
+            state.pending[i] = state.new_pending[i]
         return True
-    arrive(ints, floats, moves)
+    arrive(state, moves)
     return True
 
 
 def arc(
-    ints: Ints,
-    floats: Floats,
+    state: State,
     rules: Ints32,
     factors: Floats,
     rule: int,
@@ -288,49 +219,48 @@ def arc(
     columns: Columns,
 ) -> bool:
     """An arc or helix to the target, about a centre or with a radius."""
-    axes = ints[AXES]
-    first, second = ints[GEOMETRY + rules[rule + PLANE]], ints[GEOMETRY + rules[rule + PLANE + 1]]
-    old, new = VECTORS + PROGRAMMED * axes, VECTORS + NEW_PROGRAMMED * axes
-    begin_u, begin_v = floats[old + first], floats[old + second]
-    end_u, end_v = floats[new + first], floats[new + second]
-    ccw = rules[rule + CCW] != 0
-    if rules[rule + RADIUS] >= 0:
-        radius = word(floats, rules, factors, rule, factor, RADIUS)
-        tolerance = floats[TOLERANCE] * factors[factor + RADIUS_TOLERANCES]
-        if rules[rule + LINE_WITHOUT_WAY] and begin_u == end_u and begin_v == end_v and radius != 0.0:
-            return straight(ints, floats, STRAIGHT, feed, False, columns)
+    first, second = state.geometry[rules[rule + Rule.PLANE]], state.geometry[rules[rule + Rule.PLANE + 1]]
+    old, new = state.programmed, state.new_programmed
+    begin_u, begin_v = old[first], old[second]
+    end_u, end_v = new[first], new[second]
+    ccw = rules[rule + Rule.CCW] != 0
+    if rules[rule + Rule.RADIUS] >= 0:
+        radius = word(state, rules, factors, rule, factor, Rule.RADIUS)
+        tolerance = state.scan.tolerance * factors[factor + Factor.RADIUS_TOLERANCES]
+        if rules[rule + Rule.LINE_WITHOUT_WAY] and begin_u == end_u and begin_v == end_v and radius != 0.0:
+            return straight(state, STRAIGHT, feed, False, columns)
         found, center_u, center_v = center_by_radius(begin_u, begin_v, end_u, end_v, radius, ccw, tolerance)
     else:
-        center_u = begin_u + center_word(floats, rules, factors, rule, factor, FIRST_CENTER)
-        center_v = begin_v + center_word(floats, rules, factors, rule, factor, SECOND_CENTER)
+        center_u = begin_u + center_word(state, rules, factors, rule, factor, Rule.FIRST_CENTER)
+        center_v = begin_v + center_word(state, rules, factors, rule, factor, Rule.SECOND_CENTER)
         start = sqrt((begin_u - center_u) ** 2 + (begin_v - center_v) ** 2)
         stop = sqrt((end_u - center_u) ** 2 + (end_v - center_v) ** 2)
-        found = start > SHORTEST_CHORD and abs(stop - start) <= floats[TOLERANCE] + SLACK
-    if not found or barely_rises(ints, floats, rules, rule) or not within_limits(ints, floats):
+        found = start > SHORTEST_CHORD and abs(stop - start) <= state.scan.tolerance + SLACK
+    if not found or barely_rises(state, rules, rule) or not within_limits(state):
         return False
     for i in range(3):
-        floats[LAST_CENTER + i] = 0.0
-    floats[LAST_CENTER + rules[rule + PLANE]] = center_u - begin_u
-    floats[LAST_CENTER + rules[rule + PLANE + 1]] = center_v - begin_v
-    kind = put_curve(ints, floats, rules, rule, center_u, center_v, columns)
-    put_row(ints, floats, kind, feed, ints[FIRST_CURVE] + ints[CURVES], columns)
-    ints[CURVES] += 1
-    arrive(ints, floats, True)
+        state.last_center[i] = 0.0
+    state.last_center[rules[rule + Rule.PLANE]] = center_u - begin_u
+    state.last_center[rules[rule + Rule.PLANE + 1]] = center_v - begin_v
+    kind = put_curve(state, rules, rule, center_u, center_v, columns)
+    put_row(state, kind, feed, state.scan.first_curve + state.scan.curves, columns)
+    state.scan.curves += 1
+    arrive(state, True)
     return True
 
 
-def barely_rises(ints: Ints, floats: Floats, rules: Ints32, rule: int) -> bool:
+def barely_rises(state: State, rules: Ints32, rule: int) -> bool:
     """Whether an arc goes so little along the third axis that controls differ on whether it is a helix."""
-    axes, third = ints[AXES], ints[GEOMETRY + rules[rule + PLANE + 2]]
+    third = state.geometry[rules[rule + Rule.PLANE + 2]]
     if third < 0:
         return False
-    way: float = floats[VECTORS + NEW_PROGRAMMED * axes + third] - floats[VECTORS + PROGRAMMED * axes + third]
+    way: float = state.new_programmed[third] - state.programmed[third]
     return 0.0 < abs(way) < TINY_HIGH
 
 
-def center_word(floats: Floats, rules: Ints32, factors: Floats, rule: int, factor: int, which: int) -> float:
+def center_word(state: State, rules: Ints32, factors: Floats, rule: int, factor: int, which: int) -> float:
     """The way from the start to the centre along one axis; 0 without a word."""
-    return word(floats, rules, factors, rule, factor, which) if rules[rule + which] >= 0 else 0.0
+    return word(state, rules, factors, rule, factor, which) if rules[rule + which] >= 0 else 0.0
 
 
 def center_by_radius(
@@ -349,26 +279,25 @@ def center_by_radius(
 
 
 def put_curve(
-    ints: Ints, floats: Floats, rules: Ints32, rule: int, center_u: float, center_v: float, columns: Columns
+    state: State, rules: Ints32, rule: int, center_u: float, center_v: float, columns: Columns
 ) -> int:
     """Write the curve parameters of an arc; gives its kind."""
-    axes = ints[AXES]
-    old, new = VECTORS + PROGRAMMED * axes, VECTORS + NEW_PROGRAMMED * axes
-    u, v, w = rules[rule + PLANE], rules[rule + PLANE + 1], rules[rule + PLANE + 2]
-    third = ints[GEOMETRY + w]
-    curve = ints[CURVES] * CURVE_WIDTH
+    old, new = state.programmed, state.new_programmed
+    u, v, w = rules[rule + Rule.PLANE], rules[rule + Rule.PLANE + 1], rules[rule + Rule.PLANE + 2]
+    third = state.geometry[w]
+    curve = state.scan.curves * CURVE_WIDTH
     for i in range(3):
-        axis = ints[GEOMETRY + i]
-        columns.curves[curve + i] = floats[old + axis] if axis >= 0 else 0.0
+        axis = state.geometry[i]
+        columns.curves[curve + i] = old[axis] if axis >= 0 else 0.0
         columns.curves[curve + 3 + i] = 1.0 if i == w else 0.0
     columns.curves[curve + u], columns.curves[curve + v] = center_u, center_v
     columns.curves[curve + 6] = columns.curves[curve + 7] = 0.0
-    frame = ints[PROGRAMMING_FRAME]
-    if frame >= 0:
+    frame = state.programming
+    if state.scan.has_programming:
         x, y, z = columns.curves[curve], columns.curves[curve + 1], columns.curves[curve + 2]
         for i in range(3):
-            columns.curves[curve + i] = mapped(floats, frame, i, x, y, z)
-    ccw = (rules[rule + CCW] != 0) != (ints[MIRRORS] != 0)
-    if third >= 0 and floats[new + third] != floats[old + third]:
+            columns.curves[curve + i] = mapped(frame, i, x, y, z)
+    ccw = (rules[rule + Rule.CCW] != 0) != (state.scan.mirrors != 0)
+    if third >= 0 and new[third] != old[third]:
         return SCREW_CCW if ccw else SCREW_CW
     return CIRCLE_CCW if ccw else CIRCLE_CW

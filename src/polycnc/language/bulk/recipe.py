@@ -25,15 +25,15 @@ Condition = Callable[[Any], bool]
 class Scaling(IntEnum):
     """How a typed number becomes one in internal units."""
 
-    AS_IS = layout.AS_IS
+    AS_IS = layout.Reading.AS_IS
     #: `value * unit`
-    TIMES = layout.TIMES
+    TIMES = layout.Reading.TIMES
     #: `value / scale * unit`
-    INCREMENTS = layout.INCREMENTS
+    INCREMENTS = layout.Reading.INCREMENTS
     #: Digits below `1 / scale` are cut off, then `* unit`.
-    CUT = layout.CUT
+    CUT = layout.Reading.CUT
     #: `value * unit / scale`
-    RATIO = layout.RATIO
+    RATIO = layout.Reading.RATIO
 
 
 class Conversion(NamedTuple):
@@ -244,16 +244,16 @@ class Spelling:
     def flags(self) -> int:
         """As the kernels read it."""
         return (
-            self.round_comments * layout.ROUND_COMMENTS
-            | self.starred_comments * layout.STARRED_COMMENTS
-            | self.open_comments * layout.OPEN_COMMENTS
-            | self.slash_comments * layout.SLASH_COMMENTS
-            | self.semicolon_comments * layout.SEMICOLON_COMMENTS
-            | self.equals * layout.EQUALS
-            | self.forms_count * layout.FORMS_COUNT
-            | self.hexadecimal * layout.HEXADECIMAL
-            | self.cr_radius * layout.CR_RADIUS
-            | (not self.blank_lines_are_blocks) * layout.BLANK_LINES_ARE_NONE
+            self.round_comments * layout.Grammar.ROUND_COMMENTS
+            | self.starred_comments * layout.Grammar.STARRED_COMMENTS
+            | self.open_comments * layout.Grammar.OPEN_COMMENTS
+            | self.slash_comments * layout.Grammar.SLASH_COMMENTS
+            | self.semicolon_comments * layout.Grammar.SEMICOLON_COMMENTS
+            | self.equals * layout.Grammar.EQUALS
+            | self.forms_count * layout.Grammar.FORMS_COUNT
+            | self.hexadecimal * layout.Grammar.HEXADECIMAL
+            | self.cr_radius * layout.Grammar.CR_RADIUS
+            | (not self.blank_lines_are_blocks) * layout.Grammar.BLANK_LINES_ARE_NONE
         )
 
 

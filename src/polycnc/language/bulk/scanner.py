@@ -9,16 +9,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 from polycnc.channel.snapshot import unchanging
 from polycnc.language.bulk import layout
 from polycnc.language.bulk.kernels import Tables
+from polycnc.language.bulk.layout import State, new_state
 from polycnc.language.bulk.moves import Columns
 from polycnc.language.bulk.shapes import Shapes
 from polycnc.language.bulk.text import Window
 from polycnc.toolpath.table import CHUNK_ROWS, CURVE_WIDTH
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Sequence
+    from collections.abc import Callable, Hashable, Iterable, Sequence
 
     from polycnc.channel.channel import Channel
     from polycnc.geometry.frames import Frame
+    from polycnc.kernels.layout import Floats
     from polycnc.language.bulk.recipe import Recipe, Spelling
 
 #: A run of so many blocks is worth its beginning.
@@ -42,7 +44,7 @@ class Bulk:
     """
 
     fewest_lines: int | None = None
-    scan: Callable[[Tables, Columns], int] | None = None
+    scan: Callable[[Tables, State, Columns], int] | None = None
     rooms: int = CHUNK_ROWS
     most_patience: int = 4096
 
@@ -150,7 +152,7 @@ class Scanner:
     """
 
     def __init__(
-        self, dialect: Dialect, scan: Callable[[Tables, Columns], int], axes: int, settings: Bulk
+        self, dialect: Dialect, scan: Callable[[Tables, State, Columns], int], axes: int, settings: Bulk
     ) -> None:
         rooms = settings.rooms
         self._dialect = dialect
@@ -162,15 +164,14 @@ class Scanner:
         self._window = Window()
         self._patience = 1
         self._most_patience = settings.most_patience
-        self._ints = array("q", bytes(8 * layout.INTS))
-        self._floats = array("d", bytes(8 * (layout.VECTORS + layout.VECTOR_COUNT * axes)))
+        self._state = new_state(axes)
         self._columns = (
             array("B", bytes(rooms)), array("I", bytes(4 * rooms)), array("d", bytes(8 * rooms)),
             array("d", bytes(8 * rooms * axes)), array("i", bytes(4 * rooms)),
             array("d", bytes(8 * rooms * CURVE_WIDTH)),
         )  # fmt: skip
         self._views = tuple([memoryview(column).cast("B") for column in self._columns])
-        self._notes = array("q", bytes(8 * layout.NOTE_WIDTH * MOST_NOTES))
+        self._notes = array("q", bytes(8 * layout.NoteRecord.SIZE * MOST_NOTES))
         self._said = array("d", bytes(8 * (axes + 1) * MOST_NOTES))
 
     def lead(self, channel: Channel) -> range:
@@ -191,7 +192,7 @@ class Scanner:
 
     def _some(self, channel: Channel) -> bool:
         """One call of the kernel; true if it may be called again at once."""
-        level, window, ints = channel.level, self._window, self._ints
+        level, window, at = channel.level, self._window, self._state.scan
         code: Any = level.code
         lines = code.program.lines
         line = code.line_of_step(level.index)
@@ -199,33 +200,30 @@ class Scanner:
             return False
         self._put_state(channel)
         shapes = self._shapes
-        tables = Tables(
-            window.text, ints, self._floats, shapes.nexts, shapes.leaves, shapes.rules, shapes.factors
-        )
-        outcome = self._scan(tables, Columns(*self._columns, self._notes, self._said))
-        taken = ints[layout.LINE] - code.program.first_line - window.line
+        tables = Tables(window.text, shapes.nexts, shapes.leaves, shapes.rules, shapes.factors)
+        outcome = self._scan(tables, self._state, Columns(*self._columns, self._notes, self._said))
+        taken = at.line - code.program.first_line - window.line
         if taken:
-            window.place, window.line = ints[layout.PLACE], window.line + taken
+            window.place, window.line = at.place, window.line + taken
             self._take_rows(channel)
             self._take_state(channel)
             level.index = code.step_of_line(window.line)
             level.current = level.index - 1
-        if outcome == layout.UNKNOWN:
+        if outcome == layout.Outcome.UNKNOWN:
             return self._learn(channel, lines[window.line])
         room = len(channel.toolpath.chunk) < CHUNK_ROWS and channel.blocks < channel.block_limit
-        return outcome == layout.AT_END or (outcome == layout.FULL and room)
+        return outcome == layout.Outcome.AT_END or (outcome == layout.Outcome.FULL and room)
 
     def _learn(self, channel: Channel, line: str) -> bool:
         """Ask the control for the rule of a new shape; true if it has one."""
-        first, count = layout.FIRST_KEY, self._ints[layout.KEYS]
-        keys = tuple(self._ints[first : first + count])
-        return self._shapes.learn(self._ints[layout.STATE], keys, self._dialect.recipe(channel, keys, line))
+        keys = tuple(self._state.keys[: self._state.scan.keys])
+        return self._shapes.learn(self._state.scan.root, keys, self._dialect.recipe(channel, keys, line))
 
     # ---- state ---------------------------------------------------------------------------------------------
 
     def _put_state(self, channel: Channel) -> None:
         """Where the channel stands, as the kernel reads it."""
-        dialect, ints, floats = self._dialect, self._ints, self._floats
+        dialect, state, at = self._dialect, self._state, self._state.scan
         generation = dialect.generation(channel)
         if generation != self._generation:
             self._generation, self._shapes = generation, Shapes()
@@ -233,56 +231,39 @@ class Scanner:
         # A new context is that of the first row: it must be known before the modal state goes on.
         rows = 1 if channel.context_is_new else min(self._rooms, max(CHUNK_ROWS - len(chunk), 0))
         window, spelling = self._window, dialect.spelling
-        ints[layout.PLACE], ints[layout.END] = window.place, len(window.text)
-        ints[layout.LINE] = channel.level.code.program.first_line + window.line
-        ints[layout.BLOCKS], ints[layout.MOST_BLOCKS] = 0, channel.block_limit - channel.blocks
-        ints[layout.ROWS], ints[layout.MOST_ROWS] = 0, rows
-        ints[layout.NOTES], ints[layout.MOST_NOTES] = 0, MOST_NOTES
-        ints[layout.CURVES], ints[layout.FIRST_CURVE] = 0, len(chunk.curves) // CURVE_WIDTH
-        ints[layout.STATE] = self._shapes.root(dialect.state(channel))
-        ints[layout.AXES] = self._axes
+        at.place, at.end = window.place, len(window.text)
+        at.line = channel.level.code.program.first_line + window.line
+        at.blocks, at.most_blocks = 0, channel.block_limit - channel.blocks
+        at.rows, at.most_rows = 0, rows
+        at.notes, at.most_notes = 0, MOST_NOTES
+        at.curves, at.first_curve = 0, len(chunk.curves) // CURVE_WIDTH
+        at.root = self._shapes.root(dialect.state(channel))
         for i, axis in enumerate(c.geometry):
-            ints[layout.GEOMETRY + i] = axis
-        ints[layout.PROGRAMMING_FRAME] = self._put_frame(c.programming, layout.PROGRAMMING)
-        ints[layout.ZERO_FRAME] = self._put_frame(c.zero, layout.ZERO)
-        ints[layout.DIRECT], ints[layout.OWES] = c.direct, dialect.owes(channel)
-        ints[layout.SHIFTED], ints[layout.MIRRORS] = c.shift is not None, c.programming.mirrors
+            state.geometry[i] = axis
+        at.has_programming = _put_frame(state.programming, c.programming)
+        at.has_zero = _put_frame(state.zero, c.zero)
+        at.direct, at.owes = c.direct, dialect.owes(channel)
+        at.shifted, at.mirrors = c.shift is not None, c.programming.mirrors
         limits = dialect.limits(channel)
-        ints[layout.LIMITED] = bool(limits)
-        ints[layout.GRAMMAR], ints[layout.MOST_DIGITS] = spelling.flags, spelling.max_digits
-        floats[layout.FEED], floats[layout.TOLERANCE] = channel.feed, dialect.tolerance(channel)
-        self._put(layout.POSITION, c.position)
-        self._put(layout.PROGRAMMED, c.programmed)
-        self._put(layout.PENDING, c.pending)
-        self._put(layout.SHIFT, c.shift or ())
-        self._put(layout.OFFSETS, c.offsets)
-        self._put(layout.LOW, [low for low, _ in limits])
-        self._put(layout.HIGH, [high for _, high in limits])
-
-    def _put_frame(self, frame: Frame, place: int) -> int:
-        if frame.is_identity:
-            return -1
-        for i, value in enumerate((*frame.m[0], *frame.m[1], *frame.m[2], *frame.t)):
-            self._floats[place + i] = value
-        return place
-
-    def _put(self, which: int, values: Sequence[float]) -> None:
-        start = layout.VECTORS + which * self._axes
-        for i, value in enumerate(values):
-            self._floats[start + i] = value
-
-    def _get(self, which: int) -> list[float]:
-        start = layout.VECTORS + which * self._axes
-        return list(self._floats[start : start + self._axes])
+        at.limited = bool(limits)
+        at.grammar, at.most_digits = spelling.flags, spelling.max_digits
+        at.feed, at.tolerance = channel.feed, dialect.tolerance(channel)
+        _put(state.position, c.position)
+        _put(state.programmed, c.programmed)
+        _put(state.pending, c.pending)
+        _put(state.shift, c.shift or ())
+        _put(state.offsets, c.offsets)
+        _put(state.low, [low for low, _ in limits])
+        _put(state.high, [high for _, high in limits])
 
     def _take_rows(self, channel: Channel) -> None:
         """Rows into the chunk; where a block has left a note, its steps act between them, as they would have there."""
-        ints, axes = self._ints, self._axes
-        channel.toolpath.chunk.add_curves(ints[layout.CURVES], self._columns[-1])
+        state, axes = self._state, self._axes
+        channel.toolpath.chunk.add_curves(state.scan.curves, self._columns[-1])
         code: Any = channel.level.code
         taken = 0
-        for i in range(ints[layout.NOTES]):
-            rows, line, rule = self._notes[layout.NOTE_WIDTH * i : layout.NOTE_WIDTH * (i + 1)]
+        for i in range(state.scan.notes):
+            rows, line, rule = self._notes[layout.NoteRecord.SIZE * i : layout.NoteRecord.SIZE * (i + 1)]
             value, *position = self._said[(axes + 1) * i : (axes + 1) * (i + 1)]
             self._add_rows(channel, taken, rows, position)
             taken = rows
@@ -291,7 +272,7 @@ class Scanner:
             self._dialect.enter(channel, self._shapes.state_behind(rule))
             for step, note in self._shapes.notes[rule]:
                 step(channel, {note.slot: value})
-        self._add_rows(channel, taken, ints[layout.ROWS], self._get(layout.POSITION))
+        self._add_rows(channel, taken, state.scan.rows, list(state.position))
 
     def _add_rows(self, channel: Channel, first: int, end: int, position: list[float]) -> None:
         """Rows of the kernel's columns into the chunk; behind them the channel stands at a position."""
@@ -304,23 +285,35 @@ class Scanner:
 
     def _take_state(self, channel: Channel) -> None:
         """Where the blocks have left the channel."""
-        ints, floats, c = self._ints, self._floats, channel.coordinates
-        channel.blocks += ints[layout.BLOCKS]
-        self._dialect.enter(channel, self._shapes.states[ints[layout.STATE]])
-        channel.feed = floats[layout.FEED]
-        c.position = self._get(layout.POSITION)
-        c.programmed = c.position if c.direct else self._get(layout.PROGRAMMED)
-        if ints[layout.OWES]:
-            c.pending = self._get(layout.PENDING)
-        if ints[layout.ROWS]:
-            self._dialect.moved(channel, self._last_moves(ints[layout.ROWS], ints[layout.CURVES]))
+        state, c = self._state, channel.coordinates
+        channel.blocks += state.scan.blocks
+        self._dialect.enter(channel, self._shapes.states[state.scan.root])
+        channel.feed = state.scan.feed
+        c.position = list(state.position)
+        c.programmed = c.position if c.direct else list(state.programmed)
+        if state.scan.owes:
+            c.pending = list(state.pending)
+        if state.scan.rows:
+            self._dialect.moved(channel, self._last_moves(state.scan.rows, state.scan.curves))
 
     def _last_moves(self, rows: int, curves: int) -> LastMoves:
         kinds, *_, parameters = self._columns
-        x, y, z = self._floats[layout.LAST_CENTER : layout.LAST_CENTER + 3]
+        x, y, z = self._state.last_center
         return LastMoves(
             kinds[rows - 1],
-            self._get(layout.CAME_FROM),
+            list(self._state.came_from),
             (x, y, z) if curves else None,
             tuple(parameters[(curves - 1) * CURVE_WIDTH : curves * CURVE_WIDTH]) if curves else (),
         )
+
+
+def _put(vector: Floats, values: Iterable[float]) -> None:
+    for i, value in enumerate(values):
+        vector[i] = value
+
+
+def _put_frame(numbers: Floats, frame: Frame) -> bool:
+    """Give the kernel a frame; false where it changes nothing."""
+    if not frame.is_identity:
+        _put(numbers, (*frame.m[0], *frame.m[1], *frame.m[2], *frame.t))
+    return not frame.is_identity

@@ -24,17 +24,17 @@ class Shapes:
     Attributes:
         nexts: Flat `(nodes, KEY_COUNT)`: the node behind a key, 0 for none.
         leaves: For each node the number of its rule, or what is known instead.
-        rules: Flat `(rules, RULE_WIDTH)`.
-        factors: Flat `(rules, FACTOR_WIDTH)`.
+        rules: Flat `(rules, Rule.SIZE)`.
+        factors: Flat `(rules, Factor.SIZE)`.
         states: Modal states by the number of their root.
         notes: By the number of a rule, the steps that its blocks leave to the interpreter.
     """
 
     def __init__(self) -> None:
         self.nexts = array("i", bytes(4 * layout.KEY_COUNT))
-        self.leaves = array("i", [layout.LEAF_UNKNOWN])
-        self.rules = array("i", bytes(4 * layout.RULE_WIDTH * layout.FIRST_RULE))
-        self.factors = array("d", bytes(8 * layout.FACTOR_WIDTH * layout.FIRST_RULE))
+        self.leaves = array("i", [layout.Leaf.UNKNOWN])
+        self.rules = array("i", bytes(4 * layout.Rule.SIZE * layout.Leaf.FIRST_RULE))
+        self.factors = array("d", bytes(8 * layout.Factor.SIZE * layout.Leaf.FIRST_RULE))
         self.states: dict[int, Hashable] = {}
         self.notes: dict[int, tuple[tuple[Step, Note], ...]] = {}
         self._roots: dict[Hashable, int] = {}
@@ -57,39 +57,39 @@ class Shapes:
             if not self.nexts[place]:
                 self.nexts[place] = self._new_node()
             node = self.nexts[place]
-        self.leaves[node] = layout.LEAF_NOT_PLAIN if recipe is None else self._add_rule(recipe)
+        self.leaves[node] = layout.Leaf.NOT_PLAIN if recipe is None else self._add_rule(recipe)
         return recipe is not None
 
     def _new_node(self) -> int:
-        self.leaves.append(layout.LEAF_UNKNOWN)
+        self.leaves.append(layout.Leaf.UNKNOWN)
         self.nexts.frombytes(bytes(self.nexts.itemsize * layout.KEY_COUNT))
         return len(self.leaves) - 1
 
     def _add_rule(self, recipe: Recipe) -> int:
-        rule = array("i", bytes(4 * layout.RULE_WIDTH))
-        factors = array("d", bytes(8 * layout.FACTOR_WIDTH))
-        rule[layout.NEXT_STATE] = self.root(recipe.next_state)
-        _put_word(rule, factors, layout.FEED_WORD, recipe.feed.word if recipe.feed else None)
-        rule[layout.POSITIVE_FEED] = recipe.feed is not None and recipe.feed.positive
+        rule = array("i", bytes(4 * layout.Rule.SIZE))
+        factors = array("d", bytes(8 * layout.Factor.SIZE))
+        rule[layout.Rule.NEXT_STATE] = self.root(recipe.next_state)
+        _put_word(rule, factors, layout.Rule.FEED_WORD, recipe.feed.word if recipe.feed else None)
+        rule[layout.Rule.POSITIVE_FEED] = recipe.feed is not None and recipe.feed.positive
         _put_notes(rule, factors, recipe.notes)
         if isinstance(recipe.motion, Straight):
             _put_straight(rule, recipe.motion)
         elif isinstance(recipe.motion, Arc):
             _put_arc(rule, factors, recipe.motion)
         for i, target in enumerate(recipe.motion.targets if recipe.motion else ()):
-            place = layout.FIRST_TARGET + layout.TARGET_WIDTH * i
+            place = layout.Rule.FIRST_TARGET + layout.TARGET_WIDTH * i
             _put_word(rule, factors, place, Word(target.slot, target.conversion))
             rule[place + 2], rule[place + 3] = target.axis, target.incremental
-            rule[layout.TARGETS] = i + 1
+            rule[layout.Rule.TARGETS] = i + 1
         self.rules.extend(rule)
         self.factors.extend(factors)
-        number = len(self.rules) // layout.RULE_WIDTH - 1
+        number = len(self.rules) // layout.Rule.SIZE - 1
         self.notes[number] = recipe.notes
         return number
 
     def state_behind(self, rule: int) -> Hashable:
         """The modal state that blocks of a rule leave."""
-        return self.states[self.rules[rule * layout.RULE_WIDTH + layout.NEXT_STATE]]
+        return self.states[self.rules[rule * layout.Rule.SIZE + layout.Rule.NEXT_STATE]]
 
 
 def _put_word(rule: array[int], factors: array[float], place: int, word: Word | None) -> None:
@@ -99,29 +99,29 @@ def _put_word(rule: array[int], factors: array[float], place: int, word: Word | 
 
 
 def _put_notes(rule: array[int], factors: array[float], notes: Sequence[tuple[Step, Note]]) -> None:
-    rule[layout.LEAVES_NOTE], rule[layout.NOTE_WORD] = bool(notes), -1
+    rule[layout.Rule.LEAVES_NOTE], rule[layout.Rule.NOTE_WORD] = bool(notes), -1
     for _, note in notes:
         if note.slot >= 0:
-            rule[layout.NOTE_WORD] = note.slot
-            factors[layout.LOWEST_NOTE] = note.lowest
+            rule[layout.Rule.NOTE_WORD] = note.slot
+            factors[layout.Factor.LOWEST_NOTE] = note.lowest
 
 
 def _put_straight(rule: array[int], motion: Straight) -> None:
-    rule[layout.MOTION] = layout.RAPID_MOTION if motion.rapid else layout.FEED_MOTION
-    rule[layout.NEEDS_FEED] = motion.needs_feed and not motion.rapid
-    rule[layout.NAMES_FEED] = motion.names_feed
-    rule[layout.ABSOLUTE] = motion.absolute
-    rule[layout.SKIPS_TINY] = motion.skips_tiny
+    rule[layout.Rule.MOTION] = layout.Motion.RAPID if motion.rapid else layout.Motion.FEED
+    rule[layout.Rule.NEEDS_FEED] = motion.needs_feed and not motion.rapid
+    rule[layout.Rule.NAMES_FEED] = motion.names_feed
+    rule[layout.Rule.ABSOLUTE] = motion.absolute
+    rule[layout.Rule.SKIPS_TINY] = motion.skips_tiny
 
 
 def _put_arc(rule: array[int], factors: array[float], motion: Arc) -> None:
-    rule[layout.MOTION] = layout.ARC_MOTION
-    rule[layout.NEEDS_FEED] = motion.needs_feed
-    rule[layout.CCW] = motion.ccw
-    rule[layout.LINE_WITHOUT_WAY] = motion.line_without_way
+    rule[layout.Rule.MOTION] = layout.Motion.ARC
+    rule[layout.Rule.NEEDS_FEED] = motion.needs_feed
+    rule[layout.Rule.CCW] = motion.ccw
+    rule[layout.Rule.LINE_WITHOUT_WAY] = motion.line_without_way
     for i, axis in enumerate(motion.plane):
-        rule[layout.PLANE + i] = axis
-    _put_word(rule, factors, layout.FIRST_CENTER, motion.centers[0])
-    _put_word(rule, factors, layout.SECOND_CENTER, motion.centers[1])
-    _put_word(rule, factors, layout.RADIUS, motion.radius)
-    factors[layout.RADIUS_TOLERANCES] = motion.radius_tolerances
+        rule[layout.Rule.PLANE + i] = axis
+    _put_word(rule, factors, layout.Rule.FIRST_CENTER, motion.centers[0])
+    _put_word(rule, factors, layout.Rule.SECOND_CENTER, motion.centers[1])
+    _put_word(rule, factors, layout.Rule.RADIUS, motion.radius)
+    factors[layout.Factor.RADIUS_TOLERANCES] = motion.radius_tolerances
