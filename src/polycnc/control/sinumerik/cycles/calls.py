@@ -1,17 +1,19 @@
-"""How the call of a cycle runs: as a program level of its own, whose blocks come from a generator.
+"""How the call of a cycle runs: as a program level of its own, whose blocks the cycle has planned.
 
-On the control a cycle is a subprogram with SAVE, SBLOF and DISPLOF. Here its blocks come from a generator: it moves
-the tool and yields where one of its blocks ends. So a cycle may stop with M0, call what MCALL has set, or run a
-contour program, and goes on behind it; what it shows is the block of its caller.
+On the control a cycle is a subprogram with SAVE, SBLOF and DISPLOF. Here it notes its blocks as lists of acts when
+the first one is due, and the level runs one after the other. So a cycle may stop with M0, call what MCALL has set, or
+run a contour program and plan what follows from it, and goes on behind it; what it shows is the block of its caller.
 """
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import Level
 from polycnc.control.sinumerik import auxiliary
 from polycnc.control.sinumerik.cycles.arguments import Arguments
+from polycnc.control.sinumerik.cycles.moves import Moves
 from polycnc.control.sinumerik.cycles.table import CYCLES
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import stages
@@ -19,7 +21,7 @@ from polycnc.language.sinumerik.statements.sections import count_levels, end_of_
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
@@ -35,22 +37,25 @@ class CycleProgram:
 
     Args:
         channel: The channel, with the caller as its running level.
-        blocks: The cycle.
+        cycle: The row of its table.
+        arguments: What it was called with.
         column: Column of the call.
     """
 
-    def __init__(self, channel: Channel, blocks: Iterator[None], column: int) -> None:
+    def __init__(self, channel: Channel, cycle: Cycle, arguments: Arguments, column: int) -> None:
         caller = channel.level
         self.program = caller.code.program
         self.steps: Sequence[Step | None] = ()
         self._line = channel.line
         self._column = column
-        self._blocks = blocks
+        self._cycle = cycle
+        self._arguments = arguments
+        self._moves: Moves | None = None
         self._acted = False
 
-    def step(self, index: int) -> Step | None:  # noqa: ARG002 - every block of a cycle is the next one
-        """The next block."""
-        return self._advance
+    def step(self, index: int) -> Step | None:
+        """A block of the cycle."""
+        return partial(self._run, index)
 
     def line(self, index: int) -> int:  # noqa: ARG002 - DISPLOF: the calling block stands for all
         """The line of the call."""
@@ -64,20 +69,25 @@ class CycleProgram:
         """Nothing: the blocks of a cycle have no text of their own."""
         return ""
 
-    def _advance(self, channel: Channel) -> None:
-        """One block; for single block operation the end acts if any block of the cycle did."""
+    def _run(self, index: int, channel: Channel) -> None:
+        """One block; for single block operation the last one acts if any block of the cycle did."""
         memory: Memory = channel.memory
         mark = channel.toolpath.mark()
         try:
-            next(self._blocks)
-            memory.acted = channel.toolpath.mark() != mark
-            self._acted = self._acted or memory.acted
-        except StopIteration:
-            memory.acted = self._acted or channel.toolpath.mark() != mark
-            end_of_subprogram(channel)
+            moves = self._moves
+            if moves is None:
+                moves = self._moves = _planned(channel, self._cycle, self._arguments)
+            for act in moves.blocks[index]:  # an act may plan more: of this block, and further ones
+                act()
         except AlarmError as alarm:
             alarm.column = alarm.column or self._column
             raise
+        memory.acted = channel.toolpath.mark() != mark
+        if index < len(moves.blocks) - 1:
+            self._acted = self._acted or memory.acted
+        else:
+            memory.acted = self._acted or memory.acted
+            end_of_subprogram(channel)
 
 
 def start(channel: Channel, name: str, values: tuple[Any, ...], column: int) -> None:
@@ -89,7 +99,7 @@ def start(channel: Channel, name: str, values: tuple[Any, ...], column: int) -> 
     count_levels(channel)
     channel.flush()
     caller = channel.level
-    code = CycleProgram(channel, _in_plane(channel, cycle, arguments), column)
+    code = CycleProgram(channel, cycle, arguments, column)
     level = Level(code, program_number=caller.program_number, kind="cycle", locals=caller.locals)
     level.data["single_block"] = False
     level.data["sblof_in_proc"] = caller.data.get("single_block", True)
@@ -99,7 +109,7 @@ def start(channel: Channel, name: str, values: tuple[Any, ...], column: int) -> 
     channel.level = level
 
 
-def _in_plane(channel: Channel, cycle: Cycle, arguments: Arguments) -> Iterator[None]:
+def _planned(channel: Channel, cycle: Cycle, arguments: Arguments) -> Moves:
     """The blocks of a cycle in the plane that _DMODE asks for."""
     memory: Memory = channel.memory
     plane = PLANE_OF_DMODE.get(arguments.digit("_DMODE", 0))
@@ -110,4 +120,6 @@ def _in_plane(channel: Channel, cycle: Cycle, arguments: Arguments) -> Iterator[
     if cycle.saves and channel.mode["side"] != "G40":
         raise AlarmError("61815", text=arguments.cycle)
     memory.previous = None
-    yield from cycle.blocks(channel, arguments)
+    moves = Moves(channel, arguments.integer("_AXN"))
+    moves.plan(partial(cycle.plan, moves, arguments))
+    return moves

@@ -7,6 +7,7 @@ G functions, feed and frames are put back.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from math import nan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -20,7 +21,7 @@ from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import CCW_KINDS
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Generator, Iterator
+    from collections.abc import Callable, Container
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.path import Move
@@ -44,24 +45,6 @@ def without_away(value: float) -> float:
     return value - AWAY_MM if value > AWAY_MM / 2.0 else value
 
 
-@dataclass(slots=True)
-class _State:
-    """What reading a contour must not change."""
-
-    position: list[float]
-    feed: float
-    saved: Any
-    previous: Any
-
-    def restore(self, channel: Channel) -> None:
-        """Put everything back."""
-        memory: Memory = channel.memory
-        channel.control.restore(channel, self.saved)
-        channel.coordinates.arrive(self.position)
-        channel.feed = self.feed
-        memory.previous = self.previous
-
-
 class Place(NamedTuple):
     """Where a contour stands: in a program (empty for the calling one), all of it or from one label to another."""
 
@@ -75,7 +58,7 @@ LABELS_HERE, LABELS_IN_PROGRAM = 2, 3
 _CHOSEN = ("CYCLE62", ())
 
 
-def choose(channel: Channel, a: Arguments) -> Iterator[None]:
+def choose(moves: Moves, a: Arguments) -> None:
     """CYCLE62: the contour of the cycle that follows, by program or by labels; a second call in a row is PC0001.
 
     Raises:
@@ -84,12 +67,15 @@ def choose(channel: Channel, a: Arguments) -> Iterator[None]:
     kind = a.integer("_TYPE")
     if kind not in (0, 1, LABELS_HERE, LABELS_IN_PROGRAM):
         raise AlarmError("61002")
-    values = channel.memory.values
-    if values.get(_CHOSEN) is not None:
-        raise not_supported("CYCLE62: two contours")
     labels = (a.text("_LAB1").upper(), a.text("_LAB2").upper()) if kind >= LABELS_HERE else ("", "")
-    values[_CHOSEN] = Place("" if kind == LABELS_HERE else a.text("_KNAME"), *labels)
-    yield
+    moves.act(_choose, moves.memory, Place("" if kind == LABELS_HERE else a.text("_KNAME"), *labels))
+    moves.end_block()
+
+
+def _choose(memory: Memory, place: Place) -> None:
+    if memory.values.get(_CHOSEN) is not None:
+        raise not_supported("CYCLE62: two contours")
+    memory.values[_CHOSEN] = place
 
 
 def _place(channel: Channel, name: str) -> Place:
@@ -115,33 +101,79 @@ def _call(channel: Channel, place: Place) -> None:
         raise AlarmError("61605")
 
 
-def read(moves: Moves, name: str) -> Generator[None, None, Contour]:
-    """The contour that a name means, in the plane of the cycle; the first block leads to its first point.
+def read(moves: Moves, name: str, use: Callable[[Contour], None]) -> None:
+    """Read the contour that a name means, in the plane of the cycle; the first block leads to its first point.
+
+    That takes two blocks: one calls the contour as a program level, the next one has it, and what uses it notes what
+    is done with it.
 
     Raises:
         AlarmError: As `_call`, and 61605 for a contour without moves.
     """
-    channel = moves.channel
-    memory: Memory = channel.memory
-    channel.flush()
-    state = _State(
-        channel.coordinates.position.copy(),
-        channel.feed,
-        channel.control.save(channel),
-        memory.previous,
-    )
-    recorder = Recorder()
-    _call(channel, _place(channel, name))
-    channel.coordinates.arrive(sent_away(state.position, moves.columns[:2]))
-    channel.feed = channel.feed if channel.feed > 0.0 else 1.0
-    channel.path.divert(recorder)
-    yield
-    channel.flush()
-    channel.path.resume(recorder)
-    state.restore(channel)
-    if len(recorder.moves) < 2:
-        raise AlarmError("61605")
-    return [_piece(moves, move) for move in recorder.moves[1:]]
+    reading = _Reading(moves, name, use)
+    moves.act(reading.begin)
+    moves.end_block()
+    moves.act(reading.end)
+
+
+@dataclass(slots=True)
+class _State:
+    """What reading a contour must not change."""
+
+    position: list[float]
+    feed: float
+    saved: object
+    previous: Any
+
+    @classmethod
+    def of(cls, channel: Channel) -> _State:
+        """As it is now."""
+        position = channel.coordinates.position.copy()
+        return cls(position, channel.feed, channel.control.save(channel), channel.memory.previous)
+
+    def restore(self, channel: Channel) -> None:
+        """Put everything back."""
+        channel.control.restore(channel, self.saved)
+        channel.coordinates.arrive(self.position)
+        channel.feed = self.feed
+        channel.memory.previous = self.previous
+
+
+class _Reading:
+    """A contour that is being read.
+
+    Args:
+        moves: The cycle that wants it.
+        name: What it is called.
+        use: What is done with it.
+    """
+
+    def __init__(self, moves: Moves, name: str, use: Callable[[Contour], None]) -> None:
+        self._moves, self._name, self._use = moves, name, use
+        self._recorder = Recorder()
+        self._before: _State | None = None
+
+    def begin(self) -> None:
+        """The contour runs as a program level, and its moves are caught."""
+        moves, channel = self._moves, self._moves.channel
+        channel.flush()
+        self._before = before = _State.of(channel)
+        _call(channel, _place(channel, self._name))
+        channel.coordinates.arrive(sent_away(before.position, moves.columns[:2]))
+        channel.feed = channel.feed if channel.feed > 0.0 else 1.0
+        channel.path.divert(self._recorder)
+
+    def end(self) -> None:
+        """The contour is through: everything is as before, and the cycle goes on with it."""
+        moves, channel = self._moves, self._moves.channel
+        assert self._before is not None
+        channel.flush()
+        channel.path.resume(self._recorder)
+        self._before.restore(channel)
+        caught = self._recorder.moves[1:]
+        if not caught:
+            raise AlarmError("61605")
+        moves.plan(partial(self._use, [_piece(moves, move) for move in caught]))
 
 
 def _piece(moves: Moves, move: Move) -> Piece:

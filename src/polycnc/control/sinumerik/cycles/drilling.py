@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.cycles.levels import Levels, levels, sign
-from polycnc.control.sinumerik.cycles.moves import Moves
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.drilling import deep_hole as deep
 from polycnc.cycles.drilling import holes
@@ -20,8 +19,8 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.cycles.arguments import Arguments
+    from polycnc.control.sinumerik.cycles.moves import Moves
 
 #: Pitch of coarse metric threads by nominal diameter, mm (DIN 13; MPIT 3 to 48).
 METRIC_PITCHES = {
@@ -89,7 +88,7 @@ class Acts(NamedTuple):
     shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
-def perform(moves: Moves, strokes: Iterator[Stroke], acts: Acts) -> Iterator[None]:
+def perform(moves: Moves, strokes: Iterator[Stroke], acts: Acts) -> None:
     """Make the strokes of a hole; every stroke is a block."""
     center = moves.point
     for action, value, factor, _ in strokes:
@@ -111,8 +110,8 @@ def perform(moves: Moves, strokes: Iterator[Stroke], acts: Acts) -> Iterator[Non
                 du, dv, dw = (value * way for way in acts.shift)
                 moves.rapid(u + du if du else None, v + dv if dv else None, moves.level + dw)
             case Action.HALT:
-                moves.channel.stop("M0")
-        yield
+                moves.stop()
+        moves.end_block()
 
 
 def _if_moved(moves: Moves, center: tuple[float, float]) -> tuple[float | None, float | None]:
@@ -124,33 +123,30 @@ def _if_moved(moves: Moves, center: tuple[float, float]) -> tuple[float | None, 
 # ---- the cycles
 
 
-def drill(channel: Channel, a: Arguments) -> Iterator[None]:
+def drill(moves: Moves, a: Arguments) -> None:
     """CYCLE81, CYCLE82: drilling, centring, with dwell."""
-    moves = Moves(channel)
     if any(a[name] for name in ("S_ZA", "S_ZD")):
         raise not_supported("CYCLE82 S_ZA S_ZD")
     found = levels_of_drill(moves, a)
     if found is not None:
         dwell = pause(a["DTB"], a.digit("_AMODE", 1))
-        yield from perform(moves, holes.drill(found.hole(dwell)), Acts(channel.feed))
+        perform(moves, holes.drill(found.hole(dwell)), Acts(moves.channel.feed))
 
 
-def bore(channel: Channel, a: Arguments) -> Iterator[None]:
+def bore(moves: Moves, a: Arguments) -> None:
     """CYCLE89: in and out with the path feed."""
-    moves = Moves(channel)
     found = levels(moves, a)
     if found is not None:
-        yield from perform(moves, holes.bore(found.hole(a["DTB"])), Acts(channel.feed))
+        perform(moves, holes.bore(found.hole(a["DTB"])), Acts(moves.channel.feed))
 
 
-def ream(channel: Channel, a: Arguments) -> Iterator[None]:
+def ream(moves: Moves, a: Arguments) -> None:
     """CYCLE85: in with FFR, out with RFF; the path feed where one of them is left out."""
-    moves = Moves(channel)
     found = levels(moves, a)
     if found is not None:
-        into, out = a["FFR"] or channel.feed, a["RFF"] or channel.feed
+        into, out = a["FFR"] or moves.channel.feed, a["RFF"] or moves.channel.feed
         dwell = pause(a["DTB"], a.digit("_AMODE", 1))
-        yield from perform(moves, holes.bore(found.hole(dwell), out / into), Acts(into))
+        perform(moves, holes.bore(found.hole(dwell), out / into), Acts(into))
 
 
 def _direction(a: Arguments, name: str = "SDIR") -> int:
@@ -165,9 +161,8 @@ def _turning(moves: Moves, direction: int) -> None:
         moves.turn(direction)
 
 
-def bore_and_lift(channel: Channel, a: Arguments) -> Iterator[None]:
+def bore_and_lift(moves: Moves, a: Arguments) -> None:
     """CYCLE86: oriented stop, off the wall by RPA, RPO, RPAP, out at rapid."""
-    moves = Moves(channel)
     direction = _direction(a)
     found = levels(moves, a)
     if found is None:
@@ -180,28 +175,26 @@ def bore_and_lift(channel: Channel, a: Arguments) -> Iterator[None]:
         else:
             moves.orient(a["POSS"])
 
-    acts = Acts(channel.feed, spindle=spindle, shift=(a["RPA"], a["RPO"], a["RPAP"]))
+    acts = Acts(moves.channel.feed, spindle=spindle, shift=(a["RPA"], a["RPO"], a["RPAP"]))
     dwell = pause(a["DTB"], a.digit("_AMODE", 1))
-    yield from perform(moves, holes.bore_and_lift(found.hole(dwell)), acts)
+    perform(moves, holes.bore_and_lift(found.hole(dwell)), acts)
 
 
-def bore_and_halt(channel: Channel, a: Arguments) -> Iterator[None]:
+def bore_and_halt(moves: Moves, a: Arguments) -> None:
     """CYCLE87, CYCLE88: spindle stop and M0 at depth, out at rapid."""
-    moves = Moves(channel)
     direction = _direction(a)
     found = levels(moves, a)
     if found is not None:
         _turning(moves, direction)
-        acts = Acts(channel.feed, spindle=lambda _value: moves.turn(0))
-        yield from perform(moves, holes.bore_and_leave_standing(found.hole(a["DTB"])), acts)
+        acts = Acts(moves.channel.feed, spindle=lambda _value: moves.turn(0))
+        perform(moves, holes.bore_and_leave_standing(found.hole(a["DTB"])), acts)
 
 
 # ---- deep holes
 
 
-def deep_hole(channel: Channel, a: Arguments) -> Iterator[None]:
+def deep_hole(moves: Moves, a: Arguments) -> None:
     """CYCLE83: strokes that become shorter, breaking chips (VARI=0) or clearing them (VARI=1)."""
-    moves = Moves(channel, a.integer("_AXN"))
     found = levels_of_drill(moves, a)
     variant = a.digit("VARI", 0)
     if variant not in (0, 1):
@@ -225,7 +218,7 @@ def deep_hole(channel: Channel, a: Arguments) -> Iterator[None]:
         dwell_at_clearance=pause(a["DTS"], mode(2)),
         limits=[_limit(a, mode(7), depth) for depth in below],
     )
-    yield from perform(moves, strokes, Acts(channel.feed))
+    perform(moves, strokes, Acts(moves.channel.feed))
 
 
 def _first_depth(moves: Moves, a: Arguments, found: Levels, total: float) -> float:
@@ -303,9 +296,8 @@ def _directions(a: Arguments) -> int:
     return DIRECTIONS.get(a.integer("SDAC"), 0)
 
 
-def rigid_tapping(channel: Channel, a: Arguments) -> Iterator[None]:
+def rigid_tapping(moves: Moves, a: Arguments) -> None:
     """CYCLE84: tapping with the spindle in position control, in one go or in steps."""
-    moves = Moves(channel, a.integer("_AXN"))
     lead = pitch(a)
     variant = a.digit("_VARI", 0)
     if variant not in (0, 1, 2):
@@ -340,8 +332,8 @@ def rigid_tapping(channel: Channel, a: Arguments) -> Iterator[None]:
         limit=a["_VRT"] if a["_VRT"] > 0.0 else CHIP_BREAKING_MM,
     )
     moves.orient(_start_angle(moves, a["POSS"]))
-    acts = Acts(channel.feed, tap=lambda level: moves.special(Kind.TAP, lead, level), spindle=spindle)
-    yield from perform(moves, strokes, acts)
+    acts = Acts(moves.channel.feed, tap=lambda level: moves.special(Kind.TAP, lead, level), spindle=spindle)
+    perform(moves, strokes, acts)
 
 
 def _start_angle(moves: Moves, position: float) -> float:
@@ -357,9 +349,8 @@ def _start_angle(moves: Moves, position: float) -> float:
 WITH_ENCODER, WITH_ENCODER_AND_DWELL, BY_FEED, BY_PITCH = 0, 20, 1, 11
 
 
-def tapping_with_chuck(channel: Channel, a: Arguments) -> Iterator[None]:
+def tapping_with_chuck(moves: Moves, a: Arguments) -> None:
     """CYCLE840: tapping with a compensating chuck, G33 with the spindle's encoder or G63 without."""
-    moves = Moves(channel, a.integer("_AXN"))
     kind = a.integer("ENC")
     if kind not in (WITH_ENCODER, WITH_ENCODER_AND_DWELL, BY_FEED, BY_PITCH):
         raise AlarmError("61002")
@@ -373,7 +364,7 @@ def tapping_with_chuck(channel: Channel, a: Arguments) -> Iterator[None]:
     if found is None:
         return
     cutting = moves.spindle.direction or 1
-    feed = _chuck_feed(moves, channel, lead if kind == BY_PITCH else 0.0)
+    feed = _chuck_feed(moves, lead if kind == BY_PITCH else 0.0)
 
     def tap(level: float) -> None:
         if encoder:
@@ -390,13 +381,13 @@ def tapping_with_chuck(channel: Channel, a: Arguments) -> Iterator[None]:
     strokes = deep.tap_in_steps(
         [found.depth], found.safe, found.retract, dwell=0.0 if kind == WITH_ENCODER else abs(a["DTB"])
     )
-    yield from perform(moves, strokes, Acts(channel.feed, tap=tap, spindle=spindle))
+    perform(moves, strokes, Acts(moves.channel.feed, tap=tap, spindle=spindle))
 
 
-def _chuck_feed(moves: Moves, channel: Channel, lead: float) -> float:
+def _chuck_feed(moves: Moves, lead: float) -> float:
     """Feed of G63: the programmed one, or speed times pitch in the feed type of the caller."""
     if not lead:
-        return channel.feed
+        return moves.channel.feed
     return lead if moves.memory.feed_mode == "G95" else lead * moves.spindle.speed / tables.MINUTE
 
 

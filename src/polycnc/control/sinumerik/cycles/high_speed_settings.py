@@ -12,10 +12,9 @@ from polycnc.control.sinumerik.reset import start_code
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.cycles.arguments import Arguments
+    from polycnc.control.sinumerik.cycles.moves import Moves
     from polycnc.control.sinumerik.memory import Memory
 
 #: Kind of machining (units of S_TOLM): dynamics, and the tolerance where S_TOL is 0, mm.
@@ -38,8 +37,13 @@ OLD_DYNAMICS = {0: ("FFWOF", "SOFT"), 1: ("FFWON", "SOFT"), 2: ("FFWOF", "BRISK"
 OLD_COMPRESSORS = {0: "COMPOF", 1: "COMPCAD", 2: "COMPCURV", 3: "COMPON"}
 
 
-def high_speed(channel: Channel, a: Arguments) -> Iterator[None]:
+def high_speed(moves: Moves, a: Arguments) -> None:
     """CYCLE832(S_TOL, S_TOLM, S_OTOL); S_TOLM 0 or no argument: off."""
+    moves.act(_set, moves.channel, a)
+    moves.end_block()
+
+
+def _set(channel: Channel, a: Arguments) -> None:
     kind = abs(a.integer("S_TOLM"))
     if kind > LARGEST_KIND:
         _older(channel, a)
@@ -53,7 +57,6 @@ def high_speed(channel: Channel, a: Arguments) -> Iterator[None]:
         raise not_supported("CYCLE832 _PRECISION")
     else:
         raise AlarmError("61002")
-    yield
 
 
 def _switch(channel: Channel, codes: dict[str, str], tolerance: float, orientation: float) -> None:

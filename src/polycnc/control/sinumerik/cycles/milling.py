@@ -7,7 +7,7 @@ from math import radians, sin
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.levels import levels
-from polycnc.control.sinumerik.cycles.moves import Moves, require_tool
+from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.milling import pockets, slots
 from polycnc.cycles.milling.pockets import Insertion, Pocket
@@ -17,11 +17,11 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.levels import Levels
+    from polycnc.control.sinumerik.cycles.moves import Moves
     from polycnc.geometry.arcs import Point
 
 #: Width of a cut where the call gives none, as part of the tool's diameter.
@@ -31,7 +31,7 @@ TURN = 360.0
 COMPLETE, ROUGHING, FINISHING, EDGE, CHAMFER = 0, 1, 2, 4, 5
 
 
-def perform(moves: Moves, strokes: Iterable[MillStroke]) -> Iterator[None]:
+def perform(moves: Moves, strokes: Iterable[MillStroke]) -> None:
     """Make the strokes of a milling cycle; every stroke is a block."""
     for stroke in strokes:
         u, v = stroke.point or (None, None)
@@ -43,7 +43,7 @@ def perform(moves: Moves, strokes: Iterable[MillStroke]) -> Iterator[None]:
             case _ if stroke.point is not None and stroke.center is not None:
                 ccw = stroke.kind is Kind.CCW
                 moves.arc(stroke.feed, stroke.point, stroke.center, ccw, stroke.w)
-        yield
+        moves.end_block()
 
 
 # ---- what the cycles check alike
@@ -123,9 +123,8 @@ def reference_point(moves: Moves, a: Arguments) -> Point:
 # ---- pockets
 
 
-def pocket3(channel: Channel, a: Arguments) -> Iterator[None]:
+def pocket3(moves: Moves, a: Arguments) -> None:
     """POCKET3: rectangular pocket about its middle."""
-    moves = Moves(channel)
     radius = cutter(moves)
     length, width, corner = abs(a["_LENG"]), abs(a["_WID"]), abs(a["_CRAD"])
     if not length or not width:
@@ -135,19 +134,18 @@ def pocket3(channel: Channel, a: Arguments) -> Iterator[None]:
     if radius > corner + NO_WAY and corner > 0.0:
         raise AlarmError("61105")
     core = (abs(a["_AP1"]), abs(a["_AP2"]) or abs(a["_AP1"]))
-    yield from _pocket(moves, a, (length, width, corner), core, radius)
+    _pocket(moves, a, (length, width, corner), core, radius)
 
 
-def pocket4(channel: Channel, a: Arguments) -> Iterator[None]:
+def pocket4(moves: Moves, a: Arguments) -> None:
     """POCKET4: circular pocket."""
-    moves = Moves(channel)
     radius, size = cutter(moves), abs(a["_PRAD"])
-    yield from _pocket(moves, a, (2.0 * size, 2.0 * size, size), (abs(a["_AP1"]), abs(a["_AP1"])), radius)
+    _pocket(moves, a, (2.0 * size, 2.0 * size, size), (abs(a["_AP1"]), abs(a["_AP1"])), radius)
 
 
 def _pocket(
     moves: Moves, a: Arguments, size: tuple[float, float, float], core: tuple[float, float], radius: float
-) -> Iterator[None]:
+) -> None:
     kind = variant(a, "_VARI", (ROUGHING, FINISHING, EDGE))
     if kind == EDGE:
         kind, base_allowance = FINISHING, 0.0
@@ -191,7 +189,7 @@ def _pocket(
         core_width=core[1],
         core_depth=abs(a["_AD"]),
     )
-    yield from _mill(moves, along(pocket), kind)
+    _mill(moves, along(pocket), kind)
 
 
 def along(pocket: Pocket) -> Pocket:
@@ -211,28 +209,27 @@ def along(pocket: Pocket) -> Pocket:
 
 def _mill(
     moves: Moves, pocket: Pocket, kind: int, finishing: Pocket | None = None, speed: float = 0.0
-) -> Iterator[None]:
+) -> None:
     """Rough, finish, or both; 61105 for a tool that does not go in."""
     if not pockets.fits(pocket):
         raise AlarmError("61105")
     if kind in (COMPLETE, ROUGHING):
-        yield from perform(moves, pockets.rough(pocket))
+        perform(moves, pockets.rough(pocket))
     if kind in (COMPLETE, FINISHING):
-        yield from at_speed(moves, speed, perform(moves, pockets.finish(finishing or pocket)))
+        perform_at_speed(moves, speed, pockets.finish(finishing or pocket))
 
 
-def at_speed(moves: Moves, speed: float, blocks: Iterator[None]) -> Iterator[None]:
-    """Blocks with a spindle speed of their own (SSF), 0 for the one in force."""
+def perform_at_speed(moves: Moves, speed: float, strokes: Iterable[MillStroke]) -> None:
+    """Strokes with a spindle speed of their own (SSF), 0 for the one in force."""
     before = moves.spindle.speed
     if speed > 0.0:
         moves.speed(speed)
-    yield from blocks
+    perform(moves, strokes)
     moves.speed(before)
 
 
-def older_pocket(channel: Channel, a: Arguments) -> Iterator[None]:
+def older_pocket(moves: Moves, a: Arguments) -> None:
     """POCKET1 (rectangular), POCKET2 (circular): in with G1 in the middle; complete, roughing or finishing."""
-    moves = Moves(channel)
     radius = cutter(moves)
     kind = variant(a, "VARI", (COMPLETE, ROUGHING, FINISHING))
     found = levels(moves, a)
@@ -261,7 +258,7 @@ def older_pocket(channel: Channel, a: Arguments) -> Iterator[None]:
         allowance=abs(a["FAL"]),
     )
     fine = replace(rough, infeed=abs(a["MIDF"]), feed=a["FFP2"] or rough.feed)
-    yield from _mill(moves, along(rough), kind, along(fine), a["SSF"])
+    _mill(moves, along(rough), kind, along(fine), a["SSF"])
 
 
 # ---- patterns of slots
@@ -309,24 +306,23 @@ def _slotting(moves: Moves, a: Arguments, found: Levels, insertion: Insertion) -
     )
 
 
-def _mill_slot(moves: Moves, a: Arguments, slotting: slots.Slotting, shape: slots.Shape) -> Iterator[None]:
+def _mill_slot(moves: Moves, a: Arguments, slotting: slots.Slotting, shape: slots.Shape) -> None:
     """One slot: roughing, finishing, or complete."""
     kind = variant(a, "VARI", (COMPLETE, ROUGHING, FINISHING))
     if kind in (COMPLETE, ROUGHING):
-        yield from perform(moves, slots.rough(slotting, shape))
+        perform(moves, slots.rough(slotting, shape))
     if kind == FINISHING or (kind == COMPLETE and slotting.leaves_allowance):
-        yield from at_speed(moves, a["SSF"], perform(moves, slots.finish(slotting, shape)))
+        perform_at_speed(moves, a["SSF"], slots.finish(slotting, shape))
     moves.rapid(w=slotting.retract)
-    yield
+    moves.end_block()
 
 
 #: Insertion by the tens of VARI of SLOT1.
 INSERTIONS = {0: Insertion.RAPID, 1: Insertion.FEED, 3: Insertion.OSCILLATION}
 
 
-def slot1(channel: Channel, a: Arguments) -> Iterator[None]:
+def slot1(moves: Moves, a: Arguments) -> None:
     """SLOT1: straight slots that point away from a centre."""
-    moves = Moves(channel)
     require_tool(moves)
     insertion = INSERTIONS.get(a.digit("VARI", 1))
     if insertion is None:
@@ -343,12 +339,11 @@ def slot1(channel: Channel, a: Arguments) -> Iterator[None]:
         raise AlarmError("61105")
     for angle in angles:
         start = Place((a["CPA"], a["CPO"]), angle)(abs(a["RAD"]) + abs(a["WID"]) / 2.0, 0.0)
-        yield from _mill_slot(moves, a, slotting, slots.Straight(Place(start, angle), length))
+        _mill_slot(moves, a, slotting, slots.Straight(Place(start, angle), length))
 
 
-def slot2(channel: Channel, a: Arguments) -> Iterator[None]:
+def slot2(moves: Moves, a: Arguments) -> None:
     """SLOT2: slots along a circle; from one to the next straight, or along the circle (tens of VARI)."""
-    moves = Moves(channel)
     require_tool(moves)
     if a.digit("VARI", 1) not in (0, 1):
         raise AlarmError("61002")
@@ -366,13 +361,12 @@ def slot2(channel: Channel, a: Arguments) -> Iterator[None]:
         shape = slots.Curved(Place(center, angle), size, abs(a["AFSL"]))
         if number and a.digit("VARI", 1) == 1:
             moves.arc(feed_of(a, "_FFCP"), shape.start, center, angles[1] > angles[0])
-            yield
-        yield from _mill_slot(moves, a, slotting, shape)
+            moves.end_block()
+        _mill_slot(moves, a, slotting, shape)
 
 
-def long_hole(channel: Channel, a: Arguments) -> Iterator[None]:
+def long_hole(moves: Moves, a: Arguments) -> None:
     """LONGHOLE: elongated holes as wide as the tool, milled to and fro."""
-    moves = Moves(channel)
     radius = cutter(moves)
     found = levels(moves, a)
     if found is None:
@@ -389,4 +383,4 @@ def long_hole(channel: Channel, a: Arguments) -> Iterator[None]:
         place = Place((a["CPA"], a["CPO"]), angle)
         ends = place(inner, 0.0), place(outer, 0.0)
         strokes = slots.to_and_fro(ends, moves.point, found, abs(a["MID"]), feed, depth_feed)
-        yield from perform(moves, strokes)
+        perform(moves, strokes)

@@ -5,17 +5,16 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.cycles.moves import Moves
 from polycnc.cycles.drilling import patterns
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.language.sinumerik.statements.calls import call_modal
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.cycles.arguments import Arguments
+    from polycnc.control.sinumerik.cycles.moves import Moves
     from polycnc.geometry.arcs import Point
 
 TURN = 360.0
@@ -23,23 +22,22 @@ TURN = 360.0
 MOST_POINTS = 9
 
 
-def visit(moves: Moves, a: Arguments, points: Iterable[Point]) -> Iterator[None]:
+def visit(moves: Moves, a: Arguments, points: Iterable[Point]) -> None:
     """Rapid from point to point; the modal cycle follows at each. Without one: message 62100 and M0 first.
 
     `_HIDE` leaves positions out, by number from 1; `_NSP` is the first one.
     """
-    channel = moves.channel
-    if channel.memory.language.modal_call is None:
+    if moves.channel.memory.language.modal_call is None:
         moves.note("62100")
-        channel.stop("M0")
-        yield
+        moves.stop()
+        moves.end_block()
     hidden = {int(part) for part in a.text("_HIDE").replace(",", " ").split() if part.isdigit()}
     for number, (u, v) in enumerate(points, 1):
         if number in hidden or number < a.integer("_NSP"):
             continue
         moves.rapid(u, v)
-        call_modal(channel)
-        yield
+        moves.act(call_modal, moves.channel)
+        moves.end_block()
 
 
 def _nearer_end_first(points: list[Point], tool: Point) -> list[Point]:
@@ -48,36 +46,33 @@ def _nearer_end_first(points: list[Point], tool: Point) -> list[Point]:
     return points if first <= last else points[::-1]
 
 
-def row(channel: Channel, a: Arguments) -> Iterator[None]:
+def row(moves: Moves, a: Arguments) -> None:
     """HOLES1: a row of holes, from the end nearer to the tool."""
-    moves = Moves(channel)
     count = abs(a.integer("NUM"))
     if count == 0:
         raise AlarmError("61103")
     cosine, sine = cos_sin_deg(a["STA1"])
     ways = [abs(a["FDIS"]) + k * abs(a["DBH"]) for k in range(count)]
     points = [(a["SPCA"] + way * cosine, a["SPCO"] + way * sine) for way in ways]
-    yield from visit(moves, a, _nearer_end_first(points, moves.point))
+    visit(moves, a, _nearer_end_first(points, moves.point))
 
 
-def circle(channel: Channel, a: Arguments) -> Iterator[None]:
+def circle(moves: Moves, a: Arguments) -> None:
     """HOLES2: holes on a circle, on all of it where INDA is 0."""
-    moves = Moves(channel)
     count, pitch = abs(a.integer("NUM")), a["INDA"]
     if count == 0:
         raise AlarmError("61103")
     if abs(pitch) * (count - 1) >= TURN:
         raise AlarmError("61106")
     center = (a["CPA"], a["CPO"])
-    yield from visit(moves, a, patterns.arc(center, abs(a["RAD"]), a["STA1"], pitch or TURN / count, count))
+    visit(moves, a, patterns.arc(center, abs(a["RAD"]), a["STA1"], pitch or TURN / count, count))
 
 
-def grid(channel: Channel, a: Arguments) -> Iterator[None]:
+def grid(moves: Moves, a: Arguments) -> None:
     """CYCLE801: a turned grid, or its frame, from the corner nearest to the tool.
 
     The grid is visited to and fro along its smaller pitch, the frame once round.
     """
-    moves = Moves(channel)
     columns, rows = (abs(a.integer(name)) for name in ("_NUM1", "_NUM2"))
     if not columns or not rows:
         moves.note("62105")
@@ -91,7 +86,7 @@ def grid(channel: Channel, a: Arguments) -> Iterator[None]:
         cells = patterns.meander_cells(columns, rows)
     else:
         cells = [(i, j) for j, i in patterns.meander_cells(rows, columns)]
-    yield from visit(moves, a, (_place(a, abs(near[0] - i), abs(near[1] - j)) for i, j in cells))
+    visit(moves, a, (_place(a, abs(near[0] - i), abs(near[1] - j)) for i, j in cells))
 
 
 def _place(a: Arguments, column: int, row: int) -> Point:
@@ -104,9 +99,8 @@ def _place(a: Arguments, column: int, row: int) -> Point:
     )
 
 
-def points(channel: Channel, a: Arguments) -> Iterator[None]:
+def points(moves: Moves, a: Arguments) -> None:
     """CYCLE802: up to nine points, absolute or incremental; an omitted pair ends the list."""
-    moves = Moves(channel)
     found: list[Point] = []
     u, v = moves.point
     for i in range(MOST_POINTS):
@@ -116,4 +110,4 @@ def points(channel: Channel, a: Arguments) -> Iterator[None]:
         u = a[f"_X{i}"] + (u if a.digit("_XA", place) == 2 else 0.0)
         v = a[f"_Y{i}"] + (v if a.digit("_YA", place) == 2 else 0.0)
         found.append((u, v))
-    yield from visit(moves, a, found)
+    visit(moves, a, found)

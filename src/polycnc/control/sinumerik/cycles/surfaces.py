@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.contour import read
@@ -17,7 +18,7 @@ from polycnc.control.sinumerik.cycles.milling import (
     reference_point,
     variant,
 )
-from polycnc.control.sinumerik.cycles.moves import Moves, require_tool
+from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.milling import contour as path_milling
 from polycnc.cycles.milling import facing, spigots
@@ -29,11 +30,10 @@ from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.levels import Levels
+    from polycnc.control.sinumerik.cycles.moves import Moves
+    from polycnc.cycles.turning.contour import Contour
 
 
 def levels_below(found: Levels, total: float, infeed: float) -> list[float]:
@@ -47,9 +47,8 @@ def levels_below(found: Levels, total: float, infeed: float) -> list[float]:
 STRIPS = {1: (False, False), 2: (True, False), 3: (False, True), 4: (True, True)}
 
 
-def face(channel: Channel, a: Arguments) -> Iterator[None]:
+def face(moves: Moves, a: Arguments) -> None:
     """CYCLE71 and CYCLE61: face milling in strips."""
-    moves = Moves(channel)
     radius = cutter(moves)
     kind = variant(a, "_VARI", (ROUGHING, FINISHING))
     strips = STRIPS.get(a.digit("_VARI", 1))
@@ -80,7 +79,7 @@ def face(channel: Channel, a: Arguments) -> Iterator[None]:
     )
     total = abs(found.depth - found.reference)
     rough = levels_below(found, total - abs(a["_FALD"]), a["_MID"])
-    yield from perform(moves, facing.face(shape, rough if kind == ROUGHING else [found.depth]))
+    perform(moves, facing.face(shape, rough if kind == ROUGHING else [found.depth]))
 
 
 def _size(a: Arguments) -> tuple[float, float]:
@@ -115,15 +114,13 @@ SIDES = {40: 0.0, 41: 1.0, 42: -1.0}
 TO_RETRACT, TO_SAFE, BY_SAFETY, STAYS = range(4)
 
 
-def path(channel: Channel, a: Arguments) -> Iterator[None]:
+def path(moves: Moves, a: Arguments) -> None:
     """CYCLE72: milling along a contour on its left, on its right or on it."""
-    moves = Moves(channel)
     radius = require_tool(moves)
     if radius < 0.0:
         raise AlarmError("61112")
-    kind = variant(a, "_VARI", (ROUGHING, FINISHING))
-    rise = a.digit("_VARI", 2)
-    if a.digit("_VARI", 1) not in (0, 1) or rise > STAYS:
+    variant(a, "_VARI", (ROUGHING, FINISHING))
+    if a.digit("_VARI", 1) not in (0, 1) or a.digit("_VARI", 2) > STAYS:
         raise AlarmError("61002")
     side = SIDES.get(a.integer("_RL"))
     if side is None:
@@ -134,7 +131,21 @@ def path(channel: Channel, a: Arguments) -> Iterator[None]:
         return
     feed, depth_feed = feed_of(a, "_FFP1"), feed_of(a, "_FFD")
     between = feed_of(a, "_FF3") if a.digit("_VARI", 1) == 1 else 0.0
-    contour = yield from read(moves, a.text("_KNAME"))
+    mills = partial(_mill_path, moves, a, found, side, ways, (feed, depth_feed, between))
+    read(moves, a.text("_KNAME"), mills)
+
+
+def _mill_path(
+    moves: Moves,
+    a: Arguments,
+    found: Levels,
+    side: float,
+    ways: tuple[Approach, Approach],
+    feeds: tuple[float, float, float],
+    contour: Contour,
+) -> None:
+    """Mill along the contour that was read; `feeds` are those along it, in depth and between the passes."""
+    radius, kind = moves.memory.tools.radius, a.digit("_VARI", 0)
     if a.digit("_VARI", 4) == 1:
         contour, side = turned_round(contour), -side
     off = radius + (abs(a["_FAL"]) if kind == ROUGHING else 0.0)
@@ -144,9 +155,9 @@ def path(channel: Channel, a: Arguments) -> Iterator[None]:
         raise AlarmError("61606") from None
     left = abs(a["_FALD"]) if kind == ROUGHING else 0.0
     at = levels_below(found, abs(found.depth - found.reference) - left, a["_MID"])
-    lifts = [_lift(found, level, rise, abs(a["SDIS"])) for level in at]
-    work = PathMilling(tool, side, *ways, feed, depth_feed, between, lifts, found.safe, found.retract)
-    yield from perform(moves, path_milling.mill(work, at))
+    lifts = [_lift(found, level, a.digit("_VARI", 2), abs(a["SDIS"])) for level in at]
+    work = PathMilling(tool, side, *ways, *feeds, lifts, found.safe, found.retract)
+    perform(moves, path_milling.mill(work, at))
 
 
 def _lift(found: Levels, level: float, rise: int, safety: float) -> float | None:
@@ -172,9 +183,8 @@ def _approach(a: Arguments, mode: str, size: str, side: float) -> Approach:
 # ---- spigots
 
 
-def spigot(channel: Channel, a: Arguments) -> Iterator[None]:
+def spigot(moves: Moves, a: Arguments) -> None:
     """CYCLE76 (rectangular), CYCLE77 (circular)."""
-    moves = Moves(channel)
     radius = require_tool(moves)
     if radius < 0.0:
         raise AlarmError("61112")
@@ -187,12 +197,11 @@ def spigot(channel: Channel, a: Arguments) -> Iterator[None]:
     if 2.0 * corner > min(length, width) + NO_WAY:
         raise AlarmError("61113")
     outline = spigots.Rectangle(length / 2.0, width / 2.0, corner)
-    yield from _mill_spigot(moves, a, outline, kind, radius, "_FFD")
+    _mill_spigot(moves, a, outline, kind, radius, "_FFD")
 
 
-def polygon(channel: Channel, a: Arguments) -> Iterator[None]:
+def polygon(moves: Moves, a: Arguments) -> None:
     """CYCLE79: spigot with NUM edges; SWL is the width across flats, or an edge where NUM is odd."""
-    moves = Moves(channel)
     radius = require_tool(moves)
     kind = variant(a, "_VARI", (ROUGHING, FINISHING))
     count, size = abs(a.integer("_NUM")), abs(a["_SWL"])
@@ -202,12 +211,12 @@ def polygon(channel: Channel, a: Arguments) -> Iterator[None]:
     if abs(a["_RC"]) > inner:
         raise AlarmError("61113")
     outline = spigots.Polygon(count, inner, abs(a["_RC"]))
-    yield from _mill_spigot(moves, a, outline, kind, radius, "_FFP1")
+    _mill_spigot(moves, a, outline, kind, radius, "_FFP1")
 
 
 def _mill_spigot(
     moves: Moves, a: Arguments, outline: spigots.Outline, kind: int, radius: float, depth_feed: str
-) -> Iterator[None]:
+) -> None:
     """Mill round an outline; `depth_feed` names the parameter of the feed in depth."""
     found = milling_levels(moves, a, abs(a["_FALD"]), "_MID")
     if found is None:
@@ -226,15 +235,14 @@ def _mill_spigot(
         found.retract,
     )
     total = abs(found.depth - found.reference) - left_below
-    yield from perform(moves, spigots.mill(shape, levels_below(found, total, a["_MID"])))
+    perform(moves, spigots.mill(shape, levels_below(found, total, a["_MID"])))
 
 
 # ---- threads
 
 
-def thread(channel: Channel, a: Arguments) -> Iterator[None]:
+def thread(moves: Moves, a: Arguments) -> None:
     """CYCLE90: internal (TYPTH 0) or external thread on a helix; CDIR 2 is G2, 3 is G3."""
-    moves = Moves(channel)
     radius = cutter(moves)
     if a.integer("CDIR") not in (2, 3):
         raise AlarmError("61109")
@@ -261,4 +269,4 @@ def thread(channel: Channel, a: Arguments) -> Iterator[None]:
         feed=feed_of(a, "FFR"),
         retract=found.retract,
     )
-    yield from perform(moves, thread_milling.mill(milled))
+    perform(moves, thread_milling.mill(milled))

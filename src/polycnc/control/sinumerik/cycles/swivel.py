@@ -16,7 +16,7 @@ from polycnc.control.sinumerik import auxiliary, tables
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frames import memory as frames
 from polycnc.control.sinumerik.frames.codes import crots
-from polycnc.control.sinumerik.motion import moves
+from polycnc.control.sinumerik.motion import moves as motion
 from polycnc.geometry.frames import IDENTITY, Frame, rotation
 from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, NcFrame
@@ -25,10 +25,9 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.cycles.arguments import Arguments
+    from polycnc.control.sinumerik.cycles.moves import Moves
     from polycnc.control.sinumerik.memory import Memory
 
 #: _TC that takes the swivel away.
@@ -81,29 +80,35 @@ def record_of(channel: Channel, name: str) -> Record:
     return Record(kinematics, (first, second), (names.index(first), names.index(second)))
 
 
-def swivel(channel: Channel, a: Arguments) -> Iterator[None]:
+def swivel(moves: Moves, a: Arguments) -> None:
     """CYCLE800; without arguments, or with the record "0", it takes the swivel away."""
+    channel = moves.channel
     if not a.any_given or a.text("_TC").strip() == DESELECT:
         if a.any_given and a.integer("_FR"):
-            yield from _retract(channel, a, Kinematics.of(channel.machine))
-        deselect(channel)
+            _retract(moves, a, Kinematics.of(channel.machine))
+        moves.act(deselect, channel)
         return
     record = record_of(channel, a.text("_TC").strip())
     _check(a)
-    yield from _retract(channel, a, record.kinematics)
-    memory: Memory = channel.memory
-    state = memory.frames
+    _retract(moves, a, record.kinematics)
+    state = moves.memory.frames
     adds = a.digit("_ST", 0) == 1
     base = state.system["$P_WPFRAME"] @ state.programmable if adds else NEUTRAL
     turned = _plane_frame(a, record)
     frame = base @ NcFrame(matrix=turned.m, coarse=turned.t)
     angles = _angles(channel, a, record, frame)
     if a.integer("_DIR"):
-        _turn(channel, record, angles)
-        yield
-    state.system["$P_WPFRAME"] = frame
-    state.programmable = NEUTRAL
-    _carry(channel, record.kinematics, angles)
+        moves.act(_turn, channel, record, angles)
+        moves.end_block()
+    moves.act(_take, channel, record.kinematics, frame, angles)
+
+
+def _take(channel: Channel, kinematics: Kinematics, frame: NcFrame, angles: dict[str, float]) -> None:
+    """The plane is the swivelled one."""
+    memory: Memory = channel.memory
+    memory.frames.system["$P_WPFRAME"] = frame
+    memory.frames.programmable = NEUTRAL
+    _carry(channel, kinematics, angles)
 
 
 def _check(a: Arguments) -> None:
@@ -225,7 +230,7 @@ def _turn(channel: Channel, record: Record, angles: dict[str, float]) -> None:
     end = coordinates.position.copy()
     for name, column in zip(record.axes, record.columns, strict=True):
         end[column] += angles[name] - machine[column]
-    moves.line(channel, Kind.RAPID, end, nan)
+    motion.line(channel, Kind.RAPID, end, nan)
 
 
 def _carry(channel: Channel, kinematics: Kinematics, angles: dict[str, float]) -> None:
@@ -242,7 +247,7 @@ def _carry(channel: Channel, kinematics: Kinematics, angles: dict[str, float]) -
 # ---- retraction
 
 
-def _retract(channel: Channel, a: Arguments, kinematics: Kinematics) -> Iterator[None]:
+def _retract(moves: Moves, a: Arguments, kinematics: Kinematics) -> None:
     """_FR: away from the work before anything turns; a way whose end is not known is not gone.
 
     Raises:
@@ -254,11 +259,11 @@ def _retract(channel: Channel, a: Arguments, kinematics: Kinematics) -> Iterator
     if way not in (0, TO_LIMIT, BY_WAY, *BY_AXES):
         raise AlarmError("61183")
     for axes in BY_AXES.get(way, ()):
-        _to_limits(channel, axes)
-        yield
+        moves.act(_to_limits, moves.channel, axes)
+        moves.end_block()
     if way in (TO_LIMIT, BY_WAY):
-        _along_tool(channel, kinematics, abs(a["_FR_I"]) if way == BY_WAY else None)
-        yield
+        moves.act(_along_tool, moves.channel, kinematics, abs(a["_FR_I"]) if way == BY_WAY else None)
+        moves.end_block()
 
 
 def _to_limits(channel: Channel, axes: tuple[int, ...]) -> None:
@@ -274,7 +279,7 @@ def _to_limits(channel: Channel, axes: tuple[int, ...]) -> None:
         limit = _range(channel, column)[1] if stored is None else float(stored)
         if limit < inf:
             machine[column] = limit
-    moves.line(channel, Kind.RAPID, coordinates.from_machine(machine), nan)
+    motion.line(channel, Kind.RAPID, coordinates.from_machine(machine), nan)
 
 
 def _range(channel: Channel, column: int) -> tuple[float, float]:
@@ -313,4 +318,4 @@ def _along_tool(channel: Channel, kinematics: Kinematics, way: float | None) -> 
         for column, part in zip(coordinates.geometry, direction, strict=True):
             if column >= 0:
                 machine[column] += way * part
-        moves.line(channel, Kind.RAPID, coordinates.from_machine(machine), nan)
+        motion.line(channel, Kind.RAPID, coordinates.from_machine(machine), nan)

@@ -1,4 +1,4 @@
-"""The table of the machining cycles: the signature of each, and the generator of its blocks.
+"""The table of the machining cycles: the signature of each, and the function that plans its blocks.
 
 Source: SINUMERIK standard cycles, manual of the cycles (signatures, sequences, alarms 61000 to 62999).
 """
@@ -19,10 +19,10 @@ from polycnc.control.sinumerik.cycles import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.cycles.arguments import Arguments
+    from polycnc.control.sinumerik.cycles.moves import Moves
 
 
 class Cycle(NamedTuple):
@@ -30,12 +30,12 @@ class Cycle(NamedTuple):
 
     Attributes:
         signature: Names of the parameters in their order.
-        blocks: What the cycle does.
+        plan: Notes what the cycle does, block by block.
         saves: G functions and programmable frame of the caller are in force again afterwards.
     """
 
     signature: str
-    blocks: Callable[[Channel, Arguments], Iterator[None]]
+    plan: Callable[[Moves, Arguments], None]
     saves: bool = True
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 from math import ceil, copysign
 from typing import TYPE_CHECKING
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.sinumerik.cycles.contour import read
 from polycnc.control.sinumerik.cycles.drilling import METRIC_PITCHES, pitch
 from polycnc.control.sinumerik.cycles.milling import feed_of
-from polycnc.control.sinumerik.cycles.moves import Moves, require_tool
+from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.tools.memory import DP_TIP
@@ -23,10 +24,10 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.cycles.arguments import Arguments
+    from polycnc.control.sinumerik.cycles.moves import Moves
     from polycnc.geometry.arcs import Point
 
 #: Ways off the work where the call gives none.
@@ -38,26 +39,23 @@ LARGE_PITCHES = {52: 5.0, 56: 5.5, 60: 5.5}
 # ---- threads
 
 
-def thread(channel: Channel, a: Arguments) -> Iterator[None]:
+def thread(moves: Moves, a: Arguments) -> None:
     """CYCLE97: thread between SPL and FPL."""
     corners = [(a["SPL"], a["DM1"]), (a["FPL"], a["DM2"])]
     lead = abs(pitch(a, {**METRIC_PITCHES, **LARGE_PITCHES}))
-    yield from _thread(channel, a, corners, [lead])
+    _thread(moves, a, corners, [lead])
 
 
-def thread_chain(channel: Channel, a: Arguments) -> Iterator[None]:
+def thread_chain(moves: Moves, a: Arguments) -> None:
     """CYCLE98: three threads in a row."""
     corners = [(a[f"PO{i}"], a[f"DM{i}"]) for i in range(1, 5)]
     leads = [abs(a[f"PP{i}"]) for i in range(1, 4)]
     if not all(leads):
         raise AlarmError("61001")
-    yield from _thread(channel, a, corners, leads)
+    _thread(moves, a, corners, leads)
 
 
-def _thread(
-    channel: Channel, a: Arguments, corners: Sequence[Point], leads: Sequence[float]
-) -> Iterator[None]:
-    moves = Moves(channel)
+def _thread(moves: Moves, a: Arguments, corners: Sequence[Point], leads: Sequence[float]) -> None:
     kind = a.integer("VARI")
     if kind not in (1, 2, 3, 4):
         raise AlarmError("61002")
@@ -85,7 +83,7 @@ def _thread(
             moves.thread(*stroke.end, stroke.lead, stroke.start_angle_deg)
         else:
             moves.rapid(*stroke.end)
-        yield
+        moves.end_block()
 
 
 # ---- stock removal
@@ -130,7 +128,7 @@ class Work:
         return shifted(path, *self.pair(radius * first, radius * second))
 
     def perform(self, stroke: PlaneStroke, feed: float) -> None:
-        """Make a stroke."""
+        """Make a stroke, which is a block."""
         made = swapped_stroke(stroke) if self.across else stroke
         if made.kind is Kind.RAPID:
             self.moves.rapid(*made.end)
@@ -138,6 +136,7 @@ class Work:
             self.moves.feed(feed, *made.end)
         else:
             self.moves.arc(feed, made.end, made.center, made.kind is Kind.CCW)
+        self.moves.end_block()
 
 
 def onwards(contour: Contour) -> float:
@@ -145,9 +144,8 @@ def onwards(contour: Contour) -> float:
     return copysign(1.0, contour[-1].edge.end[0] - contour[0].edge.start[0])
 
 
-def stock_removal(channel: Channel, a: Arguments) -> Iterator[None]:
+def stock_removal(moves: Moves, a: Arguments) -> None:
     """CYCLE95: remove stock along a contour, lengthwise or across, outside or inside."""
-    moves = Moves(channel)
     require_tool(moves)
     number, rounding = a.integer("VARI") % 100, a.digit("VARI", 2)
     if not 1 <= number <= 12 or rounding > WITHOUT_ROUNDING:
@@ -155,21 +153,27 @@ def stock_removal(channel: Channel, a: Arguments) -> Iterator[None]:
     kind, side = divmod(number - 1, len(SIDES))
     across, towards = SIDES[side]
     work = Work(moves, across=across, towards=towards)
+    read(moves, a.text("NPP"), partial(_remove, work, a, kind, rounding))
+
+
+def _remove(work: Work, a: Arguments, kind: int, rounding: int, read_: Contour) -> None:
+    """Rough and finish along the contour that was read, and back to where the cycle began."""
+    moves = work.moves
     home = moves.point
-    contour = work.contour((yield from read(moves, a.text("NPP"))))
+    contour = work.contour(read_)
     if kind != FINISHING:
-        yield from _rough(work, a, contour, follows=rounding != WITHOUT_ROUNDING)
+        _rough(work, a, contour, follows=rounding != WITHOUT_ROUNDING)
     if kind != ROUGHING:
-        yield from _finish(work, a, contour)
+        _finish(work, a, contour)
     moves.rapid(*home)
-    yield
+    moves.end_block()
 
 
 def _lift(a: Arguments) -> float:
     return a["_VRT"] if a["_VRT"] > 0.0 else LIFT_MM
 
 
-def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> Iterator[None]:
+def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> None:
     """Cuts down to the allowances, from the open end of the contour."""
     if not a["MID"] > 0.0:
         raise AlarmError("61610")
@@ -182,23 +186,21 @@ def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> Iter
     relief = a["FF2"] or straight
     for cut in remove(path, Removal(a["MID"], _lift(a), work.towards, follows)):
         if cut.is_straight and a["DAM"] > 0.0:
-            yield from _in_steps(work, a, cut.stroke, straight)
+            _in_steps(work, a, cut.stroke, straight)
         else:
             work.perform(cut.stroke, relief if cut.is_relief else straight)
-            yield
 
 
-def _in_steps(work: Work, a: Arguments, stroke: PlaneStroke, feed: float) -> Iterator[None]:
+def _in_steps(work: Work, a: Arguments, stroke: PlaneStroke, feed: float) -> None:
     """A cut that stands still for DT after every DAM, so that the chip breaks."""
     at = work.moves.point
     begin = at[1] if work.across else at[0]
     way = stroke.end[0] - begin
     for part in steps_of(abs(way), a["DAM"]):
         work.perform(replace(stroke, end=(begin + copysign(part, way), stroke.end[1])), feed)
-        yield
         if part < abs(way):
             work.moves.dwell(a["DT"])
-            yield
+            work.moves.end_block()
 
 
 def steps_of(total: float, step: float) -> list[float]:
@@ -207,7 +209,7 @@ def steps_of(total: float, step: float) -> list[float]:
     return [step * k for k in range(1, count + 1)] + [total]
 
 
-def _finish(work: Work, a: Arguments, contour: Contour) -> Iterator[None]:
+def _finish(work: Work, a: Arguments, contour: Contour) -> None:
     """The contour once, in its own direction, at the finished size."""
     path = work.tool_path(contour, 0.0)
     feed, lift = feed_of(a, "FF3"), _lift(a)
@@ -222,7 +224,6 @@ def _finish(work: Work, a: Arguments, contour: Contour) -> Iterator[None]:
     ):
         # A rapid in the contour cuts as well: the cycle has feeds of its own.
         work.perform(stroke if stroke.end == before else _at_feed(stroke), feed)
-        yield
 
 
 def _at_feed(stroke: PlaneStroke) -> PlaneStroke:
@@ -239,34 +240,32 @@ CORNERS = (1, 2, 3, 4)
 GROOVES = (*range(1, 9), *range(11, 19))
 
 
-def undercut(channel: Channel, a: Arguments) -> Iterator[None]:
+def undercut(moves: Moves, a: Arguments) -> None:
     """CYCLE94, CYCLE96: an undercut of a form.
 
     Raises:
         AlarmError: 61000 without tool offset, 61608 for a tool point that cannot, 61609 for a form that does not
             exist, 61601 for a diameter that is not above zero; else PC0001.
     """
-    yield from ()  # a cycle is a generator
-    require_tool(Moves(channel))
+    require_tool(moves)
     if a.text("FORM").strip().upper() not in FORMS[a.cycle]:
         raise AlarmError("61609", text=a.text("FORM"))
-    edge = channel.memory.tools.edge
-    if int(edge.values[DP_TIP]) not in CORNERS:
+    edge = moves.memory.tools.edge
+    if edge is None or int(edge.values[DP_TIP]) not in CORNERS:
         raise AlarmError("61608")
     if not a["SPD" if a.cycle == "CYCLE94" else "DIATH"] > 0.0:
         raise AlarmError("61601")
     raise not_supported(a.cycle)
 
 
-def groove(channel: Channel, a: Arguments) -> Iterator[None]:
+def groove(moves: Moves, a: Arguments) -> None:
     """CYCLE93: a groove.
 
     Raises:
         AlarmError: 61000 without tool offset, 61002 for VARI, 61603 for a groove without width or depth; else
             PC0001.
     """
-    yield from ()  # a cycle is a generator
-    require_tool(Moves(channel))
+    require_tool(moves)
     if a.integer("VARI") not in GROOVES:
         raise AlarmError("61002")
     if not abs(a["WIDG"]) or not abs(a["DIAG"]):
