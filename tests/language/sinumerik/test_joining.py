@@ -77,7 +77,7 @@ def test_joined_blocks_do_what_they_do_one_by_one(body: list[str]) -> None:
     )
     files = {"SUBB.SPF": "R7=R7+1\nII=R7\nG1 Z=R7\nM17".replace("II=R7\n", "")}
     joined = outcome(run(program, files))
-    with patch.object(Joiner, "step", lambda _self: None):
+    with patch.object(Joiner, "step", lambda *_: None):
         one_by_one = outcome(run(program, files))
     assert joined == one_by_one
 

@@ -29,6 +29,7 @@ from polycnc.control.sinumerik.tools.memory import tools_of_setup
 from polycnc.control.sinumerik.variables import by_name, functions
 from polycnc.control.sinumerik.variables.registry import SystemVariables
 from polycnc.language.sinumerik import keywords
+from polycnc.language.sinumerik.emitter import nc_shapes
 from polycnc.language.sinumerik.executable import SinumerikProgram
 from polycnc.language.sinumerik.interface import LanguageMemory
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, ctrans
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Values
     from polycnc.control.sinumerik.block.plan import Plan
     from polycnc.control.sinumerik.variables.registry import SystemVariable
+    from polycnc.language.expressions.shapes import Shapes
     from polycnc.language.sinumerik.words import Block
     from polycnc.messages import Catalogue
     from polycnc.program import Program
@@ -77,6 +79,11 @@ class Sinumerik:
 
     def __init__(self) -> None:
         self.g_groups: Mapping[str, int] = {word: group.number for word, group in gcodes.GROUP_OF.items()}
+
+    @cached_property
+    def shapes(self) -> Shapes:
+        """Compiled code of the control's programs."""
+        return nc_shapes()
 
     @cached_property
     def catalogue(self) -> Catalogue:

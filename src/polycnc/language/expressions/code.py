@@ -207,6 +207,58 @@ def guarded(body: Body, caught: tuple[str, ...], handler: Body, always: Body = (
     return Code((ast.Try, body, (Code((ast.ExceptHandler, kinds, "error", handler)),), (), always))
 
 
+# ---- quotations ------------------------------------------------------------------------------------------
+
+#: A part that is put into a quotation; what is no code is a constant.
+Plain = float | str | bool | None
+
+
+def quoted(text: str, *parts: Code | Plain) -> Code:
+    """The code of Python as written, with parts where `{0}`, `{1}` … stand: `quoted("min({0}, 5)", value)`."""
+    return _filled(
+        _quotation(text), tuple(part if isinstance(part, Code) else constant(part) for part in parts)
+    )
+
+
+@lru_cache(maxsize=512)
+def _quotation(text: str) -> Code:
+    """A text as a tree, once for each text of our own sources; a hole is the tree of a set with a number."""
+    statement = ast.parse(text).body[0]
+    code = _tree(statement.value if isinstance(statement, ast.Expr) else statement)
+    assert isinstance(code, Code)
+    return code
+
+
+def _tree(part: object) -> object:
+    if isinstance(part, ast.expr_context | ast.operator | ast.unaryop | ast.cmpop | ast.boolop):
+        return type(part)
+    if isinstance(part, ast.Constant):
+        return Code((ast.Constant, part.value, repr(part.value)))
+    if isinstance(part, ast.AST):
+        return Code((type(part), *(_tree(getattr(part, field, None)) for field in part._fields)))
+    return tuple(map(_tree, part)) if isinstance(part, list) else part
+
+
+def _filled(code: Code, parts: tuple[Code, ...]) -> Code:
+    if code.kind is ast.Set:
+        return parts[_hole(code)]
+    return Code(_filled_field(field, parts) for field in code)
+
+
+def _hole(code: Code) -> int:
+    """The number in a hole."""
+    (number,) = code[1] if isinstance(code[1], tuple) else ()
+    place = number[1] if isinstance(number, Code) else None
+    assert isinstance(place, int)
+    return place
+
+
+def _filled_field(field: object, parts: tuple[Code, ...]) -> object:
+    if isinstance(field, Code):
+        return _filled(field, parts)
+    return tuple(_filled_field(each, parts) for each in field) if isinstance(field, tuple) else field
+
+
 # ---- trees -----------------------------------------------------------------------------------------------
 
 

@@ -43,6 +43,17 @@ class Function(NamedTuple):
     body: Body
 
 
+class Template(NamedTuple):
+    """A compiled shape: what functions of its blocks are made of."""
+
+    code: CodeType
+    names: dict[str, object]
+
+    def function(self, values: tuple[object, ...]) -> FunctionType:
+        """The function of a block with its values: numbers, then objects."""
+        return FunctionType(self.code, self.names, None, values)
+
+
 class Shapes:
     """The shapes of a control's programs.
 
@@ -55,22 +66,25 @@ class Shapes:
         self._names = names
         self._compiled = lru_cache(most)(compiled)
 
-    def function(self, function: Function, values: Iterable[object]) -> FunctionType:
-        """The function of a block, with its values: numbers, then objects.
+    def template(self, function: Function) -> Template:
+        """The shape of a function.
 
         Raises:
             TooDeepError: The code is nested too deeply.
         """
         try:
-            code = self._compiled(function)
+            return Template(self._compiled(function), self._names)
         except RecursionError:
             raise TooDeepError from None
-        return FunctionType(code, self._names, None, tuple(values))
+
+    def function(self, function: Function, values: Iterable[object]) -> FunctionType:
+        """The function of a block, with its values: numbers, then objects."""
+        return self.template(function).function(tuple(values))
 
     def single(self, function: Function, values: Iterable[object]) -> FunctionType:
         """A function whose shape does not come again."""
         try:
-            return FunctionType(compiled(function), self._names, None, tuple(values))
+            return Template(compiled(function), self._names).function(tuple(values))
         except (RecursionError, SyntaxError):  # more blocks in one another than Python takes
             raise TooDeepError from None
 

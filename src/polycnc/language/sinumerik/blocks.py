@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.language.expressions.code import Code, constant, quoted, sequence
 from polycnc.language.sinumerik import keywords, runtime
 from polycnc.language.sinumerik.emitter import Emitter, provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, syntax
@@ -46,7 +47,8 @@ class BlockCompiler(ExpressionReader):
     """
 
     def __init__(self, tokens: list[Token], program: SinumerikProgram, index: int, channel: Channel) -> None:
-        super().__init__(tokens, program.scope_of(channel), Emitter())
+        scope = program.scope_of(channel)
+        super().__init__(tokens, scope, Emitter(scope.control.shapes))
         self.program = program
         self.index = index
         self.channel = channel
@@ -112,7 +114,7 @@ class BlockCompiler(ExpressionReader):
             return
         place.write(self, self.assigned(place.type))
 
-    def assigned(self, type_: Type) -> str:
+    def assigned(self, type_: Type) -> Code:
         """Code of an expression that is stored as a type; INT results are checked for their range."""
         token = self.token
         value = self.expression()
@@ -120,39 +122,38 @@ class BlockCompiler(ExpressionReader):
         if type_ is Type.INT and value.type is Type.INT:
             first, again = self.emitter.twice(code)
             if first != again:
-                return f"({again} if {INT_MIN} <= {first} <= {INT_MAX} else checked_int({again}))"
+                written = "{1} if {2} <= {0} <= {3} else checked_int({1})"
+                return quoted(written, first, again, INT_MIN, INT_MAX)
         return code
 
     def fill(self, place: Place, token: Token) -> None:
         """SET and REP at run time (1.1.12)."""
         if token.text == "SET":
             values = [place.stored(self, value) for value in self.value_list(place.type)]
-            listed = f"({''.join(value + ', ' for value in values)})"
             if isinstance(place, SystemPlace):
-                self.emitter.line(self._system_fill(place, listed))
+                self._system_fill(place, sequence(values))
             else:
                 items, start = place.elements(self, token)
-                self.emitter.line(f"set_elements({items}, {start}, {listed})")
+                self.emitter.run(quoted("set_elements({0}, {1}, {2})", items, start, sequence(values)))
             return
         value, count = self.repeated(place.type)
         value = place.stored(self, value)
         if isinstance(place, SystemPlace):
             if count is None:
                 raise NcSyntaxError("12080", token.column, token.text)
-            self.emitter.line(self._system_fill(place, f"({value},) * {count}"))
+            self._system_fill(place, quoted("({0},) * {1}", value, count))
         else:
             items, start = place.elements(self, token)
-            self.emitter.line(f"repeat_element({items}, {start}, {value}, {count})")
+            self.emitter.run(quoted("repeat_element({0}, {1}, {2}, {3})", items, start, value, count))
 
-    @staticmethod
-    def _system_fill(place: SystemPlace, values: str) -> str:
-        write = f"lambda at, value: {place.code}.write(channel, at, value)"
-        return f"set_system_elements({write}, {place.indices}, {values})"
+    def _system_fill(self, place: SystemPlace, values: Code) -> None:
+        written = "set_system_elements(channel, {0}, {1}, {2})"
+        self.emitter.run(quoted(written, place.code, place.indices, values))
 
-    def value_list(self, type_: Type) -> list[str]:
+    def value_list(self, type_: Type) -> list[Code]:
         """Codes of `(v1,v2,,v4)`; a gap is the type's zero, for AXIS an error."""
-        zero = repr(runtime.default_value(type_, self.scope.memory)) if type_.is_number else "''"
-        codes: list[str] = []
+        zero = constant(runtime.default_value(type_, self.scope.memory) if type_.is_number else "")
+        codes: list[Code] = []
         self.expect("(")
         while True:
             if self.at(",") or self.at(")"):
@@ -166,7 +167,7 @@ class BlockCompiler(ExpressionReader):
         self.expect(")")
         return codes
 
-    def repeated(self, type_: Type) -> tuple[str, str | None]:
+    def repeated(self, type_: Type) -> tuple[Code, Code | None]:
         """Codes of `(value[,count])`."""
         self.expect("(")
         value = self.assigned(type_)
@@ -180,14 +181,21 @@ class BlockCompiler(ExpressionReader):
         """A predefined procedure; its name has been read."""
         rights.check_word(self, token)
         arguments = self.scope.arguments(self, token, letters)
-        self.emitter.knows_place = self.emitter.has_text = True
-        self.emitter.line(f"channel.control.procedure(channel, {token.text!r}, {arguments}, {token.column})")
+        self.call_procedure(token, arguments)
 
-    def text(self) -> str:
+    def call_procedure(self, token: Token, arguments: Code) -> None:
+        """Add the call of a procedure of the control; its block runs alone, as it may do anything."""
+        self.emitter.knows_place = True
+        self.emitter.can_join = False
+        column = self.emitter.object(token.column)
+        written = "channel.control.procedure(channel, {0}, {1}, {2})"
+        self.emitter.run(quoted(written, token.text, arguments, column))
+
+    def text(self) -> Code:
         """Code of a text: a string, a STRING variable or an expression."""
         return self.value(Type.STRING)
 
-    def integer(self) -> str:
+    def integer(self) -> Code:
         """Code of an INT."""
         return self.value(Type.INT)
 
@@ -238,7 +246,7 @@ def compile_block(program: SinumerikProgram, index: int, channel: Channel) -> Co
     compiler = BlockCompiler(tokens, program, index, channel)
     compiler.marked = prefix.skip >= 0 or bool(prefix.label)
     if prefix.skip >= 0:
-        compiler.emitter.line(f"if channel.control.skipped(channel, {prefix.skip}): return")
+        compiler.emitter.add(quoted("if channel.control.skipped(channel, {0}): return", prefix.skip))
     compiler.statement()
     return CompiledBlock(compiler.emitter.step(), compiler.emitter, compiler.words.columns)
 

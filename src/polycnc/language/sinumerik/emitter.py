@@ -1,14 +1,29 @@
-"""Steps from source text: blocks of equal shape share one compiled function and differ in numbers only.
+"""Steps from the code of blocks: blocks of equal shape share one compiled function and differ in values only.
 
-Compiled code has its numbers (`n0`, `n1`, …) and its objects (`o0`, …) as parameters. Python's compiler
-therefore runs once for each shape of block, not for each block.
+Compiled code has its numbers (`n0`, `n1`, …) and its objects (`o0`, …) as parameters. Python's compiler therefore runs
+once for each shape of block, not for each block.
 """
 
 from __future__ import annotations
 
-import re
-from typing import TYPE_CHECKING, Any, NamedTuple
+import ast
+from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.language.expressions.code import (
+    PASS,
+    Code,
+    Lifted,
+    assigned,
+    bound,
+    call,
+    guarded,
+    is_simple,
+    name,
+    quoted,
+    run,
+    when,
+)
+from polycnc.language.expressions.shapes import Function, Shapes, TooDeepError
 from polycnc.language.sinumerik import runtime
 from polycnc.language.sinumerik.errors import NcSyntaxError
 from polycnc.language.sinumerik.place import fail
@@ -16,15 +31,20 @@ from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from polycnc.channel.steps import Step
+    from polycnc.language.expressions.code import Body
+    from polycnc.language.expressions.shapes import Template
     from polycnc.language.sinumerik.lexer import Token
+    from polycnc.language.sinumerik.words import Block
 
-    Factory = Callable[[tuple[int | float, ...], tuple[Any, ...]], Step]
-
-_SIMPLE = re.compile(r"-?[\w.]+(?:\[\w+\])?")
-_factories: dict[str, Factory] = {}
+CHANNEL = name("channel")
+#: What a block may run into, and what becomes of it.
+CAUGHT = ("AlarmError", "ZeroDivisionError", "OverflowError")
+FAIL = (run(quoted("fail(error, channel)")),)
+_LOCALS, _MAIN = name("L"), name("M")
+_STOP = quoted("if channel.control.preprocessing_stop(channel): return")
+_FETCH_LOCALS, _FETCH_MAIN = quoted("L = channel.level.locals"), quoted("M = channel.stack[0].locals")
+_INDEX = quoted("channel.level.index")
 
 
 class Number(NamedTuple):
@@ -40,133 +60,174 @@ class Branch(NamedTuple):
 
     Attributes:
         kind: Its word: IF, ELSE, LOOP, …
-        condition: Code of what must hold for the program to go on at `target`; empty for always.
+        condition: Code of what must hold for the program to go on at `target`; None for always.
         target: Step, or -1 for a block that only marks a place.
     """
 
     kind: str
-    condition: str = ""
+    condition: Code | None = None
     target: int = -1
+
+
+class Execution(NamedTuple):
+    """The words of a block that the control gets, where they are the same whenever the block runs.
+
+    Attributes:
+        block: The block without its values.
+        values: Codes of the values, one for each word.
+    """
+
+    block: Block
+    values: tuple[Code, ...]
 
 
 class Emitter:
     """Collects the code of one block.
 
     Attributes:
-        lines: Statements.
+        shapes: Compiled code of the control.
+        statements: What the block does.
         numbers: Numbers of the block that the code has as parameters.
         objects: Objects that the code uses.
         branch: How the block goes on, if it belongs to a control structure.
+        execution: The words that one of the statements hands to the control.
         knows_place: The code holds step numbers or columns: it is good for this block only.
         can_join: The block is of a kind that may run in one function with others.
         acts: The control acts in it: the channel may have to look after something behind it.
-        has_text: A text stands in the code.
+        leaves: A statement ends the step before its end.
         temporaries: How many temporary names the code uses.
     """
 
-    def __init__(self) -> None:
-        self.lines: list[str] = []
+    def __init__(self, shapes: Shapes) -> None:
+        self.shapes = shapes
+        self.statements: list[Code] = []
         self.numbers: list[Number] = []
-        self.objects: list[Any] = []
+        self.objects: list[object] = []
         self.uses_locals = False
         self.uses_main = False
         self.uses_stop = False
         self.branch: Branch | None = None
+        self.execution: Execution | None = None
         self.knows_place = False
         self.can_join = False
         self.acts = False
-        self.has_text = False
+        self.leaves = False
         self.temporaries = 0
-        self.indent = 0
 
-    def line(self, text: str) -> None:
-        """Add a statement."""
-        self.lines.append("    " * self.indent + text)
+    def add(self, *statements: Code) -> None:
+        """Add statements."""
+        self.statements += statements
 
-    def number(self, value: float, token: Token) -> str:
-        """Name of a number that stands in the block."""
+    def run(self, expression: Code) -> None:
+        """Add an expression as a statement."""
+        self.statements.append(run(expression))
+
+    def number(self, value: float, token: Token) -> Lifted:
+        """A number that stands in the block, as a parameter of the code."""
         self.numbers.append(Number(value, token.start, token.end))
-        return f"n{len(self.numbers) - 1}"
+        return Lifted("n", len(self.numbers) - 1)
 
-    def as_real(self, code: str) -> str:
+    def as_real(self, code: Code) -> Code:
         """Code for a number as REAL; a number of the block becomes one."""
-        if code[0] == "n" and code[1:].isdecimal():
-            place = int(code[1:])
-            self.numbers[place] = self.numbers[place]._replace(value=float(self.numbers[place].value))
+        if isinstance(code, Lifted) and code.letter == "n":
+            number = self.numbers[code.place]
+            self.numbers[code.place] = number._replace(value=float(number.value))
             return code
-        return f"float({code})"
+        return call("float", code)
 
-    def object(self, value: Any) -> str:
-        """Name of an object that the code uses."""
+    def object(self, value: object) -> Lifted:
+        """An object that the code uses, as a parameter of it."""
         for i, known in enumerate(self.objects):
             if known is value:
-                return f"o{i}"
+                return Lifted("o", i)
         self.objects.append(value)
-        return f"o{len(self.objects) - 1}"
+        return Lifted("o", len(self.objects) - 1)
 
-    def local(self) -> str:
-        """Name of the list of local variables."""
+    def local(self) -> Code:
+        """The list of local variables."""
         self.uses_locals = True
-        return "L"
+        return _LOCALS
 
-    def main(self) -> str:
-        """Name of the list of the main program's variables."""
+    def main(self) -> Code:
+        """The list of the main program's variables."""
         self.uses_main = True
-        return "M"
+        return _MAIN
 
     @property
     def joins(self) -> bool:
         """Whether the block may run in one function with its neighbours."""
-        return self.can_join and not (self.has_text or self.uses_stop or self.uses_main)
+        return self.can_join and not (self.uses_stop or self.uses_main)
 
-    def twice(self, code: str) -> tuple[str, str]:
+    @property
+    def is_empty(self) -> bool:
+        """Whether the block does nothing."""
+        return not self.statements and self.branch is None and not self.uses_stop
+
+    @property
+    def plain(self) -> Block | None:
+        """The block, if all that it does is to hand its own numbers to the control in their order."""
+        execution = self.execution
+        if execution is None or len(self.statements) != 1 or self.branch is not None or self.uses_stop:
+            return None
+        places = [_own_number(value) for value in execution.values]
+        return execution.block if places == list(range(len(places))) else None
+
+    def twice(self, code: Code) -> tuple[Code, Code]:
         """Code to use first and code to use afterwards for a value that is needed twice."""
-        if _SIMPLE.fullmatch(code):
+        if is_simple(code):
             return code, code
-        name = f"t{self.temporaries}"
+        temporary = f"t{self.temporaries}"
         self.temporaries += 1
-        return f"({name} := {code})", name
+        return bound(temporary, code), name(temporary)
 
-    def source(self) -> str:
-        """The function that makes the step."""
-        head = ["def make(numbers, objects):"]
-        if self.numbers:
-            head.append(f"    {', '.join(f'n{i}' for i in range(len(self.numbers)))}, = numbers")
-        if self.objects:
-            head.append(f"    {', '.join(f'o{i}' for i in range(len(self.objects)))}, = objects")
-        head += ["    def step(channel):", "        try:"]
-        body = []
+    def body(self) -> Body:
+        """The statements of the step."""
+        body: list[Code] = []
         if self.uses_stop:
-            body.append("if channel.control.preprocessing_stop(channel): return")
+            body.append(_STOP)
         if self.uses_locals:
-            body.append("L = channel.level.locals")
+            body.append(_FETCH_LOCALS)
         if self.uses_main:
-            body.append("M = channel.stack[0].locals")
-        body += self.lines
+            body.append(_FETCH_MAIN)
+        body += self.statements
         if self.branch is not None and self.branch.target >= 0:
-            when = f"if {self.branch.condition}: " if self.branch.condition else ""
-            body.append(f"{when}channel.level.index = {self.branch.target}")
-        if not body:
-            body.append("pass")
-        head += ["            " + line for line in body]
-        head += ["        except (AlarmError, ZeroDivisionError, OverflowError) as error:"]
-        head += ["            fail(error, channel)", "    return step"]
-        return "\n".join(head)
+            goes_on = assigned(_INDEX, self.object(self.branch.target))
+            condition = self.branch.condition
+            body.append(goes_on if condition is None else when(condition, (goes_on,)))
+        return (guarded(tuple(body) or PASS, CAUGHT, FAIL),)
 
-    def factory(self) -> Factory:
-        """The function that makes steps of this shape out of numbers and objects."""
-        source = self.source()
-        factory = _factories.get(source)
-        if factory is None:
-            factory = _factories[source] = compiled(source, "make")
-        return factory
+    def template(self) -> Template:
+        """The shape of the block.
+
+        Raises:
+            NcSyntaxError: 12540 if the code is nested too deeply for Python: the block is too complex.
+        """
+        body = self.body()
+        try:
+            return self.shapes.template(Function(("channel",), len(self.numbers), len(self.objects), body))
+        except TooDeepError:
+            raise NcSyntaxError("12540", 1) from None
 
     def step(self) -> Step:
         """The step of the block."""
-        return self.factory()(tuple(number.value for number in self.numbers), tuple(self.objects))
+        template = self.template()
+        return template.function((*(number.value for number in self.numbers), *self.objects))
 
 
-_NAMESPACE: dict[str, Any] = {
+def _own_number(code: Code) -> int:
+    """Which of the block's numbers a value is, with or without a sign and as REAL or not; -1 for another value."""
+    if code.kind is ast.Call and code[1] == name("float"):
+        arguments = code[2]
+        assert isinstance(arguments, tuple)
+        code = arguments[0]
+    if code.kind is ast.UnaryOp and code[1] in (ast.USub, ast.UAdd):
+        operand = code[2]
+        assert isinstance(operand, Code)
+        code = operand
+    return code.place if isinstance(code, Lifted) and code.letter == "n" else -1
+
+
+_NAMES: dict[str, object] = {
     **runtime.NAMESPACE,
     "AlarmError": AlarmError,
     "WordAlarm": WordAlarm,
@@ -174,20 +235,11 @@ _NAMESPACE: dict[str, Any] = {
 }
 
 
-def compiled(source: str, name: str) -> Any:
-    """A function of generated code, which may use what `provide` has made known.
-
-    Raises:
-        NcSyntaxError: 12540 if the code is nested too deeply for Python: the block is too complex.
-    """
-    try:
-        code = compile(source, "<block>", "exec")
-    except (SyntaxError, RecursionError, MemoryError):
-        raise NcSyntaxError("12540", 1) from None
-    exec(code, _NAMESPACE)
-    return _NAMESPACE.pop(name)
+def nc_shapes() -> Shapes:
+    """A place for the compiled code of a control's programs."""
+    return Shapes(_NAMES)
 
 
-def provide(**names: Any) -> None:
+def provide(**names: object) -> None:
     """Make functions known to compiled code (modules that compile statements bring their own)."""
-    _NAMESPACE.update(names)
+    _NAMES.update(names)

@@ -190,7 +190,7 @@ class SinumerikProgram:
             return emitter if emitter.joins else None
 
         joiner = Joiner(source, self.structures, index, self._singles[index])
-        step = joiner.step()
+        step = joiner.step(self.control.shapes)
         if step is not None:
             self._joins[index] = joiner.exits
         return step
@@ -257,7 +257,9 @@ class SinumerikProgram:
             end = prefix_of(line).end
             if line[end : end + 5].strip().upper().startswith("PROC"):
                 try:
-                    return read_header(ExpressionReader(tokenize(line, end), scope, Emitter()), channel)
+                    return read_header(
+                        ExpressionReader(tokenize(line, end), scope, Emitter(scope.control.shapes)), channel
+                    )
                 except AlarmError as error:
                     # It is read where the program is called: the mistake is not in the block that calls.
                     error.line = error.line or self.line(index)

@@ -2,85 +2,86 @@
 
 from __future__ import annotations
 
+import ast
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.language.expressions.code import (
+    Code,
+    constant,
+    either,
+    negation,
+    quoted,
+    sequence,
+)
+from polycnc.language.expressions.cursor import Cursor
+from polycnc.language.expressions.operators import (
+    TIGHTEST,
+    Operator,
+    OperatorReader,
+    applied,
+    applied_to_one,
+)
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.errors import NcSyntaxError, syntax
+from polycnc.language.sinumerik.lexer import Token
 from polycnc.language.sinumerik.names.values import Type
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from polycnc.language.sinumerik.emitter import Emitter
-    from polycnc.language.sinumerik.lexer import Token
     from polycnc.language.sinumerik.names.scope import Scope
 
 
 class Expr(NamedTuple):
     """Code of a value and the type that the value has."""
 
-    code: str
+    code: Code
     type: Type
 
 
-#: Binary operators from the weakest to the strongest (1.7); one level works from left to right.
-LEVELS: tuple[frozenset[str], ...] = tuple(
-    frozenset(level.split())
-    for level in (
-        "== <> > < >= <=",
-        "<<",
-        "OR",
-        "XOR",
-        "AND",
-        "B_OR",
-        "B_XOR",
-        "B_AND",
-        "+ -",
-        "* / DIV MOD",
-        ":",
-    )
-)
-_LEVEL_OF = {operator: i for i, level in enumerate(LEVELS) for operator in level}
-_COMPARISONS = LEVELS[0]
-_BITS = {"B_AND": "&", "B_OR": "|", "B_XOR": "^"}
-_LOGIC = {"AND": "and", "OR": "or", "XOR": "!="}
-MAX_DEPTH = 100
+#: Families of operators, by the operands that they take.
+COMPARISON, TEXT, LOGIC, BITS, NUMBERS, FRAMES = "comparison", "text", "logic", "bits", "numbers", "frames"
+#: Operators between two operands (1.7); a greater power binds closer.
+OPERATORS = {
+    "==": Operator(1, ast.Eq, COMPARISON),
+    "<>": Operator(1, ast.NotEq, COMPARISON),
+    ">": Operator(1, ast.Gt, COMPARISON),
+    "<": Operator(1, ast.Lt, COMPARISON),
+    ">=": Operator(1, ast.GtE, COMPARISON),
+    "<=": Operator(1, ast.LtE, COMPARISON),
+    "<<": Operator(2, "joined", TEXT),
+    "OR": Operator(3, ast.Or, LOGIC),
+    "XOR": Operator(4, ast.NotEq, LOGIC),
+    "AND": Operator(5, ast.And, LOGIC),
+    "B_OR": Operator(6, ast.BitOr, BITS),
+    "B_XOR": Operator(7, ast.BitXor, BITS),
+    "B_AND": Operator(8, ast.BitAnd, BITS),
+    "+": Operator(9, ast.Add, NUMBERS),
+    "-": Operator(9, ast.Sub, NUMBERS),
+    "*": Operator(10, ast.Mult, NUMBERS),
+    "/": Operator(10, ast.Div, NUMBERS),
+    "DIV": Operator(10, "real_quotient", NUMBERS),
+    "MOD": Operator(10, "remainder", NUMBERS),
+    ":": Operator(11, ast.MatMult, FRAMES),
+}
+#: Operators before an operand; `<<` alone takes more than one operand with its signs.
+SIGNS = {
+    "-": Operator(TIGHTEST, ast.USub, NUMBERS),
+    "+": Operator(TIGHTEST, ast.UAdd, NUMBERS),
+    "<<": Operator(2, "str", TEXT),
+    "NOT": Operator(TIGHTEST, ast.Not, LOGIC),
+    "B_NOT": Operator(TIGHTEST, ast.Invert, BITS),
+}
+_WORDS = ("NOT", "B_NOT")
 
 
-class TokenReader:
-    """A place in the tokens of a block."""
+class ExpressionReader(Cursor[Token], OperatorReader[Token, Expr]):
+    """Reads expressions among the tokens of a block."""
 
-    def __init__(self, tokens: list[Token]) -> None:
-        self.tokens = tokens
-        self.place = 0
-
-    @property
-    def token(self) -> Token:
-        """The next token."""
-        return self.tokens[self.place]
-
-    def ahead(self, count: int = 1) -> Token:
-        """A token behind the next one."""
-        return self.tokens[min(self.place + count, len(self.tokens) - 1)]
-
-    def take(self) -> Token:
-        """Read the next token."""
-        token = self.tokens[self.place]
-        if token.kind != "end":
-            self.place += 1
-        return token
-
-    def at(self, text: str) -> bool:
-        """Whether the next token is this operator or keyword."""
-        token = self.tokens[self.place]
-        return token.text == text and token.kind in ("op", "name")
-
-    def accept(self, text: str) -> bool:
-        """Read the next token if it is this operator or keyword."""
-        if self.at(text):
-            self.place += 1
-            return True
-        return False
+    def __init__(self, tokens: list[Token], scope: Scope, emitter: Emitter) -> None:
+        Cursor.__init__(self, tokens)
+        OperatorReader.__init__(self)
+        self.scope = scope
+        self.emitter = emitter
 
     def expect(self, text: str) -> Token:
         """Read this operator or keyword; 12080 if something else stands there."""
@@ -93,129 +94,115 @@ class TokenReader:
         token = token or self.token
         return syntax(token.column, token.text)
 
-
-class ExpressionReader(TokenReader):
-    """Reads expressions."""
-
-    def __init__(self, tokens: list[Token], scope: Scope, emitter: Emitter) -> None:
-        super().__init__(tokens)
-        self.scope = scope
-        self.emitter = emitter
-        self.depth = 0
-
-    def expression(self, level: int = 0) -> Expr:
-        """Read an expression whose operators are of this level or stronger."""
-        self.depth += 1
-        if self.depth > MAX_DEPTH:
-            raise NcSyntaxError("12540", self.token.column, self.token.text)
-        left = self._unary()
-        while True:
-            token = self.token
-            own = _LEVEL_OF.get(token.text, -1) if token.kind in ("op", "name") else -1
-            if own < level:
-                break
-            self.take()
-            left = self._binary(token, left, self.expression(own + 1))
-        self.depth -= 1
-        return left
-
-    def operand(self) -> Expr:
-        """Read one operand; an operator behind it is left."""
-        return self._unary()
-
-    def value(self, type_: Type) -> str:
+    def value(self, type_: Type) -> Code:
         """Code of an expression converted to a type."""
         token = self.token
         return self.converted(self.expression(), type_, token)
 
-    def condition(self) -> str:
+    def condition(self) -> Code:
         """Code of an expression as BOOL."""
         return self.value(Type.BOOL)
 
     # ---- operators -----------------------------------------------------------------------------------------
 
-    def _unary(self) -> Expr:
+    def prefix_ahead(self) -> Operator | None:
+        """A sign, NOT (unless a variable has this name), B_NOT or `<<`."""
         token = self.token
-        if token.kind == "op" and token.text in ("-", "+"):
-            self.take()
-            operand = self._unary()
-            self._need_number(operand, token)
+        operator = SIGNS.get(token.text)
+        if operator is None or token.kind != ("name" if token.text in _WORDS else "op"):
+            return None
+        return None if token.text == "NOT" and self.scope.find("NOT") else operator
+
+    def infix_ahead(self) -> Operator | None:
+        """The operator that comes next."""
+        token = self.token
+        return OPERATORS.get(token.text) if token.kind in self.FIXED else None
+
+    def take_operator(self) -> Token:
+        """Read the operator."""
+        return self.take()
+
+    def too_deep(self) -> NcSyntaxError:
+        """12540: the block is too complex."""
+        return NcSyntaxError("12540", self.token.column, self.token.text)
+
+    def signed(self, operator: Operator, mark: Token, operand: Expr) -> Expr:
+        """The value of an operator before its operand."""
+        if operator.family == TEXT:
+            return Expr(self._text(operand, mark), Type.STRING)
+        if operator.family == NUMBERS:
+            self._need_number(operand, mark)
             type_ = Type.REAL if operand.type is Type.REAL else Type.INT
-            return Expr(f"({token.text}{operand.code})", type_)
-        if token.kind == "op" and token.text == "<<":
-            self.take()
-            return Expr(self._text(self.expression(2), token), Type.STRING)
-        if token.kind == "name" and token.text == "NOT" and not self.scope.find("NOT"):
-            self.take()
-            return Expr(f"(not {self.converted(self._unary(), Type.BOOL, token)})", Type.BOOL)
-        if token.kind == "name" and token.text == "B_NOT":
-            self.take()
-            return Expr(f"(~{self.converted(self._unary(), Type.INT, token)})", Type.INT)
-        return self._primary()
+            return Expr(applied_to_one(operator.gives, operand.code), type_)
+        type_ = Type.BOOL if operator.family == LOGIC else Type.INT
+        return Expr(applied_to_one(operator.gives, self.converted(operand, type_, mark)), type_)
 
-    def _binary(self, token: Token, left: Expr, right: Expr) -> Expr:
-        operator = token.text
-        if operator in _COMPARISONS:
-            return Expr(self._comparison(token, left, right), Type.BOOL)
-        if operator == "<<":
-            return Expr(f"joined({self._text(left, token)}, {self._text(right, token)})", Type.STRING)
-        if operator in _LOGIC:
-            a, b = self.converted(left, Type.BOOL, token), self.converted(right, Type.BOOL, token)
-            return Expr(f"({a} {_LOGIC[operator]} {b})", Type.BOOL)
-        if operator == ":":
+    def joined(self, operator: Operator, mark: Token, left: Expr, right: Expr) -> Expr:
+        """The value of an operator between two operands."""
+        family = operator.family
+        if family == COMPARISON:
+            return Expr(self._comparison(operator, mark, left, right), Type.BOOL)
+        if family == TEXT:
+            texts = self._text(left, mark), self._text(right, mark)
+            return Expr(applied(operator.gives, *texts), Type.STRING)
+        if family == FRAMES:
             if left.type is not Type.FRAME or right.type is not Type.FRAME:
-                raise NcSyntaxError("12150", token.column, operator)
-            return Expr(f"({left.code} @ {right.code})", Type.FRAME)
-        self._need_number(left, token)
-        self._need_number(right, token)
-        if operator in _BITS:
-            a, b = self.converted(left, Type.INT, token), self.converted(right, Type.INT, token)
-            return Expr(f"({a} {_BITS[operator]} {b})", Type.INT)
-        real = Type.REAL in (left.type, right.type)
-        if operator == "/":
-            return Expr(f"({left.code} / {right.code})", Type.REAL)
-        if operator == "MOD":
-            (a, a2), (b, b2) = (self.emitter.twice(self.converted(x, Type.INT, token)) for x in (left, right))
+                raise NcSyntaxError("12150", mark.column, mark.text)
+            return Expr(applied(operator.gives, left.code, right.code), Type.FRAME)
+        if family != LOGIC:
+            self._need_number(left, mark)
+            self._need_number(right, mark)
+        if family == NUMBERS:
+            return self._number(operator, mark, left, right)
+        type_ = Type.BOOL if family == LOGIC else Type.INT
+        values = self.converted(left, type_, mark), self.converted(right, type_, mark)
+        return Expr(applied(operator.gives, *values), type_)
+
+    def _number(self, operator: Operator, mark: Token, left: Expr, right: Expr) -> Expr:
+        """The value of an operator between two numbers."""
+        if mark.text == "MOD":
+            (a, a2), (b, b2) = (self.emitter.twice(self.converted(x, Type.INT, mark)) for x in (left, right))
             # Python's % has the sign of the divisor: the same where neither is negative.
-            positive = f"({a} >= 0) & ({b} > 0)"
-            return Expr(f"({a2} % {b2} if {positive} else remainder({a2}, {b2}))", Type.INT)
-        if operator == "DIV":
-            function = "real_quotient" if real else "int_quotient"
-            return Expr(f"{function}({left.code}, {right.code})", Type.REAL if real else Type.INT)
-        return Expr(f"({left.code} {operator} {right.code})", Type.REAL if real else Type.INT)
+            code = quoted("{2} % {3} if ({0} >= 0) & ({1} > 0) else remainder({2}, {3})", a, b, a2, b2)
+            return Expr(code, Type.INT)
+        type_ = Type.REAL if Type.REAL in (left.type, right.type) else Type.INT
+        gives = operator.gives
+        if mark.text == "DIV" and type_ is Type.INT:
+            gives = "int_quotient"
+        return Expr(applied(gives, left.code, right.code), Type.REAL if mark.text == "/" else type_)
 
-    def _comparison(self, token: Token, left: Expr, right: Expr) -> str:
-        operator = {"<>": "!="}.get(token.text, token.text)
+    def _comparison(self, operator: Operator, mark: Token, left: Expr, right: Expr) -> Code:
+        gives = operator.gives
         if not (left.type.is_number and right.type.is_number):
-            left, right = self._comparable(token, left, right)
-            if operator not in ("==", "!=") and not left.type.is_number:
-                raise NcSyntaxError("12150", token.column, token.text)
+            left, right = self._comparable(mark, left, right)
+            if gives not in (ast.Eq, ast.NotEq) and not left.type.is_number:
+                raise NcSyntaxError("12150", mark.column, mark.text)
         if Type.REAL not in (left.type, right.type):
-            return f"({left.code} {operator} {right.code})"
-        if operator == "==":
-            return f"near({left.code}, {right.code})"
-        if operator == "!=":
-            return f"(not near({left.code}, {right.code}))"
-        if self.scope.memory.exact_order and operator in "<>":
-            return f"({left.code} {operator} {right.code})"
+            return applied(gives, left.code, right.code)
+        if gives in (ast.Eq, ast.NotEq):
+            near = quoted("near({0}, {1})", left.code, right.code)
+            return near if gives is ast.Eq else negation(near)
+        strict = gives in (ast.Lt, ast.Gt)
+        if self.scope.memory.exact_order and strict:
+            return applied(gives, left.code, right.code)
         (a, a2), (b, b2) = self.emitter.twice(left.code), self.emitter.twice(right.code)
-        also = "and not" if operator in "<>" else "or"
         # Both values are worked out before they are compared, so the names of the second use are bound.
-        return f"({a} {operator} {b} {also} near({a2}, {b2}))"
+        near, ordered = quoted("near({0}, {1})", a2, b2), applied(gives, a, b)
+        return either(ast.And, ordered, negation(near)) if strict else either(ast.Or, ordered, near)
 
-    def _comparable(self, token: Token, left: Expr, right: Expr) -> tuple[Expr, Expr]:
+    def _comparable(self, mark: Token, left: Expr, right: Expr) -> tuple[Expr, Expr]:
         """Operands of a comparison that are not both numbers.
 
         A CHAR compares with a STRING as text, and by its code where the order counts.
         """
         if {left.type, right.type} == {Type.CHAR, Type.STRING}:
-            common = Type.STRING if token.text in ("==", "<>") else Type.CHAR
+            common = Type.STRING if mark.text in ("==", "<>") else Type.CHAR
             return (
-                Expr(self.converted(left, common, token), common),
-                Expr(self.converted(right, common, token), common),
+                Expr(self.converted(left, common, mark), common),
+                Expr(self.converted(right, common, mark), common),
             )
         if left.type is not right.type:
-            raise NcSyntaxError("12150", token.column, token.text)
+            raise NcSyntaxError("12150", mark.column, mark.text)
         return left, right
 
     def _need_number(self, operand: Expr, token: Token) -> None:
@@ -224,34 +211,36 @@ class ExpressionReader(TokenReader):
 
     # ---- conversions (1.8) ---------------------------------------------------------------------------------
 
-    def converted(self, value: Expr, type_: Type, token: Token) -> str:
+    def converted(self, value: Expr, type_: Type, token: Token) -> Code:
         """Code of a value as another type; alarm 12150 where the language has no conversion."""
         if value.type is type_:
             return value.code
-        convert = _CONVERSIONS.get((value.type, type_))
-        if convert is None:
+        if type_ is Type.REAL and value.type in (Type.INT, Type.BOOL, Type.CHAR):
+            return self.emitter.as_real(value.code)
+        conversion = _CONVERSIONS.get((value.type, type_))
+        if conversion is None:
             code = "12040" if type_ is Type.AXIS else "12150"
             raise NcSyntaxError(code, token.column, token.text)
-        return convert(self.emitter, value.code)
+        return quoted(conversion, value.code)
 
-    def _text(self, value: Expr, token: Token) -> str:
+    def _text(self, value: Expr, token: Token) -> Code:
         """Code of a value as an operand of `<<`."""
         if value.type is Type.REAL:
-            return f"real_text({value.code})"
+            return quoted("real_text({0})", value.code)
         if value.type is Type.INT:
-            return f"str({value.code})"
+            return quoted("str({0})", value.code)
         return self.converted(value, Type.STRING, token)
 
     # ---- operands ------------------------------------------------------------------------------------------
 
-    def _primary(self) -> Expr:
+    def operand(self) -> Expr:
+        """Read an operand without signs."""
         token = self.take()
         if token.kind == "number":
             type_ = Type.INT if isinstance(token.value, int) else Type.REAL
             return Expr(self.emitter.number(token.value, token), type_)
         if token.kind == "string":
-            self.emitter.has_text = True
-            return Expr(repr(token.text), Type.STRING)
+            return Expr(constant(token.text), Type.STRING)
         if token.kind == "op" and token.text == "(":
             inner = self.expression()
             self.expect(")")
@@ -267,7 +256,7 @@ class ExpressionReader(TokenReader):
         if self.scope.find(name) is not None or name[0] == "$" or name == "R":
             return self.scope.place(self, token).read(self)
         if name in ("TRUE", "FALSE"):
-            return Expr(name.capitalize(), Type.BOOL)
+            return Expr(constant(name == "TRUE"), Type.BOOL)
         if name in keywords.FUNCTIONS:
             return self._function(token, keywords.FUNCTIONS[name])
         if name in keywords.SAME_TYPE_FUNCTIONS:
@@ -278,24 +267,22 @@ class ExpressionReader(TokenReader):
 
     def _function(self, token: Token, function: keywords.Function) -> Expr:
         self.expect("(")
-        codes: list[str] = []
+        codes: list[Code] = []
         for letter in function.arguments:
             if codes and not self.at(")"):
                 self.expect(",")
             elif codes:
                 if letter.isupper():
                     raise NcSyntaxError("14020", token.column, token.text)
-                codes.append("None")
+                codes.append(constant(None))
                 continue
             codes.append(self._function_argument(letter))
         self.expect(")")
-        if "memory" in function.code:
-            code = function.code.replace("memory", self.emitter.object(self.scope.memory))
-        else:
-            code = function.code
-        return Expr(code.format(*codes), function.result)
+        if token.text == "AXNAME":
+            codes.append(self.emitter.object(self.scope.memory))
+        return Expr(quoted(function.code, *codes), function.result)
 
-    def _function_argument(self, letter: str) -> str:
+    def _function_argument(self, letter: str) -> Code:
         """Code of an argument; functions of REAL take any number as it is."""
         token = self.token
         value = self.expression()
@@ -314,11 +301,11 @@ class ExpressionReader(TokenReader):
         for value in values:
             self._need_number(value, token)
         real = any(value.type is Type.REAL for value in values)
-        return Expr(code.format(*(value.code for value in values)), Type.REAL if real else Type.INT)
+        return Expr(quoted(code, *(value.code for value in values)), Type.REAL if real else Type.INT)
 
     def _frame(self, token: Token) -> Expr:
         kind = keywords.FRAME_FUNCTIONS[token.text]
-        codes: list[str] = []
+        codes: list[Code] = []
         self.expect("(")
         while not self.at(")"):
             if codes:
@@ -328,32 +315,22 @@ class ExpressionReader(TokenReader):
                 self.expect(",")
                 codes.append(self.value(Type.REAL))
         self.expect(")")
-        return Expr(f"frame_of({kind!r}, ({''.join(code + ', ' for code in codes)}))", Type.FRAME)
+        return Expr(quoted("frame_of({0}, {1})", kind, sequence(codes)), Type.FRAME)
 
 
-def _code(template: str) -> Callable[[Emitter, str], str]:
-    return lambda _, code: template.format(code)
-
-
-def _to_real(emitter: Emitter, code: str) -> str:
-    return emitter.as_real(code)
-
-
-_CONVERSIONS: dict[tuple[Type, Type], Callable[[Emitter, str], str]] = {
-    (Type.INT, Type.REAL): _to_real,
-    (Type.BOOL, Type.REAL): _to_real,
-    (Type.CHAR, Type.REAL): _to_real,
-    (Type.REAL, Type.INT): _code("round_half_up({0})"),
-    (Type.BOOL, Type.INT): _code("int({0})"),
-    (Type.CHAR, Type.INT): _code("{0}"),
-    (Type.REAL, Type.BOOL): _code("({0} != 0)"),
-    (Type.INT, Type.BOOL): _code("({0} != 0)"),
-    (Type.CHAR, Type.BOOL): _code("({0} != 0)"),
-    (Type.STRING, Type.BOOL): _code("({0} != '')"),
-    (Type.REAL, Type.CHAR): _code("checked_char(round_half_up({0}))"),
-    (Type.INT, Type.CHAR): _code("checked_char({0})"),
-    (Type.BOOL, Type.CHAR): _code("int({0})"),
-    (Type.STRING, Type.CHAR): _code("char_of_text({0})"),
-    (Type.BOOL, Type.STRING): _code("('1' if {0} else '0')"),
-    (Type.CHAR, Type.STRING): _code("chr({0})"),
+#: How a value becomes one of another type; INT, BOOL and CHAR become REAL at once (`Emitter.as_real`).
+_CONVERSIONS = {
+    (Type.REAL, Type.INT): "round_half_up({0})",
+    (Type.BOOL, Type.INT): "int({0})",
+    (Type.CHAR, Type.INT): "{0}",
+    (Type.REAL, Type.BOOL): "({0} != 0)",
+    (Type.INT, Type.BOOL): "({0} != 0)",
+    (Type.CHAR, Type.BOOL): "({0} != 0)",
+    (Type.STRING, Type.BOOL): "({0} != '')",
+    (Type.REAL, Type.CHAR): "checked_char(round_half_up({0}))",
+    (Type.INT, Type.CHAR): "checked_char({0})",
+    (Type.BOOL, Type.CHAR): "int({0})",
+    (Type.STRING, Type.CHAR): "char_of_text({0})",
+    (Type.BOOL, Type.STRING): "('1' if {0} else '0')",
+    (Type.CHAR, Type.STRING): "chr({0})",
 }

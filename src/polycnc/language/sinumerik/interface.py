@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.language.expressions.shapes import Shapes
     from polycnc.language.sinumerik.names.initialisation import FirstValues
     from polycnc.language.sinumerik.names.values import Axis, Type
     from polycnc.language.sinumerik.names.variables import Variable
@@ -43,6 +44,10 @@ class LanguageControl(Protocol):
 
     g_groups: Mapping[str, int]
     """Group number of every G function in canonical spelling (`G1`, `CIP`, `KONT`)."""
+
+    @property
+    def shapes(self) -> Shapes:
+        """Compiled code of the control's programs."""
 
     def g_function(self, group: int, number: int) -> str:
         """The function of `G[group]=number`; alarm 12470 for none, or a group that is not modal."""

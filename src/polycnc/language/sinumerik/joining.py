@@ -12,27 +12,77 @@ block runs.
 
 from __future__ import annotations
 
-import re
-from typing import TYPE_CHECKING, Any
+import ast
+from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.language.sinumerik.emitter import compiled
-from polycnc.language.sinumerik.errors import NcSyntaxError
+from polycnc.language.expressions.code import (
+    BREAK,
+    PASS,
+    added,
+    assigned,
+    attribute,
+    binary,
+    call,
+    compared,
+    constant,
+    either,
+    given,
+    guarded,
+    listed,
+    moved,
+    name,
+    negation,
+    quoted,
+    repeated,
+    when,
+)
+from polycnc.language.expressions.joined import (
+    ATTENTION,
+    BURST,
+    CHANNEL,
+    CURRENT,
+    INDEX,
+    LEVEL,
+    MARK,
+    MAX_JOINED,
+    ROOM,
+    lifted_object,
+)
+from polycnc.language.expressions.joined import BLOCKS as ALL_BLOCKS
+from polycnc.language.expressions.shapes import Function, TooDeepError
+from polycnc.language.sinumerik.emitter import CAUGHT, FAIL
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.steps import Step
+    from polycnc.language.expressions.code import Code
+    from polycnc.language.expressions.shapes import Shapes
     from polycnc.language.sinumerik.emitter import Emitter
     from polycnc.language.sinumerik.statements.structures import Structure
 
     #: Gives the code of a block that has been run and may join, else None.
     Source = Callable[[int], Emitter | None]
 
-#: How many blocks are joined at the most.
-MAX_JOINED = 200
-#: Passes of a loop between two looks at the block limit and the size of the chunk.
-BURST = 256
-_NAME = re.compile(r"\b([not])(\d+)\b")
+#: Blocks that this function has run, and those that it may run.
+_BLOCKS, _ROOM = name("blocks"), name("room")
+_COUNT = added(_BLOCKS, 1)
+_PASSES = call("range", constant(BURST))
+_LEAVE = given()
+
+
+class _Stretch(NamedTuple):
+    """Code of blocks that follow each other.
+
+    Attributes:
+        body: Their statements.
+        end: The step at which they end.
+        closed: Whether the code never comes to this end: it was a loop, or it has left.
+    """
+
+    body: list[Code]
+    end: int
+    closed: bool
 
 
 class Joiner:
@@ -50,215 +100,176 @@ class Joiner:
         self._source = source
         self._structures = structures
         self._first = first
-        self._lines: list[str] = []
         self._numbers: list[int | float] = []
-        self._objects: list[Any] = []
-        self._temporaries = 0
+        self._objects: list[object] = [alone]
         self.count = 0
         self.exits: set[int] = set()
 
-    def step(self) -> Step | None:
+    def step(self, shapes: Shapes) -> Step | None:
         """The joined step; None if it would hold fewer than two blocks.
 
         `exits` then names the steps at which the function stops because they have not been run yet.
         """
-        self._add(0, "def run(channel):")
-        self._add(
-            1,
-            "room = channel.joined_below - channel.blocks",
-            "if room < 0:",
-            "    channel.attention = True",
-            "    return alone(channel)",
-            "level = channel.level",
-            "L = level.locals",
-            "blocks = -1",  # the channel counts the step itself
-            "try:",
-        )
-        end, looped = self._stretch(self._first, 2, None)
+        stretch = self._stretch(self._first, None)
         if self.count < 2:
             return None
-        if not looped:
-            self._leave(2, end)
-        self._add(
-            1, "except (AlarmError, ZeroDivisionError, OverflowError) as error:", "    fail(error, channel)"
+        body = stretch.body if stretch.closed else [*stretch.body, *_left(stretch.end)]
+        near_limit = (assigned(ATTENTION, constant(True)), quoted("return {0}(channel)", lifted_object(0)))
+        statements = (
+            assigned(_ROOM, binary(ast.Sub, ROOM, ALL_BLOCKS)),
+            when(compared(_ROOM, ast.Lt, constant(0)), near_limit),
+            assigned(LEVEL, attribute(CHANNEL, "level")),
+            assigned(name("L"), attribute(LEVEL, "locals")),
+            assigned(_BLOCKS, constant(-1)),  # the channel counts the step itself
+            guarded(tuple(body), CAUGHT, FAIL, (_CHANNEL_COUNTS,)),
         )
-        self._add(1, "finally:", "    channel.blocks += blocks")
-        head = ["def make(numbers, objects, alone):"]
-        head += [f"    {name}{i} = {values}[{i}]" for i, (name, values) in self._parameters()]
-        source = "\n".join([*head, *("    " + line for line in self._lines), "    return run"])
+        function = Function(("channel",), len(self._numbers), len(self._objects), statements)
         try:
-            run: Step = compiled(source, "make")(self._numbers, self._objects, self._alone)
-        except NcSyntaxError:
+            return shapes.single(function, (*self._numbers, *self._objects))
+        except TooDeepError:
             return None  # loops nested deeper than Python nests them
-        return run
-
-    def _parameters(self) -> list[tuple[int, tuple[str, str]]]:
-        numbers = [(i, ("n", "numbers")) for i in range(len(self._numbers))]
-        return numbers + [(i, ("o", "objects")) for i in range(len(self._objects))]
-
-    def _add(self, indent: int, *lines: str) -> None:
-        self._lines += ["    " * indent + line for line in lines]
-
-    def _leave(self, indent: int, index: int) -> None:
-        """Go back to the channel, which goes on at a step."""
-        self._add(indent, f"level.index = {index}", "return")
 
     # ---- stretches -----------------------------------------------------------------------------------------
 
-    def _stretch(self, index: int, indent: int, inside: Structure | None) -> tuple[int, bool]:
-        """Add blocks from a step on.
-
-        Returns:
-            The step at which the stretch ends, and whether the code never comes to this end (it was a loop, or it
-            has left). Inside a structure the stretch ends at its ELSE or at its last block.
-        """
-        start = len(self._lines)
+    def _stretch(self, index: int, inside: Structure | None) -> _Stretch:
+        """The blocks from a step on; inside a structure they end at its ELSE or at its last block."""
+        body: list[Code] = []
         while self.count < MAX_JOINED:
             structure = self._structures.get(index)
             if inside is not None and structure is inside:
-                return index, False
+                return _Stretch(body, index, closed=False)
             emitter = self._source(index)
             if emitter is None:
                 self.exits.add(index)
                 break
             if structure is None or structure.error:
-                self._block(index, indent, emitter)
+                body += self._block(index, emitter)
                 index += 1
             elif structure.start == index:
-                following = self._structure(structure, indent)
-                if following < 0:
+                joined = self._structure(structure)
+                if joined is None:
                     break
-                index = following
+                body += joined
+                index = structure.end + 1
             elif (
                 structure.end == index and emitter.branch is not None and emitter.branch.target == self._first
             ):
-                return self._outer_loop(index, start, indent, emitter), True
+                return _Stretch(self._outer_loop(index, body, emitter), index + 1, closed=True)
             elif emitter.branch is not None and emitter.branch.kind == "ENDIF":
-                self._add(indent, "blocks += 1")
+                body.append(_COUNT)
                 index += 1
             else:
                 break
         if inside is not None:
-            self._leave(indent, index)
-        return index, inside is not None
+            body += _left(index)
+        return _Stretch(body, index, closed=inside is not None)
 
-    def _block(self, index: int, indent: int, emitter: Emitter) -> None:
+    def _block(self, index: int, emitter: Emitter) -> list[Code]:
         """One block without its branch; a block in which something happens hands over if it must."""
         self.count += 1
-        jumps = any("return" in line for line in emitter.lines)
-        self._add(indent, f"level.current = {index}")
-        if emitter.acts or jumps:
-            self._add(indent, f"level.index = {index + 1}")
+        body = [assigned(CURRENT, constant(index))]
+        if emitter.acts or emitter.leaves:
+            body.append(assigned(INDEX, constant(index + 1)))
         if emitter.acts:
-            self._add(indent, "channel.mark = len(channel.toolpath.chunk.kind)")
-        self._add(indent, "blocks += 1")
-        for line in emitter.lines:
-            self._add(indent, self._renamed(line))
-        self._keep(emitter)
+            body.append(MARK)
+        body += [_COUNT, *self._statements(emitter)]
         if emitter.acts:
-            self._add(indent, f"if channel.attention or level.index != {index + 1}: return")
+            jumped = compared(INDEX, ast.NotEq, constant(index + 1))
+            body.append(when(either(ast.Or, ATTENTION, jumped), (_LEAVE,)))
+        return body
 
-    def _renamed(self, code: str) -> str:
-        """Code of one block with its numbers, objects and temporaries among those of all."""
-        offset = {"n": len(self._numbers), "o": len(self._objects), "t": self._temporaries}
-        return _NAME.sub(lambda match: f"{match[1]}{int(match[2]) + offset[match[1]]}", code)
+    def _statements(self, emitter: Emitter) -> list[Code]:
+        """The statements of a block, with its numbers and objects among those of all."""
+        offsets = self._keep(emitter)
+        return [moved(statement, offsets) for statement in emitter.statements]
 
-    def _keep(self, emitter: Emitter) -> None:
+    def _keep(self, emitter: Emitter) -> dict[str, int]:
+        """Take a block's numbers and objects; where they are now."""
+        offsets = {"n": len(self._numbers), "o": len(self._objects)}
         self._numbers += [number.value for number in emitter.numbers]
         self._objects += emitter.objects
-        self._temporaries += emitter.temporaries
+        return offsets
 
     # ---- structures ----------------------------------------------------------------------------------------
 
-    def _structure(self, structure: Structure, indent: int) -> int:
-        """Add a whole structure; the step behind it, or -1 if it cannot be joined."""
+    def _structure(self, structure: Structure) -> list[Code] | None:
+        """A whole structure; None if it cannot be joined."""
         if structure.end < 0:
-            return -1
-        if structure.kind == "IF":
-            return self._if(structure, indent)
-        return self._loop(structure, indent)
+            return None
+        return self._if(structure) if structure.kind == "IF" else self._loop(structure)
 
-    def _condition(self, emitter: Emitter) -> str:
+    def _condition(self, emitter: Emitter) -> Code:
         """Code of a block's branch condition; its numbers and objects are kept."""
         assert emitter.branch is not None
-        code = self._renamed(emitter.branch.condition)
-        self._keep(emitter)
-        return code
+        assert emitter.branch.condition is not None
+        return moved(emitter.branch.condition, self._keep(emitter))
 
-    def _if(self, structure: Structure, indent: int) -> int:
+    def _if(self, structure: Structure) -> list[Code]:
         emitter = self._source(structure.start)
         assert emitter is not None
         self.count += 1
-        self._add(indent, f"level.current = {structure.start}", "blocks += 1")
-        self._add(indent, f"if {self._condition(emitter)}:")
+        failed = self._condition(emitter)
+        other: tuple[Code, ...] = PASS
         if structure.otherwise <= structure.end:
-            self._branch(structure.otherwise, indent + 1, structure)
-        else:
-            self._add(indent + 1, "pass")
-        self._add(indent, "else:")
-        self._branch(structure.start + 1, indent + 1, structure)
-        return structure.end + 1
+            other = self._branch(structure.otherwise, structure)
+        then = self._branch(structure.start + 1, structure)
+        return [assigned(CURRENT, constant(structure.start)), _COUNT, when(failed, other, then)]
 
-    def _branch(self, index: int, indent: int, structure: Structure) -> None:
+    def _branch(self, index: int, structure: Structure) -> tuple[Code, ...]:
         """The blocks of one branch, and its ELSE or ENDIF."""
-        _, has_left = self._stretch(index, indent, structure)
-        if not has_left:
-            self._add(indent, "blocks += 1")
+        stretch = self._stretch(index, structure)
+        return tuple(stretch.body) if stretch.closed else (*stretch.body, _COUNT)
 
-    def _loop(self, structure: Structure, indent: int) -> int:
+    def _loop(self, structure: Structure) -> list[Code] | None:
         """LOOP, WHILE, FOR, REPEAT: after a burst of passes the channel has a look."""
         first, last = self._source(structure.start), self._source(structure.end)
         if first is None or last is None:
-            return -1
+            return None
         self.count += 1
-        again = structure.start if structure.kind == "WHILE" else structure.start + 1
+        head = [assigned(CURRENT, constant(structure.start)), _COUNT]
+        passes, again = _PASSES, structure.start + 1
+        before: list[Code] = []
+        begin: list[Code] = []
+        over = _left(again)
         if structure.kind == "FOR":
-            self._add(indent, f"level.current = {structure.start}", "blocks += 1")
-            self._add(indent, *(self._renamed(line) for line in first.lines))
-            self._add(indent, f"if {self._condition(first)}: burst = ()")
-            self._add(indent, f"else: burst = range({BURST})")
+            passes = name("burst")
+            before = [*head, *self._statements(first)]
+            none, some = (assigned(passes, listed(())),), (assigned(passes, _PASSES),)
+            before.append(when(self._condition(first), none, some))
+            over = (when(passes, over),)
+        elif structure.kind == "WHILE":
+            again = structure.start
+            over = _left(again)
+            begin = [*head, when(self._condition(first), (BREAK,))]
         else:
-            if structure.kind != "WHILE":
-                self._add(indent, "blocks += 1")
-            self._add(indent, f"burst = range({BURST})")
-        self._passes(indent, "burst", again)
-        if structure.kind == "WHILE":
-            self._add(indent + 1, f"level.current = {structure.start}", "blocks += 1")
-            self._add(indent + 1, f"if {self._condition(first)}: break")
-        self._stretch(structure.start + 1, indent + 1, structure)
-        self._close(structure, indent + 1, last)
-        self._add(indent, "else:")
-        if structure.kind == "FOR":
-            self._add(indent + 1, "if burst:")
-            self._leave(indent + 2, again)
-        else:
-            self._leave(indent + 1, again)
-        return structure.end + 1
+            before = [_COUNT]
+        body = [*begin, *self._stretch(structure.start + 1, structure).body, *self._close(structure, last)]
+        return [*before, _repeated(passes, again, body, over)]
 
-    def _passes(self, indent: int, passes: str, again: int) -> None:
-        """The head of a loop, which the channel takes over at step `again` when the block limit is near."""
-        self._add(indent, f"for _ in {passes}:")
-        self._add(indent + 1, "if blocks > room:")
-        self._leave(indent + 2, again)
-
-    def _close(self, structure: Structure, indent: int, last: Emitter) -> None:
+    def _close(self, structure: Structure, last: Emitter) -> list[Code]:
         """The end of a loop: what its last block does, and whether there is another pass."""
-        self._add(indent, f"level.current = {structure.end}", "blocks += 1")
-        for line in last.lines:
-            self._add(indent, self._renamed(line))
+        body = [assigned(CURRENT, constant(structure.end)), _COUNT, *self._statements(last)]
         assert last.branch is not None
-        if last.branch.condition:
-            self._add(indent, f"if not ({self._condition(last)}): break")
+        if last.branch.condition is not None:
+            body.append(when(negation(self._condition(last)), (BREAK,)))
+        return body
 
-    def _outer_loop(self, index: int, start: int, indent: int, last: Emitter) -> int:
+    def _outer_loop(self, index: int, body: list[Code], last: Emitter) -> list[Code]:
         """The blocks so far are the body of a loop that began before them: put them into one."""
-        body = ["    " + line for line in self._lines[start:]]
-        del self._lines[start:]
-        self._passes(indent, f"range({BURST})", self._first)
-        self._lines += body
-        self._close(self._structures[index], indent + 1, last)
+        body = [*body, *self._close(self._structures[index], last)]
         self.count += 1
-        self._add(indent, "else:")
-        self._leave(indent + 1, self._first)
-        self._leave(indent, index + 1)
-        return index + 1
+        return [_repeated(_PASSES, self._first, body, _left(self._first)), *_left(index + 1)]
+
+
+def _repeated(passes: Code, again: int, body: list[Code], over: tuple[Code, ...]) -> Code:
+    """A loop, which the channel takes over at step `again` when the block limit is near; `over`: behind a burst."""
+    handed_over = when(compared(_BLOCKS, ast.Gt, _ROOM), _left(again))
+    return repeated(passes, (handed_over, *body), over)
+
+
+def _left(index: int) -> tuple[Code, ...]:
+    """Go back to the channel, which goes on at a step."""
+    return assigned(INDEX, constant(index)), _LEAVE
+
+
+_CHANNEL_COUNTS = quoted("channel.blocks += blocks")

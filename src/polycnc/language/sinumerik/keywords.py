@@ -60,7 +60,7 @@ ROUND     (R)    REAL   float(floor({0} + 0.5))
 ROUNDUP   (R)    REAL   float(ceil({0}))
 BOUND     (RRR)  REAL   bound({0}, {1}, {2})
 AXSTRING  (A)    STRING {0}.name
-AXNAME    (S)    AXIS   axis_named(memory, {0})
+AXNAME    (S)    AXIS   axis_named({1}, {0})
 NUMBER    (S)    REAL   number_in({0})
 ISNUMBER  (S)    BOOL   is_number({0})
 TOUPPER   (S)    STRING {0}.upper()

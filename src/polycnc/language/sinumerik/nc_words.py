@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.language.expressions.code import Code, assigned, constant, quoted, sequence
+from polycnc.language.expressions.operators import TIGHTEST
 from polycnc.language.sinumerik import keywords
-from polycnc.language.sinumerik.emitter import provide
+from polycnc.language.sinumerik.emitter import Execution, provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
 from polycnc.language.sinumerik.names import rights
 from polycnc.language.sinumerik.names.values import Axis, Type
@@ -15,8 +17,11 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from polycnc.language.sinumerik.blocks import BlockCompiler
     from polycnc.language.sinumerik.lexer import Token
+    from polycnc.language.sinumerik.words import Block
 
 #: Addresses whose numbers stay INT where they are written so; all others become REAL.
+_NONE = constant(None)
+_SINGLE_BLOCK = quoted("channel.level.data['single_block']")
 _WHOLE_NUMBERS = frozenset({"M", "H", "T", "D", "DL"})
 
 
@@ -25,10 +30,11 @@ class WordReader:
 
     def __init__(self, compiler: BlockCompiler) -> None:
         self.compiler = compiler
-        self.codes: list[str] = []
+        self.functions: list[str] = []
+        self.codes: list[Code] = []
         self.shapes: list[WordShape] = []
-        self.shape_codes: list[str] = []
-        self.values: list[str] = []
+        self.shape_codes: list[Code] = []
+        self.values: list[Code] = []
         self.word_columns: list[int] = []
         self.groups: dict[int, str] = {}
         self.dynamic = False
@@ -57,17 +63,17 @@ class WordReader:
         emitter.acts = True
         execute = emitter.object(self.compiler.scope.execute)
         if self.dynamic:
-            codes = "".join(code + ", " for code in self.codes)
-            shapes = "".join(code + ", " for code in self.shape_codes)
-            block = f"block_of(({codes}), ({shapes}))"
+            code = quoted("block_of({0}, {1})", sequence(self.codes), sequence(self.shape_codes))
         else:
-            block = emitter.object(self._static_block())
-        values = "".join(value + ", " for value in self.values)
-        emitter.line(f"if {execute}(channel, {block}, ({values})): call_modal(channel)")
+            block = self._static_block()
+            emitter.execution = Execution(block, tuple(self.values))
+            code = emitter.object(block)
+        written = "if {0}(channel, {1}, {2}): call_modal(channel)"
+        emitter.add(quoted(written, execute, code, sequence(self.values)))
 
-    def _static_block(self) -> object:
+    def _static_block(self) -> Block:
         try:
-            return block_of(tuple(code[1:-1] for code in self.codes), tuple(self.shapes))
+            return block_of(tuple(self.functions), tuple(self.shapes))
         except WordAlarm as alarm:
             alarm.column = self.word_columns[alarm.position]
             raise
@@ -80,7 +86,8 @@ class WordReader:
         if group in self.groups:
             raise NcSyntaxError("12060", token.column, token.text)
         self.groups[group] = code
-        self.codes.append(repr(code))
+        self.functions.append(code)
+        self.codes.append(constant(code))
 
     def _indirect_g(self) -> None:
         """`G[group]=number` (1.2.1): no calculation on the right-hand side."""
@@ -90,8 +97,8 @@ class WordReader:
         compiler.expect("]")
         compiler.expect("=")
         token = compiler.token
-        number = compiler.converted(compiler.operand(), Type.INT, token)
-        self.codes.append(f"channel.control.g_function({group}, {number})")
+        number = compiler.converted(compiler.expression(TIGHTEST), Type.INT, token)
+        self.codes.append(quoted("channel.control.g_function({0}, {1})", group, number))
         self.dynamic = True
 
     # ---- words ---------------------------------------------------------------------------------------------
@@ -101,9 +108,9 @@ class WordReader:
         letter, scope = token.letter, self.compiler.scope
         if self._assigned():
             if token.text in scope.memory.axes or token.text in keywords.ADDRESSES:
-                self._word(token, token.text, None, "None")
+                self._word(token, token.text, None, _NONE)
             elif letter in "SMTDHF" and isinstance(token.value, int):
-                self._word(token, letter, token.value, str(token.value))
+                self._word(token, letter, token.value, constant(token.value))
             else:
                 raise unknown(token.column, token.text)
         elif letter == "G":
@@ -112,7 +119,7 @@ class WordReader:
                 raise NcSyntaxError("12470", token.column, token.text)
             self._g_function(token, code)
         elif letter in scope.memory.axes or letter in keywords.ADDRESSES:
-            self._add(token, letter, None, "None", "", self._literal(letter, token))
+            self._add(token, letter, None, _NONE, "", self._literal(letter, token))
         else:
             raise self.compiler.error(token)
 
@@ -136,7 +143,7 @@ class WordReader:
             self._addressed(token)
         elif name in keywords.INDEXED_WORDS:
             index, code = self._index()
-            self._add(token, name, index, code, "", "True")
+            self._add(token, name, index, code, "", constant(True))
         else:
             self._other(token)
 
@@ -146,18 +153,15 @@ class WordReader:
         compiler.expect("[")
         axis = compiler.value(Type.AXIS)
         compiler.expect("]")
-        compiler.emitter.knows_place = compiler.emitter.has_text = True
-        compiler.emitter.line(
-            f"channel.control.procedure(channel, {token.text!r}, ({axis},), {token.column})"
-        )
+        compiler.call_procedure(token, sequence([axis]))
 
     def _own_block(self, token: Token) -> None:
         """A word that stands alone; 12120 if the block has others."""
         compiler, name = self.compiler, token.text
         is_first = token is compiler.tokens[0]
         if name in keywords.SINGLE_BLOCK:
-            compiler.emitter.has_text = True
-            compiler.emitter.line(f"channel.level.data['single_block'] = {name == 'SBLON'}")
+            compiler.emitter.can_join = False
+            compiler.emitter.add(assigned(_SINGLE_BLOCK, constant(name == "SBLON")))
         else:
             compiler.procedure(token, keywords.PROCEDURES[name])
         if not is_first or compiler.token.kind != "end":
@@ -166,10 +170,10 @@ class WordReader:
     def _other(self, token: Token) -> None:
         """Words that are handled by the language itself, or that do not exist."""
         compiler, name = self.compiler, token.text
-        compiler.emitter.has_text = True
+        compiler.emitter.can_join = False
         if name in keywords.FILE_PROCEDURES:
             arguments = compiler.scope.arguments(compiler, token, keywords.FILE_PROCEDURES[name])
-            compiler.emitter.line(f"file_procedure(channel, {name!r}, {arguments})")
+            compiler.emitter.run(quoted("file_procedure(channel, {0}, {1})", name, arguments))
         elif name == "SETINT":
             self._set_interrupt(token)
         elif name in keywords.OPERATORS or name in keywords.PARTS or name in keywords.STRUCTURE:
@@ -183,7 +187,7 @@ class WordReader:
         compiler.expect("(")
         number = compiler.integer()
         compiler.expect(")")
-        priority, name, flags = "1", "''", {"LIFTFAST": False, "BLSYNC": False}
+        priority, name, flags = constant(1), "", {"LIFTFAST": False, "BLSYNC": False}
         while compiler.token.kind != "end":
             part = compiler.take()
             if part.text == "PRIO":
@@ -191,13 +195,12 @@ class WordReader:
                 priority = compiler.integer()
             elif part.text in flags:
                 flags[part.text] = True
-            elif part.kind in ("name", "word") and name == "''":
-                name = repr(part.text)
+            elif part.kind in ("name", "word") and not name:
+                name = part.text
             else:
                 raise compiler.error(part)
-        compiler.emitter.knows_place = True
-        arguments = f"({number}, {priority}, {name}, {flags['LIFTFAST']}, {flags['BLSYNC']})"
-        compiler.emitter.line(f"channel.control.procedure(channel, 'SETINT', {arguments}, {token.column})")
+        constants = [constant(name), *map(constant, flags.values())]
+        compiler.call_procedure(token, sequence([number, priority, *constants]))
 
     def _assigned(self) -> bool:
         return self.compiler.at("=")
@@ -206,49 +209,49 @@ class WordReader:
         """An address written as a name: with index, with `=` and any value, or with a number behind it."""
         compiler, name = self.compiler, token.text
         index: object = None
-        code = "None"
+        code = _NONE
         if compiler.at("["):
             index, code = self._index()
         elif name == "PO" and compiler.accept("("):  # the denominator, in the newer spelling
             listed = self._list()
             compiler.expect(")")
-            self._add(token, name, "", "''", "", listed)
+            self._add(token, name, "", constant(""), "", listed)
             return
         if self._assigned():
             self._word(token, name, index, code)
             return
         if len(name) > 1 or index is not None:
             raise compiler.error()
-        self._add(token, name, None, "None", "", self._number(name))
+        self._add(token, name, None, _NONE, "", self._number(name))
 
-    def _index(self) -> tuple[object, str]:
+    def _index(self) -> tuple[object, Code]:
         """The index in brackets: its value where it is known now, and its code."""
         compiler = self.compiler
         compiler.expect("[")
         if compiler.accept("]"):
-            return "", "''"
+            return "", constant("")
         token = compiler.token
         axis = compiler.scope.memory.axes.get(token.text)
         if axis is not None and compiler.ahead().text == "]" and compiler.scope.find(token.text) is None:
             compiler.take()
             compiler.expect("]")
-            return axis, f"Axis({axis.name!r})"
+            return axis, compiler.emitter.object(axis)
         if token.kind == "number" and isinstance(token.value, int) and compiler.ahead().text == "]":
             compiler.take()
             compiler.expect("]")
-            return token.value, str(token.value)
+            return token.value, constant(token.value)
         codes = [self._index_part()]
         while compiler.accept(","):
             codes.append(self._index_part())
         compiler.expect("]")
         self.dynamic = True
-        return _RUNNING, codes[0] if len(codes) == 1 else f"({', '.join(codes)})"
+        return _RUNNING, codes[0] if len(codes) == 1 else sequence(codes)
 
-    def _index_part(self) -> str:
+    def _index_part(self) -> Code:
         value = self.compiler.expression()
-        return f"round_half_up({value.code})" if value.type is Type.REAL else value.code
+        return quoted("round_half_up({0})", value.code) if value.type is Type.REAL else value.code
 
-    def _word(self, token: Token, address: str, index: object, index_code: str) -> None:
+    def _word(self, token: Token, address: str, index: object, index_code: Code) -> None:
         """A word whose value stands behind `=`."""
         compiler = self.compiler
         compiler.expect("=")
@@ -285,13 +288,13 @@ class WordReader:
             raise compiler.error(token)
         modifier = compiler.take().text
         compiler.expect("(")
-        code = self._list()
+        parts = self._values()
         compiler.expect(")")
         if compiler.accept(","):
-            code = f"({code[1:-1]}{self._list()[1:]}"
-        self._add(token, "PO", axis, f"Axis({axis.name!r})", modifier, code)
+            parts += self._values()
+        self._add(token, "PO", axis, compiler.emitter.object(axis), modifier, sequence(parts))
 
-    def _general_position(self, token: Token, address: str, index: object, index_code: str) -> None:
+    def _general_position(self, token: Token, address: str, index: object, index_code: Code) -> None:
         """`=GP(position,attribute)`: the attribute is a keyword or a number (1.2.2)."""
         compiler = self.compiler
         compiler.expect("(")
@@ -305,36 +308,39 @@ class WordReader:
             compiler.expect(")")
             self._add(token, address, index, index_code, modifier, code)
             return
-        attribute = f"position_attribute({compiler.integer()}, {address!r})"
+        attribute = quoted("position_attribute({0}, {1})", compiler.integer(), address)
         compiler.expect(")")
         self.dynamic = True
         self._add(token, address, index, index_code, "", code, attribute)
 
-    def _value(self, address: str) -> str:
+    def _value(self, address: str) -> Code:
         """Code of a word's value: numbers as REAL but for whole-number addresses, else as they are."""
         value = self.compiler.expression()
         if value.type is Type.CHAR:
-            return f"chr({value.code})"
+            return quoted("chr({0})", value.code)
         if value.type is Type.INT and address not in _WHOLE_NUMBERS:
             return self.compiler.emitter.as_real(value.code)
         return value.code
 
-    def _list(self) -> str:
+    def _list(self) -> Code:
+        return sequence(self._values())
+
+    def _values(self) -> list[Code]:
         compiler = self.compiler
-        codes = []
+        codes: list[Code] = []
         while not compiler.at(")"):
             value = compiler.expression()
             codes.append(value.code)
             if not compiler.accept(","):
                 break
-        return f"({''.join(code + ', ' for code in codes)})"
+        return codes
 
-    def _literal(self, address: str, token: Token) -> str:
+    def _literal(self, address: str, token: Token) -> Code:
         """The number of a word such as `X10`."""
         value = token.value if address in _WHOLE_NUMBERS else float(token.value)
         return self.compiler.emitter.number(value, token._replace(start=token.start + 1))
 
-    def _number(self, address: str) -> str:
+    def _number(self, address: str) -> Code:
         """The number behind an address that stands apart from it or has a sign."""
         compiler = self.compiler
         first = compiler.take()
@@ -353,24 +359,24 @@ class WordReader:
         token: Token,
         address: str,
         index: object,
-        index_code: str,
+        index_code: Code,
         modifier: str,
-        value: str,
-        attribute: str = "",
+        value: Code,
+        attribute: Code | None = None,
     ) -> None:
         if address == "AX":
             if isinstance(index, Axis):
-                address, index, index_code = index.name, None, "None"
+                address, index, index_code = index.name, None, _NONE
             elif index is None:
                 raise self.compiler.error()
         shape = WordShape(address, index, modifier)
         self.shapes.append(shape)
+        last = constant(modifier) if attribute is None else attribute
         if address == "AX":
-            self.shape_codes.append(
-                f"WordShape(axis_name({index_code}), None, {attribute or repr(modifier)})"
-            )
+            code = quoted("WordShape(axis_name({0}), None, {1})", index_code, last)
         else:
-            self.shape_codes.append(f"WordShape({address!r}, {index_code}, {attribute or repr(modifier)})")
+            code = quoted("WordShape({0}, {1}, {2})", address, index_code, last)
+        self.shape_codes.append(code)
         self.values.append(value)
         self.word_columns.append(token.column)
 

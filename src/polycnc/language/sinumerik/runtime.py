@@ -42,7 +42,8 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from polycnc.language.sinumerik.interface import LanguageMemory
+    from polycnc.channel.channel import Channel
+    from polycnc.language.sinumerik.interface import LanguageMemory, SystemVariable
     from polycnc.language.sinumerik.names.frame import NcFrame
 
 #: Comparisons take values as equal that differ by no more than this part of the greater one (1.5).
@@ -234,14 +235,14 @@ def repeat_element(items: list[Any], start: int, value: Any, count: int | None =
 
 
 def set_system_elements(
-    write: Callable[[tuple[Any, ...], Any], None], indices: tuple[Any, ...], values: Sequence[Any]
+    channel: Channel, variable: SystemVariable, indices: tuple[Any, ...], values: Sequence[Any]
 ) -> None:
     """SET and REP on a system variable: the last number of the indices advances, no axis (1.1.12)."""
     place = max((i for i, index in enumerate(indices) if isinstance(index, int)), default=-1)
     if place < 0:
         raise AlarmError("12430", text="SET")
     for step, value in enumerate(values):
-        write((*indices[:place], indices[place] + step, *indices[place + 1 :]), value)
+        variable.write(channel, (*indices[:place], indices[place] + step, *indices[place + 1 :]), value)
 
 
 def frame_of(kind: str, pairs: tuple[Any, ...]) -> NcFrame:

@@ -8,11 +8,12 @@ code. A shape is learnt only if the compiler itself lifted exactly the numbers t
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from polycnc.channel.steps import Step
-    from polycnc.language.sinumerik.emitter import Emitter, Factory
+    from polycnc.language.expressions.shapes import Template
+    from polycnc.language.sinumerik.emitter import Emitter
 
 #: An axis or path address with its number, or a number by itself; never a part of a name, R, G, M or `X1=`.
 _NUMBER = re.compile(
@@ -24,8 +25,8 @@ _KEEP = 4096
 
 
 class _Shape(NamedTuple):
-    factory: Factory
-    objects: tuple[Any, ...]
+    template: Template
+    objects: tuple[object, ...]
     #: Types of the numbers in order, None if all are REAL.
     kinds: tuple[type[int | float], ...] | None
 
@@ -47,9 +48,9 @@ class Shapes:
             return None
         numbers = [a or b for a, b in zip(parts[2::4], bare, strict=True)] if any(bare) else parts[2::4]
         if shape.kinds is None:
-            return shape.factory(tuple(map(float, numbers)), shape.objects)
+            return shape.template.function((*map(float, numbers), *shape.objects))
         values = [kind(number) for kind, number in zip(shape.kinds, numbers, strict=True)]
-        return shape.factory(tuple(values), shape.objects)
+        return shape.template.function((*values, *shape.objects))
 
     def learn(self, line: str, emitter: Emitter) -> None:
         """Remember the shape of a block that was compiled, if its numbers are those of the pattern."""
@@ -65,7 +66,8 @@ class Shapes:
             return
         kinds = tuple(type(number.value) for number in emitter.numbers)
         all_real = all(kind is float for kind in kinds)
-        self._known[key] = _Shape(emitter.factory(), tuple(emitter.objects), None if all_real else kinds)
+        template = emitter.template()
+        self._known[key] = _Shape(template, tuple(emitter.objects), None if all_real else kinds)
 
 
 def _start(line: str) -> int:

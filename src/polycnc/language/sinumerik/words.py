@@ -9,6 +9,7 @@ control works out once how such a block acts in some modal state and keeps that 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from weakref import WeakValueDictionary
 
 from polycnc.messages import AlarmError
 
@@ -38,7 +39,7 @@ class Block:
         positions: Addresses without index, with the place of their (first) value.
     """
 
-    __slots__ = ("codes", "positions", "words")
+    __slots__ = ("__weakref__", "codes", "positions", "words")
 
     def __init__(self, codes: tuple[str, ...], words: tuple[WordShape, ...]) -> None:
         self.codes = codes
@@ -52,7 +53,8 @@ class Block:
         return f"Block({' '.join((*self.codes, *(w.address for w in self.words)))})"
 
 
-_blocks: dict[tuple[tuple[str, ...], tuple[WordShape, ...]], Block] = {}
+#: Blocks as long as a step or a plan has them.
+_blocks: WeakValueDictionary[tuple[tuple[str, ...], tuple[WordShape, ...]], Block] = WeakValueDictionary()
 
 
 class WordAlarm(AlarmError):  # noqa: N818 - an alarm is what it is called on the machine

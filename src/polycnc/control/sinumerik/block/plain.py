@@ -6,7 +6,6 @@ does (`language.bulk.declare`): the motion functions and dimensions of its head,
 
 from __future__ import annotations
 
-import re
 from math import inf
 from typing import TYPE_CHECKING, Any
 
@@ -42,10 +41,6 @@ SPELLING = Spelling(
     max_digits=15, semicolon_comments=True, equals=True, forms_count=False, cr_radius=True,
     blank_lines_are_blocks=False,
 )  # fmt: skip
-#: The statement of a block whose values are its own numbers.
-_VALUE = r"(?:n\d+|\([-+]n\d+\)|float\(\([-+]n\d+\)\)), "
-_EXECUTE = re.compile(rf"if o\d+\(channel, o\d+, \(((?:{_VALUE})*)\)\): call_modal\(channel\)")
-_NUMBER = re.compile(r"n(\d+)")
 
 
 # ---- what steps say of themselves
@@ -181,14 +176,10 @@ class SinumerikPlainBlocks:
 def _block(code: SinumerikProgram, channel: Channel, keys: Sequence[int]) -> Block | None:
     """The block that the interpreter would run, if its functions and words are those that the scanner has read."""
     emitter = code.compiled(channel.level.index, channel).emitter
-    plain = not (emitter.uses_locals or emitter.uses_main or emitter.uses_stop or emitter.branch)
-    if plain and not emitter.lines:
+    if emitter.is_empty:
         return _EMPTY if not keys else None
-    statement = _EXECUTE.fullmatch(emitter.lines[0]) if len(emitter.lines) == 1 else None
-    if not plain or statement is None:
-        return None
-    block = next((each for each in emitter.objects if isinstance(each, Block)), None)
-    if block is None or list(map(int, _NUMBER.findall(statement[1]))) != list(range(len(block.words))):
+    block = emitter.plain
+    if block is None:
         return None
     codes = [f"G{key - FIRST_CODE}" for key in keys if key >= FIRST_CODE]
     addresses = [_address(key) for key in keys if key < FIRST_CODE]

@@ -8,6 +8,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
+from polycnc.language.expressions.code import quoted
 from polycnc.language.sinumerik.blocks import BlockCompiler
 from polycnc.language.sinumerik.lexer import tokenize
 from polycnc.language.sinumerik.names.values import Axis, Type, round_half_up
@@ -43,7 +44,7 @@ def read(channel: Channel, name: str) -> Any:
             value = compiler.expression()
             if compiler.token.kind != "end":
                 raise KeyError(name)
-            compiler.emitter.line(f"{compiler.emitter.object(result)}.append({value.code})")
+            compiler.emitter.run(quoted("{0}.append({1})", compiler.emitter.object(result), value.code))
             compiler.emitter.step()(channel)
         except (AlarmError, TypeError, IndexError) as error:  # without value: its DEF was never reached
             raise KeyError(name) from error

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
+from polycnc.language.expressions.code import Code, assigned, attribute, constant, item, quoted, sequence
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.errors import NcSyntaxError
 from polycnc.language.sinumerik.expressions import Expr
@@ -25,80 +26,85 @@ class Place(Protocol):
     def read(self, reader: ExpressionReader) -> Expr:
         """Code of the value."""
 
-    def write(self, reader: ExpressionReader, code: str) -> None:
+    def write(self, reader: ExpressionReader, code: Code) -> None:
         """Add the statement that stores a value of the place's type."""
 
-    def reference(self, reader: ExpressionReader) -> str:
+    def reference(self, reader: ExpressionReader) -> Code:
         """Code of the `Reference` or `Array` that a VAR parameter gets."""
 
-    def stored(self, reader: ExpressionReader, code: str) -> str:
+    def stored(self, reader: ExpressionReader, code: Code) -> Code:
         """Code of a value as it is kept: in metric units, within its limits."""
 
-    def elements(self, reader: ExpressionReader, token: Token) -> tuple[str, str]:
+    def elements(self, reader: ExpressionReader, token: Token) -> tuple[Code, Code]:
         """Code of the list and of the index at which SET and REP begin; 12080 for a single value."""
 
 
-def _read(variable: Variable | None, code: str, type_: Type) -> Expr:
+def _read(variable: Variable | None, code: Code, type_: Type) -> Expr:
     """A kept value as the program reads it."""
     factor = units.FACTORS.get(variable.unit) if variable is not None else None
     if factor is None:
         return Expr(code, type_)
-    read = f"shown(channel, {code}, {factor})"
-    return Expr(f"round_half_up({read})" if type_ is Type.INT else read, type_)
+    read = quoted("shown(channel, {0}, {1})", code, factor)
+    return Expr(quoted("round_half_up({0})", read) if type_ is Type.INT else read, type_)
 
 
-def _stored(reader: ExpressionReader, variable: Variable | None, code: str) -> str:
+def _stored(reader: ExpressionReader, variable: Variable | None, code: Code) -> Code:
     """A value of the program as it is kept: in metric units, within the limits of its variable."""
     if variable is None:
         return code
     factor = units.FACTORS.get(variable.unit)
     if factor is not None:
-        code = f"kept(channel, {code}, {factor})"
-    return code if variable.is_plain else f"{reader.emitter.object(variable)}.checked({code})"
+        code = quoted("kept(channel, {0}, {1})", code, factor)
+    return code if variable.is_plain else quoted("{0}.checked({1})", reader.emitter.object(variable), code)
 
 
-def checked_index(reader: ExpressionReader, code: str, size: str, name: str, dimension: int = 1) -> str:
+def checked_index(
+    reader: ExpressionReader, code: Code, size: Code | int, name: str, dimension: int = 1
+) -> Code:
     """Code of an index that must be within a dimension."""
     first, again = reader.emitter.twice(code)
-    return f"({again} if 0 <= {first} < {size} else out_of_range({name!r}, {dimension}, {again}))"
+    written = "{1} if 0 <= {0} < {2} else out_of_range({3}, {4}, {1})"
+    return quoted(written, first, again, size, name, dimension)
 
 
 class SinglePlace:
     """A variable that is no array."""
 
-    def __init__(self, variable: Variable, container: str) -> None:
+    def __init__(self, variable: Variable, container: Code, slot: Code) -> None:
         self.variable = variable
         self.type = variable.type
         self.container = container
-        self.code = f"{container}[{variable.slot}]"
+        self.slot = slot
+        self.code = item(container, slot)
 
     def read(self, reader: ExpressionReader) -> Expr:
         """Code of the value."""
         rights.check(reader, self.variable.name, self.variable.rights, rights.READ)
         if self.variable.by_reference:
-            return Expr(self.code + ".value", self.type)
+            return Expr(attribute(self.code, "value"), self.type)
         return _read(self.variable, self.code, self.type)
 
-    def write(self, reader: ExpressionReader, code: str) -> None:
+    def write(self, reader: ExpressionReader, code: Code) -> None:
         """Store; a parameter by reference checks by the rules of the caller's variable."""
         rights.check(reader, self.variable.name, self.variable.rights, rights.WRITE)
         if self.variable.by_reference:
-            reader.emitter.line(f"{self.code}.value = {code}")
+            reader.emitter.add(assigned(attribute(self.code, "value"), code))
         else:
-            reader.emitter.line(f"{self.code} = {self.stored(reader, code)}")
+            reader.emitter.add(assigned(self.code, self.stored(reader, code)))
 
-    def stored(self, reader: ExpressionReader, code: str) -> str:
+    def stored(self, reader: ExpressionReader, code: Code) -> Code:
         """Code of a value as it is kept."""
         return _stored(reader, self.variable, code)
 
-    def reference(self, reader: ExpressionReader) -> str:
+    def reference(self, reader: ExpressionReader) -> Code:
         """A reference; one that came from further out is handed on."""
         rights.check(reader, self.variable.name, self.variable.rights, rights.WRITE)
         if self.variable.by_reference:
             return self.code
-        return f"Reference({self.container}, {self.variable.slot}, {reader.emitter.object(self.variable)})"
+        variable = reader.emitter.object(self.variable)
+        return quoted("Reference({0}, {1}, {2})", self.container, self.slot, variable)
 
-    def elements(self, reader: ExpressionReader, token: Token) -> tuple[str, str]:
+    def elements(self, reader: ExpressionReader, token: Token) -> tuple[Code, Code]:
         """A single value has none."""
         raise reader.error(token)
 
@@ -106,33 +112,28 @@ class SinglePlace:
 class ElementPlace:
     """An element of an array, or the whole array where no index is written."""
 
-    def __init__(self, variable: Variable, container: str, offset: str) -> None:
+    def __init__(self, variable: Variable, array: Code, offset: Code | None) -> None:
         self.variable = variable
         self.type = variable.type
-        self.array = f"{container}[{variable.slot}]"
+        self.array = array
+        self.items = attribute(array, "items")
         self.offset = offset
-        self.code = f"{self.array}.items[{offset}]"
 
     @classmethod
-    def read_indices(
-        cls, reader: ExpressionReader, token: Token, variable: Variable, container: str
-    ) -> Place:
+    def read_indices(cls, reader: ExpressionReader, token: Token, variable: Variable, array: Code) -> Place:
         """The element whose indices come next; a further index of a STRING is a character of it."""
-        array = f"{container}[{variable.slot}]"
         if not reader.accept("["):
-            return cls(variable, container, "")
-        offset = ""
+            return cls(variable, array, None)
+        offset: Code | None = None
         for dimension, size in enumerate(variable.dims):
             if dimension:
                 reader.expect(",")
-            extent = str(size) if size else f"{array}.dims[{dimension}]"
+            extent = constant(size) if size else quoted("{0}.dims[{1}]", array, dimension)
             index = checked_index(reader, reader.value(Type.INT), extent, variable.name, dimension + 1)
-            offset = f"{offset} * {extent} + {index}" if offset else index
-            if dimension + 1 < len(variable.dims):
-                offset = f"({offset})" if dimension else offset
+            offset = index if offset is None else quoted("{0} * {1} + {2}", offset, extent, index)
             if reader.at("]") and dimension + 1 < len(variable.dims):
                 raise NcSyntaxError("12400", token.column, token.text)
-        element = cls(variable, container, offset)
+        element = cls(variable, array, offset)
         if variable.type is Type.STRING and reader.at(","):
             return CharPlace.read_index(reader, element)
         if variable.type is Type.FRAME and reader.at(","):
@@ -142,37 +143,39 @@ class ElementPlace:
         reader.expect("]")
         return element
 
-    def _need_index(self) -> None:
-        if not self.offset:
+    def _element(self) -> Code:
+        if self.offset is None:
             raise NcSyntaxError("12400", 0, self.variable.name)
+        return item(self.items, self.offset)
 
     def read(self, reader: ExpressionReader) -> Expr:
         """Code of the element."""
-        self._need_index()
+        element = self._element()
         rights.check(reader, self.variable.name, self.variable.rights, rights.READ)
-        return _read(self.variable, self.code, self.type)
+        return _read(self.variable, element, self.type)
 
-    def write(self, reader: ExpressionReader, code: str) -> None:
+    def write(self, reader: ExpressionReader, code: Code) -> None:
         """Store the element."""
-        self._need_index()
+        element = self._element()
         rights.check(reader, self.variable.name, self.variable.rights, rights.WRITE)
-        reader.emitter.line(f"{self.code} = {self.stored(reader, code)}")
+        reader.emitter.add(assigned(element, self.stored(reader, code)))
 
-    def stored(self, reader: ExpressionReader, code: str) -> str:
+    def stored(self, reader: ExpressionReader, code: Code) -> Code:
         """Code of a value as it is kept."""
         return _stored(reader, self.variable, code)
 
-    def reference(self, reader: ExpressionReader) -> str:
+    def reference(self, reader: ExpressionReader) -> Code:
         """The array itself, or a reference to one element."""
         rights.check(reader, self.variable.name, self.variable.rights, rights.WRITE)
-        if not self.offset:
+        if self.offset is None:
             return self.array
-        return f"Reference({self.array}.items, {self.offset}, {reader.emitter.object(self.variable)})"
+        variable = reader.emitter.object(self.variable)
+        return quoted("Reference({0}, {1}, {2})", self.items, self.offset, variable)
 
-    def elements(self, reader: ExpressionReader, token: Token) -> tuple[str, str]:  # noqa: ARG002
+    def elements(self, reader: ExpressionReader, token: Token) -> tuple[Code, Code]:  # noqa: ARG002
         """From this element on."""
         rights.check(reader, self.variable.name, self.variable.rights, rights.WRITE)
-        return f"{self.array}.items", self.offset or "0"
+        return self.items, constant(0) if self.offset is None else self.offset
 
 
 class _PartPlace:
@@ -183,15 +186,15 @@ class _PartPlace:
     def __init__(self, base: SinglePlace | ElementPlace) -> None:
         self.base = base
 
-    def stored(self, reader: ExpressionReader, code: str) -> str:  # noqa: ARG002
+    def stored(self, reader: ExpressionReader, code: Code) -> Code:  # noqa: ARG002
         """Parts have neither limits nor units."""
         return code
 
-    def reference(self, reader: ExpressionReader) -> str:
+    def reference(self, reader: ExpressionReader) -> Code:
         """Parts of values cannot be handed over by reference (1.9.8)."""
         raise reader.error()
 
-    def elements(self, reader: ExpressionReader, token: Token) -> tuple[str, str]:
+    def elements(self, reader: ExpressionReader, token: Token) -> tuple[Code, Code]:
         """A part is a single value."""
         raise reader.error(token)
 
@@ -201,7 +204,7 @@ class CharPlace(_PartPlace):
 
     type = Type.CHAR
 
-    def __init__(self, base: SinglePlace | ElementPlace, index: str) -> None:
+    def __init__(self, base: SinglePlace | ElementPlace, index: Code) -> None:
         super().__init__(base)
         self.index = index
 
@@ -215,11 +218,12 @@ class CharPlace(_PartPlace):
 
     def read(self, reader: ExpressionReader) -> Expr:
         """Code of the character."""
-        return Expr(f"char_at({self.base.read(reader).code}, {self.index})", Type.CHAR)
+        return Expr(quoted("char_at({0}, {1})", self.base.read(reader).code, self.index), Type.CHAR)
 
-    def write(self, reader: ExpressionReader, code: str) -> None:
+    def write(self, reader: ExpressionReader, code: Code) -> None:
         """Replace the character."""
-        self.base.write(reader, f"with_char({self.base.read(reader).code}, {self.index}, {code})")
+        text = self.base.read(reader).code
+        self.base.write(reader, quoted("with_char({0}, {1}, {2})", text, self.index, code))
 
 
 class ComponentPlace(_PartPlace):
@@ -227,7 +231,7 @@ class ComponentPlace(_PartPlace):
 
     type = Type.REAL
 
-    def __init__(self, base: SinglePlace | ElementPlace, axis: str, component: str) -> None:
+    def __init__(self, base: SinglePlace | ElementPlace, axis: Code, component: str) -> None:
         super().__init__(base)
         self.axis = axis
         self.component = component
@@ -246,14 +250,14 @@ class ComponentPlace(_PartPlace):
 
     def read(self, reader: ExpressionReader) -> Expr:
         """Code of the component."""
-        return Expr(
-            f"frame_component({self.base.read(reader).code}, {self.axis}, {self.component!r})", Type.REAL
-        )
+        frame = self.base.read(reader).code
+        return Expr(quoted("frame_component({0}, {1}, {2})", frame, self.axis, self.component), Type.REAL)
 
-    def write(self, reader: ExpressionReader, code: str) -> None:
+    def write(self, reader: ExpressionReader, code: Code) -> None:
         """Replace the component."""
         frame = self.base.read(reader).code
-        self.base.write(reader, f"with_component({frame}, {self.axis}, {self.component!r}, {code})")
+        changed = quoted("with_component({0}, {1}, {2}, {3})", frame, self.axis, self.component, code)
+        self.base.write(reader, changed)
 
 
 class RPlace:
@@ -261,7 +265,7 @@ class RPlace:
 
     type = Type.REAL
 
-    def __init__(self, values: str, index: str) -> None:
+    def __init__(self, values: Code, index: Code) -> None:
         self.values = values
         self.index = index
 
@@ -273,7 +277,7 @@ class RPlace:
             raise reader.error(token)
         if token.value >= len(values):
             raise NcSyntaxError("12290", token.column, token.text)
-        return cls(reader.emitter.object(values), str(token.value))
+        return cls(reader.emitter.object(values), reader.emitter.object(token.value))
 
     @classmethod
     def indexed(cls, reader: ExpressionReader, token: Token) -> RPlace:  # noqa: ARG003
@@ -282,27 +286,27 @@ class RPlace:
         index = reader.value(Type.INT)
         reader.expect("]")
         values = reader.scope.memory.r
-        return cls(reader.emitter.object(values), checked_index(reader, index, str(len(values)), "R"))
+        return cls(reader.emitter.object(values), checked_index(reader, index, len(values), "R"))
 
     def read(self, reader: ExpressionReader) -> Expr:
         """Code of the parameter."""
         rights.check(reader, "R", reader.scope.memory.rights.get("R", {}), rights.READ)
-        return _read(reader.scope.memory.user_data.get("R"), f"{self.values}[{self.index}]", Type.REAL)
+        return _read(reader.scope.memory.user_data.get("R"), item(self.values, self.index), Type.REAL)
 
-    def write(self, reader: ExpressionReader, code: str) -> None:
+    def write(self, reader: ExpressionReader, code: Code) -> None:
         """Store the parameter."""
         rights.check(reader, "R", reader.scope.memory.rights.get("R", {}), rights.WRITE)
-        reader.emitter.line(f"{self.values}[{self.index}] = {self.stored(reader, code)}")
+        reader.emitter.add(assigned(item(self.values, self.index), self.stored(reader, code)))
 
-    def stored(self, reader: ExpressionReader, code: str) -> str:
+    def stored(self, reader: ExpressionReader, code: Code) -> Code:
         """Code of a value as it is kept."""
         return _stored(reader, reader.scope.memory.user_data.get("R"), code)
 
-    def reference(self, reader: ExpressionReader) -> str:
+    def reference(self, reader: ExpressionReader) -> Code:
         """A reference to the parameter."""
-        return f"Reference({self.values}, {self.index}, {reader.emitter.object(R_PARAMETER)})"
+        return quoted("Reference({0}, {1}, {2})", self.values, self.index, reader.emitter.object(R_PARAMETER))
 
-    def elements(self, reader: ExpressionReader, token: Token) -> tuple[str, str]:  # noqa: ARG002
+    def elements(self, reader: ExpressionReader, token: Token) -> tuple[Code, Code]:  # noqa: ARG002
         """R parameters are an array of one dimension."""
         rights.check(reader, "R", reader.scope.memory.rights.get("R", {}), rights.WRITE)
         return self.values, self.index
@@ -311,7 +315,7 @@ class RPlace:
 class SystemPlace:
     """A system variable with its indices."""
 
-    def __init__(self, name: str, variable: SystemVariable, code: str, indices: str, type_: Type) -> None:
+    def __init__(self, name: str, variable: SystemVariable, code: Code, indices: Code, type_: Type) -> None:
         self.name = name
         self.variable = variable
         self.code = code
@@ -321,37 +325,39 @@ class SystemPlace:
     @classmethod
     def read_indices(cls, reader: ExpressionReader, token: Token, variable: SystemVariable) -> SystemPlace:
         """The variable with the indices that come next; a frame with a component is a REAL."""
-        codes: list[str] = []
+        codes: list[Code] = []
         type_ = variable.type
         if reader.accept("["):
             while not reader.at("]"):
                 if codes:
                     reader.expect(",")
                 if reader.token.text in keywords.FRAME_COMPONENTS and reader.token.kind == "name":
-                    codes.append(repr(reader.take().text))
+                    codes.append(constant(reader.take().text))
                     type_ = Type.REAL
                 else:
                     index = reader.expression()
                     real = index.type is Type.REAL
-                    codes.append(f"round_half_up({index.code})" if real else index.code)
+                    codes.append(quoted("round_half_up({0})", index.code) if real else index.code)
             reader.expect("]")
         if variable.stop:
             reader.emitter.uses_stop = True
-        indices = f"({''.join(code + ', ' for code in codes)})"
-        return cls(token.text, variable, reader.emitter.object(variable), indices, type_)
+        return cls(token.text, variable, reader.emitter.object(variable), sequence(codes), type_)
 
     def read(self, reader: ExpressionReader) -> Expr:
         """Code that asks the control."""
         rights.check(reader, self.name, reader.scope.memory.rights.get(self.name, {}), rights.READ)
-        return _read(self._user_data(reader), f"{self.code}.read(channel, {self.indices})", self.type)
+        return _read(
+            self._user_data(reader), quoted("{0}.read(channel, {1})", self.code, self.indices), self.type
+        )
 
-    def write(self, reader: ExpressionReader, code: str) -> None:
+    def write(self, reader: ExpressionReader, code: Code) -> None:
         """Code that tells the control."""
         rights.check(reader, self.name, reader.scope.memory.rights.get(self.name, {}), rights.WRITE)
         reader.emitter.acts = True
-        reader.emitter.line(f"{self.code}.write(channel, {self.indices}, {self.stored(reader, code)})")
+        stored = self.stored(reader, code)
+        reader.emitter.run(quoted("{0}.write(channel, {1}, {2})", self.code, self.indices, stored))
 
-    def stored(self, reader: ExpressionReader, code: str) -> str:
+    def stored(self, reader: ExpressionReader, code: Code) -> Code:
         """Code of a value as it is kept."""
         return _stored(reader, self._user_data(reader), code)
 
@@ -362,10 +368,10 @@ class SystemPlace:
             reader.emitter.uses_stop = True
         return data
 
-    def reference(self, reader: ExpressionReader) -> str:
+    def reference(self, reader: ExpressionReader) -> Code:
         """System variables cannot be handed over by reference."""
         raise NcSyntaxError("12320", reader.token.column, reader.token.text)
 
-    def elements(self, reader: ExpressionReader, token: Token) -> tuple[str, str]:
+    def elements(self, reader: ExpressionReader, token: Token) -> tuple[Code, Code]:
         """SET and REP of system variables go through `SystemPlace` itself."""
         raise reader.error(token)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from polycnc.language.expressions.code import Code, constant, item, quoted, sequence
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
 from polycnc.language.sinumerik.expressions import Expr
@@ -99,9 +100,9 @@ class Scope:
     def _user_place(self, reader: ExpressionReader, token: Token, variable: Variable) -> Place:
         if variable.stops:
             reader.emitter.uses_stop = True
-        container = self.container(reader, variable)
+        container, slot = self.container(reader, variable), reader.emitter.object(variable.slot)
         if not variable.dims:
-            single = SinglePlace(variable, container)
+            single = SinglePlace(variable, container, slot)
             if not reader.at("["):
                 return single
             if variable.type is Type.STRING:
@@ -111,9 +112,9 @@ class Scope:
             if variable.type is Type.FRAME:
                 return ComponentPlace.read_index(reader, single)
             raise NcSyntaxError("12400", token.column, token.text)
-        return ElementPlace.read_indices(reader, token, variable, container)
+        return ElementPlace.read_indices(reader, token, variable, item(container, slot))
 
-    def container(self, reader: ExpressionReader, variable: Variable) -> str:
+    def container(self, reader: ExpressionReader, variable: Variable) -> Code:
         """Code of the list in which a variable lies."""
         if variable.store is not None:
             return reader.emitter.object(variable.store)
@@ -158,15 +159,15 @@ class Scope:
                 rights.check_word(reader, token)
                 arguments = self.arguments(reader, token, function.arguments)
                 reader.emitter.knows_place = True
-                call = caller.format(name=repr(token.text), arguments=arguments, column=token.column)
-                return Expr(call, function.result)
+                column = reader.emitter.object(token.column)
+                return Expr(quoted(caller, token.text, arguments, column), function.result)
         if is_known(token.text, self.control):
             raise NcSyntaxError("12080", token.column, token.text)
         raise unknown(token.column, token.text)
 
-    def arguments(self, reader: ExpressionReader, token: Token, letters: str) -> str:
+    def arguments(self, reader: ExpressionReader, token: Token, letters: str) -> Code:
         """Code of the tuple of arguments in parentheses; None for each one left out."""
-        codes: list[str] = []
+        codes: list[Code] = []
         if reader.accept("("):
             while not reader.at(")"):
                 letter = "*" if letters == "*" else letters[len(codes)] if len(codes) < len(letters) else ""
@@ -176,18 +177,18 @@ class Scope:
                 if not reader.at(")"):
                     reader.expect(",")
                     if reader.at(")"):
-                        codes.append("None")
+                        codes.append(constant(None))
             reader.expect(")")
         if letters != "*":
             wanted = sum(letter.isupper() or letter in "[?" for letter in letters)
             if len(codes) < wanted and not (letters[len(codes)] == "?"):
                 raise NcSyntaxError("14020", token.column, token.text)
-            codes += ["None"] * (len(letters) - len(codes))
-        return f"({''.join(code + ', ' for code in codes)})"
+            codes += [constant(None)] * (len(letters) - len(codes))
+        return sequence(codes)
 
-    def _argument(self, reader: ExpressionReader, letter: str) -> str:
+    def _argument(self, reader: ExpressionReader, letter: str) -> Code:
         if reader.at(","):
-            return "None"
+            return constant(None)
         if letter in "Vv[":
             token = reader.take()
             if not self.is_place(token):
@@ -198,16 +199,16 @@ class Scope:
         return reader.value(keywords.TYPE_LETTERS[letter.upper()])
 
     @staticmethod
-    def _any(reader: ExpressionReader) -> str:
+    def _any(reader: ExpressionReader) -> Code:
         value = reader.expression()
-        return f"chr({value.code})" if value.type is Type.CHAR else value.code
+        return quoted("chr({0})", value.code) if value.type is Type.CHAR else value.code
 
 
 #: How compiled code asks for the value of a function that is more than its arguments.
 _FUNCTION_CALLERS = (
-    ("channel.control.function(channel, {name}, {arguments}, {column})", keywords.CONTROL_FUNCTIONS),
-    ("name_function(channel, {name}, {arguments})", keywords.NAME_FUNCTIONS),
-    ("file_function(channel, {name}, {arguments})", keywords.FILE_FUNCTIONS),
+    ("channel.control.function(channel, {0}, {1}, {2})", keywords.CONTROL_FUNCTIONS),
+    ("name_function(channel, {0}, {1})", keywords.NAME_FUNCTIONS),
+    ("file_function(channel, {0}, {1})", keywords.FILE_FUNCTIONS),
 )
 
 

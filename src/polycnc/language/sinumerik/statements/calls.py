@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from polycnc.language.expressions.code import Code, assigned, attribute, constant, quoted, sequence
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, unknown
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from polycnc.program import Program
 
 MAX_PASSES = 9999
+_CALL = "call_program(channel, {0}, {1}, {2}, {3})"
 #: Characters of a search path.
 MAX_PATH = 128
 #: Digits of a subprogram number behind L, leading zeros included (1.25.1.2).
@@ -116,27 +118,26 @@ def program_call(compiler: BlockCompiler) -> None:
         raise unknown(token.column, token.text)
     args, given = _arguments(compiler, token, program)
     passes = _passes(compiler)
-    compiler.emitter.line(
-        f"call_program(channel, {compiler.emitter.object(program)}, {args}, {given}, {passes})"
-    )
+    called = compiler.emitter.object(program)
+    compiler.emitter.run(quoted(_CALL, called, args, given, passes))
 
 
-def _passes(compiler: BlockCompiler) -> str:
+def _passes(compiler: BlockCompiler) -> Code:
     token = compiler.token
     if token.kind == "word" and token.letter == "P":
         compiler.take()
-        return str(token.value)
+        return constant(token.value)
     if compiler.accept("P"):
         compiler.expect("=")
         return compiler.integer()
-    return "1"
+    return constant(1)
 
 
-def _arguments(compiler: BlockCompiler, name: Token, program: Program) -> tuple[str, tuple[bool, ...]]:
+def _arguments(compiler: BlockCompiler, name: Token, program: Program) -> tuple[Code, Code]:
     """Code of the arguments by the PROC line of the program, and which of them were written (1.25.1.6)."""
     header = _header(compiler.channel, program)
     _check_declaration(compiler, name, header)
-    codes: list[str] = []
+    codes: list[Code] = []
     given: list[bool] = []
     if compiler.accept("("):
         while not compiler.at(")"):
@@ -156,7 +157,7 @@ def _arguments(compiler: BlockCompiler, name: Token, program: Program) -> tuple[
     for place in range(len(codes), len(header.parameters)):
         codes.append(_left_out(compiler, header, place, name))
         given.append(False)
-    return f"({''.join(code + ', ' for code in codes)})", tuple(given)
+    return sequence(codes), sequence(map(constant, given))
 
 
 def _check_declaration(compiler: BlockCompiler, name: Token, header: Header) -> None:
@@ -171,24 +172,26 @@ def _check_declaration(compiler: BlockCompiler, name: Token, header: Header) -> 
         raise NcSyntaxError("12330", name.column, name.text)
 
 
-def _left_out(compiler: BlockCompiler, header: Header, place: int, name: Token) -> str:
+def _left_out(compiler: BlockCompiler, header: Header, place: int, name: Token) -> Code:
     value = header.first_values[place]
     if value is None:
         raise NcSyntaxError("14010", name.column, header.parameters[place].name)
-    return compiler.emitter.object(value) if header.parameters[place].type is Type.FRAME else repr(value)
+    return compiler.emitter.object(value)
 
 
-def _argument(compiler: BlockCompiler, parameter: Variable) -> str:
+def _argument(compiler: BlockCompiler, parameter: Variable) -> Code:
     if not parameter.by_reference and not parameter.dims:
         code = compiler.assigned(parameter.type)
-        return code if parameter.is_plain else f"{compiler.emitter.object(parameter)}.checked({code})"
+        if parameter.is_plain:
+            return code
+        return quoted("{0}.checked({1})", compiler.emitter.object(parameter), code)
     token = compiler.take()
     if not compiler.scope.is_place(token):
         raise NcSyntaxError("12320", token.column, token.text)
     place = compiler.scope.place(compiler, token)
     if place.type is not parameter.type:
         raise NcSyntaxError("12330", token.column, token.text)
-    dims = place.variable.dims if isinstance(place, ElementPlace) and not place.offset else ()
+    dims = place.variable.dims if isinstance(place, ElementPlace) and place.offset is None else ()
     if len(dims) != len(parameter.dims) or not all(map(_sizes_fit, dims, parameter.dims)):
         raise NcSyntaxError("12360", token.column, token.text)
     return place.reference(compiler)
@@ -202,20 +205,21 @@ def _sizes_fit(size: int, wanted: int) -> bool:
 def call(compiler: BlockCompiler) -> None:
     """CALL text, CALL [text] BLOCK start TO end (1.25.3.5, 1.25.3.6)."""
     compiler.take()
-    name = "''" if compiler.at("BLOCK") else compiler.text()
+    name = constant("") if compiler.at("BLOCK") else compiler.text()
     if not compiler.accept("BLOCK"):
-        compiler.emitter.line(f"call_named(channel, {name})")
+        compiler.emitter.run(quoted("call_named(channel, {0})", name))
         return
     start = _label_text(compiler)
     compiler.expect("TO")
-    compiler.emitter.line(f"call_section(channel, {name}, {start}, {_label_text(compiler)})")
+    end = _label_text(compiler)
+    compiler.emitter.run(quoted("call_section(channel, {0}, {1}, {2})", name, start, end))
 
 
-def _label_text(compiler: BlockCompiler) -> str:
+def _label_text(compiler: BlockCompiler) -> Code:
     """A label as STRING variable or text, or as it stands."""
     token = compiler.token
     if token.kind == "name" and compiler.scope.find(token.text) is None:
-        return repr(compiler.take().text)
+        return constant(compiler.take().text)
     return compiler.text()
 
 
@@ -262,7 +266,7 @@ def path_call(compiler: BlockCompiler) -> None:
     if program is None:
         raise NcSyntaxError("14011", start.end + 1, path)
     args, given = _arguments(compiler, start, program)
-    compiler.emitter.line(f"call_program(channel, {compiler.emitter.object(program)}, {args}, {given}, 1)")
+    compiler.emitter.run(quoted(_CALL, compiler.emitter.object(program), args, given, 1))
 
 
 def modal_call(compiler: BlockCompiler) -> None:
@@ -270,7 +274,7 @@ def modal_call(compiler: BlockCompiler) -> None:
     compiler.take()
     memory = compiler.emitter.object(compiler.scope.memory)
     if compiler.token.kind == "end":
-        compiler.emitter.line(f"{memory}.modal_call = None")
+        compiler.emitter.add(assigned(attribute(memory, "modal_call"), constant(None)))
         return
     token = compiler.take()
     if token.kind not in ("name", "word"):
@@ -278,14 +282,15 @@ def modal_call(compiler: BlockCompiler) -> None:
     program = find_program(compiler.channel, token.text)
     if program is not None:
         args, given = _arguments(compiler, token, program)
-        code = f"modal_program({compiler.emitter.object(program)}, {args}, {given})"
+        called = compiler.emitter.object(program)
+        code = quoted("modal_program({0}, {1}, {2})", called, args, given)
     elif token.text in keywords.CYCLES:
         arguments = compiler.scope.arguments(compiler, token, "*")
         compiler.emitter.knows_place = True
-        code = f"modal_cycle({token.text!r}, {arguments}, {token.column})"
+        code = quoted("modal_cycle({0}, {1}, {2})", token.text, arguments, token.column)
     else:
         raise NcSyntaxError("14011", token.column, token.text)
-    compiler.emitter.line(f"{memory}.modal_call = {code}")
+    compiler.emitter.add(assigned(attribute(memory, "modal_call"), code))
 
 
 def modal_program(
@@ -317,7 +322,7 @@ def call_modal(channel: Channel) -> None:
 def external_call(compiler: BlockCompiler) -> None:
     """EXTCALL text (1.25.3.10)."""
     compiler.take()
-    compiler.emitter.line(f"call_external(channel, {compiler.text()})")
+    compiler.emitter.run(quoted("call_external(channel, {0})", compiler.text()))
 
 
 def call_external(channel: Channel, name: str) -> None:
@@ -337,16 +342,16 @@ def iso_call(compiler: BlockCompiler) -> None:
     parameters = compiler.channel.setup.parameters
     if any(parameters.get(name) for name in (18800, "$MN_MM_EXTERN_LANGUAGE")):
         raise not_supported(token.column, "ISOCALL")
-    compiler.emitter.line(f"call_named(channel, {compiler.text()})")
+    compiler.emitter.run(quoted("call_named(channel, {0})", compiler.text()))
 
 
 def search_path(compiler: BlockCompiler) -> None:
     """CALLPATH("directory"), CALLPATH() (1.25.3.9)."""
     compiler.take()
     compiler.expect("(")
-    text = "''" if compiler.at(")") else compiler.text()
+    text = constant("") if compiler.at(")") else compiler.text()
     compiler.expect(")")
-    compiler.emitter.line(f"set_search_path(channel, {text})")
+    compiler.emitter.run(quoted("set_search_path(channel, {0})", text))
 
 
 def set_search_path(channel: Channel, directory: str) -> None:
@@ -373,9 +378,9 @@ def return_(compiler: BlockCompiler) -> None:
     """RET, RET(target[,after[,levels[,to_start]]]) (1.25.2.6, 1.25.2.7)."""
     compiler.take()
     if compiler.token.kind == "end":
-        compiler.emitter.line("channel.control.end_of_program(channel)")
+        compiler.emitter.run(quoted("channel.control.end_of_program(channel)"))
         return
-    codes = ["''", "0", "1", "False"]
+    codes = [constant(""), constant(0), constant(1), constant(False)]
     compiler.expect("(")
     for place, type_ in enumerate((Type.STRING, Type.INT, Type.INT, Type.BOOL)):
         if compiler.at(")"):
@@ -385,7 +390,7 @@ def return_(compiler: BlockCompiler) -> None:
         if not compiler.at(",") and not compiler.at(")"):
             codes[place] = compiler.value(type_)
     compiler.expect(")")
-    compiler.emitter.line(f"return_to(channel, {', '.join(codes)})")
+    compiler.emitter.run(quoted("return_to(channel, {0}, {1}, {2}, {3})", *codes))
 
 
 def return_to(channel: Channel, target: str, after: int, levels: int, to_start: bool) -> None:
@@ -412,7 +417,7 @@ def execute_string(compiler: BlockCompiler) -> None:
     """EXECSTRING(text): the text as a block (1.2.3)."""
     compiler.take()
     program = compiler.emitter.object(compiler.program)
-    compiler.emitter.line(f"{program}.execute_text(channel, {compiler.text()})")
+    compiler.emitter.run(quoted("{0}.execute_text(channel, {1})", program, compiler.text()))
 
 
 STATEMENTS: dict[str, Callable[[BlockCompiler], None]] = {

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from polycnc.language.expressions.code import Code, assigned, quoted, sequence
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import Emitter
 from polycnc.language.sinumerik.errors import NcSyntaxError
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from polycnc.language.sinumerik.names.scope import Scope
 
 MAX_DIMENSION = 65535
+_NOWHERE = quoted("None")
 MAX_ELEMENTS = 4_000_000
 MAX_NAME = 31
 MAX_PARAMETERS = 127
@@ -39,10 +41,10 @@ _RESERVED = keywords.STRUCTURE | keywords.OPERATORS | keywords.DEFINITIONS | _TY
 
 def constant(reader: ExpressionReader, type_: Type, channel: Channel) -> Any:
     """The value of an expression that must be known now (array sizes, limits)."""
-    kept, reader.emitter = reader.emitter, Emitter()
+    kept, reader.emitter = reader.emitter, Emitter(reader.scope.control.shapes)
     result: list[Any] = []
     code = reader.value(type_)
-    reader.emitter.line(f"{reader.emitter.object(result)}.append({code})")
+    reader.emitter.run(quoted("{0}.append({1})", reader.emitter.object(result), code))
     step = reader.emitter.step()
     reader.emitter = kept
     step(channel)
@@ -244,38 +246,40 @@ def _first_value(variable: Variable, scope: Scope) -> Any:
     return int(value) if variable.type in (Type.INT, Type.CHAR) else value
 
 
-def checked(compiler: BlockCompiler, variable: Variable, code: str) -> str:
+def checked(compiler: BlockCompiler, variable: Variable, code: Code) -> Code:
     """Code of a first value as it is kept."""
-    return SinglePlace(variable, "").stored(compiler, code)
+    return SinglePlace(variable, _NOWHERE, _NOWHERE).stored(compiler, code)
 
 
-def store(compiler: BlockCompiler, variable: Variable, code: str) -> None:
+def store(compiler: BlockCompiler, variable: Variable, code: Code) -> None:
     """Add the statement that gives a variable its first value."""
     if variable.store is not None:
-        compiler.emitter.line(f"{compiler.emitter.object(variable.store)}[0] = {code}")
+        compiler.emitter.add(assigned(quoted("{0}[0]", compiler.emitter.object(variable.store)), code))
     else:
-        compiler.emitter.line(f"define(channel.level, {variable.slot}, {code})")
+        compiler.emitter.run(quoted("define(channel.level, {0}, {1})", variable.slot, code))
 
 
 def _first_array(compiler: BlockCompiler, variable: Variable) -> None:
     """An array and its first values: `SET(…)` or `(…)`, `REP(v[,n])` (1.1.12)."""
     emitter = compiler.emitter
     first = emitter.object(_first_value(variable, compiler.scope))
-    emitter.line(f"items = [{first}] * {element_count(variable.dims)}")
+    items = quoted("items")
+    emitter.add(assigned(items, quoted("[{0}] * {1}", first, element_count(variable.dims))))
     if compiler.accept("="):
         token = compiler.token
         if variable.type is Type.FRAME:
             raise NcSyntaxError("12261", token.column, variable.name)
         if compiler.accept("REP"):
             value, count = compiler.repeated(variable.type)
-            emitter.line(f"repeat_element(items, 0, {checked(compiler, variable, value)}, {count})")
+            stored = checked(compiler, variable, value)
+            emitter.run(quoted("repeat_element(items, 0, {0}, {1})", stored, count))
         else:
             compiler.accept("SET")
             values = [checked(compiler, variable, code) for code in compiler.value_list(variable.type)]
             if len(values) > element_count(variable.dims):
                 raise NcSyntaxError("12260", token.column, variable.name)
-            emitter.line(f"set_elements(items, 0, ({''.join(code + ', ' for code in values)}))")
-    store(compiler, variable, f"Array({emitter.object(variable)}, items)")
+            emitter.run(quoted("set_elements(items, 0, {0})", sequence(values)))
+    store(compiler, variable, quoted("Array({0}, items)", emitter.object(variable)))
 
 
 # ---- programs and macros -----------------------------------------------------------------------------------

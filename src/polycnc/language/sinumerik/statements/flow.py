@@ -2,9 +2,21 @@
 
 from __future__ import annotations
 
+import ast
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from polycnc.language.expressions.code import (
+    Code,
+    assigned,
+    compared,
+    constant,
+    given,
+    name,
+    negation,
+    quoted,
+    when,
+)
 from polycnc.language.sinumerik.emitter import Branch, provide
 from polycnc.language.sinumerik.errors import NcSyntaxError
 from polycnc.language.sinumerik.expressions import Expr
@@ -21,6 +33,7 @@ if TYPE_CHECKING:
     from polycnc.language.sinumerik.lexer import Token
     from polycnc.language.sinumerik.statements.structures import Structure
 
+_REPEAT = "repeat_section(channel, {0}, {1}, {2}, {3})"
 _LOOPS = frozenset({"LOOP", "WHILE", "FOR", "REPEAT"})
 JUMPS = ("GOTO", "GOTOF", "GOTOB", "GOTOC")
 
@@ -34,17 +47,17 @@ def _refuse_external(compiler: BlockCompiler, word: Token) -> None:
 # ---- jumps (1.10) ------------------------------------------------------------------------------------------
 
 
-def _target(compiler: BlockCompiler) -> str:
+def _target(compiler: BlockCompiler) -> Code:
     """Code of a jump target: label, block number, or a text that names one."""
     token = compiler.token
     variable = compiler.scope.find(token.text) if token.kind == "name" else None
     if token.kind == "op" and token.text == ":":
         compiler.take()
         number = compiler.take()
-        return repr(f":{number.value}")
+        return constant(f":{number.value}")
     if token.kind in ("name", "word") and (variable is None or variable.type is not Type.STRING):
         compiler.take()
-        return repr(token.text)
+        return constant(token.text)
     if token.kind == "end":
         raise compiler.error()
     return compiler.value(Type.STRING)
@@ -52,17 +65,18 @@ def _target(compiler: BlockCompiler) -> str:
 
 def jump(compiler: BlockCompiler) -> None:
     """GOTO, GOTOF, GOTOB, GOTOC alone in a block."""
-    emit_jump(compiler)
+    compiler.emitter.add(read_jump(compiler))
 
 
-def emit_jump(compiler: BlockCompiler) -> None:
-    """Read a jump and add its code; the step ends there."""
+def read_jump(compiler: BlockCompiler) -> Code:
+    """Read a jump; the step ends there."""
     word = compiler.take()
     if word.text not in JUMPS:
         raise compiler.error(word)
     _refuse_external(compiler, word)
     program = compiler.emitter.object(compiler.program)
-    compiler.emitter.line(f"return jump(channel, {program}, {word.text!r}, {_target(compiler)})")
+    compiler.emitter.leaves = True
+    return given(quoted("jump(channel, {0}, {1}, {2})", program, word.text, _target(compiler)))
 
 
 def jump_to(channel: Channel, program: SinumerikProgram, word: str, target: str) -> None:
@@ -80,22 +94,21 @@ def restart(compiler: BlockCompiler) -> None:
     compiler.take()
     compiler.emitter.uses_stop = compiler.emitter.knows_place = True
     index = compiler.program.first_statement
-    compiler.emitter.line(f"if channel.control.restarts(channel): channel.level.index = {index}")
+    compiler.emitter.add(quoted("if channel.control.restarts(channel): channel.level.index = {0}", index))
 
 
 def case(compiler: BlockCompiler) -> None:
     """CASE (expression) OF constant GOTOF target … DEFAULT GOTOF target (1.10.3)."""
     _refuse_external(compiler, compiler.take())
-    compiler.emitter.line(f"case = {compiler.value(Type.INT)}")
+    chosen = name("case")
+    compiler.emitter.add(assigned(chosen, compiler.value(Type.INT)))
     compiler.expect("OF")
     while compiler.token.kind != "end":
         if compiler.accept("DEFAULT"):
-            emit_jump(compiler)
+            compiler.emitter.add(read_jump(compiler))
             return
-        compiler.emitter.line(f"if case == {compiler.value(Type.INT)}:")
-        compiler.emitter.indent += 1
-        emit_jump(compiler)
-        compiler.emitter.indent -= 1
+        meant = compared(chosen, ast.Eq, compiler.value(Type.INT))
+        compiler.emitter.add(when(meant, (read_jump(compiler),)))
 
 
 def branch(compiler: BlockCompiler) -> None:
@@ -104,14 +117,11 @@ def branch(compiler: BlockCompiler) -> None:
     condition = compiler.condition()
     if compiler.token.kind == "end":
         structure = _structure(compiler, start)
-        compiler.emitter.branch = Branch("IF", f"not {condition}", structure.otherwise)
+        compiler.emitter.branch = Branch("IF", negation(condition), structure.otherwise)
         return
     compiler.emitter.can_join = True
     while True:
-        compiler.emitter.line(f"if {condition}:")
-        compiler.emitter.indent += 1
-        emit_jump(compiler)
-        compiler.emitter.indent -= 1
+        compiler.emitter.add(when(condition, (read_jump(compiler),)))
         if not compiler.accept("IF"):
             return
         condition = compiler.condition()
@@ -132,7 +142,7 @@ def _structure(compiler: BlockCompiler, word: Token) -> Structure:
 
 def otherwise(compiler: BlockCompiler) -> None:
     """ELSE, reached from above: the branch is over."""
-    compiler.emitter.branch = Branch("ELSE", "", _structure(compiler, compiler.take()).end + 1)
+    compiler.emitter.branch = Branch("ELSE", None, _structure(compiler, compiler.take()).end + 1)
 
 
 def end_if(compiler: BlockCompiler) -> None:
@@ -149,30 +159,30 @@ def loop(compiler: BlockCompiler) -> None:
 
 def end_loop(compiler: BlockCompiler) -> None:
     """ENDLOOP."""
-    compiler.emitter.branch = Branch("ENDLOOP", "", _structure(compiler, compiler.take()).start + 1)
+    compiler.emitter.branch = Branch("ENDLOOP", None, _structure(compiler, compiler.take()).start + 1)
 
 
 def while_(compiler: BlockCompiler) -> None:
     """WHILE condition."""
     end = _structure(compiler, compiler.take()).end
-    compiler.emitter.branch = Branch("WHILE", f"not {compiler.condition()}", end + 1)
+    compiler.emitter.branch = Branch("WHILE", negation(compiler.condition()), end + 1)
 
 
 def end_while(compiler: BlockCompiler) -> None:
     """ENDWHILE: the condition decides at the beginning."""
-    compiler.emitter.branch = Branch("ENDWHILE", "", _structure(compiler, compiler.take()).start)
+    compiler.emitter.branch = Branch("ENDWHILE", None, _structure(compiler, compiler.take()).start)
 
 
 def until(compiler: BlockCompiler) -> None:
     """UNTIL condition: the loop ends when it becomes true."""
     start = _structure(compiler, compiler.take()).start
-    compiler.emitter.branch = Branch("UNTIL", f"not {compiler.condition()}", start + 1)
+    compiler.emitter.branch = Branch("UNTIL", negation(compiler.condition()), start + 1)
 
 
 def for_(compiler: BlockCompiler) -> None:
     """FOR variable=start TO end: no pass if the start is beyond the end."""
     end = _structure(compiler, compiler.take()).end
-    compiler.emitter.branch = Branch("FOR", f"not {_count(compiler, first=True)}", end + 1)
+    compiler.emitter.branch = Branch("FOR", negation(_count(compiler, first=True)), end + 1)
 
 
 def end_for(compiler: BlockCompiler) -> None:
@@ -185,7 +195,7 @@ def end_for(compiler: BlockCompiler) -> None:
     compiler.emitter.branch = Branch("ENDFOR", _count(compiler, first=False), start + 1)
 
 
-def _count(compiler: BlockCompiler, *, first: bool) -> str:
+def _count(compiler: BlockCompiler, *, first: bool) -> Code:
     """Read `variable=start TO end`; add the assignment, and return the code of `variable <= end`."""
     token = compiler.take()
     if not compiler.scope.is_place(token):
@@ -196,12 +206,12 @@ def _count(compiler: BlockCompiler, *, first: bool) -> str:
     compiler.expect("=")
     start = compiler.value(Type.INT)
     value = place.read(compiler)
-    counted = f"checked_int({start})" if first else f"({value.code} + 1)"
+    counted = quoted("checked_int({0})", start) if first else quoted("{0} + 1", value.code)
     place.write(
         compiler, compiler.converted(Expr(counted, Type.INT if first else place.type), place.type, token)
     )
     compiler.expect("TO")
-    return f"({value.code} <= {compiler.value(Type.INT)})"
+    return compared(value.code, ast.LtE, compiler.value(Type.INT))
 
 
 # ---- repetition of program sections (1.11) -----------------------------------------------------------------
@@ -219,7 +229,7 @@ def repeat(compiler: BlockCompiler) -> None:
     last = compiler.take().text if compiler.token.kind == "name" and compiler.token.text != "P" else ""
     count = _passes(compiler)
     program = compiler.emitter.object(compiler.program)
-    compiler.emitter.line(f"repeat_section(channel, {program}, {first.text!r}, {last!r}, {count})")
+    compiler.emitter.run(quoted(_REPEAT, program, first.text, last, count))
 
 
 def repeat_block(compiler: BlockCompiler) -> None:
@@ -227,17 +237,15 @@ def repeat_block(compiler: BlockCompiler) -> None:
     _refuse_external(compiler, compiler.take())
     label = compiler.take()
     program = compiler.emitter.object(compiler.program)
-    compiler.emitter.line(
-        f"repeat_section(channel, {program}, {label.text!r}, {label.text!r}, {_passes(compiler)})"
-    )
+    compiler.emitter.run(quoted(_REPEAT, program, label.text, label.text, _passes(compiler)))
 
 
-def _passes(compiler: BlockCompiler) -> str:
+def _passes(compiler: BlockCompiler) -> Code:
     token = compiler.token
     if token.kind == "end":
-        return "1"
+        return constant(1)
     if token.kind == "word" and token.letter == "P":
-        return str(compiler.take().value)
+        return constant(compiler.take().value)
     compiler.expect("P")
     compiler.accept("=")
     return compiler.value(Type.INT)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
+from polycnc.language.expressions.code import quoted, sequence
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
@@ -145,9 +146,9 @@ def _init_time(compiler: BlockCompiler, token: Token, time: str) -> None:
     if compiler.token.kind != "end":
         if not (is_setting or _USER_DATA.fullmatch(name)):
             raise NcSyntaxError("12261", token.column, name)
-        first_line = len(compiler.emitter.lines)
+        first_line = len(compiler.emitter.statements)
         _write_first_values(compiler, name)
-        step = compiler.emitter.step() if len(compiler.emitter.lines) > first_line else None
+        step = compiler.emitter.step() if len(compiler.emitter.statements) > first_line else None
     compiler.scope.memory.first_values[name] = FirstValues(name, time, step)
 
 
@@ -155,13 +156,14 @@ def _write_first_values(compiler: BlockCompiler, name: str) -> None:
     """Values of the first elements, or one value, which is for all R parameters."""
     listed = compiler.at("(")
     values = compiler.value_list(Type.REAL) if listed else [compiler.assigned(Type.REAL)]
-    codes = f"({''.join(code + ', ' for code in values)})"
     if name == "R":
         items = compiler.emitter.object(compiler.scope.memory.r)
-        fill = f"set_elements({items}, 0, {codes})" if listed else f"repeat_element({items}, 0, {values[0]})"
-        compiler.emitter.line(fill)
+        fill = quoted("repeat_element({0}, 0, {1})", items, values[0])
+        if listed:
+            fill = quoted("set_elements({0}, 0, {1})", items, sequence(values))
+        compiler.emitter.run(fill)
         return
-    compiler.emitter.line(f"set_first_values(channel, {name!r}, {codes})")
+    compiler.emitter.run(quoted("set_first_values(channel, {0}, {1})", name, sequence(values)))
 
 
 def set_first_values(channel: Channel, name: str, values: tuple[float, ...]) -> None:
