@@ -14,6 +14,7 @@ from polycnc.motion.kernels.columns import PieceRecord, piece_width
 from polycnc.motion.planner import Planner
 from polycnc.motion.settings import DEFAULT
 from polycnc.toolpath import Context, Kind, Toolpath
+from polycnc.toolpath.modes import AccelerationMode
 
 SEGMENTS_PER_SECOND = 300_000
 WORST_RATIO = 1.03
@@ -138,7 +139,7 @@ def ratios() -> dict[str, float]:
 def speed() -> Iterator[Figure]:
     """Segments a second, without and with limited jerk, and the growth of the cost with their number."""
     yield rate("planner", segments_per_second(), SEGMENTS_PER_SECOND, "segments/s")
-    soft = Settings(acceleration="SOFT")
+    soft = Settings(acceleration=AccelerationMode.JERK_LIMITED)
     yield rate("planner, limited jerk", segments_per_second(settings=soft), SEGMENTS_PER_SECOND, "segments/s")
     few, *more = (segments_per_second(rows) for rows in (10_000, 100_000, 1_000_000))
     for name, many in zip(("1e5", "1e6"), more, strict=True):

@@ -8,6 +8,7 @@ from math import cos, hypot, pi, sin, sqrt
 
 from polycnc.machine import Machine, load_machine
 from polycnc.toolpath import Context, Kind, Toolpath
+from polycnc.toolpath.modes import CornerMode
 
 Vector = tuple[float, ...]
 #: Position, first and second derivative of all axes by the length `s` (mm) from the section's start.
@@ -187,9 +188,9 @@ def paths() -> list[Path]:
     slot = Path("slot").line(60.0, 0.0, 0.0).arc(60.0, 12.0, pi).line(0.0, 24.0, 0.0).arc(0.0, 12.0, pi)
     return [
         Path("line", feed=200.0).line(120.0, 80.0, -30.0),
-        _zigzag(Path("zigzag, exact stop", context=Context(path_mode="G61"))),
-        _zigzag(Path("zigzag, corner speed", context=Context(path_mode="G64"))),
-        _facets(Path("facets, rounded", context=Context(path_mode="G642", tolerance_mm=0.01))),
+        _zigzag(Path("zigzag, exact stop", context=Context(corner_mode=CornerMode.EXACT_STOP))),
+        _zigzag(Path("zigzag, corner speed", context=Context(corner_mode=CornerMode.CONTINUOUS))),
+        _facets(Path("facets, rounded", context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.01))),
         Path("small circle").line(0.0, -5.0, 0.0).arc(0.0, 0.0, 2.0 * pi),
         Path("large arc", feed=80.0).line(0.0, -400.0, 0.0).arc(0.0, 0.0, 0.5),
         slot,

@@ -18,13 +18,14 @@ from polycnc.motion.limits import EXACT_MM, averages
 from polycnc.motion.planner import Planner
 from polycnc.motion.sampling.run import Run
 from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode
 from tests.motion.paths import MILL, Build
 from tests.motion.test_limits import UNEVEN, arc, build, line, spiral, spline
 
 if TYPE_CHECKING:
     from polycnc.machine import Machine
 
-SOFT = Settings(acceleration="SOFT", without_deviation=frozenset({"G64"}))
+SOFT = Settings(acceleration=AccelerationMode.JERK_LIMITED)
 PERIOD = 0.001
 #: Sampled values come from sums of many terms.
 SLACK = 1.0 + 1e-6
@@ -32,10 +33,10 @@ SLACK = 1.0 + 1e-6
 short = st.floats(-2.0, 2.0)
 contexts = st.sampled_from(
     [
-        Context(path_mode="G64"),
-        Context(path_mode="G61"),
-        Context(path_mode="G642", tolerance_mm=0.005),
-        Context(path_mode="G642", tolerance_mm=0.1),
+        Context(corner_mode=CornerMode.CONTINUOUS),
+        Context(corner_mode=CornerMode.EXACT_STOP),
+        Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.005),
+        Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.1),
     ]
 )
 machines = st.sampled_from([MILL, UNEVEN])
@@ -125,10 +126,10 @@ def test_axes_keep_their_limits_on_splines_of_few_points(
 @given(
     st.lists(st.tuples(st.floats(0.2, 30.0), st.floats(-0.6, 0.6)), min_size=3, max_size=20),
     st.floats(0.0, 6.2),
-    st.sampled_from(["BRISK", "SOFT"]),
+    st.sampled_from([AccelerationMode.CONSTANT, AccelerationMode.JERK_LIMITED]),
 )
 def test_axes_keep_their_velocity_between_the_points_of_a_coarse_spline(
-    chords: list[tuple[float, float]], heading: float, acceleration: str
+    chords: list[tuple[float, float]], heading: float, acceleration: AccelerationMode
 ) -> None:
     """Chords of any lengths that turn to either side, at the velocity of the axes."""
     swift = replace(MILL, axes=tuple(replace(axis, max_feed=20.0) for axis in MILL.axes))
@@ -179,7 +180,7 @@ def test_a_rounded_path_never_leaves_its_tolerance(
 def test_short_lines_are_rounded_within_their_tolerance(
     ways: list[tuple[float, float, float]], tolerance: float
 ) -> None:
-    rows = Build(context=Context(path_mode="G642", tolerance_mm=tolerance))
+    rows = Build(context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance))
     for way in ways:
         rows.feed(*(round(a + b, 3) for a, b in zip(rows.end, way, strict=True)), feed=150.0)
     blend = averages(rows.context, MILL, SOFT)[1]
@@ -188,7 +189,7 @@ def test_short_lines_are_rounded_within_their_tolerance(
 
 
 def test_a_corner_is_rounded_at_all() -> None:
-    rows = Build(context=Context(path_mode="G642", tolerance_mm=0.1))
+    rows = Build(context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.1))
     rows.feed(20.0, 0.0, 0.0).feed(36.0, 4.0, 0.0)
     (run,) = runs(rows, MILL)[1]
     assert 0.005 < stray(run, averages(rows.context, MILL, SOFT)[1]) <= 0.1
@@ -200,7 +201,7 @@ def test_limited_jerk_never_saves_time(
     steps: list[tuple[str, float, float, float, float]], context: Context
 ) -> None:
     rows = build(steps, context)
-    brisk = replace(SOFT, acceleration="BRISK")
+    brisk = replace(SOFT, acceleration=AccelerationMode.CONSTANT)
     assert rows.plan(UNEVEN, settings=SOFT).total_s >= rows.plan(UNEVEN, settings=brisk).total_s * (
         1.0 - 1e-9
     )
@@ -208,7 +209,7 @@ def test_limited_jerk_never_saves_time(
 
 def test_a_long_way_takes_its_ramps_longer() -> None:
     """From rest to rest: as without limited jerk, at the acceleration that the average allows, and the average."""
-    rows = Build(context=Context(path_mode="G61")).rapid(400.0, 0.0, 0.0)
+    rows = Build(context=Context(corner_mode=CornerMode.EXACT_STOP)).rapid(400.0, 0.0, 0.0)
     x = MILL.axis["X"]
     ramp = min(2.0 * x.acceleration / x.jerk, (2.0 * x.rapid / x.jerk) ** 0.5)
     pull = min(x.acceleration, 0.5 * x.jerk * ramp)
@@ -217,8 +218,12 @@ def test_a_long_way_takes_its_ramps_longer() -> None:
 
 
 def test_the_context_chooses_brisk_or_soft() -> None:
-    brisk = Build(context=Context(acceleration="BRISK")).feed(20.0, 0.0, 0.0).plan(MILL, settings=SOFT)
-    soft = Build(context=Context(acceleration="SOFT")).feed(20.0, 0.0, 0.0).plan(MILL)
+    brisk = (
+        Build(context=Context(acceleration=AccelerationMode.CONSTANT))
+        .feed(20.0, 0.0, 0.0)
+        .plan(MILL, settings=SOFT)
+    )
+    soft = Build(context=Context(acceleration=AccelerationMode.JERK_LIMITED)).feed(20.0, 0.0, 0.0).plan(MILL)
     assert soft.total_s > brisk.total_s + 0.05
 
 
@@ -226,13 +231,14 @@ def test_drive_accelerates_less_where_an_axis_may_become_fast() -> None:
     lead = Settings(drive_speed=0.5, drive_reduction=0.5)
     top = MILL.axis["X"].max_feed
 
-    def seconds(feed: float, acceleration: str) -> float:
+    def seconds(feed: float, acceleration: AccelerationMode) -> float:
         rows = Build(context=Context(acceleration=acceleration)).feed(100.0, 0.0, 0.0, feed=feed)
         return rows.plan(MILL, settings=lead).total_s
 
     pull = MILL.axis["X"].acceleration
-    assert seconds(0.4 * top, "DRIVE") == seconds(0.4 * top, "BRISK")
-    assert seconds(0.8 * top, "DRIVE") - seconds(0.8 * top, "BRISK") == pytest.approx(0.8 * top / pull)
+    brisk, drive = AccelerationMode.CONSTANT, AccelerationMode.REDUCED_AT_SPEED
+    assert seconds(0.4 * top, drive) == seconds(0.4 * top, brisk)
+    assert seconds(0.8 * top, drive) - seconds(0.8 * top, brisk) == pytest.approx(0.8 * top / pull)
 
 
 @pytest.mark.parametrize("kind", ["arc", "helix", "spline", "per revolution"])
@@ -241,10 +247,10 @@ def test_drive_acts_on_every_kind_of_path(kind: str) -> None:
     lead = Settings(drive_speed=0.5, drive_reduction=0.5)
     top = MILL.axis["X"].max_feed
 
-    def seconds(feed: float, acceleration: str) -> float:
-        rows = Build(context=Context(acceleration=acceleration, path_mode="G64"))
+    def seconds(feed: float, acceleration: AccelerationMode) -> float:
+        rows = Build(context=Context(acceleration=acceleration, corner_mode=CornerMode.CONTINUOUS))
         if kind == "per revolution":
-            rows.set(feed_mode="G95", spindle_rpm=600.0, spindle_direction=1)
+            rows.set(feed_mode=FeedMode.PER_REVOLUTION, spindle_rpm=600.0, spindle_direction=1)
             rows.feed(300.0, 0.0, 0.0, feed=feed / 10.0)
         elif kind == "spline":
             for k in range(1, 201):
@@ -256,13 +262,17 @@ def test_drive_acts_on_every_kind_of_path(kind: str) -> None:
         return rows.plan(MILL, settings=lead).times.cutting_s
 
     pull = MILL.axis["X"].acceleration
-    assert seconds(0.4 * top, "DRIVE") == seconds(0.4 * top, "BRISK")
-    longer = seconds(0.8 * top, "DRIVE") - seconds(0.8 * top, "BRISK")
+    assert seconds(0.4 * top, AccelerationMode.REDUCED_AT_SPEED) == seconds(
+        0.4 * top, AccelerationMode.CONSTANT
+    )
+    longer = seconds(0.8 * top, AccelerationMode.REDUCED_AT_SPEED) - seconds(
+        0.8 * top, AccelerationMode.CONSTANT
+    )
     assert 0.3 * 0.8 * top / pull < longer <= 1.2 * 0.8 * top / pull
 
 
 def test_the_pieces_of_a_cut_line_make_up_the_line() -> None:
-    context = Context(path_mode="G642", tolerance_mm=0.1)
+    context = Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.1)
     rows = Build(context=context).feed(30.0, 0.0, 0.0).feed(60.0, 4.0, 0.0)
     lengths: list[float] = []
     width = piece_width(3)
@@ -278,7 +288,7 @@ def test_the_pieces_of_a_cut_line_make_up_the_line() -> None:
 @pytest.mark.parametrize("length", [0.05, 0.5, 2.0])
 def test_a_line_from_rest_to_rest_takes_a_fifth_longer_than_anything_could(length: float) -> None:
     """Least time within a jerk j alone: a quarter of it each way up, down, down, up, ∛(32·L/j)."""
-    rows = Build(context=Context(path_mode="G61")).feed(length, 0.0, 0.0, feed=1e4)
+    rows = Build(context=Context(corner_mode=CornerMode.EXACT_STOP)).feed(length, 0.0, 0.0, feed=1e4)
     least = (32.0 * length / MILL.axis["X"].jerk) ** (1.0 / 3.0)
     assert least < rows.plan(MILL, settings=SOFT).total_s < 1.2 * least
 
@@ -291,7 +301,7 @@ def test_short_lines_in_one_direction_take_as_long_as_one_line(
     monkeypatch.setattr("polycnc.motion.planner.FULL_ROOM", 256)
 
     def seconds(count: int) -> float:
-        rows = Build(context=Context(path_mode="G64"))
+        rows = Build(context=Context(corner_mode=CornerMode.CONTINUOUS))
         for k in range(1, count + 1):
             rows.feed(0.8 * length * k / count, 0.6 * length * k / count, 0.0, feed=feed)
         return rows.plan(MILL, settings=SOFT, compiled=False).total_s
@@ -320,11 +330,13 @@ def test_axes_keep_their_limits_where_straight_runs_change_direction_or_feed(
 
 
 def test_a_slow_corner_before_an_arc_does_not_slow_down_the_arc() -> None:
-    alone, after_corner = (Build(context=Context(path_mode="G64")) for _ in range(2))
+    alone, after_corner = (Build(context=Context(corner_mode=CornerMode.CONTINUOUS)) for _ in range(2))
     alone.arc(20.0, 0.0, 0.0, center=(10.0, 0.0))
     after_corner.feed(-10.0, 0.0, 0.0).feed(0.0, 0.0, 0.0).arc(20.0, 0.0, 0.0, center=(10.0, 0.0))
     after_corner.toolpath.block_boundary()
-    corner = Build(context=Context(path_mode="G64")).feed(-10.0, 0.0, 0.0).feed(0.0, 0.0, 0.0)
+    corner = (
+        Build(context=Context(corner_mode=CornerMode.CONTINUOUS)).feed(-10.0, 0.0, 0.0).feed(0.0, 0.0, 0.0)
+    )
     lines = corner.plan(MILL, settings=SOFT).total_s
     total = after_corner.plan(MILL, settings=SOFT).total_s
     assert total < lines + alone.plan(MILL, settings=SOFT).total_s + 0.1
@@ -332,7 +344,9 @@ def test_a_slow_corner_before_an_arc_does_not_slow_down_the_arc() -> None:
 
 def test_a_bent_piece_that_is_cut_keeps_its_curve() -> None:
     rows = (
-        Build(context=Context(path_mode="G64")).feed(10.0, 0.0, 0.0).arc(30.0, 0.0, 0.0, center=(20.0, 0.0))
+        Build(context=Context(corner_mode=CornerMode.CONTINUOUS))
+        .feed(10.0, 0.0, 0.0)
+        .arc(30.0, 0.0, 0.0, center=(20.0, 0.0))
     )
     run = runs(rows, MILL)[1][-1]
     path = run.on_path(np.linspace(0.0, run.seconds, 4000))
@@ -342,10 +356,10 @@ def test_a_bent_piece_that_is_cut_keeps_its_curve() -> None:
 
 
 def test_resting_at_a_sharp_corner_is_chosen_where_it_takes_less_time() -> None:
-    zigzag = Build(context=Context(path_mode="G64"))
+    zigzag = Build(context=Context(corner_mode=CornerMode.CONTINUOUS))
     for k in range(1, 9):
         zigzag.feed(0.5 * k, 0.5 * (k % 2), 0.0)
-    stops = Build(context=Context(path_mode="G61"))
+    stops = Build(context=Context(corner_mode=CornerMode.EXACT_STOP))
     for k in range(1, 9):
         stops.feed(0.5 * k, 0.5 * (k % 2), 0.0)
     assert zigzag.plan(MILL, settings=SOFT).total_s <= stops.plan(MILL, settings=SOFT).total_s * (1.0 + 1e-9)

@@ -15,6 +15,7 @@ from polycnc.motion import Settings
 from polycnc.motion.kernels.columns import Limits
 from polycnc.motion.limits import axis_limits
 from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.modes import CornerMode
 from tests.motion.paths import MILL, MILL4, Build, Piece, pieces_of
 
 coordinate = st.floats(-50.0, 50.0).map(lambda x: round(x, 3))
@@ -64,7 +65,11 @@ def check_limits(pieces: list[Piece], limits: Limits, n: int, slack: float, step
 
 
 contexts = st.sampled_from(
-    [Context(path_mode="G64"), Context(path_mode="G642", tolerance_mm=0.02), Context(path_mode="G61")]
+    [
+        Context(corner_mode=CornerMode.CONTINUOUS),
+        Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.02),
+        Context(corner_mode=CornerMode.EXACT_STOP),
+    ]
 )
 
 
@@ -136,7 +141,7 @@ def test_a_stronger_machine_is_never_slower(
     strong = replace(
         UNEVEN, axes=tuple(replace(a, acceleration=a.acceleration * factor) for a in UNEVEN.axes)
     )
-    rows = build(steps, Context(path_mode="G642", tolerance_mm=0.01))
+    rows = build(steps, Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.01))
     assert rows.plan(strong).total_s <= rows.plan(UNEVEN).total_s * (1.0 + 1e-9)
 
 
@@ -160,7 +165,7 @@ def test_rotary_axes_keep_their_limits_in_mixed_moves(
 def test_no_axis_jumps_further_than_allowed_at_a_corner(
     steps: list[tuple[str, float, float, float, float]],
 ) -> None:
-    pieces = pieces_of(build(steps, Context(path_mode="G64")).toolpath, UNEVEN)
+    pieces = pieces_of(build(steps, Context(corner_mode=CornerMode.CONTINUOUS)).toolpath, UNEVEN)
     jumps = axis_limits(UNEVEN, 1, ("X", "Y", "Z"), Settings()).jump
     for before, after in pairwise(pieces):
         for i in range(3):

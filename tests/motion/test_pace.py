@@ -11,9 +11,10 @@ from hypothesis import strategies as st
 from polycnc.motion import plan
 from polycnc.motion.kernels.columns import Limits, PathLimits
 from polycnc.motion.pace import Travel, edge_factor, pace_of
-from polycnc.motion.settings import BRISK, Settings
+from polycnc.motion.settings import Settings
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.context import Pace
+from polycnc.toolpath.modes import AccelerationMode
 from tests.motion.paths import Build, mill
 
 MACHINE = mill(acceleration=1000.0, top=500.0)
@@ -22,7 +23,7 @@ LIMITS = Limits(
     [500.0] * 3, [250.0] * 3, [1000.0] * 3, [1.0] * 3, [0.0] * 3, [50000.0] * 3,
     [0, 1, 2], PathLimits(),
 )  # fmt: skip
-SETTINGS = Settings(acceleration=BRISK, rapid_stops=False)
+SETTINGS = Settings(acceleration=AccelerationMode.CONSTANT, rapid_stops=False)
 WEIGHTS = [1.0, 1.0, 1.0]
 
 

@@ -10,6 +10,7 @@ import pytest
 from polycnc.geometry.frames import rotation, scaling
 from polycnc.motion import Settings, plan
 from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.modes import CornerMode, FeedMode
 from tests.motion.paths import LATHE, MILL4, Build, mill
 
 A, V = 1000.0, 500.0
@@ -78,12 +79,19 @@ def test_a_cut_in_many_parts_is_planned_like_one_cut() -> None:
 
 
 def test_exact_stop_rests_at_every_block_end() -> None:
-    rows = Build(context=Context(path_mode="G61")).feed(50.0, 0.0, 0.0).feed(100.0, 0.0, 0.0)
+    rows = (
+        Build(context=Context(corner_mode=CornerMode.EXACT_STOP)).feed(50.0, 0.0, 0.0).feed(100.0, 0.0, 0.0)
+    )
     assert rows.plan(MACHINE).total_s == pytest.approx(2.0 * trapezoid(50.0, 100.0, A), rel=1e-12)
 
 
 def test_exact_stop_of_one_block_rests_at_its_end_only() -> None:
-    rows = Build().set(path_mode="G09").feed(50.0, 0.0, 0.0).set(path_mode="G64")
+    rows = (
+        Build()
+        .set(corner_mode=CornerMode.EXACT_STOP)
+        .feed(50.0, 0.0, 0.0)
+        .set(corner_mode=CornerMode.CONTINUOUS)
+    )
     rows.feed(100.0, 0.0, 0.0).feed(150.0, 0.0, 0.0)
     expected = trapezoid(50.0, 100.0, A) + trapezoid(100.0, 100.0, A)
     assert rows.plan(MACHINE).total_s == pytest.approx(expected, rel=1e-12)
@@ -99,7 +107,9 @@ def test_a_dwell_and_a_reversal_stop_the_axes() -> None:
 def test_a_corner_without_deviation_is_passed_at_the_allowed_velocity_jump() -> None:
     # Each axis jumps by the whole path speed at a right angle: v = overload · a · cycle.
     corner = 1.2 * A * 0.004
-    rows = Build(context=Context(path_mode="G64")).feed(50.0, 0.0, 0.0).feed(50.0, 50.0, 0.0)
+    rows = (
+        Build(context=Context(corner_mode=CornerMode.CONTINUOUS)).feed(50.0, 0.0, 0.0).feed(50.0, 50.0, 0.0)
+    )
     half = (100.0 + (100.0 - corner)) / A + (50.0 - (2 * 100.0**2 - corner**2) / (2.0 * A)) / 100.0
     assert rows.plan(MACHINE).total_s == pytest.approx(2.0 * half, rel=1e-12)
 
@@ -110,7 +120,7 @@ def test_a_rounded_corner_is_passed_at_the_speed_of_the_arc_within_the_tolerance
     radius = tolerance * sqrt(0.5) / (1.0 - sqrt(0.5))
     # Normals turn from 45° to one side to 45° to the other: the largest part of an axis is the whole.
     corner = sqrt(A * radius)
-    rows = Build(context=Context(path_mode="G642", tolerance_mm=tolerance))
+    rows = Build(context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance))
     rows.feed(50.0, 0.0, 0.0).feed(50.0, 50.0, 0.0)
     half = (100.0 + (100.0 - corner)) / A + (50.0 - (2 * 100.0**2 - corner**2) / (2.0 * A)) / 100.0
     assert rows.plan(MACHINE).total_s == pytest.approx(2.0 * half, rel=1e-12)
@@ -119,7 +129,12 @@ def test_a_rounded_corner_is_passed_at_the_speed_of_the_arc_within_the_tolerance
 def test_rounding_within_a_distance_begins_no_earlier_than_that_before_the_corner() -> None:
     """G641: at 90° the arc that touches both lines 0.04 mm from the corner has a radius of 0.04 mm."""
     machine = mill(acceleration=1000.0, top=500.0)
-    rows = Build().set(path_mode="G641", tolerance_mm=0.04).feed(50.0, 0.0, 0.0).feed(50.0, 50.0, 0.0)
+    rows = (
+        Build()
+        .set(corner_mode=CornerMode.ROUNDED_FROM, tolerance_mm=0.04)
+        .feed(50.0, 0.0, 0.0)
+        .feed(50.0, 50.0, 0.0)
+    )
     # The larger of the two shares of an axis in the normals of that arc, at its ends, is 1: v² = a·r.
     corner = sqrt(1000.0 * 0.04)
     lost = 2.0 * (100.0 - corner) ** 2 / (2.0 * 1000.0 * 100.0)
@@ -127,12 +142,13 @@ def test_rounding_within_a_distance_begins_no_earlier_than_that_before_the_corne
 
 
 def test_rounding_within_no_distance_keeps_the_corner() -> None:
-    way = [Build().set(path_mode=mode).feed(50.0, 0.0, 0.0).feed(50.0, 50.0, 0.0) for mode in ("G641", "G64")]
+    modes = (CornerMode.ROUNDED_FROM, CornerMode.CONTINUOUS)
+    way = [Build().set(corner_mode=mode).feed(50.0, 0.0, 0.0).feed(50.0, 50.0, 0.0) for mode in modes]
     assert way[0].plan(mill()).total_s == way[1].plan(mill()).total_s
 
 
 def test_a_slow_circle_takes_its_length_over_the_feed() -> None:
-    rows = Build().feed(50.0, 0.0, 0.0, feed=10.0).set(path_mode="G61")
+    rows = Build().feed(50.0, 0.0, 0.0, feed=10.0).set(corner_mode=CornerMode.EXACT_STOP)
     rows.arc(50.0, 0.0, 0.0, center=(0.0, 0.0), feed=10.0)
     expected = trapezoid(2.0 * pi * 50.0, 10.0, A)
     assert rows.plan(MACHINE).row_s[1] == pytest.approx(expected, rel=1e-3)
@@ -175,14 +191,16 @@ def test_a_rotated_or_mirrored_contour_keeps_its_length(frame: object) -> None:
 
 
 def test_inverse_time_feed_gives_each_block_its_seconds() -> None:
-    rows = Build(context=Context(feed_mode="G93", path_mode="G61")).feed(10.0, 0.0, 0.0, feed=0.5)
+    rows = Build(context=Context(feed_mode=FeedMode.INVERSE_TIME, corner_mode=CornerMode.EXACT_STOP)).feed(
+        10.0, 0.0, 0.0, feed=0.5
+    )
     # 20 s at a speed of 5 mm/s, and the ramps.
     expected = trapezoid(10.0, 5.0, A)
     assert rows.plan(MACHINE).total_s == pytest.approx(expected, rel=1e-12)
 
 
 def test_feed_per_revolution_follows_the_spindle() -> None:
-    context = Context(feed_mode="G95", spindle_rpm=600.0, spindle_direction=1)
+    context = Context(feed_mode=FeedMode.PER_REVOLUTION, spindle_rpm=600.0, spindle_direction=1)
     rows = Build(axes=("X", "Z"), context=context).feed(0.0, -50.0, feed=0.2)
     lathe = LATHE.axis["Z"].acceleration
     result = rows.plan(LATHE)
@@ -192,7 +210,11 @@ def test_feed_per_revolution_follows_the_spindle() -> None:
 
 def test_facing_under_constant_surface_speed_takes_the_integral_over_the_radius() -> None:
     context = Context(
-        feed_mode="G95", surface_speed=True, spindle_rpm=150.0, spindle_direction=1, spindle_limit_rpm=4000.0
+        feed_mode=FeedMode.PER_REVOLUTION,
+        surface_speed=True,
+        spindle_rpm=150.0,
+        spindle_direction=1,
+        spindle_limit_rpm=4000.0,
     )
     rows = Build(axes=("X", "Z"), context=context).rapid(50.0, 0.0).feed(20.0, 0.0, feed=0.2)
     # dt = 2·pi·r·dr / (V·f), with V = 2500 mm/s; 150000 mm/min never exceeds 4000 rpm above r = 6 mm.
@@ -201,7 +223,7 @@ def test_facing_under_constant_surface_speed_takes_the_integral_over_the_radius(
 
 
 def test_a_thread_runs_its_lead_every_turn() -> None:
-    context = Context(feed_mode="G95", spindle_rpm=300.0, spindle_direction=1)
+    context = Context(feed_mode=FeedMode.PER_REVOLUTION, spindle_rpm=300.0, spindle_direction=1)
     rows = Build(axes=("X", "Z"), context=context)
     rows.row(Kind.THREAD, 0.0, -40.0, feed=0.1, curve=(2.0, 0.0))
     result = rows.plan(LATHE)
@@ -211,7 +233,7 @@ def test_a_thread_runs_its_lead_every_turn() -> None:
 
 
 def test_a_thread_whose_lead_grows_takes_the_revolutions_between_its_leads() -> None:
-    context = Context(feed_mode="G95", spindle_rpm=300.0, spindle_direction=1)
+    context = Context(feed_mode=FeedMode.PER_REVOLUTION, spindle_rpm=300.0, spindle_direction=1)
     rows = Build(axes=("X", "Z"), context=context)
     rows.row(Kind.THREAD, 0.0, -48.0, feed=2.0, curve=(2.0, 0.0, 1.0))
     # The last lead is sqrt(2² + 2·1·48) = 10: 8 revolutions at 5 a second, 30 mm/s on average.
@@ -235,7 +257,7 @@ def test_a_cut_without_feed_is_counted() -> None:
 
 @pytest.mark.parametrize("kind", ["feed", "arc", "thread", "tap"])
 def test_moves_that_wait_for_a_spindle_at_rest_are_counted(kind: str) -> None:
-    rows = Build(context=Context(feed_mode="G95", spindle_rpm=0.0))
+    rows = Build(context=Context(feed_mode=FeedMode.PER_REVOLUTION, spindle_rpm=0.0))
     if kind == "feed":
         rows.feed(10.0, 0.0, 0.0, feed=0.2)
     elif kind == "arc":

@@ -14,10 +14,14 @@ from polycnc.motion import Plan, Settings
 from polycnc.motion import planner as planner_module
 from polycnc.motion.planner import Planner
 from polycnc.toolpath import Context, Kind, Toolpath
+from polycnc.toolpath.modes import AccelerationMode, CornerMode
 from tests.motion.paths import MILL, Build
 
 if TYPE_CHECKING:
     from polycnc.toolpath.table import Chunk
+
+
+CORNERS = (CornerMode.CONTINUOUS, CornerMode.EXACT_STOP, CornerMode.ROUNDED)
 
 
 def varied(rows: int, chunk_rows: int = 65_536) -> Build:
@@ -27,7 +31,11 @@ def varied(rows: int, chunk_rows: int = 65_536) -> Build:
     while len(build.toolpath) < rows:
         k += 1
         x, y = round(30.0 * sin(0.7 * k), 3), round(20.0 * cos(1.1 * k), 3)
-        build.set(tolerance_mm=0.01 * (k % 3), path_mode=("G64", "G61", "G642")[k // 5 % 3], tool=1 + k // 40)
+        build.set(
+            tolerance_mm=0.01 * (k % 3),
+            corner_mode=CORNERS[k // 5 % 3],
+            tool=1 + k // 40,
+        )
         build.feed(x, y, 0.01 * k, feed=60.0 + k % 50)
         if k % 3 == 0:
             build.arc(x, y + 4.0, 0.01 * k, center=(x, y + 2.0), feed=150.0, turns=float(k % 2))
@@ -105,7 +113,7 @@ def test_rows_need_not_be_kept(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_run_up_over_the_whole_buffer_grows_the_buffer(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing becomes final while every joint hangs on the end: the room doubles until it does."""
     monkeypatch.setattr(planner_module, "FULL_ROOM", 256)
-    parts = Build(context=Context(path_mode="G64"))
+    parts = Build(context=Context(corner_mode=CornerMode.CONTINUOUS))
     for k in range(1, 4001):
         parts.feed(0.001 * k, 0.0, 0.0, feed=400.0)
     whole = Build().feed(4.0, 0.0, 0.0, feed=400.0)
@@ -156,8 +164,8 @@ def test_a_feed_profile_takes_the_place_of_programmed_feeds() -> None:
     assert rows(80.0).plan(MILL, feed_profile=half).total_s == rows(40.0).plan(MILL).total_s
 
 
-@pytest.mark.parametrize("acceleration", ["BRISK", "SOFT"])
-def test_chunks_give_the_same_bits_with_limited_jerk(acceleration: str) -> None:
+@pytest.mark.parametrize("acceleration", [AccelerationMode.CONSTANT, AccelerationMode.JERK_LIMITED])
+def test_chunks_give_the_same_bits_with_limited_jerk(acceleration: AccelerationMode) -> None:
     lead = Settings(acceleration=acceleration)
     whole = varied(400).plan(MILL, settings=lead, compiled=False)
     assert varied(400, chunk_rows=1).plan(MILL, settings=lead, compiled=False).row_s == whole.row_s
@@ -165,7 +173,7 @@ def test_chunks_give_the_same_bits_with_limited_jerk(acceleration: str) -> None:
 
 
 def test_a_small_buffer_gives_almost_the_same_time_with_limited_jerk(monkeypatch: pytest.MonkeyPatch) -> None:
-    lead = Settings(acceleration="SOFT")
+    lead = Settings(acceleration=AccelerationMode.JERK_LIMITED)
     whole = varied(600).plan(MILL, settings=lead, compiled=False).total_s
     monkeypatch.setattr(planner_module, "FULL_ROOM", 256)
     assert varied(600).plan(MILL, settings=lead, compiled=False).total_s == pytest.approx(whole, rel=1e-9)

@@ -10,6 +10,7 @@ from polycnc.machine import MFunction
 from polycnc.machine.model import Text
 from polycnc.motion import Settings
 from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.modes import CornerMode, FeedMode, StopWindow
 from tests.motion.paths import LATHE, MILL, Build
 
 CHANGE_S = MILL.magazine.change_time_s
@@ -117,7 +118,7 @@ def test_a_dwell_in_revolutions_follows_the_spindle() -> None:
 
 
 def test_each_thread_waits_half_a_turn_for_the_zero_mark() -> None:
-    context = Context(feed_mode="G95", spindle_rpm=300.0, spindle_direction=1)
+    context = Context(feed_mode=FeedMode.PER_REVOLUTION, spindle_rpm=300.0, spindle_direction=1)
     rows = Build(axes=("X", "Z"), context=context)
     for _ in range(2):
         rows.rapid(20.0, 5.0)
@@ -129,12 +130,11 @@ def test_each_thread_waits_half_a_turn_for_the_zero_mark() -> None:
 SETTLING = replace(MILL, settle_fine_s=0.05, settle_coarse_s=0.02)
 
 
-@pytest.mark.parametrize(("window", "seconds"), [("fine", 0.05), ("coarse", 0.02), ("none", 0.0)])
-@pytest.mark.parametrize("mode", ["G9", "G09", "G60", "G61"])
-def test_behind_each_exact_stop_the_axes_settle_within_the_window(
-    mode: str, window: str, seconds: float
-) -> None:
-    rows = Build(context=Context(path_mode=mode, stop_window=window)).feed(10.0, 0.0, 0.0)
+@pytest.mark.parametrize(
+    ("window", "seconds"), [(StopWindow.FINE, 0.05), (StopWindow.COARSE, 0.02), (StopWindow.NONE, 0.0)]
+)
+def test_behind_each_exact_stop_the_axes_settle_within_the_window(window: StopWindow, seconds: float) -> None:
+    rows = Build(context=Context(corner_mode=CornerMode.EXACT_STOP, stop_window=window)).feed(10.0, 0.0, 0.0)
     rows.feed(20.0, 0.0, 0.0).feed(20.0, 0.0, 0.0).event("m", code=30)
     settled, at_once = rows.plan(SETTLING), rows.plan()
     assert settled.times.cutting_s == pytest.approx(at_once.times.cutting_s + 2.0 * seconds)
@@ -143,12 +143,14 @@ def test_behind_each_exact_stop_the_axes_settle_within_the_window(
 
 
 def test_nothing_settles_on_a_continuous_path() -> None:
-    rows = Build(context=Context(path_mode="G64")).feed(10.0, 0.0, 0.0).feed(20.0, 9.0, 0.0)
+    rows = Build(context=Context(corner_mode=CornerMode.CONTINUOUS)).feed(10.0, 0.0, 0.0).feed(20.0, 9.0, 0.0)
     assert rows.event("m", code=30).plan(SETTLING).total_s == rows.plan().total_s
 
 
 def test_a_rapid_settles_where_rapids_stop() -> None:
-    rows = Build(context=Context(path_mode="G64")).rapid(10.0, 0.0, 0.0).feed(20.0, 0.0, 0.0)
+    rows = (
+        Build(context=Context(corner_mode=CornerMode.CONTINUOUS)).rapid(10.0, 0.0, 0.0).feed(20.0, 0.0, 0.0)
+    )
     for stops, seconds in ((True, 0.05), (False, 0.0)):
         settings = Settings(rapid_stops=stops)
         times, before = (rows.plan(machine, settings=settings).times for machine in (SETTLING, MILL))
@@ -156,7 +158,9 @@ def test_a_rapid_settles_where_rapids_stop() -> None:
 
 
 def test_settling_does_not_depend_on_the_chunks() -> None:
-    whole, cut = (Build(context=Context(path_mode="G61"), chunk_rows=rows) for rows in (65_536, 1))
+    whole, cut = (
+        Build(context=Context(corner_mode=CornerMode.EXACT_STOP), chunk_rows=rows) for rows in (65_536, 1)
+    )
     for rows in (whole, cut):
         for k in range(5):
             rows.feed(10.0 * k, 0.0, 0.0)
@@ -164,7 +168,7 @@ def test_settling_does_not_depend_on_the_chunks() -> None:
 
 
 def test_the_axes_settle_behind_the_last_row_too() -> None:
-    rows = Build(context=Context(path_mode="G61")).feed(10.0, 0.0, 0.0)
+    rows = Build(context=Context(corner_mode=CornerMode.EXACT_STOP)).feed(10.0, 0.0, 0.0)
     assert rows.plan(SETTLING).total_s == pytest.approx(rows.plan().total_s + 0.05)
     assert sum(rows.plan(SETTLING).row_s) == pytest.approx(rows.plan(SETTLING).total_s)
 

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from polycnc.geometry.frames import rotation
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.export import WRITERS, Csv, JsonLines, Parquet, arrow_table, flattened
+from polycnc.toolpath.modes import FeedMode
 from polycnc.toolpath.trace import AxisLayout
 from tests.toolpath.paths import Z_UP, Draft
 
@@ -79,12 +80,16 @@ ROW = st.tuples(
 @given(
     rows=st.lists(ROW, max_size=12),
     inch=st.booleans(),
-    mode=st.sampled_from(["G93", "G94", "G95"]),
+    mode=st.sampled_from(FeedMode),
     angle=st.floats(-360, 360),
     diameter=st.integers(0, 15),
 )
 def test_whole_columns_show_the_very_values_of_single_rows(
-    rows: list[tuple[Kind, float, float, float, float]], inch: bool, mode: str, angle: float, diameter: int
+    rows: list[tuple[Kind, float, float, float, float]],
+    inch: bool,
+    mode: FeedMode,
+    angle: float,
+    diameter: int,
 ) -> None:
     layout = AxisLayout((0, 1, -1), rotary=frozenset({3}), modulo=frozenset({3}))
     draft = Draft(("X", "Y", "Z", "C"), chunk_rows=5)

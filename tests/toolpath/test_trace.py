@@ -4,6 +4,7 @@ import pytest
 
 from polycnc.geometry.frames import rotation, translation
 from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.modes import FeedMode
 from polycnc.toolpath.trace import AxisLayout
 from tests.toolpath.paths import MILL, Z_UP, Draft
 
@@ -43,7 +44,9 @@ def test_an_inch_program_shows_inches_but_the_machine_display_stays_metric() -> 
 
 def test_diameter_axes_show_twice_the_radius_in_positions_and_centres() -> None:
     layout = AxisLayout(geometry=(0, -1, 1))
-    draft = Draft(("X", "Z")).under(Context(plane="G18", diameter_axes=0b01, feed_mode="G95"))
+    draft = Draft(("X", "Z")).under(
+        Context(plane="G18", diameter_axes=0b01, feed_mode=FeedMode.PER_REVOLUTION)
+    )
     draft.move(Kind.CW, 20, -20, feed=0.2, curve=(20, 0, -15, 0, 1, 0, 0))
     (record,) = draft.display(layout).records()
     assert record["to"] == {"X": 40, "Z": -20}
@@ -53,22 +56,33 @@ def test_diameter_axes_show_twice_the_radius_in_positions_and_centres() -> None:
 
 
 @pytest.mark.parametrize(
-    ("mode", "inside", "shown"), [("G94", 2.0, 120.0), ("G95", 2.0, 2.0), ("G93", 2.0, 120.0)]
+    ("mode", "inside", "shown"),
+    [
+        (FeedMode.PER_MINUTE, 2.0, 120.0),
+        (FeedMode.PER_REVOLUTION, 2.0, 2.0),
+        (FeedMode.INVERSE_TIME, 2.0, 120.0),
+    ],
 )
-def test_feed_is_shown_in_the_unit_of_the_feed_mode(mode: str, inside: float, shown: float) -> None:
+def test_feed_is_shown_in_the_unit_of_the_feed_mode(mode: FeedMode, inside: float, shown: float) -> None:
     draft = Draft().under(Context(feed_mode=mode)).move(Kind.FEED, 1, 0, 0, feed=inside)
     (record,) = draft.display().records()
     assert record["feed"] == shown
 
 
 def test_inverse_time_is_no_length_and_so_the_same_in_inches() -> None:
-    draft = Draft().under(Context(feed_mode="G93", inch=True)).move(Kind.FEED, 1, 0, 0, feed=2)
+    draft = (
+        Draft().under(Context(feed_mode=FeedMode.INVERSE_TIME, inch=True)).move(Kind.FEED, 1, 0, 0, feed=2)
+    )
     (record,) = draft.display().records()
     assert record["feed"] == 120
 
 
 def test_the_feed_of_a_thread_is_its_lead_even_in_feed_per_minute() -> None:
-    draft = Draft().under(Context(feed_mode="G94")).move(Kind.THREAD, 0, 0, -9, feed=1.5, curve=(1.5, 90))
+    draft = (
+        Draft()
+        .under(Context(feed_mode=FeedMode.PER_MINUTE))
+        .move(Kind.THREAD, 0, 0, -9, feed=1.5, curve=(1.5, 90))
+    )
     (record,) = draft.display().records()
     assert (record["feed"], record["lead"], record["start_angle"]) == (1.5, 1.5, 90)
 

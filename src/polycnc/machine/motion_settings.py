@@ -7,17 +7,10 @@ from enum import StrEnum
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.toolpath.modes import AccelerationMode
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
-
-#: Words for exact stop, block by block or until further notice.
-EXACT_STOP_MODES = frozenset({"G9", "G09", "G60", "G61", "G61.1"})
-#: Words for continuous path that keeps to the contour: a corner costs speed, not accuracy.
-WITHOUT_DEVIATION_MODES = frozenset({"G62", "G63", "G64"})
-#: Words for rounding that begins and ends at a distance from the corner.
-DISTANCE_MODES = frozenset({"G641"})
-#: Words for acceleration without and with limited jerk, and with less acceleration at high speed.
-BRISK, SOFT, DRIVE = "BRISK", "SOFT", "DRIVE"
 
 
 class DryFeed(StrEnum):
@@ -63,8 +56,8 @@ class MotionSettings:
         rotary_in_feed: The feed of a move of linear and rotary axes counts a degree as a millimetre (an inch
             in inch mode), as the word-address controls do; else it counts the linear axes alone (SINUMERIK
             without FGROUP).
-        without_deviation: Path modes whose corners are passed without deviation; the others round corners.
-        tolerance_mm: Contour tolerance of the modes that round corners, where the program names none.
+        keeps_corners: Continuous path keeps to the corner, which costs speed; else it rounds it.
+        tolerance_mm: Contour tolerance of corners that are rounded, where the program names none.
         overload: At a corner without deviation an axis may change its velocity within one interpolation cycle
             by this many times its acceleration (SINUMERIK MD32310 MAX_ACCEL_OVL_FACTOR).
         corner_speed: Highest step of an axis's velocity at a corner of two cuts, mm/s: the speed at which a right angle
@@ -73,9 +66,9 @@ class MotionSettings:
         rapid_caps: Highest rapid traverse of axes by their name in programs, mm/s or degrees/s, where it is below that
             of the machine (SYNTEC Pr461 on).
         feed_caps: The same for cutting (SYNTEC Pr621 on).
-        acceleration: `BRISK` or `SOFT` where the context does not say.
-        drive_speed: `DRIVE`: from this part of its velocity on an axis accelerates less (MD35220).
-        drive_reduction: `DRIVE`: by this part of its acceleration (MD35230).
+        acceleration: How the axes take up speed where the context does not say.
+        drive_speed: Reduced at speed (`DRIVE`): from this part of its velocity on an axis accelerates less (MD35220).
+        drive_reduction: The same: by this part of its acceleration (MD35230).
         taps_overridden: The feed override acts on rigid taps (FANUC 5203#4 OVS).
         taps_held: Feed hold stops a rigid tap at once (FANUC 5200#6 FHD).
         dry_run: What a dry run does.
@@ -86,14 +79,14 @@ class MotionSettings:
     rapid_by_axis: bool = False
     rapid_stops: bool = True
     rotary_in_feed: bool = True
-    without_deviation: frozenset[str] = WITHOUT_DEVIATION_MODES
+    keeps_corners: bool = True
     tolerance_mm: float = 0.01
     overload: float = 1.2
     corner_speed: float = inf
     path_feed: float = inf
     rapid_caps: Mapping[str, float] = field(default_factory=dict)
     feed_caps: Mapping[str, float] = field(default_factory=dict)
-    acceleration: str = BRISK
+    acceleration: AccelerationMode = AccelerationMode.CONSTANT
     drive_speed: float = 1.0
     drive_reduction: float = 0.0
     taps_overridden: bool = False

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.motion.kernels.columns import Limits, PathLimits
 from polycnc.motion.kernels.jerk import JERK_CORNER, STRAY_CORNER
-from polycnc.motion.settings import DISTANCE_MODES, DRIVE, EXACT_STOP_MODES, SOFT, Settings
+from polycnc.motion.settings import Settings
+from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode
 
 if TYPE_CHECKING:
     from polycnc.machine import Axis, Machine, Spindle
@@ -106,13 +107,13 @@ def context_fields(
     surface = context.spindle_rpm * 1000.0 / 60.0 if context.surface_speed else 0.0
     (a, b, c), (d, e, f), (g, h, i) = context.frame.m
     return [
-        context.feed_mode == "G95",
-        context.feed_mode == "G93",
+        context.feed_mode is FeedMode.PER_REVOLUTION,
+        context.feed_mode is FeedMode.INVERSE_TIME,
         min(context.spindle_rpm, highest),
         surface,
         highest,
         spindle.acceleration_rpm_s / 60.0 if spindle else inf,
-        context.path_mode in EXACT_STOP_MODES,
+        context.corner_mode is CornerMode.EXACT_STOP,
         _kept_tolerance(context, settings) if averages[0] > 0.0 else _tolerance(context, settings),
         rotary_weight(context, settings),
         station,
@@ -122,14 +123,14 @@ def context_fields(
         and not context.lag_s
         and context.transformation is None,
         *averages,
-        settings.drive_speed if context.acceleration == DRIVE else 1.0,
+        settings.drive_speed if context.acceleration is AccelerationMode.REDUCED_AT_SPEED else 1.0,
         settings.drive_reduction,
         context.rapid_speed,
         context.overlap,
         context.lag_s,
         context.lag_from,
         context.pace.rapid if context.pace is not None else 1.0,
-        context.tolerance_mm or inf if context.path_mode in DISTANCE_MODES else inf,
+        context.tolerance_mm or inf if context.corner_mode is CornerMode.ROUNDED_FROM else inf,
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),
@@ -144,7 +145,7 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
     BLEND_S lets a corner use up its parts of the tolerance and of the jerk alike (`kernels/jerk.py`).
     """
     axes = [axis for axis in machine.axes if axis.jerk > 0.0 and axis.acceleration > 0.0]
-    if (context.acceleration or settings.acceleration) != SOFT or not axes:
+    if (context.acceleration or settings.acceleration) is not AccelerationMode.JERK_LIMITED or not axes:
         return 0.0, 0.0
     ramp = RAMPS * max(axis.acceleration / axis.jerk for axis in axes)
     tolerance = _kept_tolerance(context, settings)
@@ -162,7 +163,7 @@ def rotary_weight(context: Context, settings: Settings) -> float:
 
 def _kept_tolerance(context: Context, settings: Settings) -> float:
     """How far averaged positions may leave the path."""
-    if context.tolerance_mm == 0.0 and context.path_mode in EXACT_STOP_MODES:
+    if context.tolerance_mm == 0.0 and context.corner_mode is CornerMode.EXACT_STOP:
         return EXACT_MM
     return _tolerance(context, settings) or EXACT_MM
 
@@ -171,5 +172,5 @@ def _tolerance(context: Context, settings: Settings) -> float:
     """Contour tolerance of a context; 0 for corners without deviation."""
     if context.tolerance_mm > 0.0:
         return context.tolerance_mm
-    exact = settings.without_deviation | DISTANCE_MODES
-    return 0.0 if context.path_mode in exact else settings.tolerance_mm
+    keeps = context.corner_mode is CornerMode.CONTINUOUS and settings.keeps_corners
+    return 0.0 if keeps or context.corner_mode is CornerMode.ROUNDED_FROM else settings.tolerance_mm

@@ -9,6 +9,8 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.toolpath.modes import FeedMode
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -73,7 +75,7 @@ def pace_of(
         return 1.0, inf, 1.0
     moving = [i for i in range(n) if way.share(i, length) > 0.0]
     feed = pace.feed * edge_factor(pace, context, way)
-    if pace.weights and context.feed_mode != "G93":
+    if pace.weights and context.feed_mode is not FeedMode.INVERSE_TIME:
         feed *= length / (way.length(pace.weights) or length)
     return (
         feed,

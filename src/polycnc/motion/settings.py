@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from polycnc.machine.motion_settings import BRISK, DEFAULT, DISTANCE_MODES, DRIVE, EXACT_STOP_MODES, SOFT
+from polycnc.machine.motion_settings import DEFAULT
 from polycnc.machine.motion_settings import MotionSettings as Settings
 
-__all__ = ["BRISK", "DEFAULT", "DISTANCE_MODES", "DRIVE", "EXACT_STOP_MODES", "SOFT", "Settings"]
+__all__ = ["DEFAULT", "Settings"]

@@ -28,9 +28,9 @@ from polycnc.motion.limits import averages, axis_limits, channel_axes, rotary_we
 from polycnc.motion.pace import Travel, pace_of
 from polycnc.motion.pole import RING_MM, Pole, Turn, legs_of, turn_records
 from polycnc.motion.row_path import arc_path, line_path
-from polycnc.motion.settings import SOFT
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, RAPID_KINDS
+from polycnc.toolpath.modes import AccelerationMode, FeedMode
 from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
@@ -276,7 +276,7 @@ class RealAxes:
         for leg in legs:
             shares = Shares(*(array("d", [free] * SHARES) for free in FREE_SHARE))
             _set_shares(shares, 0, self._shares(context, leg.path, leg.length, kind, leg.rests))
-            timed = context.feed_mode == "G93" and leg.length > 0.0
+            timed = context.feed_mode is FeedMode.INVERSE_TIME and leg.length > 0.0
             feed = array("d", [total / leg.length if timed else 1.0])
             rows = Rows(
                 chunk.kind[own], chunk.context[own], feed, array("d", leg.end),
@@ -510,7 +510,7 @@ class RealAxes:
         return slopes
 
     def _is_soft(self, context: Context) -> bool:
-        return (context.acceleration or self._settings.acceleration) == SOFT
+        return (context.acceleration or self._settings.acceleration) is AccelerationMode.JERK_LIMITED
 
     def _rotary(self, column: int) -> bool:
         axis = self._axes[column]

@@ -6,10 +6,10 @@ from itertools import groupby
 from math import pi
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.motion.settings import EXACT_STOP_MODES
 from polycnc.toolpath import Kind
 from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS
 from polycnc.toolpath.kinds import RAPID_KINDS
+from polycnc.toolpath.modes import CornerMode
 from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
@@ -213,7 +213,7 @@ class Waits:
         return before.overlap == OVERLAPS and self.contexts[number].overlap != NO_OVERLAP
 
     def _exact(self, number: int) -> bool:
-        return self.contexts[number].path_mode in EXACT_STOP_MODES
+        return self.contexts[number].corner_mode is CornerMode.EXACT_STOP
 
 
 def _places(kinds: bytes, kind: Kind) -> Iterator[int]:

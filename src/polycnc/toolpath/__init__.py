@@ -1,6 +1,7 @@
 """The motion of a run as a table: moves and events in order, with the contexts that hold meanwhile.
 
-`table` has the rows, `kinds` what they are, `context` and `events` the rest of a row. `trace` says what the displays
+`table` has the rows, `kinds` what they are, `context` (with `modes`) and
+`events` the rest of a row. `trace` says what the displays
 of a control show for it; `export` and `plot` write it (`strokes`: its lines and arcs as a drawing wants them).
 """
 

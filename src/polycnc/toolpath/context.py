@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from polycnc.geometry.frames import IDENTITY, Frame
+from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode, StopWindow
 
 
 class Transformation(Protocol):
@@ -57,17 +58,16 @@ class Context:
     Attributes:
         plane: Working plane as `G17`, `G18` or `G19`.
         inch: Words and display are in inches. Lengths in the table stay in millimetres.
-        feed_mode: `G93`, `G94` or `G95`, in FANUC milling terms whatever the control writes.
+        feed_mode: What the feed of a row counts.
         frame: Work coordinates to machine coordinates of the geometry axes, without the tool.
         offsets: Shift from work to machine of every channel axis beside `frame`, tool included (mm, degrees).
         tool: Tool number in the spindle, 0 for none; `tool_name` where the control calls tools by name.
         radius_mm: Radius that cutter compensation applies, 0 when it is off.
         side: Cutter compensation: 0 off, 1 left, -1 right.
         spindle_rpm: Programmed speed (rpm; m/min under constant surface speed), spindle direction 1, -1 or 0.
-        path_mode: The control's own word for exact stop or continuous path (`G61`, `G64`, `G642` …).
-        stop_window: What an exact stop waits for: the axes within their `fine` or `coarse` window, or `none`.
+        corner_mode: How the path goes through the ends of blocks; `stop_window` what an exact stop waits for.
         tolerance_mm: Contour tolerance for the planner where a code names one, else 0.
-        acceleration: `BRISK`, `SOFT` or `DRIVE`; empty for the control's own.
+        acceleration: How the axes take up speed; None for the control's own way.
         rapid_by_axis: On a rapid every axis runs alone, whatever the control's parameters say.
         rapid_speed: Speed of rapids along the path, or of each axis that runs alone, mm/s, where they have one of their
             own (FANUC 1466, SYNTEC G00 P1 F1=), else 0.
@@ -91,7 +91,7 @@ class Context:
 
     plane: str = "G17"
     inch: bool = False
-    feed_mode: str = "G94"
+    feed_mode: FeedMode = FeedMode.PER_MINUTE
     frame: Frame = IDENTITY
     offsets: tuple[float, ...] = ()
     tool: int = 0
@@ -103,10 +103,10 @@ class Context:
     spindle_direction: int = 0
     surface_speed: bool = False
     spindle_limit_rpm: float = 0.0
-    path_mode: str = "G64"
-    stop_window: str = "fine"
+    corner_mode: CornerMode = CornerMode.CONTINUOUS
+    stop_window: StopWindow = StopWindow.FINE
     tolerance_mm: float = 0.0
-    acceleration: str = ""
+    acceleration: AccelerationMode | None = None
     rapid_by_axis: bool = False
     rapid_speed: float = 0.0
     diameter_axes: int = 0

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -27,7 +28,7 @@ _STEPS = 1e7
 COLUMN_ROWS = 10_000
 _FULL_TURN = 360.0
 #: Seconds in the time unit of each feed mode: per minute, per revolution (no time in it), inverse minutes.
-_TIME_FACTOR = {"G93": 60.0, "G94": 60.0, "G95": 1.0}
+_TIME_FACTOR = {FeedMode.INVERSE_TIME: 60.0, FeedMode.PER_MINUTE: 60.0, FeedMode.PER_REVOLUTION: 1.0}
 
 
 @dataclass(frozen=True, slots=True)
@@ -202,7 +203,9 @@ class Display:
                 work[context.unrolled[0]] = context.unrolled[1]
             if context.machine_diameters is not None:
                 diameter = _diameters(context.machine_diameters, len(self.axes))
-            feed = _TIME_FACTOR[context.feed_mode] * (1.0 if context.feed_mode == "G93" else length)
+            feed = _TIME_FACTOR[context.feed_mode] * (
+                1.0 if context.feed_mode is FeedMode.INVERSE_TIME else length
+            )
             unit = "inch" if context.inch else "mm"
             scale = self._scales[id(context)] = Scale(tuple(work), tuple(diameter), length, feed, unit)
         return scale

@@ -12,9 +12,10 @@ from polycnc.motion import Settings
 from polycnc.motion.planner import Planner
 from polycnc.motion.sampling.samples import Sampler, Samples
 from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.modes import AccelerationMode
 from tests.motion.paths import LATHE, MILL, Build
 
-SOFT = Settings(acceleration="SOFT", rapid_by_axis=True)
+SOFT = Settings(acceleration=AccelerationMode.JERK_LIMITED, rapid_by_axis=True)
 
 
 def sampled(
@@ -45,8 +46,8 @@ def test_samples_are_even_in_time_and_last_as_long_as_the_plan() -> None:
     assert samples.time[-1] == pytest.approx(total, abs=0.0011)
 
 
-@pytest.mark.parametrize("acceleration", ["BRISK", "SOFT"])
-def test_the_derivatives_of_the_samples_fit_each_other(acceleration: str) -> None:
+@pytest.mark.parametrize("acceleration", [AccelerationMode.CONSTANT, AccelerationMode.JERK_LIMITED])
+def test_the_derivatives_of_the_samples_fit_each_other(acceleration: AccelerationMode) -> None:
     _, samples = sampled(program(), lead=Settings(acceleration=acceleration))
     # Trapezoidal sums of velocity give the positions, those of acceleration the velocity.
     way = np.cumsum(0.5 * (samples.velocity[1:] + samples.velocity[:-1]) * 0.001, axis=0)

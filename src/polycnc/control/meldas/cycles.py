@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.milling.cycles import CYCLES, MILLING_DRILLING
 from polycnc.control.word_address.motion.path import FEED_MODES
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -31,7 +32,9 @@ def shift_off_wall(_channel: Channel, data: CycleData, _plane: tuple[int, int]) 
 
 def pitch_of_tap(channel: Channel) -> float:
     """F of G74 and G84 is the pitch, whatever the feed mode (Hartford manual §3.3.3, G84)."""
-    return channel.feed if FEED_MODES[channel.mode["feed"]] == "G95" else channel.feed * 60.0
+    return (
+        channel.feed if FEED_MODES[channel.mode["feed"]] is FeedMode.PER_REVOLUTION else channel.feed * 60.0
+    )
 
 
 DRILLING = replace(

@@ -42,11 +42,13 @@ from polycnc.machine.plc import Plc
 from polycnc.messages import AlarmError
 from polycnc.program import Form
 from polycnc.toolpath import Context
+from polycnc.toolpath.modes import CornerMode, FeedMode
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.channel.mode import Mode
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step as ProgramStep
     from polycnc.control.sinumerik.block.draft import Values
@@ -319,7 +321,11 @@ class Sinumerik:
         mode, coordinates = channel.mode, channel.coordinates
         memory: Memory = channel.memory
         feed = tables.feed_type(mode)
-        leading = memory.feed_source if feed.mode == "G95" and memory.feed_source else memory.spindles.master
+        leading = (
+            memory.feed_source
+            if feed.mode is FeedMode.PER_REVOLUTION and memory.feed_source
+            else memory.spindles.master
+        )
         spindle = memory.spindles.all.get(leading)
         shown = (positions.diameter_function(mode, i, memory.transverse) for i in range(len(channel.axes)))
         diameters = sum(1 << i for i, function in enumerate(shown) if function in positions.SHOWS_DIAMETERS)
@@ -339,10 +345,10 @@ class Sinumerik:
             spindle_direction=spindle.direction if spindle else 0,
             surface_speed=feed.surface_speed,
             spindle_limit_rpm=_limit(memory, spindle, mode["feed"]),
-            path_mode="G9" if memory.exact_stop_block else mode["path_mode"],
+            corner_mode=_corner_mode(memory, mode),
             stop_window=tables.STOP_WINDOWS[mode["exact_stop"]],
             tolerance_mm=_tolerance(memory, mode["path_mode"]),
-            acceleration=mode["acceleration"],
+            acceleration=tables.ACCELERATION_MODES[mode["acceleration"]],
             rapid_by_axis=mode["rapid"] == "RTLIOF",
             diameter_axes=diameters,
             wcs=mode["zero_offset"],
@@ -402,6 +408,11 @@ def _machine_data(channel: Channel) -> MachineData:
     columns = {**_machine_columns(channel), **_columns(channel)}
     names = {name: channel.axes[column] for name, column in columns.items()}
     return MachineData(channel.setup.parameters, names)
+
+
+def _corner_mode(memory: Memory, mode: Mode) -> CornerMode:
+    """G9 holds for its block, else group 10."""
+    return CornerMode.EXACT_STOP if memory.exact_stop_block else tables.CORNER_MODES[mode["path_mode"]]
 
 
 def _tolerance(memory: Memory, path_mode: str) -> float:

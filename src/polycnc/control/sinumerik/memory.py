@@ -7,6 +7,7 @@ from math import nan
 from typing import TYPE_CHECKING, Any
 
 from polycnc.messages import AlarmError
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from collections import deque
@@ -97,7 +98,7 @@ class Memory:
     transverse: int = -1
     polar: Polar = field(default_factory=Polar)
     previous: tuple[list[float], tuple[Vector, Vector] | None, float] | None = None
-    feed_mode: str = "G94"
+    feed_mode: FeedMode = FeedMode.PER_MINUTE
     modal_corner_feed: float = nan
     exact_stop_block: bool = False
     acted: bool = False

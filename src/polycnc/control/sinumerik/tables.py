@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode, StopWindow
+
 if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
 
@@ -21,23 +23,39 @@ class FeedType(NamedTuple):
         surface_speed: S is a cutting speed.
     """
 
-    mode: str
+    mode: FeedMode
     factor: float
     surface_speed: bool = False
 
 
 #: What an exact stop waits for; G603: the end of the interpolation.
-STOP_WINDOWS = {"G601": "fine", "G602": "coarse", "G603": "none"}
-_PER_MINUTE = FeedType("G94", 1.0 / MINUTE)
-_PER_REVOLUTION = FeedType("G95", 1.0)
+STOP_WINDOWS = {"G601": StopWindow.FINE, "G602": StopWindow.COARSE, "G603": StopWindow.NONE}
+#: What becomes of corners under the functions of group 10.
+CORNER_MODES = {
+    "G60": CornerMode.EXACT_STOP,
+    "G64": CornerMode.CONTINUOUS,
+    "G641": CornerMode.ROUNDED_FROM,
+    "G642": CornerMode.ROUNDED,
+    "G643": CornerMode.ROUNDED,
+    "G644": CornerMode.ROUNDED,
+    "G645": CornerMode.ROUNDED,
+}
+#: How the axes take up speed under the functions of group 21.
+ACCELERATION_MODES = {
+    "BRISK": AccelerationMode.CONSTANT,
+    "SOFT": AccelerationMode.JERK_LIMITED,
+    "DRIVE": AccelerationMode.REDUCED_AT_SPEED,
+}
+_PER_MINUTE = FeedType(FeedMode.PER_MINUTE, 1.0 / MINUTE)
+_PER_REVOLUTION = FeedType(FeedMode.PER_REVOLUTION, 1.0)
 FEED_TYPES = {
-    "G93": FeedType("G93", 1.0 / MINUTE),
+    "G93": FeedType(FeedMode.INVERSE_TIME, 1.0 / MINUTE),
     "G94": _PER_MINUTE,
     "G95": _PER_REVOLUTION,
-    "G96": FeedType("G95", 1.0, surface_speed=True),
+    "G96": FeedType(FeedMode.PER_REVOLUTION, 1.0, surface_speed=True),
     "G97": _PER_REVOLUTION,
-    "G931": FeedType("G93", 1.0),
-    "G961": FeedType("G94", 1.0 / MINUTE, surface_speed=True),
+    "G931": FeedType(FeedMode.INVERSE_TIME, 1.0),
+    "G961": FeedType(FeedMode.PER_MINUTE, 1.0 / MINUTE, surface_speed=True),
     "G971": _PER_MINUTE,
     "G942": _PER_MINUTE,
     "G952": _PER_REVOLUTION,

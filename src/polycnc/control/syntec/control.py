@@ -33,6 +33,7 @@ from polycnc.language.syntec.blocks import TypedBlock
 from polycnc.messages import AlarmError
 from polycnc.program import Form
 from polycnc.program.split import split_channels
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -275,10 +276,10 @@ class SyntecMill(WordAddressControl):
             cuts_digits=False,
         )
 
-    def feed_factor(self, builder: Builder, form: str, mode: str) -> float:
+    def feed_factor(self, builder: Builder, form: str, mode: FeedMode) -> float:
         """F per minute counts whole units; per revolution, without a point, least input units (chapter 5)."""
         rules = builder.rules
-        if form != "" or mode != "G95" or rules.calculator:
+        if form != "" or mode is not FeedMode.PER_REVOLUTION or rules.calculator:
             return 1.0
         return float(10.0 ** -(rules.decimals_inch if builder.inch else rules.decimals))
 
@@ -347,8 +348,9 @@ class SyntecMill(WordAddressControl):
 
     def context(self, channel: Channel) -> Context:
         """The context that holds now; under G93 feeds are recorded per minute. G63 takes override and hold away."""
-        context = in_tapping_mode(super().context(channel))
-        mode = "G94" if context.feed_mode == "G93" else context.feed_mode
+        context = in_tapping_mode(channel, super().context(channel))
+        by_time = context.feed_mode is FeedMode.INVERSE_TIME
+        mode = FeedMode.PER_MINUTE if by_time else context.feed_mode
         return replace(context, feed_mode=mode, rapid_speed=channel.memory.rapid_speed)
 
     def variable_names(self, channel: Channel) -> list[str]:

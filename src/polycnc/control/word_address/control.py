@@ -17,7 +17,7 @@ from polycnc.control.word_address.coordinates import frames, systems
 from polycnc.control.word_address.cycles.drilling import Drilling, give_way, plan_drilling
 from polycnc.control.word_address.memory import Memory
 from polycnc.control.word_address.motion import path
-from polycnc.control.word_address.motion.path_modes import PathModeState
+from polycnc.control.word_address.motion.path_modes import corner_mode
 from polycnc.control.word_address.reset import reset
 from polycnc.control.word_address.transformations.cylinder import CylinderState
 from polycnc.control.word_address.transformations.normal_line import NormalLineRules
@@ -26,11 +26,12 @@ from polycnc.geometry.arcs import radius_mismatch
 from polycnc.language.bulk import Spelling
 from polycnc.language.word_address import Grammar, WordAddressProgram
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock
-from polycnc.machine.motion_settings import SOFT, MotionSettings
+from polycnc.machine.motion_settings import MotionSettings
 from polycnc.machine.plc import Plc, read_plc
 from polycnc.messages import AlarmError, Catalogue, text
 from polycnc.program import Form
 from polycnc.toolpath import Context
+from polycnc.toolpath.modes import AccelerationMode, FeedMode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -294,7 +295,7 @@ class WordAddressControl:
 
     # ---- what the motion planners ask ---------------------------------------------------------------------------
 
-    def feed_factor(self, _builder: Builder, _form: str, _mode: str) -> float:
+    def feed_factor(self, _builder: Builder, _form: str, _mode: FeedMode) -> float:
         """What an F word counts in: 1 for whole units."""
         return 1.0
 
@@ -396,7 +397,7 @@ class WordAddressControl:
             spindle_direction=memory.spindle_direction,
             surface_speed=mode.codes.get("surface_speed") == "G96",
             spindle_limit_rpm=memory.spindle_limit_rpm,
-            path_mode="G9" if PathModeState.of(channel).exact_stop else mode.codes.get("path", "G64"),
+            corner_mode=corner_mode(channel),
             diameter_axes=diameters,
             wcs=memory.wcs,
             transformation=transformation,
@@ -406,7 +407,7 @@ class WordAddressControl:
 
     def motion_settings(self, _channel: Channel) -> MotionSettings:
         """How the control leads the axes: corners of G64 are rounded, acceleration is bell-shaped."""
-        return MotionSettings(without_deviation=frozenset(), acceleration=SOFT)
+        return MotionSettings(keeps_corners=False, acceleration=AccelerationMode.JERK_LIMITED)
 
     # ---- variables by name, for reports and test cases ---------------------------------------------------------------
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING, Protocol
 
-from polycnc.machine.motion_settings import SOFT
 from polycnc.mainrun.axes.axis import Axis
+from polycnc.toolpath.modes import AccelerationMode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -79,7 +79,7 @@ class MachineAxes:
         """The axes of a channel; those that nobody has named yet are made."""
         for column, data in enumerate(axis_data):
             if data.name not in self._axes:
-                limited = settings.acceleration == SOFT and data.jerk > 0.0
+                limited = settings.acceleration is AccelerationMode.JERK_LIMITED and data.jerk > 0.0
                 ramp = 2.0 * data.acceleration / data.jerk if limited else 0.0
                 self._axes[data.name] = Axis(data, ramp, LedPath(self._leaders, number, column))
         return tuple(self._axes[data.name] for data in axis_data)

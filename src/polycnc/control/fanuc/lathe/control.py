@@ -33,6 +33,7 @@ from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.transformations import normal_line
 from polycnc.control.word_address.transformations.normal_line import NormalLineParameters, NormalLineRules
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -196,11 +197,11 @@ class FanucTurning(CustomMacroControl):
             return False
         return bool(channel.setup.parameters.bit(1006, 3, channel.axes[axis], delivered)) and not data.rotary
 
-    def feed_factor(self, builder: Builder, form: str, mode: str) -> float:
+    def feed_factor(self, builder: Builder, form: str, mode: FeedMode) -> float:
         """F without a point: also feeds per minute count 0.01 inch (II.4.5.1, "unit of F")."""
         if (
             form == ""
-            and mode == "G94"
+            and mode is FeedMode.PER_MINUTE
             and builder.inch
             and not self.number_rules(builder.channel).calculator
         ):

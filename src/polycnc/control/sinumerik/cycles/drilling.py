@@ -15,6 +15,7 @@ from polycnc.cycles.drilling.holes import Action, Stroke
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -388,11 +389,21 @@ def _chuck_feed(moves: Moves, lead: float) -> float:
     """Feed of G63: the programmed one, or speed times pitch in the feed type of the caller."""
     if not lead:
         return moves.channel.feed
-    return lead if moves.memory.feed_mode == "G95" else lead * moves.spindle.speed / tables.MINUTE
+    return (
+        lead
+        if moves.memory.feed_mode is FeedMode.PER_REVOLUTION
+        else lead * moves.spindle.speed / tables.MINUTE
+    )
 
 
 def _lead_of(moves: Moves, feed: float) -> float:
     if not feed > 0.0:
         raise AlarmError("10860")
     speed = moves.spindle.speed
-    return feed if moves.memory.feed_mode == "G95" else feed * tables.MINUTE / speed if speed else 0.0
+    return (
+        feed
+        if moves.memory.feed_mode is FeedMode.PER_REVOLUTION
+        else feed * tables.MINUTE / speed
+        if speed
+        else 0.0
+    )

@@ -20,6 +20,7 @@ from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -390,7 +391,13 @@ def tap_with_chuck(draft: Draft) -> Step | None:
         feed = checked_feed(channel.feed)
         memory: Memory = channel.memory
         speed = memory.spindles.get().speed
-        lead = feed if memory.feed_mode == "G95" else feed * tables.MINUTE / speed if speed else 0.0
+        lead = (
+            feed
+            if memory.feed_mode is FeedMode.PER_REVOLUTION
+            else feed * tables.MINUTE / speed
+            if speed
+            else 0.0
+        )
         special(channel, Kind.TAP, goal(channel, values), feed, [lead])
 
     return run

@@ -36,6 +36,7 @@ from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -67,7 +68,10 @@ class Words:
         infeed = draft.take_shape("FAD", "PM", "PR")
         if infeed is not None:
             mode = tables.feed_type(draft.mode).mode
-            if infeed[1].modifier not in ("", {"G94": "PM", "G95": "PR"}.get(mode, "")):
+            if infeed[1].modifier not in (
+                "",
+                {FeedMode.PER_MINUTE: "PM", FeedMode.PER_REVOLUTION: "PR"}.get(mode, ""),
+            ):
                 raise not_supported(f"FAD={infeed[1].modifier}")
         clearance = (height[0], height[1].modifier == "AC") if height is not None else None
         return cls(distance, clearance, infeed[0] if infeed is not None else None)

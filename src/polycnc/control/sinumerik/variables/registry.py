@@ -34,6 +34,7 @@ from polycnc.control.sinumerik.variables.known import is_known
 from polycnc.language.sinumerik.names.frame import NcFrame
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -207,7 +208,7 @@ def _geometry_axis(position: int) -> Reader:
 
 def _programmed_feed(channel: Channel, _indices: Indices) -> float:
     feed: float = 0.0 if isnan(channel.feed) else channel.feed
-    return feed * MINUTE if channel.memory.feed_mode != "G95" else feed
+    return feed * MINUTE if channel.memory.feed_mode is not FeedMode.PER_REVOLUTION else feed
 
 
 def _spindle_value(attribute: str) -> Reader:

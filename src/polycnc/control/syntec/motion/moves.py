@@ -22,6 +22,7 @@ from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -99,7 +100,9 @@ def plan_feed(builder: Builder) -> Step:
     if builder.mode["motion"] != "G33":
         return functions.plan_feed(builder)
     slot, form = builder.slots["F"]
-    factor = builder.control.feed_factor(builder, form, "G95") * (INCH_MM if builder.inch else 1.0)
+    factor = builder.control.feed_factor(builder, form, FeedMode.PER_REVOLUTION) * (
+        INCH_MM if builder.inch else 1.0
+    )
 
     def set_lead(channel: Channel, values: list[float]) -> None:
         channel.memory.lead = values[slot] * factor

@@ -10,6 +10,7 @@ from polycnc.control.tool_change import check_change_points
 from polycnc.control.word_address.motion.path import FEED_MODES
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Conversion, Note, Scaling, SetFeed, Word, declare
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
@@ -22,9 +23,9 @@ def plan_feed(builder: Builder) -> Step:
     """F: mm/min or inch/min, mm/rev or inch/rev, 1/min, as the feed mode says."""
     slot = builder.slots["F"][0]
     mode = FEED_MODES[builder.mode["feed"]]
-    unit = INCH_MM if builder.inch and mode != "G93" else 1.0
+    unit = INCH_MM if builder.inch and mode is not FeedMode.INVERSE_TIME else 1.0
     factor = builder.control.feed_factor(builder, builder.slots["F"][1], mode) * unit
-    if mode == "G95":
+    if mode is FeedMode.PER_REVOLUTION:
 
         def set_feed_per_revolution(channel: WordAddressChannel, values: list[float]) -> None:
             channel.feed = values[slot] * factor

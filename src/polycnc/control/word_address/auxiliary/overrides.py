@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
+from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -20,7 +21,6 @@ FEED, SPINDLE = "feed", "spindle"
 NO_HOLD, NO_FEED_OVERRIDE, NO_EXACT_STOP = 1, 2, 4
 #: Under tapping mode neither feed override nor feed hold act.
 TAPPING_MODE = "G63"
-CUTTING_MODE = "G64"
 
 
 @dataclass(slots=True)
@@ -62,20 +62,21 @@ def _cancel(channel: Channel, name: str, *, cancelled: bool) -> None:
     channel.context_changed()
 
 
-def in_tapping_mode(context: Context) -> Context:
+def _taps(channel: Channel) -> bool:
+    """Whether G63 holds, in a block of exact stop too."""
+    return channel.mode.codes.get("path") == TAPPING_MODE
+
+
+def in_tapping_mode(channel: Channel, context: Context) -> Context:
     """A context as G63 makes it: no feed override, no feed hold."""
-    return (
-        replace(context, feed_override=False, feed_hold=False)
-        if context.path_mode == TAPPING_MODE
-        else context
-    )
+    return replace(context, feed_override=False, feed_hold=False) if _taps(channel) else context
 
 
 def overridden(channel: Channel, context: Context) -> Context:
     """A context with what the operator's switches may do in it."""
     state = OverrideState.of(channel)
     switches = channel.memory.control_switches.get("cntl2", 0)
-    tapping = context.path_mode == TAPPING_MODE
+    tapping = _taps(channel)
     if not (tapping or state.tapping or switches or state.cancelled):
         return context
     return replace(
@@ -84,5 +85,5 @@ def overridden(channel: Channel, context: Context) -> Context:
         and not switches & NO_FEED_OVERRIDE,
         spindle_override=not (state.tapping or SPINDLE in state.cancelled),
         feed_hold=not tapping and not switches & NO_HOLD,
-        path_mode=CUTTING_MODE if switches & NO_EXACT_STOP and not tapping else context.path_mode,
+        corner_mode=CornerMode.CONTINUOUS if switches & NO_EXACT_STOP else context.corner_mode,
     )

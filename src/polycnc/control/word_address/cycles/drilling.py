@@ -25,6 +25,7 @@ from polycnc.geometry.planes import PLANES
 from polycnc.language.word_address.functions import round_half_away
 from polycnc.toolpath import Kind
 from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS, STROKE, Overlap
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -113,7 +114,7 @@ def as_it_is(
 
 def lead_from_feed(channel: WordAddressChannel) -> float:
     """Lead of a tap, mm: the feed per revolution, or the feed per minute over the spindle's speed."""
-    if FEED_MODES[channel.mode["feed"]] == "G95":
+    if FEED_MODES[channel.mode["feed"]] is FeedMode.PER_REVOLUTION:
         return channel.feed
     speed: float = channel.memory.spindle_speed
     return channel.feed * 60.0 / speed if speed > 0.0 else 0.0

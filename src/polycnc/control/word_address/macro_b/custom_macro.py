@@ -13,6 +13,7 @@ from polycnc.control.word_address.transformations.cylinder import CylinderState
 from polycnc.language.word_address.executable import SkippedBlock
 from polycnc.messages import AlarmError
 from polycnc.program import ProgramFileError
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -66,9 +67,13 @@ class CustomMacroControl(WordAddressControl):
         decimals = 2 if bit(1013, 0) else 4 if bit(1013, 1) else 3
         return NumberRules(decimals, decimals + 1, calculator=bool(bit(3401, 0)))
 
-    def feed_factor(self, _builder: Builder, form: str, mode: str) -> float:
+    def feed_factor(self, _builder: Builder, form: str, mode: FeedMode) -> float:
         """F per minute counts whole units; per revolution, without a point, 0.01 mm or 0.0001 inch."""
-        if form == "" and mode == "G95" and not self.number_rules(_builder.channel).calculator:
+        if (
+            form == ""
+            and mode is FeedMode.PER_REVOLUTION
+            and not self.number_rules(_builder.channel).calculator
+        ):
             return 0.0001 if _builder.inch else 0.01
         return 1.0
 

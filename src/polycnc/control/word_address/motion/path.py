@@ -15,6 +15,7 @@ from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, Straight, declare
 from polycnc.toolpath import Kind
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,7 +26,13 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.family import WordAddressChannel
 
 #: Feed codes of all word-address families to the meaning that the toolpath uses.
-FEED_MODES = {"G93": "G93", "G94": "G94", "G95": "G95", "G98": "G94", "G99": "G95"}
+FEED_MODES = {
+    "G93": FeedMode.INVERSE_TIME,
+    "G94": FeedMode.PER_MINUTE,
+    "G95": FeedMode.PER_REVOLUTION,
+    "G98": FeedMode.PER_MINUTE,
+    "G99": FeedMode.PER_REVOLUTION,
+}
 #: The centre words of the geometry axes.
 CENTER_WORDS = "IJK"
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State, lasting
+from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
@@ -23,6 +24,17 @@ class PathModeState(State, lifetime=Lifetime.RESET):
 
     contour_control: bool = False
     exact_stop: bool = lasting(Lifetime.BLOCK, default=False)
+
+
+#: What the codes of group 15 make of corners; under all others the path is continuous.
+CORNER_MODES = {"G61": CornerMode.EXACT_STOP, "G61.1": CornerMode.EXACT_STOP}
+
+
+def corner_mode(channel: WordAddressChannel) -> CornerMode:
+    """How the path goes through the end of the running block: G09, G61, or on."""
+    if PathModeState.of(channel).exact_stop:
+        return CornerMode.EXACT_STOP
+    return CORNER_MODES.get(channel.mode.codes.get("path", ""), CornerMode.CONTINUOUS)
 
 
 def exact_stop_block(channel: WordAddressChannel, _words: Words) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.motion.path import FEED_MODES, reach
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
@@ -24,7 +25,7 @@ def plan_thread(builder: Builder, plan: Plan) -> Step | None:
     if not words:
         return None
     angle_slot, per_inch_slot = builder.slot("Q"), builder.slot("E")
-    per_revolution = FEED_MODES[builder.mode["feed"]] == "G95"
+    per_revolution = FEED_MODES[builder.mode["feed"]] is FeedMode.PER_REVOLUTION
 
     def cut(channel: WordAddressChannel, values: list[float]) -> None:
         lead = channel.feed if per_revolution else channel.feed * 60.0

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.motion.path import FEED_MODES
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -84,7 +85,7 @@ def check(channel: Channel, data: CycleData) -> None:
         raise fail("rigid_pulses", address="S")
     if not channel.feed > 0.0:
         raise fail("rigid_feed", address="F")
-    per_revolution = FEED_MODES[channel.mode["feed"]] == "G95"
+    per_revolution = FEED_MODES[channel.mode["feed"]] is FeedMode.PER_REVOLUTION
     mm_min = channel.feed * (speed if per_revolution else 60.0)
     limit = channel.memory.parameters.number(1430, channel.axes[data.axis])
     if limit and mm_min >= limit:

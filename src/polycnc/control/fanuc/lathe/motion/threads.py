@@ -16,6 +16,7 @@ from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -271,7 +272,7 @@ def _retract(channel: Channel, context: Context) -> Context:
     parameters = channel.memory.parameters
     speed = retract_speed(channel)
     if speed > 0.0:
-        context = replace(context, feed_mode="G94", rapid_speed=speed)
+        context = replace(context, feed_mode=FeedMode.PER_MINUTE, rapid_speed=speed)
     elif parameters.bit(1611, 0):
         context = replace(context, lag_s=0.0)
     elif context.lag_s:
