@@ -224,7 +224,7 @@ def test_rows_that_were_scanned_in_bulk_come_again(blocks: int) -> None:
 
 def test_a_generator_in_flight_is_refused() -> None:
     with pytest.raises(SnapshotError, match="generator in flight"):
-        Snapshot(SimpleNamespace(blocks=(number for number in range(3))))  # type: ignore[arg-type]
+        Snapshot(SimpleNamespace(blocks=(number for number in range(3))))
 
 
 # ---- what objects may look like ----------------------------------------------------------------------------------
@@ -258,7 +258,7 @@ def test_objects_stay_the_same_ones_and_get_their_contents_back() -> None:
     root = SimpleNamespace(
         slotted=slotted, step=step, add=inner.append, random=random, table={"a": inner}, seen={1}
     )
-    snapshot = Snapshot(root)  # type: ignore[arg-type]  # anything may be a root
+    snapshot = Snapshot(root)  # anything may be a root
     for _ in range(2):
         root.add(5)
         root.extra, root.table["b"], slotted.later, slotted.values = 1, [], 3, []
@@ -276,4 +276,4 @@ def test_objects_stay_the_same_ones_and_get_their_contents_back() -> None:
 
 def test_what_cannot_be_noted_is_refused() -> None:
     with pytest.raises(SnapshotError, match="list_iterator"):
-        Snapshot(SimpleNamespace(rest=iter([1, 2])))  # type: ignore[arg-type]
+        Snapshot(SimpleNamespace(rest=iter([1, 2])))

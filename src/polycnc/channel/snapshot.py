@@ -37,8 +37,6 @@ from polycnc.program import Program
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from polycnc.channel.channel import Channel
-    from polycnc.channel.group import ChannelGroup
 
 #: What brings an object back to what it was.
 Undo: TypeAlias = "Callable[[], None]"
@@ -73,13 +71,13 @@ class Snapshot:
     """The state of a channel, with all that it shares with its group.
 
     Args:
-        root: What is followed.
+        root: What is followed: a channel, a group, or what runs them.
 
     Raises:
         SnapshotError: Something is running that cannot be noted.
     """
 
-    def __init__(self, root: Channel | ChannelGroup) -> None:
+    def __init__(self, root: object) -> None:
         self._undo: list[Undo] = []
         atoms, walkers, undo = _ATOMS, _WALKERS, self._undo
         seen: dict[int, object] = {}

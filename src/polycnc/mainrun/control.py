@@ -18,6 +18,7 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from polycnc.channel.snapshot import Snapshot as Checkpoint
 from polycnc.control.alarm_text import alarm_text
 from polycnc.mainrun.commands.hand import HandCommands
 from polycnc.mainrun.commands.permission import Permission
@@ -408,6 +409,17 @@ class VirtualControl:
     def snapshot(self) -> Snapshot:
         """Everything at once, of one moment."""
         return self._readings.snapshot
+
+    def checkpoint(self) -> Checkpoint:
+        """Note the whole state as it is now, also in the midst of a motion: its `restore` goes back here.
+
+        Everything is as it was then, as often as one likes: time, axes, variables, signals, what is prepared. The
+        listeners stay as they are.
+
+        Raises:
+            SnapshotError: Something is running that cannot be noted.
+        """
+        return Checkpoint(self)
 
 
 def _one_of(kind: type[_Name], name: str, value: object) -> _Name:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.mainrun.commands.states import Mode, State
 from polycnc.mainrun.reading.snapshot import Record
@@ -34,6 +34,9 @@ class Status:
         parts: How often a program has come to its end.
         listeners: Called with each `Record`, in order.
     """
+
+    #: A snapshot does not go on to these: they are outside of the control.
+    UNFOLLOWED: ClassVar = frozenset({"listeners"})
 
     def __init__(self, control_id: str, clock: Clock, signals: SignalImage) -> None:
         self.mode, self.state = Mode.AUTO, State.READY

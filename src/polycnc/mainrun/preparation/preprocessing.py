@@ -93,7 +93,7 @@ class Preprocessing:
         self.finished = True
         self.revised = False
         self.has_caught_up = False
-        self._run: Iterator[Wait] = iter(())
+        self._run: Iterator[Wait] | None = None
         self._axes = len(self.toolpath.axes)
         self._settings: MotionSettings
         self._buffer = PieceBuffer(self._axes)
@@ -145,7 +145,7 @@ class Preprocessing:
         self._last_context = Context()
         self._real.stand(position)
         self.stand_at(position)
-        self._run = iter(())
+        self._run = None
         self.waiting, self.finished, self.has_caught_up = None, True, True
 
     def fill(self, *, one_block: bool = False) -> bool:
@@ -238,7 +238,7 @@ class Preprocessing:
     def _step(self) -> None:
         """Run the channel to its next wait."""
         channel = self.channel
-        wait = next(self._run, None)
+        wait = next(self._run, None) if self._run is not None else None
         level = channel.stack[-1] if channel.stack else None
         if level is not None and (len(channel.toolpath.chunk) or (wait and wait.reason in BEHIND_A_BLOCK)):
             halts = wait is not None and wait.reason == "single-block" and not channel.finished
