@@ -180,8 +180,7 @@ class WordAddressControl:
         """Power-on state."""
         channel.mode = channel.modes.mode(self.start_codes(channel))
         channel.memory = self.make_memory(channel)
-        skip = channel.setup.switches.block_skip
-        channel.skip_levels = sum(1 << level for level in ((1,) if skip is True else skip or ()))
+        channel.skip_levels = channel.setup.switches.block_skip_mask(plain=1)
         if channel.number == 1:
             channel.memory.tool = channel.memory.next_tool = int(channel.setup.spindle_tool)
         if self.FEED_AT_START is not None:

@@ -63,7 +63,7 @@ class Shapes:
     """
 
     def __init__(self, names: dict[str, object], most: int = MOST_SHAPES) -> None:
-        self._names = names
+        self.names = names
         self._compiled = lru_cache(most)(compiled)
 
     def template(self, function: Function) -> Template:
@@ -73,7 +73,7 @@ class Shapes:
             TooDeepError: The code is nested too deeply.
         """
         try:
-            return Template(self._compiled(function), self._names)
+            return Template(self._compiled(function), self.names)
         except RecursionError:
             raise TooDeepError from None
 
@@ -84,7 +84,7 @@ class Shapes:
     def single(self, function: Function, values: Iterable[object]) -> FunctionType:
         """A function whose shape does not come again."""
         try:
-            return Template(compiled(function), self._names).function(tuple(values))
+            return Template(compiled(function), self.names).function(tuple(values))
         except (RecursionError, SyntaxError):  # more blocks in one another than Python takes
             raise TooDeepError from None
 

@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 NO_LINE = "COR-018"
 _START = attrgetter("start")
 _BLANKS = str.maketrans("", "", " \t")
-_SEQUENCE = re.compile(r"[ \t]*(?:/\d?[ \t]*)*N[ \t]*(\d+)", re.IGNORECASE)
 _HEAD = re.compile(r"[ \t]*[O:][ \t]*\d+", re.IGNORECASE)
 
 
@@ -129,11 +128,7 @@ class IsoProgram(WordAddressProgram):
 
     def sequence_at(self, index: int) -> int:
         """The last N number at or before a step; 0 where there is none."""
-        for line in reversed(self.lines[: index + 1]):
-            match = _SEQUENCE.match(line)
-            if match:
-                return int(match[1])
-        return 0
+        return self.sequence(index)
 
     def find_line(self, line: int) -> int:
         """The step of a line."""

@@ -32,7 +32,7 @@ MAX_BLOCK_LENGTH = 4096
 _PLAIN = re.compile(r"(?:[A-Z][-+]?(?:\d+(?:\.\d*)?|\.\d+)[ \t]*)+;?")
 _WORD = re.compile(r"([A-Z])([-+]?)([\d.]+)")
 _COMMENT = re.compile(r"\([^)]*\)?")
-_SEQUENCE = re.compile(r"^[ \t]*(?:/\d?[ \t]*)*N[ \t]*0*(\d+)")
+_SEQUENCE = re.compile(r"[ \t]*(?:/\d?[ \t]*)*N[ \t]*(\d+)", re.IGNORECASE)
 _STATEMENT = re.compile(rf"[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*(?:{KEYWORD.pattern})")
 _NUMBERS = re.compile(
     r"^[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*"

@@ -76,7 +76,7 @@ class Switches:
             mode="mdi" if typed else "memory",
         )
         channel.setup = replace(channel.setup, switches=switches)
-        channel.skip_levels = sum(1 << level for level in ((1,) if skip is True else skip or ()))
+        channel.skip_levels = switches.block_skip_mask(plain=1)
         # Whether to halt is decided when the block is executed, not when it is prepared.
         channel.single_block = channel.block_by_block = channel.optional_stop = True
 
