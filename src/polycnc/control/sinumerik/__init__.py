@@ -1,7 +1,7 @@
 """SINUMERIK 840D sl: G groups, words, frames, tools, system variables and alarms of the control.
 
-`control` states what it is, `gcodes` has the groups; `memory`, `reset`, `auxiliary` (M), `tables` and `errors` that
-several modules share.
+`control` states what it is, `family` how a type checker knows its channel, `gcodes` has the groups; `memory`, `reset`,
+`auxiliary` (M), `tables` and `errors` that several modules share.
 
     block/       what a block does: plans, words, procedures
     motion/      moves, circles, splines, repositioning

@@ -13,8 +13,7 @@ from polycnc.control.sinumerik.tools import stages
 from polycnc.control.tool_change import check_change_points
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 STOP, OPTIONAL_STOP = 0, 1
 PROGRAM_ENDS = frozenset({2, 30, 17})
@@ -25,11 +24,11 @@ GEARS = range(40, 46)
 AFTER_MOTION = frozenset({STOP, OPTIONAL_STOP, *PROGRAM_ENDS})
 
 
-def before_motion(channel: Channel, code: int, spindle_number: int | None) -> None:
+def before_motion(channel: SinumerikChannel, code: int, spindle_number: int | None) -> None:
     """Run an M function that acts before the motion of its block; `spindle_number` is its extension."""
     if code in AFTER_MOTION and spindle_number is None:
         return
-    memory: Memory = channel.memory
+    memory = channel.memory
     if code in GEARS:
         memory.spindles.get(spindle_number)  # 16761 for one that the channel does not have
     if code in DIRECTIONS or code in (ORIENT, AXIS_MODE):
@@ -46,7 +45,7 @@ def before_motion(channel: Channel, code: int, spindle_number: int | None) -> No
         load_tool(channel)
 
 
-def after_motion(channel: Channel, code: int) -> None:
+def after_motion(channel: SinumerikChannel, code: int) -> None:
     """Stops, which act when the motion of their block is done."""
     if code == STOP:
         channel.stop("M0")
@@ -57,17 +56,17 @@ def after_motion(channel: Channel, code: int) -> None:
             channel.event("m", code=code)
 
 
-def load_tool(channel: Channel) -> None:
+def load_tool(channel: SinumerikChannel) -> None:
     """The selected tool comes into the spindle."""
     check_change_points(channel)
-    memory: Memory = channel.memory
+    memory = channel.memory
     memory.tools.load(memory.tools.selected, memory.data)
     tool_changed(channel)
 
 
-def tool_changed(channel: Channel) -> None:
+def tool_changed(channel: SinumerikChannel) -> None:
     """Other offsets: lengths act with the next motion of their axis, the radius at once."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     memory.tools.assign_lengths(channel.mode["plane"], memory.data)
     frames.apply(channel, travelled=bool(memory.data.number("$SC_TOOL_OFFSET_INCR_PROG")))
     stages.changed_radius(channel)

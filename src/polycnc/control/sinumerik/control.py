@@ -47,12 +47,12 @@ from polycnc.toolpath.modes import CornerMode, FeedMode
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step as ProgramStep
     from polycnc.control.sinumerik.block.draft import Values
     from polycnc.control.sinumerik.block.plan import Plan
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.variables.registry import SystemVariable
     from polycnc.language.expressions.shapes import Shapes
     from polycnc.language.sinumerik.words import Block
@@ -103,7 +103,7 @@ class Sinumerik:
         """Make a program ready to run."""
         return SinumerikProgram(program, self)
 
-    def start(self, channel: Channel) -> None:
+    def start(self, channel: SinumerikChannel) -> None:
         """Power-on: modal state, machine data, tools and frames as machine and setup say."""
         memory = self._memory(channel)
         channel.memory = memory
@@ -122,30 +122,30 @@ class Sinumerik:
         interrupts.watch(channel)
         init_programs.call(channel)
 
-    def begin(self, channel: Channel) -> None:
+    def begin(self, channel: SinumerikChannel) -> None:
         """A main program begins in the state that the channel is in."""
 
-    def reset(self, channel: Channel) -> None:
+    def reset(self, channel: SinumerikChannel) -> None:
         """The state after reset, and after the end of a program."""
-        memory: Memory = channel.memory
+        memory = channel.memory
         reset(channel)
         initialise(channel, RESET, keep_values=memory.data.keeps_first_values)
 
-    def give_up(self, channel: Channel, modal: Mapping[str, str], context: Context) -> None:  # noqa: ARG002
+    def give_up(self, channel: SinumerikChannel, modal: Mapping[str, str], context: Context) -> None:  # noqa: ARG002
         """A reset in the midst of a program: machine data decide what holds behind it."""
         channel.mode = channel.modes.mode(modal)
         self.reset(channel)
 
-    def stays_at_end(self, channel: Channel, code: int) -> bool:  # noqa: ARG002 - the same on every machine
+    def stays_at_end(self, channel: SinumerikChannel, code: int) -> bool:  # noqa: ARG002 - the same on every machine
         """A program that has ended goes back to its top."""
         return False
 
-    def stop_spindles(self, channel: Channel) -> None:
+    def stop_spindles(self, channel: SinumerikChannel) -> None:
         """The drives are off."""
         for spindle in channel.memory.spindles.all.values():
             spindle.direction = 0
 
-    def _memory(self, channel: Channel) -> Memory:
+    def _memory(self, channel: SinumerikChannel) -> Memory:
         names = axis_names(channel)
         data = _machine_data(channel)
         definition = channel.machine.channel(channel.number)
@@ -199,7 +199,7 @@ class Sinumerik:
             transverse=next((i for i, axis in enumerate(channel.axis_data) if axis.diameter), -1),
         )
 
-    def end_of_program(self, channel: Channel) -> None:
+    def end_of_program(self, channel: SinumerikChannel) -> None:
         """The text has ended: as M30, or as M17 in a subprogram."""
         if len(channel.stack) > 1:
             end_of_subprogram(channel)
@@ -207,13 +207,13 @@ class Sinumerik:
             protection.check_end(channel)
             channel.end()
 
-    def plain_blocks(self, _channel: Channel) -> SinumerikPlainBlocks:
+    def plain_blocks(self, _channel: SinumerikChannel) -> SinumerikPlainBlocks:
         """What a scanner must know of plain blocks."""
         return SinumerikPlainBlocks()
 
     # ---- blocks
 
-    def execute(self, channel: Channel, block: Block, values: Values) -> bool:
+    def execute(self, channel: SinumerikChannel, block: Block, values: Values) -> bool:
         """Run the functions and words of a block; true if a modal subprogram (MCALL) follows the block."""
         plan = channel.mode.plans.get(block)
         if plan is None:
@@ -233,13 +233,13 @@ class Sinumerik:
                 return False
         return calls
 
-    def plan(self, channel: Channel, block: Block) -> Plan:
+    def plan(self, channel: SinumerikChannel, block: Block) -> Plan:
         """Work out what a block does in the modal state that holds."""
         mode = channel.mode
         plan = mode.plans[block] = make_plan(channel, block)
         return plan
 
-    def procedure(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> None:
+    def procedure(self, channel: SinumerikChannel, name: str, args: tuple[Any, ...], column: int) -> None:
         """Run a predefined procedure or a machining cycle; alarms have the column of the call."""
         try:
             if name in keywords.CYCLES:
@@ -254,7 +254,7 @@ class Sinumerik:
             alarm.column = alarm.column or column
             raise
 
-    def function(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> Any:
+    def function(self, channel: SinumerikChannel, name: str, args: tuple[Any, ...], column: int) -> Any:
         """The value of a predefined function that depends on the control's state."""
         return functions.value(channel, name, args, column)
 
@@ -269,40 +269,40 @@ class Sinumerik:
         """The variable `$NAME`; alarm 12550 for one that does not exist, PC0001 for one that is not kept."""
         return self.system_variables.find(name)
 
-    def preprocessing_stop(self, channel: Channel) -> bool:
+    def preprocessing_stop(self, channel: SinumerikChannel) -> bool:
         """Wait for the main run: everything held back is written; the block need not come again."""
         channel.flush()
         channel.synchronise()
         return False
 
-    def reads_inches(self, channel: Channel) -> bool:
+    def reads_inches(self, channel: SinumerikChannel) -> bool:
         """Whether the program reads and writes values with units of length in inches now (G700)."""
         return channel.mode["units"] == "G700"
 
-    def restore_setting(self, channel: Channel, name: str) -> None:
+    def restore_setting(self, channel: SinumerikChannel, name: str) -> None:
         """Give a setting or machine datum the values of the setup."""
         channel.memory.data.restore(name)
         working_area.refresh(channel)
 
-    def restarts(self, channel: Channel) -> bool:
+    def restarts(self, channel: SinumerikChannel) -> bool:
         """Whether GOTOS goes back to the program start (DB21 ff., DBX384.0)."""
         number = 20 + channel.number
         return bool(channel.setup.switches.plc.get(f"DB{number}.DBX384.0"))
 
-    def skipped(self, channel: Channel, level: int) -> bool:
+    def skipped(self, channel: SinumerikChannel, level: int) -> bool:
         """Whether blocks marked `/` with this level are skipped now."""
         return bool(channel.setup.switches.block_skip_mask(plain=0) >> level & 1)
 
-    def save(self, channel: Channel) -> object:
+    def save(self, channel: SinumerikChannel) -> object:
         """What PROC … SAVE brings back: all modal functions, and the frames that they chose."""
-        memory: Memory = channel.memory
+        memory = channel.memory
         return channel.mode, memory.frames.programmable
 
-    def restore(self, channel: Channel, saved: object) -> None:
+    def restore(self, channel: SinumerikChannel, saved: object) -> None:
         """Bring back what `save` returned."""
         assert isinstance(saved, tuple)
         mode, programmable = saved
-        memory: Memory = channel.memory
+        memory = channel.memory
         changed = {name for name, code in mode.codes.items() if channel.mode[name] != code}
         channel.mode = mode
         memory.frames.programmable = programmable
@@ -316,10 +316,10 @@ class Sinumerik:
 
     # ---- the toolpath
 
-    def context(self, channel: Channel) -> Context:
+    def context(self, channel: SinumerikChannel) -> Context:
         """The context that holds now."""
         mode, coordinates = channel.mode, channel.coordinates
-        memory: Memory = channel.memory
+        memory = channel.memory
         feed = tables.feed_type(mode)
         leading = (
             memory.feed_source
@@ -356,7 +356,7 @@ class Sinumerik:
             pace=pace.pace(channel, side),
         )
 
-    def halts(self, channel: Channel, level: Level, step: ProgramStep) -> bool:  # noqa: ARG002 - levels decide
+    def halts(self, channel: SinumerikChannel, level: Level, step: ProgramStep) -> bool:  # noqa: ARG002 - levels decide
         """Whether single block operation halts behind the block that a level has run."""
         return single_block.halts(channel, level)
 
@@ -364,7 +364,7 @@ class Sinumerik:
         """10720: the target lies beyond a software limit switch."""
         return AlarmError("10720", axis=axis, side="+" if direction > 0 else "-")
 
-    def reference_point(self, channel: Channel, axis: int, number: int) -> float:
+    def reference_point(self, channel: SinumerikChannel, axis: int, number: int) -> float:
         """Machine position of a reference point of an axis (1 to 4)."""
         return channel.axis_data[axis].reference_points[number - 1]
 
@@ -372,7 +372,7 @@ class Sinumerik:
         """The program has run more blocks than allowed."""
         return AlarmError("PC0002", hint="hint.block-limit")
 
-    def motion_settings(self, channel: Channel) -> MotionSettings:
+    def motion_settings(self, channel: SinumerikChannel) -> MotionSettings:
         """How the control leads the axes: rapids stop only where an exact stop does; feeds count linear axes.
 
         DRIVE: MD35220 and MD35230 of the axis that asks for most caution.
@@ -389,21 +389,21 @@ class Sinumerik:
 
     # ---- variables by name
 
-    def read_variable(self, channel: Channel, name: str) -> object:
+    def read_variable(self, channel: SinumerikChannel, name: str) -> object:
         """The value of a variable as a program would name it (`R1`, `$P_GG[6]`, a user variable)."""
         return by_name.read(channel, name)
 
-    def write_variable(self, channel: Channel, name: str, value: object) -> None:
+    def write_variable(self, channel: SinumerikChannel, name: str, value: object) -> None:
         """Set a variable as a program would name it."""
         by_name.write(channel, name, value)
 
-    def variable_names(self, channel: Channel) -> list[str]:
+    def variable_names(self, channel: SinumerikChannel) -> list[str]:
         """Names of all variables that hold something."""
-        memory: Memory = channel.memory
+        memory = channel.memory
         return [f"R{n}" for n, value in enumerate(memory.language.r) if value]
 
 
-def _machine_data(channel: Channel) -> MachineData:
+def _machine_data(channel: SinumerikChannel) -> MachineData:
     """Machine data as the setup gives them."""
     columns = {**_machine_columns(channel), **_columns(channel)}
     names = {name: channel.axes[column] for name, column in columns.items()}
@@ -436,7 +436,7 @@ def _limit(memory: Memory, spindle: Spindle | None, feed: str) -> float:
     return limit if limit < NO_LIMIT_RPM else 0.0
 
 
-def axis_names(channel: Channel) -> dict[str, Axis]:
+def axis_names(channel: SinumerikChannel) -> dict[str, Axis]:
     """Every axis and spindle identifier that programs of the channel may use, with the axis it means."""
     names = {name: Axis(name) for name in channel.axes}
     for letter, column in zip(GEOMETRY_AXES, channel.coordinates.geometry, strict=True):
@@ -451,7 +451,7 @@ def axis_names(channel: Channel) -> dict[str, Axis]:
     return names
 
 
-def _columns(channel: Channel) -> dict[str, int]:
+def _columns(channel: SinumerikChannel) -> dict[str, int]:
     """Columns by channel and geometry names."""
     columns = {name: i for i, name in enumerate(channel.axes)}
     for letter, column in zip(GEOMETRY_AXES, channel.coordinates.geometry, strict=True):
@@ -460,7 +460,7 @@ def _columns(channel: Channel) -> dict[str, int]:
     return columns
 
 
-def _machine_columns(channel: Channel) -> dict[str, int]:
+def _machine_columns(channel: SinumerikChannel) -> dict[str, int]:
     """Columns by machine axis names: of the machine, of its machine data, and AX1 and so on."""
     columns = {f"AX{channel.machine.axes.index(axis) + 1}": i for i, axis in enumerate(channel.axis_data)}
     columns.update({axis.machine_name.upper(): i for i, axis in enumerate(channel.axis_data)})

@@ -12,8 +12,8 @@ from polycnc.control.sinumerik.memory import Polar
 from polycnc.language.sinumerik.names.frame import NEUTRAL
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.data.machine_data import MachineData
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.memory import Memory
 
 #: Groups that a bit of MD20110 keeps over a reset.
@@ -21,7 +21,7 @@ KEPT_BY_MASK = {4: "plane", 5: "zero_offset"}
 KEEPS_EDGE = 6
 
 
-def start_codes(channel: Channel, data: MachineData) -> dict[str, str]:
+def start_codes(channel: SinumerikChannel, data: MachineData) -> dict[str, str]:
     """Modal state at program start: delivered values, MD20150, and G18 where the channel has no Y axis."""
     codes = {**gcodes.START_CODES, **gcodes.INTERNAL_CODES}
     definition = channel.machine.channel(channel.number)
@@ -44,7 +44,7 @@ def _reset_value(group: gcodes.Group, data: MachineData) -> str:
     return ""
 
 
-def _kept_codes(channel: Channel, data: MachineData) -> dict[str, str]:
+def _kept_codes(channel: SinumerikChannel, data: MachineData) -> dict[str, str]:
     """Modal functions that a reset leaves as they are; without bit 0 of MD20110 the other bits count for nothing."""
     mask = data.integer("$MC_RESET_MODE_MASK")
     if not mask & 1:
@@ -58,7 +58,7 @@ def _kept_codes(channel: Channel, data: MachineData) -> dict[str, str]:
     return {name: channel.mode[name] for name in kept}
 
 
-def _reset_edge(channel: Channel, data: MachineData) -> None:
+def _reset_edge(channel: SinumerikChannel, data: MachineData) -> None:
     """The tool stays in the spindle; bit 6 of MD20110 keeps its offsets, else MD20130 says which hold."""
     tools = channel.memory.tools
     if data.integer("$MC_RESET_MODE_MASK") & (1 | 1 << KEEPS_EDGE) == 1:
@@ -74,9 +74,9 @@ def stop_spindles(memory: Memory) -> None:
             spindle.direction = 0
 
 
-def reset(channel: Channel) -> None:
+def reset(channel: SinumerikChannel) -> None:
     """Modal functions as at program start, programmed frames and compensations off; the axes stay where they are."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     protection.leave(channel)
     machine = channel.coordinates.machine
     channel.mode = channel.modes.mode(start_codes(channel, memory.data) | _kept_codes(channel, memory.data))

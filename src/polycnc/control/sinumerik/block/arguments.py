@@ -9,11 +9,11 @@ from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 #: Arguments as the language hands them over, None for one that is left out; and what they are handed to.
 Arguments = tuple[Any, ...]
-Procedure = Callable[["Channel", Arguments], None]
+Procedure = Callable[["SinumerikChannel", Arguments], None]
 
 
 def real(value: Any) -> float:
@@ -31,7 +31,7 @@ def whole(value: Any) -> int:
     return int(number)
 
 
-def column(channel: Channel, value: Any) -> int:
+def column(channel: SinumerikChannel, value: Any) -> int:
     """Column of an axis; alarm 12040 for anything else, 12050 for an axis that the channel does not have."""
     if not isinstance(value, Axis):
         raise AlarmError("12040", text=_shown(value))

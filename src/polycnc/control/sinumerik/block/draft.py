@@ -14,15 +14,14 @@ from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm, WordShape
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.language.sinumerik.words import Block
 
     Values = tuple[Any, ...]
 
 #: One thing that a block does.
-Step = Callable[["Channel", "Values"], None]
+Step = Callable[["SinumerikChannel", "Values"], None]
 
 
 class Draft:
@@ -38,9 +37,9 @@ class Draft:
         opens_line: The block begins a straight line whose end the next one tells (ANG).
     """
 
-    def __init__(self, channel: Channel, block: Block, mode: Mode, codes: dict[str, str]) -> None:
+    def __init__(self, channel: SinumerikChannel, block: Block, mode: Mode, codes: dict[str, str]) -> None:
         self.channel = channel
-        self.memory: Memory = channel.memory
+        self.memory = channel.memory
         self.block = block
         self.mode = mode
         self.codes = codes

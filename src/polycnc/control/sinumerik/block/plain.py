@@ -31,9 +31,8 @@ from polycnc.toolpath.kinds import CCW_KINDS
 if TYPE_CHECKING:
     from collections.abc import Hashable, Sequence
 
-    from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.language.bulk.scanner import LastMoves
     from polycnc.language.sinumerik.executable import SinumerikProgram
 
@@ -94,7 +93,7 @@ class SinumerikPlainBlocks:
     def __init__(self) -> None:
         self._conditions = Conditions()
 
-    def ready(self, channel: Channel) -> bool:
+    def ready(self, channel: SinumerikChannel) -> bool:
         """Nothing watches single blocks, holds moves back or follows a block, and the program has been opened."""
         c, code = channel.coordinates, channel.level.code
         return (
@@ -107,7 +106,7 @@ class SinumerikPlainBlocks:
             and getattr(code, "is_open", False)
         )
 
-    def generation(self, channel: Channel) -> Hashable:
+    def generation(self, channel: SinumerikChannel) -> Hashable:
         """Changes when plans are forgotten, with names that a program gives a meaning, and with conditions."""
         code: Any = channel.level.code
         language, scope = channel.memory.language, code.scope_of(channel)
@@ -115,21 +114,21 @@ class SinumerikPlainBlocks:
         names = macros, len(scope.variables), len(language.global_variables)
         return channel.modes.generation, names, self._conditions.hold(channel)
 
-    def state(self, channel: Channel) -> tuple[Mode, object]:
+    def state(self, channel: SinumerikChannel) -> tuple[Mode, object]:
         """The modal state in the running program."""
         return channel.mode, channel.level.code
 
-    def enter(self, channel: Channel, state: tuple[Mode, object]) -> None:
+    def enter(self, channel: SinumerikChannel, state: tuple[Mode, object]) -> None:
         """Another modal state."""
         channel.mode = state[0]
 
-    def owes(self, channel: Channel) -> bool:
+    def owes(self, channel: SinumerikChannel) -> bool:
         """Whether incremental words are owed a change of offsets."""
         return channel.coordinates.owes
 
-    def limits(self, channel: Channel) -> Sequence[tuple[float, float]]:
+    def limits(self, channel: SinumerikChannel) -> Sequence[tuple[float, float]]:
         """The machine's travel, software limit switches and the working area, whichever is narrower."""
-        memory: Memory = channel.memory
+        memory = channel.memory
         if not memory.limits:
             return channel.limits
         ranges = list(channel.limits) or [(float("-inf"), float("inf"))] * len(channel.axes)
@@ -140,13 +139,13 @@ class SinumerikPlainBlocks:
             ranges[limit.column] = max(low, limit.low), min(high, limit.high)
         return ranges
 
-    def tolerance(self, channel: Channel) -> float:
+    def tolerance(self, channel: SinumerikChannel) -> float:
         """MD21000, mm."""
         return float(channel.memory.data.number("$MC_CIRCLE_ERROR_CONST"))
 
-    def moved(self, channel: Channel, last: LastMoves) -> None:
+    def moved(self, channel: SinumerikChannel, last: LastMoves) -> None:
         """Where the last move came from, for CT."""
-        memory: Memory = channel.memory
+        memory = channel.memory
         kind = Kind(last.kind)
         if kind in (Kind.RAPID, Kind.FEED):
             memory.previous = (last.came_from, None, 0.0)
@@ -155,7 +154,7 @@ class SinumerikPlainBlocks:
             sense = 1.0 if kind in CCW_KINDS else -1.0
             memory.previous = (last.came_from, ((x, y, z), (i, j, k)), sense)
 
-    def recipe(self, channel: Channel, keys: Sequence[int], _line: str) -> Recipe | None:
+    def recipe(self, channel: SinumerikChannel, keys: Sequence[int], _line: str) -> Recipe | None:
         """What the plan of a shape does, if all of it can be told."""
         code: Any = channel.level.code
         try:
@@ -173,7 +172,7 @@ class SinumerikPlainBlocks:
         return None if recipe is None else recipe._replace(next_state=(recipe.next_state, code))
 
 
-def _block(code: SinumerikProgram, channel: Channel, keys: Sequence[int]) -> Block | None:
+def _block(code: SinumerikProgram, channel: SinumerikChannel, keys: Sequence[int]) -> Block | None:
     """The block that the interpreter would run, if its functions and words are those that the scanner has read."""
     emitter = code.compiled(channel.level.index, channel).emitter
     if emitter.is_empty:

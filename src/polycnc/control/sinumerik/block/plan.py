@@ -28,10 +28,9 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
     from polycnc.control.sinumerik.block.draft import Values
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.language.bulk import Condition
     from polycnc.language.sinumerik.words import Block
 
@@ -85,7 +84,7 @@ class Plan(NamedTuple):
     shared: tuple[int, ...] = ()
 
 
-def make_plan(channel: Channel, block: Block) -> Plan:
+def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     """Work out a block in the present modal state.
 
     Raises:
@@ -158,9 +157,9 @@ def _kept_feed(before: Mode, mode: Mode) -> Mode:
     return mode
 
 
-def _axis_diameters(channel: Channel, block: Block, mode: Mode, codes: dict[str, str]) -> Mode:
+def _axis_diameters(channel: SinumerikChannel, block: Block, mode: Mode, codes: dict[str, str]) -> Mode:
     """The mode after DIAMONA[axis] and the like; a function of the channel takes the transverse axis back."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     chosen = axis_diameters(mode)
     if "diameter" in codes:
         chosen.pop(memory.transverse, None)
@@ -198,7 +197,7 @@ def _enter(mode: Mode, modal: list[tuple[str, str]], *, changes: bool) -> Step:
     """A step that brings the modal state about."""
     matters = not modal or any(name in IN_CONTEXT for name, _ in modal)
 
-    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
         channel.mode = mode
         if matters:
             channel.context_changed()
@@ -273,7 +272,7 @@ def _words(draft: Draft) -> list[int]:
 
 
 def _stop(position: int) -> Step:
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         auxiliary.after_motion(channel, words.whole(values, position))
 
     return run
@@ -293,14 +292,14 @@ def _around(draft: Draft, step: Step) -> list[Step]:
 def _suppress(code: str) -> Step:
     """Frames off for a block, and back; what incremental words are still owed does not change."""
 
-    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
         frames.apply(channel, code)
 
     return run
 
 
 def _exact_stop(on: bool) -> Step:
-    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
         channel.memory.exact_stop_block = on
         channel.context_changed()
 
@@ -310,9 +309,9 @@ def _exact_stop(on: bool) -> Step:
 # ---- what modal functions do beside being active
 
 
-def _zero_offset(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+def _zero_offset(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """G500, G54 …: the stored frame becomes active."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     number = gcodes.number_of(channel.mode["zero_offset"]) - 1
     if number >= len(memory.frames.settable):
         raise AlarmError("12470", text=channel.mode["zero_offset"])
@@ -320,15 +319,15 @@ def _zero_offset(channel: Channel, values: Values) -> None:  # noqa: ARG001 - st
     frames.changed(channel)
 
 
-def _plane(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+def _plane(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """G17, G18, G19: tool lengths change their axes."""
     stages.change_plane(channel)
     auxiliary.tool_changed(channel)
 
 
-def _feed_type(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+def _feed_type(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """Group 15: another kind of feed needs a new F; G97 keeps the speed that G96 had."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     feed = tables.feed_type(channel.mode)
     spindle_speed.change_of_feed_type(channel, feed.surface_speed, channel.mode["feed"])
     if feed.mode != memory.feed_mode:
@@ -336,13 +335,13 @@ def _feed_type(channel: Channel, values: Values) -> None:  # noqa: ARG001 - step
         memory.feed_mode = feed.mode
 
 
-def _diameter(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+def _diameter(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """DIAMON, DIAM90: only with a transverse axis (16510)."""
     if channel.mode["diameter"] in ("DIAMON", "DIAM90") and channel.memory.transverse < 0:
         raise AlarmError("16510")
 
 
-def _side(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+def _side(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     if channel.mode["side"] == "G40":
         stages.leave_contour(channel)
     else:
@@ -350,19 +349,19 @@ def _side(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps hav
     channel.context_changed()
 
 
-def _working_area(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+def _working_area(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     working_area.refresh(channel)
 
 
-def _constant_side(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+def _constant_side(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     stages.suspend(channel)
 
 
-def _rules(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+def _rules(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     stages.changed_rules(channel)
 
 
-def _lengths_are_settled(channel: Channel) -> bool:
+def _lengths_are_settled(channel: SinumerikChannel) -> bool:
     """The plane gives the tool the lengths that it has."""
     tools, data = channel.memory.tools, channel.memory.data
     before = tools.lengths
@@ -371,7 +370,7 @@ def _lengths_are_settled(channel: Channel) -> bool:
     return bool(after == before) and frames.is_settled(channel)
 
 
-def _feed_is_settled(channel: Channel) -> bool:
+def _feed_is_settled(channel: SinumerikChannel) -> bool:
     """The kind of feed is the one in force, its spindle has what it needs and no speed to keep from G96."""
     memory, code = channel.memory, channel.mode["feed"]
     feed = tables.feed_type(channel.mode)
@@ -379,7 +378,7 @@ def _feed_is_settled(channel: Channel) -> bool:
     return in_force and spindle_speed.is_settled(channel, feed.surface_speed, code)
 
 
-def _contour_is_settled(channel: Channel) -> bool:
+def _contour_is_settled(channel: SinumerikChannel) -> bool:
     """No compensation is active."""
     return stages.active_cutter(channel) is None
 

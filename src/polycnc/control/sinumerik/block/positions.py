@@ -16,9 +16,8 @@ from polycnc.language.sinumerik.words import WordAlarm
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 TURN = 360.0
 
@@ -96,7 +95,7 @@ def is_diameter(mode: Mode, way: Way, column: int, transverse: int) -> bool:
 
 
 def axis_term(
-    channel: Channel, mode: Mode, position: int, column: int, modifier: str, *, path: bool = True
+    channel: SinumerikChannel, mode: Mode, position: int, column: int, modifier: str, *, path: bool = True
 ) -> AxisTerm:
     """Work out an axis word. `path` is false for words that are no positions (offsets): always radius.
 
@@ -104,7 +103,7 @@ def axis_term(
         WordAlarm: 12020 for a modifier that axis words do not have, 16800 to 16820 for the way of a rotary
             axis on a linear one.
     """
-    memory: Memory = channel.memory
+    memory = channel.memory
     axis = channel.axis_data[column]
     diameter: bool | None = None
     if not modifier:
@@ -139,7 +138,7 @@ def number(values: tuple[Any, ...], position: int) -> float:
     raise WordAlarm("12150", position, text=str(value.name if isinstance(value, Axis) else value))
 
 
-def target(channel: Channel, terms: Sequence[AxisTerm], values: tuple[Any, ...]) -> list[float]:
+def target(channel: SinumerikChannel, terms: Sequence[AxisTerm], values: tuple[Any, ...]) -> list[float]:
     """The target of a block in work coordinates of all axes; axes without a word stay where they are."""
     coordinates = channel.coordinates
     end = coordinates.position.copy()
@@ -176,7 +175,7 @@ def _rotary_target(now: float, value: float, term: AxisTerm) -> float:
     return now + way
 
 
-def shown(channel: Channel, column: int, value: float, *, work: bool = True) -> float:
+def shown(channel: SinumerikChannel, column: int, value: float, *, work: bool = True) -> float:
     """A position as a program reads it: in diameter, inches under G700, modulo axes within a turn."""
     axis = channel.axis_data[column]
     if axis.rotary:

@@ -24,15 +24,14 @@ from polycnc.messages import Alarm, AlarmError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 
 #: SETAL: thousands of alarm numbers that are shown without stopping the program (job planning 14.9).
 SHOWN_ONLY = frozenset((62, 67, 68, 69))
 
 
-def run(channel: Channel, name: str, args: Arguments) -> None:
+def run(channel: SinumerikChannel, name: str, args: Arguments) -> None:
     """Run a procedure; PC0001 for one that is not executed."""
     procedure = PROCEDURES.get(name)
     if procedure is None:
@@ -40,18 +39,18 @@ def run(channel: Channel, name: str, args: Arguments) -> None:
     procedure(channel, args)
 
 
-def message(channel: Channel, args: Arguments) -> None:
+def message(channel: SinumerikChannel, args: Arguments) -> None:
     """MSG(text): shown until the next one; MSG() takes it away."""
     channel.event("message", text=str(args[0]) if args and args[0] is not None else "")
 
 
-def preprocessing_stop(channel: Channel, _args: Arguments) -> None:
+def preprocessing_stop(channel: SinumerikChannel, _args: Arguments) -> None:
     """STOPRE: everything held back is written and executed before the next block is read."""
     channel.flush()
     channel.synchronise()
 
 
-def set_alarm(channel: Channel, args: Arguments) -> None:
+def set_alarm(channel: SinumerikChannel, args: Arguments) -> None:
     """SETAL(number, text): an alarm of the program; some numbers are only shown."""
     number = args[0] if args else None
     if not isinstance(number, int) or not 60000 <= number <= 69999:
@@ -73,7 +72,7 @@ def set_alarm(channel: Channel, args: Arguments) -> None:
     channel.event("alarm", code=str(number), line=channel.line, column=0, program=program.name)
 
 
-def set_master_spindle(channel: Channel, args: Arguments) -> None:
+def set_master_spindle(channel: SinumerikChannel, args: Arguments) -> None:
     """SETMS(n): the master spindle; SETMS alone returns to that of the machine data."""
     spindles = channel.memory.spindles
     number = arguments.spindle(args[0]) if args else None
@@ -83,29 +82,29 @@ def set_master_spindle(channel: Channel, args: Arguments) -> None:
     channel.context_changed()
 
 
-def position_control(on: bool) -> Callable[[Channel, Arguments], None]:
+def position_control(on: bool) -> Callable[[SinumerikChannel, Arguments], None]:
     """SPCON, SPCOF: the named spindles, or the master spindle, in position control."""
 
-    def switch(channel: Channel, args: Arguments) -> None:
+    def switch(channel: SinumerikChannel, args: Arguments) -> None:
         for number in args or (None,):
             channel.memory.spindles.get(arguments.spindle(number)).controlled = on
 
     return switch
 
 
-def wait_for_axes(channel: Channel, args: Arguments) -> None:
+def wait_for_axes(channel: SinumerikChannel, args: Arguments) -> None:
     """WAITP(axis, …): positioning axes stand at their targets when their block is written."""
     for axis in args:
         arguments.column(channel, axis)
 
 
-def wait_for_spindles(channel: Channel, args: Arguments) -> None:
+def wait_for_spindles(channel: SinumerikChannel, args: Arguments) -> None:
     """WAITS(n, …): spindles stand at their positions."""
     for number in args:
         channel.memory.spindles.get(arguments.spindle(number))
 
 
-def preset(channel: Channel, args: Arguments) -> None:
+def preset(channel: SinumerikChannel, args: Arguments) -> None:
     """PRESETON(machine axis, value, …): the axis stands where it is and shows another machine position."""
     if not args or len(args) % 2:
         raise AlarmError("14020", text="PRESETON")
@@ -116,11 +115,11 @@ def preset(channel: Channel, args: Arguments) -> None:
     coordinates.arrive_machine(machine)
 
 
-def dynamics(name: str) -> Callable[[Channel, Arguments], None]:
+def dynamics(name: str) -> Callable[[SinumerikChannel, Arguments], None]:
     """BRISKA, SOFTA, DRIVEA, JERKA: acceleration of single axes, kept for the motion planner."""
 
-    def keep(channel: Channel, args: Arguments) -> None:
-        memory: Memory = channel.memory
+    def keep(channel: SinumerikChannel, args: Arguments) -> None:
+        memory = channel.memory
         for axis in args:
             column = arguments.column(channel, axis)
             memory.values["acceleration", (channel.axes[column],)] = name
@@ -128,45 +127,45 @@ def dynamics(name: str) -> Callable[[Channel, Arguments], None]:
     return keep
 
 
-def path_group(channel: Channel, args: Arguments) -> None:
+def path_group(channel: SinumerikChannel, args: Arguments) -> None:
     """FGROUP(axis, …): the axes whose way the path feed is for; none for those of the machine data."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     memory.values["FGROUP", ()] = tuple(arguments.column(channel, axis) for axis in args)
     channel.context_changed()
 
 
-def renumber(channel: Channel, args: Arguments) -> None:
+def renumber(channel: SinumerikChannel, args: Arguments) -> None:
     """SETDNO(t, ce, d) without use of its status."""
     if len(args) != 3 or None in args:
         raise AlarmError("14020", text="SETDNO")
     d_numbers.set_number(channel, args)
 
 
-def new_configuration(channel: Channel, _args: Arguments) -> None:
+def new_configuration(channel: SinumerikChannel, _args: Arguments) -> None:
     """NEWCONF: machine data that the program has written act; variables with INICF begin anew."""
     channel.flush()
-    memory: Memory = channel.memory
+    memory = channel.memory
     working_area.refresh(channel)
     initialise(channel, NEW_CONFIGURATION, keep_values=memory.data.keeps_first_values)
 
 
-def transformation_off(channel: Channel, _args: Arguments) -> None:
+def transformation_off(channel: SinumerikChannel, _args: Arguments) -> None:
     """TRAFOOF: no transformation is active; the frame of transformations goes as well."""
     channel.memory.frames.system["$P_TRAFRAME"] = NEUTRAL
 
 
-def workpiece(channel: Channel, args: Arguments) -> None:
+def workpiece(channel: SinumerikChannel, args: Arguments) -> None:
     """WORKPIECE(…): the blank that pictures show; WORKPIECE() takes it away. No motion."""
     channel.memory.values["WORKPIECE", ()] = args or None
 
 
-def channel_data(channel: Channel, args: Arguments) -> None:
+def channel_data(channel: SinumerikChannel, args: Arguments) -> None:
     """CHANDATA(n): in a program it only makes sure that the channel is the right one (job planning 2.2)."""
     if len(args) != 1 or arguments.whole(args[0]) != channel.number:
         raise AlarmError("14020", text="CHANDATA")
 
 
-def section_of_program(channel: Channel, args: Arguments) -> None:
+def section_of_program(channel: SinumerikChannel, args: Arguments) -> None:
     """SEFORM(name, level, icon): a section for the step editor; the name is kept for the operator interface."""
     if len(args) != 3 or not isinstance(args[0], str) or not isinstance(args[2], str):
         raise AlarmError("14020", text="SEFORM")
@@ -174,15 +173,15 @@ def section_of_program(channel: Channel, args: Arguments) -> None:
     channel.memory.values["SEFORM", ()] = args[0]
 
 
-def editor_mark(_channel: Channel, _args: Arguments) -> None:
+def editor_mark(_channel: SinumerikChannel, _args: Arguments) -> None:
     """GROUP_BEGIN, GROUP_END, GROUP_ADDEND: marks of the editor."""
 
 
-def no_overlay(_channel: Channel, _args: Arguments) -> None:
+def no_overlay(_channel: SinumerikChannel, _args: Arguments) -> None:
     """DRFOF, CORROF: there is no overlaid motion to take away."""
 
 
-PROCEDURES: dict[str, Callable[[Channel, Arguments], None]] = {
+PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "MSG": message,
     "STOPRE": preprocessing_stop,
     "SETAL": set_alarm,

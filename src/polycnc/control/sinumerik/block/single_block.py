@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.waits import Wait
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Level
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 #: MD10702 bit 1: interrupt routines of the user run through, until SBLON.
 IGNORE_ROUTINES = 1 << 1
@@ -24,34 +23,34 @@ IGNORE_SBLON = 1 << 12
 _SBLON = re.compile(r"\bSBLON\b", re.IGNORECASE)
 
 
-def begin_routine(channel: Channel, level: Level) -> None:
+def begin_routine(channel: SinumerikChannel, level: Level) -> None:
     """An interrupt routine begins: whether single block acts in it."""
     if channel.memory.data.integer("$MN_IGNORE_SINGLEBLOCK_MASK") & IGNORE_ROUTINES:
         level.data["single_block"] = False
 
 
-def halt_behind_rest(channel: Channel) -> None:
+def halt_behind_rest(channel: SinumerikChannel) -> None:
     """The rest of an interrupted block has been made behind its routine: the halt of that block."""
     level = channel.level
     if channel.single_block and (level.data.get("single_block", True) or _kind(channel) == "SBL3"):
         channel.wait = channel.wait or Wait("single-block", channel.sequence_of(level))
 
 
-def _kind(channel: Channel) -> str:
+def _kind(channel: SinumerikChannel) -> str:
     return str(channel.setup.switches.single_block)
 
 
-def _runs_through(channel: Channel) -> bool:
+def _runs_through(channel: SinumerikChannel) -> bool:
     """MD20117, while an interrupt routine runs."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     if memory.watch is None or not memory.data.integer("$MC_IGNORE_SINGLEBLOCK_ASUP"):
         return False
     return any(level.kind == "interrupt" for level in channel.stack)
 
 
-def halts(channel: Channel, level: Level) -> bool:
+def halts(channel: SinumerikChannel, level: Level) -> bool:
     """Whether single block halts behind the block that a level has just run."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     acted, memory.acted = memory.acted, False
     kind = channel.setup.switches.single_block
     if _runs_through(channel):

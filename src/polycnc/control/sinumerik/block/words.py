@@ -26,9 +26,8 @@ from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.language.sinumerik.words import WordShape
 
 Maker = Callable[["Draft", int, "WordShape"], "Step"]
@@ -46,7 +45,7 @@ def feed(draft: Draft, position: int, shape: WordShape) -> Step:
     factor = moves.feed_factor(draft)
     polynomial = shape.modifier == "FPO"
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         # FPO(end, quadratic, cubic): the feed at the end of the block is the modal one.
         value = number(values[position], 0) if polynomial else number(values, position)
         if value < 0.0:
@@ -59,7 +58,7 @@ def feed(draft: Draft, position: int, shape: WordShape) -> Step:
 def _travel_time(position: int) -> Step:
     """F under G931: seconds for the block; the toolpath keeps the inverse."""
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)
         channel.feed = 1.0 / value if value > 0.0 else nan
 
@@ -71,7 +70,7 @@ def axis_feed(draft: Draft, position: int, shape: WordShape) -> Step:
     column = axis_column(draft, position, shape)
     factor = (INCH_MM if draft.mode["units"] == "G700" else 1.0) / tables.MINUTE
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position) * factor
         if value <= 0.0:
             raise WordAlarm("14810" if value < 0.0 else "10861", position, axis=channel.axes[column])
@@ -98,7 +97,7 @@ def speed(draft: Draft, position: int, shape: WordShape) -> Step:
     wanted = spindle_number(shape, position)
     surface = tables.feed_type(draft.mode).surface_speed
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         spindle = channel.memory.spindles.get(wanted)
         value = number(values, position)
         if value < 0.0:
@@ -115,7 +114,7 @@ def speed(draft: Draft, position: int, shape: WordShape) -> Step:
     return declare(run, Note(position, lowest=0.0, condition=_has_master)) if wanted is None else run
 
 
-def _has_master(channel: Channel) -> bool:
+def _has_master(channel: SinumerikChannel) -> bool:
     return channel.memory.spindles.master in channel.memory.spindles.all
 
 
@@ -123,7 +122,7 @@ def speed_limit(_draft: Draft, position: int, shape: WordShape) -> Step:
     """LIMS: highest speed under G96, G961 and G97; alarm 14820 below zero."""
     wanted = spindle_number(shape, position)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)
         if value < 0.0:
             raise WordAlarm("14820", position)
@@ -137,7 +136,7 @@ def spindle_position(_draft: Draft, position: int, shape: WordShape) -> Step:
     """SPOS, SPOSA: the spindle turns to an angle and stays in position control."""
     wanted = spindle_number(shape, position)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         spindle = channel.memory.spindles.get(wanted)
         value = number(values, position)
         if shape.modifier in ("DC", "ACP", "ACN") and not 0.0 <= value < tables.TURN:
@@ -157,8 +156,8 @@ def tool(_draft: Draft, position: int, shape: WordShape) -> Step:
     """T: the tool of a number or a name; MD22550 says whether it is loaded now or with M6."""
     spindle_number(shape, position)
 
-    def run(channel: Channel, values: Values) -> None:
-        memory: Memory = channel.memory
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        memory = channel.memory
         wanted = values[position]
         if not isinstance(wanted, str):
             wanted = number(values, position)
@@ -176,11 +175,11 @@ def tool(_draft: Draft, position: int, shape: WordShape) -> Step:
 def edge(_draft: Draft, position: int, _shape: WordShape) -> Step:
     """D: the cutting edge; D0 takes all tool offsets away."""
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)
         if value != int(value) or not 0 <= value <= 32000:
             raise WordAlarm("14090", position)
-        memory: Memory = channel.memory
+        memory = channel.memory
         if memory.data.integer("$MC_TOOL_CHANGE_MODE") and memory.tools.selected != memory.tools.active:
             memory.tools.next_edge = int(value)
             return
@@ -193,7 +192,7 @@ def edge(_draft: Draft, position: int, _shape: WordShape) -> Step:
 def additive_offset(_draft: Draft, position: int, _shape: WordShape) -> Step:
     """DL: additive offset of the active edge, 1 to 6; 0 and a new D take it away."""
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)
         if value not in range(7):
             raise WordAlarm("12560", position, text="DL")
@@ -211,7 +210,7 @@ def added_length(draft: Draft, position: int, shape: WordShape) -> Step:
     which = int(str(index)) - 1
     factor = length_factor(draft.mode)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         channel.memory.tools.added_lengths[which] = number(values, position) * factor
         auxiliary.tool_changed(channel)
 
@@ -226,7 +225,7 @@ def added_on_axis(draft: Draft, position: int, shape: WordShape) -> Step:
         raise WordAlarm("16410", position, axis=draft.channel.axes[column])
     factor = length_factor(draft.mode)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         channel.memory.tools.added_on_axes[geometry.index(column)] = number(values, position) * factor
         auxiliary.tool_changed(channel)
 
@@ -237,7 +236,7 @@ def added_radius(draft: Draft, position: int, _shape: WordShape) -> Step:
     """TOFFR: addition to the tool radius."""
     factor = length_factor(draft.mode)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         channel.memory.tools.added_radius = number(values, position) * factor
         stages.changed_radius(channel)
         channel.context_changed()
@@ -249,7 +248,7 @@ def allowance(draft: Draft, position: int, _shape: WordShape) -> Step:
     """OFFN: allowance to the contour."""
     factor = length_factor(draft.mode)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         channel.memory.allowance_mm = number(values, position) * factor
         stages.changed_radius(channel)
 
@@ -259,8 +258,8 @@ def allowance(draft: Draft, position: int, _shape: WordShape) -> Step:
 def disc(_draft: Draft, position: int, _shape: WordShape) -> Step:
     """DISC: how far the transition arc of G450 is raised, 0 to 100 (at most MD20220)."""
 
-    def run(channel: Channel, values: Values) -> None:
-        memory: Memory = channel.memory
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        memory = channel.memory
         highest = memory.data.number("$MC_CUTCOM_MAX_DISC")
         memory.disc = min(max(number(values, position), 0.0), highest)
         stages.changed_rules(channel)
@@ -280,8 +279,8 @@ def corner(shape_of_corner: Shape) -> Maker:
         factor = length_factor(draft.mode)
         feed_factor = moves.feed_factor(draft)
 
-        def run(channel: Channel, values: Values) -> None:
-            memory: Memory = channel.memory
+        def run(channel: SinumerikChannel, values: Values) -> None:
+            memory = channel.memory
             inserted = (
                 memory.modal_corner_feed if own_feed is None else number(values, own_feed) * feed_factor
             )
@@ -300,7 +299,7 @@ def modal_rounding(draft: Draft, position: int, _shape: WordShape) -> Step:
     """RNDM: round every corner, 0 ends it."""
     factor = length_factor(draft.mode)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         stages.round_all(channel, number(values, position) * factor, channel.memory.modal_corner_feed)
 
     return run
@@ -310,7 +309,7 @@ def modal_corner_feed(draft: Draft, position: int, _shape: WordShape) -> Step:
     """FRCM: feed of every chamfer and rounding, 0 for the path feed."""
     factor = moves.feed_factor(draft)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         channel.memory.modal_corner_feed = number(values, position) * factor or nan
 
     return run
@@ -324,7 +323,7 @@ def rounding_distance(draft: Draft, position: int, shape: WordShape) -> Step:
     factor = length_factor(draft.mode)
     attribute = "rounding_mm" if shape.address == "ADIS" else "rapid_rounding_mm"
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position) * factor
         if value < 0.0:
             raise WordAlarm("12560", position, text=shape.address)
@@ -338,7 +337,7 @@ def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
     """OVR, OVRRAP, OVRA[axis], ACC[axis], VELOLIM[axis] …: per cent, for the motion planner (`pace.py`)."""
     name = str(shape.index) if shape.index is not None else ""
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)
         if not 0.0 < value <= 200.0:
             raise WordAlarm("12560", position, text=shape.address)
@@ -351,8 +350,8 @@ def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
 def cutting_rate(_draft: Draft, position: int, _shape: WordShape) -> Step:
     """SVC: cutting rate of the tool, m/min; the speed follows from its radius. Alarm 10750 without one."""
 
-    def run(channel: Channel, values: Values) -> None:
-        memory: Memory = channel.memory
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        memory = channel.memory
         radius = memory.tools.radius
         if radius <= 0.0:
             raise AlarmError("10750")
@@ -367,7 +366,7 @@ def cutting_rate(_draft: Draft, position: int, _shape: WordShape) -> Step:
 def kept(_draft: Draft, position: int, shape: WordShape) -> Step:
     """DITS, DITE, DILF: paths of acceleration and of retraction on an interruption; no effect on the path."""
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         channel.memory.values[shape.address, ()] = number(values, position)
 
     return run
@@ -378,7 +377,7 @@ def path_feed_of_axis(draft: Draft, position: int, shape: WordShape) -> Step:
     column = axis_column(draft, position, shape)
     factor = length_factor(draft.mode) if shape.address == "FGREF" else moves.feed_factor(draft)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position) * factor
         if value <= 0.0:
             raise WordAlarm("12560", position, text=shape.address)
@@ -391,7 +390,7 @@ def path_feed_of_axis(draft: Draft, position: int, shape: WordShape) -> Step:
 def auxiliary_h(_draft: Draft, position: int, _shape: WordShape) -> Step:
     """H: auxiliary function to the PLC."""
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)
         channel.event("h", code=int(value) if value == int(value) else value)
 
@@ -402,7 +401,7 @@ def m_function(_draft: Draft, position: int, shape: WordShape) -> Step:
     """M: what acts before the motion of its block."""
     spindle = spindle_number(shape, position)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         auxiliary.before_motion(channel, whole(values, position), spindle)
 
     return run
@@ -419,7 +418,7 @@ def whole(values: Values, position: int) -> int:
 def tool_carrier(_draft: Draft, position: int, _shape: WordShape) -> Step:
     """TCARR: 0 takes the tool carrier away; others are not executed."""
 
-    def run(_channel: Channel, values: Values) -> None:
+    def run(_channel: SinumerikChannel, values: Values) -> None:
         if number(values, position) != 0.0:
             raise not_supported("TCARR")
 

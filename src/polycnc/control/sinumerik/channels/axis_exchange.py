@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.waits import Wait
 from polycnc.control.sinumerik.block import arguments
-from polycnc.control.sinumerik.block.arguments import Arguments
+from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.channels.coordination import group_of
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
@@ -18,12 +18,12 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 NOBODY = 0
 
 
-def _owners(channel: Channel) -> dict[str, int]:
+def _owners(channel: SinumerikChannel) -> dict[str, int]:
     """Number of the channel that owns an axis or a spindle, by names of the machine."""
     owners = group_of(channel).owner
     if "S1" not in owners:
@@ -33,17 +33,17 @@ def _owners(channel: Channel) -> dict[str, int]:
     return owners
 
 
-def shares_axes(channel: Channel) -> bool:
+def shares_axes(channel: SinumerikChannel) -> bool:
     """Whether any axis of the channel can be used by another one."""
     own = set(channel.machine.channel(channel.number).axes)
     return any(own & set(each.axes) for each in channel.machine.channels if each.number != channel.number)
 
 
-def _name(channel: Channel, column: int) -> str:
+def _name(channel: SinumerikChannel, column: int) -> str:
     return channel.machine.channel(channel.number).axes[column]
 
 
-def _named(channel: Channel, args: Iterable[Any]) -> list[str]:
+def _named(channel: SinumerikChannel, args: Iterable[Any]) -> list[str]:
     """The axes and spindles of arguments, by names of the machine."""
     found = []
     for value in args:
@@ -57,7 +57,7 @@ def _named(channel: Channel, args: Iterable[Any]) -> list[str]:
 # ---- taking
 
 
-def ready(channel: Channel, columns: Iterable[int]) -> bool:
+def ready(channel: SinumerikChannel, columns: Iterable[int]) -> bool:
     """Whether a block may move these axes now; else the channel waits and runs the block again."""
     axes = [_name(channel, column) for column in columns]
     if all(_is_free(channel, axis) for axis in axes):
@@ -72,11 +72,11 @@ def ready(channel: Channel, columns: Iterable[int]) -> bool:
     return False
 
 
-def _is_free(channel: Channel, axis: str) -> bool:
+def _is_free(channel: SinumerikChannel, axis: str) -> bool:
     return _owners(channel)[axis] in (NOBODY, channel.number)
 
 
-def take(channel: Channel, axes: Iterable[str]) -> None:
+def take(channel: SinumerikChannel, axes: Iterable[str]) -> None:
     """Own axes from now on, where they stand now."""
     owners, moved_by = _owners(channel), group_of(channel).moved_by
     names = channel.machine.channel(channel.number).axes
@@ -93,7 +93,7 @@ def take(channel: Channel, axes: Iterable[str]) -> None:
         channel.coordinates.arrive_machine(machine)
 
 
-def position(channel: Channel, axis: str) -> float:
+def position(channel: SinumerikChannel, axis: str) -> float:
     """Where an axis stands on the machine, as the channel knows that moved it last."""
     mover = group_of(channel).channel(group_of(channel).moved_by[axis])
     mover.flush()
@@ -104,7 +104,7 @@ def position(channel: Channel, axis: str) -> float:
 # ---- procedures
 
 
-def release(channel: Channel, args: Arguments) -> None:
+def release(channel: SinumerikChannel, args: Arguments) -> None:
     """RELEASE(axis, …): other channels may have them; what the channel does not own stays where it is."""
     channel.flush()
     channel.synchronise()
@@ -114,7 +114,7 @@ def release(channel: Channel, args: Arguments) -> None:
             owners[axis] = NOBODY
 
 
-def get(channel: Channel, args: Arguments) -> None:
+def get(channel: SinumerikChannel, args: Arguments) -> None:
     """GET(axis, …): wait until nobody else has them, then take them."""
     channel.flush()
     channel.synchronise()
@@ -130,14 +130,14 @@ def get(channel: Channel, args: Arguments) -> None:
         channel.wait = Wait("channel", until=taken)
 
 
-def get_directly(channel: Channel, args: Arguments) -> None:
+def get_directly(channel: SinumerikChannel, args: Arguments) -> None:
     """GETD(axis, …): take them from whatever channel has them."""
     channel.flush()
     channel.synchronise()
     take(channel, _named(channel, _some(args, "GETD")))
 
 
-def to_channel(channel: Channel, args: Arguments) -> None:
+def to_channel(channel: SinumerikChannel, args: Arguments) -> None:
     """AXTOCHAN(axis, n, …): give axes to channels; to the calling one as GET does."""
     if not args or len(args) % 2:
         raise AlarmError("14020", text="AXTOCHAN")
@@ -163,4 +163,9 @@ def _some(args: Arguments, name: str) -> Arguments:
     return args
 
 
-PROCEDURES = {"RELEASE": release, "GET": get, "GETD": get_directly, "AXTOCHAN": to_channel}
+PROCEDURES: dict[str, Procedure] = {
+    "RELEASE": release,
+    "GET": get,
+    "GETD": get_directly,
+    "AXTOCHAN": to_channel,
+}

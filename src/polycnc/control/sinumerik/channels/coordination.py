@@ -14,8 +14,7 @@ from polycnc.program.names import WORKPIECE, stored_directory
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.program import Program
 
 #: Third argument of INIT: without, with, and with an awaited acknowledgement.
@@ -23,12 +22,12 @@ ACKNOWLEDGEMENTS = ("N", "S", "A")
 MARKS = range(100)
 
 
-def group_of(channel: Channel) -> ChannelGroup:
+def group_of(channel: SinumerikChannel) -> ChannelGroup:
     """The channels of the control."""
     return channel.group or ChannelGroup(channel)
 
 
-def _number(channel: Channel, value: Any, name: str) -> int:
+def _number(channel: SinumerikChannel, value: Any, name: str) -> int:
     """The number of a channel; alarm 14020 where the machine has none of that number."""
     number = arguments.whole(value)
     if not group_of(channel).has(number):
@@ -43,13 +42,13 @@ def _mark(value: Any, name: str) -> int:
     return mark
 
 
-def _catch_up(channel: Channel) -> None:
+def _catch_up(channel: SinumerikChannel) -> None:
     """What channels tell each other they tell when their axes are there, not when the block is prepared."""
     channel.flush()
     channel.synchronise()
 
 
-def select(channel: Channel, args: Arguments) -> None:
+def select(channel: SinumerikChannel, args: Arguments) -> None:
     """INIT(n, path, mode): select a program in a channel; it is looked up as a call would."""
     if len(args) not in (2, 3) or not isinstance(args[1], str):
         raise AlarmError("14020", text="INIT")
@@ -61,7 +60,7 @@ def select(channel: Channel, args: Arguments) -> None:
     group_of(channel).select(number, _selected(channel, args[1]))
 
 
-def _selected(channel: Channel, path: str) -> Program:
+def _selected(channel: SinumerikChannel, path: str) -> Program:
     """The program of a name or path, or that of a workpiece directory (2.1); alarm 14011 without one."""
     if not stored_directory(path).endswith(WORKPIECE):
         return named_program(channel, path)
@@ -71,7 +70,7 @@ def _selected(channel: Channel, path: str) -> Program:
     return program
 
 
-def start(channel: Channel, args: Arguments) -> None:
+def start(channel: SinumerikChannel, args: Arguments) -> None:
     """START(n, …): start the selected programs; the calling channel runs already."""
     _catch_up(channel)
     group = group_of(channel)
@@ -82,10 +81,10 @@ def start(channel: Channel, args: Arguments) -> None:
     group.let_run(channel)
 
 
-def meet(name: str) -> Callable[[Channel, Arguments], None]:
+def meet(name: str) -> Callable[[SinumerikChannel, Arguments], None]:
     """WAITM(m, n, …), WAITMC: set a mark and wait for it in other channels."""
 
-    def run(channel: Channel, args: Arguments) -> None:
+    def run(channel: SinumerikChannel, args: Arguments) -> None:
         if not args:
             raise AlarmError("14020", text=name)
         _catch_up(channel)
@@ -95,21 +94,21 @@ def meet(name: str) -> Callable[[Channel, Arguments], None]:
     return run
 
 
-def wait_for_ends(channel: Channel, args: Arguments) -> None:
+def wait_for_ends(channel: SinumerikChannel, args: Arguments) -> None:
     """WAITE(n, …): wait for the program end of other channels."""
     _catch_up(channel)
     others = [_number(channel, value, "WAITE") for value in args]
     group_of(channel).wait_for_ends(channel, [number for number in others if number != channel.number])
 
 
-def set_marks(channel: Channel, args: Arguments) -> None:
+def set_marks(channel: SinumerikChannel, args: Arguments) -> None:
     """SETM(m, …): set marks without waiting."""
     _catch_up(channel)
     for value in args:
         group_of(channel).set_mark(channel.number, _mark(value, "SETM"))
 
 
-def clear_marks(channel: Channel, args: Arguments) -> None:
+def clear_marks(channel: SinumerikChannel, args: Arguments) -> None:
     """CLEARM(m, …): delete marks; CLEARM() all of them."""
     _catch_up(channel)
     marks = group_of(channel).marks(channel.number)
@@ -118,9 +117,9 @@ def clear_marks(channel: Channel, args: Arguments) -> None:
     marks.difference_update(_mark(value, "CLEARM") for value in args)
 
 
-def names(channel: Channel) -> dict[str, str]:
+def names(channel: SinumerikChannel) -> dict[str, str]:
     """Names of channels ($MC_CHAN_NAME) with their numbers, as texts that stand for them in programs."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     count = len(channel.machine.channels)
     if count == 1 and not memory.data.is_set("$MC_CHAN_NAME", 0):
         return {}

@@ -15,7 +15,7 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 
 class Access(NamedTuple):
@@ -35,7 +35,7 @@ ACCESS = {
 _KEY = ("$A_DL", ())
 
 
-def _bytes(channel: Channel) -> bytearray:
+def _bytes(channel: SinumerikChannel) -> bytearray:
     values = channel.memory.nck
     if _KEY not in values:
         values[_KEY] = bytearray(channel.memory.data.integer("$MN_MM_SIZEOF_LINKVAR_DATA"))
@@ -43,7 +43,7 @@ def _bytes(channel: Channel) -> bytearray:
     return memory
 
 
-def _place(channel: Channel, name: str, indices: tuple[Any, ...]) -> int:
+def _place(channel: SinumerikChannel, name: str, indices: tuple[Any, ...]) -> int:
     """The byte of an index; alarm 17020 outside the memory or off the boundary of the format."""
     if len(indices) != 1 or not isinstance(indices[0], int):
         raise AlarmError("12400", text=name)
@@ -53,22 +53,22 @@ def _place(channel: Channel, name: str, indices: tuple[Any, ...]) -> int:
     return index
 
 
-def reader(name: str) -> Callable[[Channel, tuple[Any, ...]], Any]:
+def reader(name: str) -> Callable[[SinumerikChannel, tuple[Any, ...]], Any]:
     """How a program reads the variable."""
     access = ACCESS[name]
 
-    def read(channel: Channel, indices: tuple[Any, ...]) -> Any:
+    def read(channel: SinumerikChannel, indices: tuple[Any, ...]) -> Any:
         place = _place(channel, name, indices)
         return struct.unpack_from(access.format, _bytes(channel), place)[0]
 
     return read
 
 
-def writer(name: str) -> Callable[[Channel, tuple[Any, ...], Any], None]:
+def writer(name: str) -> Callable[[SinumerikChannel, tuple[Any, ...], Any], None]:
     """How a program writes the variable; alarm 12160 for a value that does not fit."""
     access = ACCESS[name]
 
-    def write(channel: Channel, indices: tuple[Any, ...], value: Any) -> None:
+    def write(channel: SinumerikChannel, indices: tuple[Any, ...], value: Any) -> None:
         place = _place(channel, name, indices)
         try:
             struct.pack_into(access.format, _bytes(channel), place, value)

@@ -14,7 +14,7 @@ from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 
 def _names(text: str) -> frozenset[str]:
@@ -55,7 +55,7 @@ class Arguments:
     """
 
     def __init__(
-        self, channel: Channel, cycle: str, signature: tuple[str, ...], values: tuple[Any, ...]
+        self, channel: SinumerikChannel, cycle: str, signature: tuple[str, ...], values: tuple[Any, ...]
     ) -> None:
         written = len(values)
         while written and values[written - 1] is None:

@@ -23,10 +23,9 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
     from polycnc.control.sinumerik.cycles.table import Cycle
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 #: The plane of a cycle by the units of _DMODE; 0 and others: that of the caller.
 PLANE_OF_DMODE = {1: "G17", 2: "G18", 3: "G19"}
@@ -42,7 +41,7 @@ class CycleProgram:
         column: Column of the call.
     """
 
-    def __init__(self, channel: Channel, cycle: Cycle, arguments: Arguments, column: int) -> None:
+    def __init__(self, channel: SinumerikChannel, cycle: Cycle, arguments: Arguments, column: int) -> None:
         caller = channel.level
         self.program = caller.code.program
         self.steps: Sequence[Step | None] = ()
@@ -69,9 +68,9 @@ class CycleProgram:
         """Nothing: the blocks of a cycle have no text of their own."""
         return ""
 
-    def _run(self, index: int, channel: Channel) -> None:
+    def _run(self, index: int, channel: SinumerikChannel) -> None:
         """One block; for single block operation the last one acts if any block of the cycle did."""
-        memory: Memory = channel.memory
+        memory = channel.memory
         mark = channel.toolpath.mark()
         try:
             moves = self._moves
@@ -90,7 +89,7 @@ class CycleProgram:
             end_of_subprogram(channel)
 
 
-def start(channel: Channel, name: str, values: tuple[Any, ...], column: int) -> None:
+def start(channel: SinumerikChannel, name: str, values: tuple[Any, ...], column: int) -> None:
     """Begin a cycle on a level of its own; 14012 if there is none left, PC0001 for one that is not executed."""
     cycle = CYCLES.get(name)
     if cycle is None:
@@ -109,9 +108,9 @@ def start(channel: Channel, name: str, values: tuple[Any, ...], column: int) -> 
     channel.level = level
 
 
-def _planned(channel: Channel, cycle: Cycle, arguments: Arguments) -> Moves:
+def _planned(channel: SinumerikChannel, cycle: Cycle, arguments: Arguments) -> Moves:
     """The blocks of a cycle in the plane that _DMODE asks for."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     plane = PLANE_OF_DMODE.get(arguments.digit("_DMODE", 0))
     if plane is not None and plane != channel.mode["plane"] and cycle.saves:
         channel.mode = channel.mode.with_code("plane", plane)

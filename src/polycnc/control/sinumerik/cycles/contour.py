@@ -23,10 +23,10 @@ from polycnc.toolpath.kinds import CCW_KINDS
 if TYPE_CHECKING:
     from collections.abc import Callable, Container
 
-    from polycnc.channel.channel import Channel
     from polycnc.channel.path import Move
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.geometry.arcs import Point
 
@@ -78,7 +78,7 @@ def _choose(memory: Memory, place: Place) -> None:
     memory.values[_CHOSEN] = place
 
 
-def _place(channel: Channel, name: str) -> Place:
+def _place(channel: SinumerikChannel, name: str) -> Place:
     """What "NAME" and "LABEL1:LABEL2" mean; an empty name is what CYCLE62 has chosen, once."""
     if not name.strip():
         chosen: Place | None = channel.memory.values.pop(_CHOSEN, None)
@@ -87,7 +87,7 @@ def _place(channel: Channel, name: str) -> Place:
     return Place("", first.upper(), last.upper()) if last else Place(first)
 
 
-def _call(channel: Channel, place: Place) -> None:
+def _call(channel: SinumerikChannel, place: Place) -> None:
     """Go on with the contour as a program level.
 
     Raises:
@@ -126,12 +126,12 @@ class _State:
     previous: Any
 
     @classmethod
-    def of(cls, channel: Channel) -> _State:
+    def of(cls, channel: SinumerikChannel) -> _State:
         """As it is now."""
         position = channel.coordinates.position.copy()
         return cls(position, channel.feed, channel.control.save(channel), channel.memory.previous)
 
-    def restore(self, channel: Channel) -> None:
+    def restore(self, channel: SinumerikChannel) -> None:
         """Put everything back."""
         channel.control.restore(channel, self.saved)
         channel.coordinates.arrive(self.position)

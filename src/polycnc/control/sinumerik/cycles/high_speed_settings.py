@@ -12,10 +12,9 @@ from polycnc.control.sinumerik.reset import start_code
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 #: Kind of machining (units of S_TOLM): dynamics, and the tolerance where S_TOL is 0, mm.
 KINDS = {1: ("DYNFINISH", 0.01), 2: ("DYNSEMIFIN", 0.05), 3: ("DYNROUGH", 0.1)}
@@ -43,7 +42,7 @@ def high_speed(moves: Moves, a: Arguments) -> None:
     moves.end_block()
 
 
-def _set(channel: Channel, a: Arguments) -> None:
+def _set(channel: SinumerikChannel, a: Arguments) -> None:
     kind = abs(a.integer("S_TOLM"))
     if kind > LARGEST_KIND:
         _older(channel, a)
@@ -59,8 +58,8 @@ def _set(channel: Channel, a: Arguments) -> None:
         raise AlarmError("61002")
 
 
-def _switch(channel: Channel, codes: dict[str, str], tolerance: float, orientation: float) -> None:
-    memory: Memory = channel.memory
+def _switch(channel: SinumerikChannel, codes: dict[str, str], tolerance: float, orientation: float) -> None:
+    memory = channel.memory
     if tolerance < 0.0 and tolerance != tolerances.NO_TOLERANCE:
         raise AlarmError("12560", text="S_TOL")
     channel.mode = channel.mode.with_codes(list(codes.items()))
@@ -69,13 +68,13 @@ def _switch(channel: Channel, codes: dict[str, str], tolerance: float, orientati
     channel.context_changed()
 
 
-def _start_codes(channel: Channel) -> dict[str, str]:
+def _start_codes(channel: SinumerikChannel) -> dict[str, str]:
     """The functions of the cycle's groups as machine data 20150 and the delivered state have them."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     return {name: start_code(gcodes.BY_NAME[name], memory.data) for name in SET}
 
 
-def _older(channel: Channel, a: Arguments) -> None:
+def _older(channel: SinumerikChannel, a: Arguments) -> None:
     """The code of six digits: kind, -, transformation, path mode, feedforward and acceleration, compressor."""
     digit = [a.digit("S_TOLM", place) for place in range(6)]
     if digit[0] == 0:

@@ -21,7 +21,7 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.feed.spindles import Spindle
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.geometry.arcs import Point
@@ -51,7 +51,7 @@ class Moves:
     A target for an axis that the channel does not have is alarm 61803.
     """
 
-    def __init__(self, channel: Channel, applicate: int = 3) -> None:
+    def __init__(self, channel: SinumerikChannel, applicate: int = 3) -> None:
         self.channel = channel
         self.blocks: list[list[Act]] = [[]]
         order = {1: (1, 2, 0), 2: (2, 0, 1)}.get(applicate, (0, 1, 2))
@@ -66,8 +66,7 @@ class Moves:
     @property
     def memory(self) -> Memory:
         """The control's state."""
-        memory: Memory = self.channel.memory
-        return memory
+        return self.channel.memory
 
     @property
     def spindle(self) -> Spindle:

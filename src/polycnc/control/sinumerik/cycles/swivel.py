@@ -25,10 +25,9 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 #: _TC that takes the swivel away.
 DESELECT = "0"
@@ -61,7 +60,7 @@ class Record(NamedTuple):
         return second if abs(joints[first].direction[2]) > abs(joints[second].direction[2]) else first
 
 
-def record_of(channel: Channel, name: str) -> Record:
+def record_of(channel: SinumerikChannel, name: str) -> Record:
     """The record that _TC names, as the machine or as $TC_CARR34[1]; empty for the only one.
 
     Raises:
@@ -103,9 +102,11 @@ def swivel(moves: Moves, a: Arguments) -> None:
     moves.act(_take, channel, record.kinematics, frame, angles)
 
 
-def _take(channel: Channel, kinematics: Kinematics, frame: NcFrame, angles: dict[str, float]) -> None:
+def _take(
+    channel: SinumerikChannel, kinematics: Kinematics, frame: NcFrame, angles: dict[str, float]
+) -> None:
     """The plane is the swivelled one."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     memory.frames.system["$P_WPFRAME"] = frame
     memory.frames.programmable = NEUTRAL
     _carry(channel, kinematics, angles)
@@ -121,9 +122,9 @@ def _check(a: Arguments) -> None:
         raise AlarmError("61189")
 
 
-def deselect(channel: Channel) -> None:
+def deselect(channel: SinumerikChannel) -> None:
     """The frames of the swivel and the tool carrier are gone; nothing moves."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     for name in ("$P_WPFRAME", "$P_TOOLFRAME", "$P_PARTFRAME"):
         memory.frames.system[name] = NEUTRAL
     memory.tools.carrier = None
@@ -167,9 +168,9 @@ def _rotation(a: Arguments, record: Record) -> Frame:
 # ---- the rotary axes
 
 
-def _angles(channel: Channel, a: Arguments, record: Record, frame: NcFrame) -> dict[str, float]:
+def _angles(channel: SinumerikChannel, a: Arguments, record: Record, frame: NcFrame) -> dict[str, float]:
     """Positions of the rotary axes for the plane: of two solutions that which _DIR asks for; 61184 for none."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     if a.integer("_MODE") >> 6 & 3 == DIRECT:
         return dict(zip(record.axes, (a["_A"], a["_B"]), strict=True))
     state = memory.frames
@@ -202,7 +203,7 @@ def signed(angle: float) -> float:
     return (angle + HALF_TURN) % tables.TURN - HALF_TURN
 
 
-def _in_range(channel: Channel, record: Record, angles: dict[str, float]) -> dict[str, float] | None:
+def _in_range(channel: SinumerikChannel, record: Record, angles: dict[str, float]) -> dict[str, float] | None:
     """A solution on the turns that the axes can reach, modulo axes the short way; None where one cannot reach it."""
     placed = {}
     machine = channel.coordinates.machine
@@ -223,7 +224,7 @@ def _in_range(channel: Channel, record: Record, angles: dict[str, float]) -> dic
     return placed
 
 
-def _turn(channel: Channel, record: Record, angles: dict[str, float]) -> None:
+def _turn(channel: SinumerikChannel, record: Record, angles: dict[str, float]) -> None:
     """The rotary axes go to their positions together, at rapid."""
     coordinates = channel.coordinates
     machine = coordinates.machine
@@ -233,9 +234,9 @@ def _turn(channel: Channel, record: Record, angles: dict[str, float]) -> None:
     motion.line(channel, Kind.RAPID, end, nan)
 
 
-def _carry(channel: Channel, kinematics: Kinematics, angles: dict[str, float]) -> None:
+def _carry(channel: SinumerikChannel, kinematics: Kinematics, angles: dict[str, float]) -> None:
     """What the rotary axes do to the work and to the tool's lengths at these positions."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     work = kinematics.work_turn(angles)
     memory.frames.system["$P_PARTFRAME"] = NcFrame(matrix=work.m, coarse=work.t)
     head, rest = kinematics.head_turn(angles), kinematics.head_turn({})
@@ -266,9 +267,9 @@ def _retract(moves: Moves, a: Arguments, kinematics: Kinematics) -> None:
         moves.end_block()
 
 
-def _to_limits(channel: Channel, axes: tuple[int, ...]) -> None:
+def _to_limits(channel: SinumerikChannel, axes: tuple[int, ...]) -> None:
     """Machine axes to the positions of the record ($TC_CARR38 to 40 of record 1), else to their upper limits."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     coordinates = channel.coordinates
     machine = coordinates.machine
     for axis in axes:
@@ -282,9 +283,9 @@ def _to_limits(channel: Channel, axes: tuple[int, ...]) -> None:
     motion.line(channel, Kind.RAPID, coordinates.from_machine(machine), nan)
 
 
-def _range(channel: Channel, column: int) -> tuple[float, float]:
+def _range(channel: SinumerikChannel, column: int) -> tuple[float, float]:
     """Software limits of an axis: of the machine, and of machine data 36100 and 36110."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     axis, name = channel.axis_data[column], channel.axes[column]
     low, high = axis.limit_minus, axis.limit_plus
     if memory.data.is_set("$MA_POS_LIMIT_MINUS", name):
@@ -294,14 +295,14 @@ def _range(channel: Channel, column: int) -> tuple[float, float]:
     return low, high
 
 
-def _record_range(channel: Channel, number: int) -> tuple[float, float]:
+def _record_range(channel: SinumerikChannel, number: int) -> tuple[float, float]:
     """Angle range of a rotary axis in the record ($TC_CARR30 to 33); two zeros are none."""
     values = channel.memory.values
     low, high = (float(values.get((f"$TC_CARR{n + number}", (1,)), 0.0)) for n in (30, 32))
     return (low, high) if low or high else (-inf, inf)
 
 
-def _along_tool(channel: Channel, kinematics: Kinematics, way: float | None) -> None:
+def _along_tool(channel: SinumerikChannel, kinematics: Kinematics, way: float | None) -> None:
     """Along the tool, as it stands, by a way or to the first limit."""
     coordinates = channel.coordinates
     machine = coordinates.machine

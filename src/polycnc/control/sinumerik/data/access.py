@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from polycnc.program.names import CYCLE_DIRS
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.data.machine_data import MachineData
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 #: Without a setting, the machine manufacturer's password is set.
 MANUFACTURER = 1
@@ -25,7 +25,7 @@ _WRITING = dict(
 )
 
 
-def operator_level(channel: Channel) -> int:
+def operator_level(channel: SinumerikChannel) -> int:
     """The level that the setup gives (`access_level`), else that of the key switch, else the manufacturer's."""
     switches = channel.setup.switches
     given = switches.signals.get(SIGNAL)

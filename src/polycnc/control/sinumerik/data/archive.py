@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import tables
-from polycnc.control.sinumerik.block.arguments import Arguments
+from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.tools.memory import DP_TYPE
 from polycnc.language.sinumerik.names.frame import COMPONENTS, GEOMETRY_AXES, NEUTRAL, NcFrame
 from polycnc.language.sinumerik.names.values import Axis, Type
@@ -22,7 +22,7 @@ from polycnc.program import Form, Program
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.language.sinumerik.names.variables import Variable
 
@@ -31,7 +31,7 @@ _NEUTRAL_COMPONENTS = {"SC": 1.0}
 _LISTED = 10
 
 
-def initial(channel: Channel, args: Arguments) -> None:
+def initial(channel: SinumerikChannel, args: Arguments) -> None:
     """INITIAL: one program over all areas."""
     _refuse_arguments(args, "INITIAL")
     lines = [
@@ -41,7 +41,7 @@ def initial(channel: Channel, args: Arguments) -> None:
     _store(channel, "_N_INITIAL_INI", lines)
 
 
-def complete(channel: Channel, args: Arguments) -> None:
+def complete(channel: SinumerikChannel, args: Arguments) -> None:
     """COMPLETE: a program for each type of data."""
     _refuse_arguments(args, "COMPLETE")
     for type_, area in AREAS.items():
@@ -53,7 +53,7 @@ def _refuse_arguments(args: Arguments, name: str) -> None:
         raise AlarmError("14020", text=name)
 
 
-def _store(channel: Channel, name: str, lines: list[str]) -> None:
+def _store(channel: SinumerikChannel, name: str, lines: list[str]) -> None:
     directory = channel.stack[0].code.program.directory
     channel.store.replace(Program(name, (*lines, "M17"), directory=directory, form=Form.SINUMERIK))
     forget_resolved(channel.memory.language)
@@ -169,4 +169,4 @@ AREAS: dict[str, Callable[[Memory], Iterator[str]]] = {
     "UFR": _frames,
     "RPA": _r_parameters,
 }
-PROCEDURES = {"INITIAL": initial, "COMPLETE": complete}
+PROCEDURES: dict[str, Procedure] = {"INITIAL": initial, "COMPLETE": complete}

@@ -16,8 +16,7 @@ from polycnc.program.names import WORKING_MEMORY, WORKPIECE
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.program import Program
 
 INITIAL = "_N_INITIAL_INI"
@@ -25,7 +24,7 @@ INITIAL = "_N_INITIAL_INI"
 TYPES = ("INI", "SEA", "GUD", "RPA", "UFR", "TOA")
 
 
-def call(channel: Channel) -> None:
+def call(channel: SinumerikChannel) -> None:
     """Let the init programs run in front of the main program, those of the working memory first."""
     programs = [*channel.store.programs_in(WORKING_MEMORY), *_of_workpiece(channel)]
     if any(program.name == INITIAL for program in programs):
@@ -34,11 +33,11 @@ def call(channel: Channel) -> None:
         channel.push(program, kind="sub", local=[])
 
 
-def _of_workpiece(channel: Channel) -> Iterator[Program]:
+def _of_workpiece(channel: SinumerikChannel) -> Iterator[Program]:
     main = channel.stack[0].code.program
     if not main.directory.endswith(WORKPIECE):
         return
-    memory: Memory = channel.memory
+    memory = channel.memory
     if memory.data.integer("$MN_WPD_INI_MODE"):
         names = [f"{main.name.rpartition('_')[0]}_{type_}" for type_ in TYPES]
     else:
@@ -47,9 +46,9 @@ def _of_workpiece(channel: Channel) -> Iterator[Program]:
     yield from (here[name] for name in names if name in here)
 
 
-def _standard_values(channel: Channel) -> None:
+def _standard_values(channel: SinumerikChannel) -> None:
     """Before INITIAL_INI: no tools, no zero offsets, delivered setting data; machine data stay."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     frames = memory.frames
     frames.settable[:] = [NEUTRAL] * len(frames.settable)
     frames.base[:] = [NEUTRAL] * len(frames.base)

@@ -9,15 +9,14 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import number
-from polycnc.control.sinumerik.signals.sections import Row
+from polycnc.control.sinumerik.variables.row import RowWithStop
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.language.sinumerik.words import WordShape
 
 
@@ -31,7 +30,7 @@ PARAMETER_SETS = range(1, 7)
 def motion_end(name: str) -> Procedure:
     """FINEA, COARSEA, IPOENDA, IPOBRKA: when a positioning axis counts as arrived."""
 
-    def run(channel: Channel, args: Arguments) -> None:
+    def run(channel: SinumerikChannel, args: Arguments) -> None:
         # IPOBRKA takes an axis and a percentage, the others take axes.
         axes = args[:1] if name == "IPOBRKA" else args
         if not axes:
@@ -44,7 +43,7 @@ def motion_end(name: str) -> Procedure:
     return run
 
 
-def _set_braking_share(channel: Channel, axis: Axis, value: Any) -> None:
+def _set_braking_share(channel: SinumerikChannel, axis: Axis, value: Any) -> None:
     """IPOBRKA(axis, percent): where in the braking ramp the block changes; 100 is its beginning (SD43600)."""
     percent = arguments.real(value)
     if not 0.0 <= percent <= 100.0:
@@ -56,7 +55,7 @@ def end_window(draft: Draft, position: int, shape: WordShape) -> Step:
     """ADISPOSA[axis]=(mode,size): with IPOBRKA, the axis must also be within a window of its end (SD43610)."""
     column = axis_column(draft, position, shape)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         listed = values[position]
         if not isinstance(listed, tuple) or not 1 <= len(listed) <= 2 or listed[0] not in WINDOW_MODES:
             raise WordAlarm("12560", position, text="ADISPOSA")
@@ -67,7 +66,7 @@ def end_window(draft: Draft, position: int, shape: WordShape) -> Step:
     return run
 
 
-def _motion_end(channel: Channel, indices: Arguments) -> int:
+def _motion_end(channel: SinumerikChannel, indices: Arguments) -> int:
     """$AA_MOTEND: 5 and 6 where IPOBRKA has a window as well."""
     end: int = of_axis("$AA_MOTEND", "MOTEND", MOTION_ENDS["FINEA"])(channel, indices)
     if end == MOTION_ENDS["IPOBRKA"]:
@@ -79,7 +78,7 @@ def parameter_set(draft: Draft, position: int, shape: WordShape) -> Step:
     """SCPARA[axis]: servo parameter set 1 to 6."""
     column = axis_column(draft, position, shape)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)
         if value not in PARAMETER_SETS:
             raise WordAlarm("12560", position, text="SCPARA")
@@ -88,19 +87,19 @@ def parameter_set(draft: Draft, position: int, shape: WordShape) -> Step:
     return run
 
 
-def of_axis(name: str, key: str, default: int) -> Callable[[Channel, Arguments], Any]:
+def of_axis(name: str, key: str, default: int) -> Callable[[SinumerikChannel, Arguments], Any]:
     """How a variable with an axis as its index is read: what is kept under a key, else the default."""
 
-    def read(channel: Channel, indices: Arguments) -> Any:
+    def read(channel: SinumerikChannel, indices: Arguments) -> Any:
         if len(indices) != 1 or not isinstance(indices[0], Axis):
             raise AlarmError("12400", text=name)
-        memory: Memory = channel.memory
+        memory = channel.memory
         return memory.values.get((key, (memory.column(indices[0].name),)), default)
 
     return read
 
 
-AXIS_VARIABLES: dict[str, Row] = {
+AXIS_VARIABLES: dict[str, RowWithStop] = {
     "$AA_MOTEND": (Type.INT, _motion_end, None, True),
     "$AA_SCPAR": (Type.INT, of_axis("$AA_SCPAR", "SCPARA", 1), None, True),
 }

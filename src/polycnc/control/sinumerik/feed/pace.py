@@ -12,7 +12,7 @@ from polycnc.control.sinumerik import gcodes, tables
 from polycnc.toolpath.context import Pace
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.memory import Memory
 
 #: What F is the speed of on arcs under radius compensation.
@@ -22,9 +22,9 @@ DEGREE_MM = 180.0 / pi
 NOTHING = Pace()
 
 
-def pace(channel: Channel, side: int) -> Pace | None:
+def pace(channel: SinumerikChannel, side: int) -> Pace | None:
     """The pace that holds now; `side` is that of the radius compensation. None where F says everything."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     own = Pace(
         feed=memory.percent.get(("OVR", ""), 100.0) / 100.0,
         rapid=memory.percent.get(("OVRRAP", ""), 100.0) / 100.0,
@@ -51,9 +51,9 @@ def forget(memory: Memory) -> None:
         del memory.values[key]
 
 
-def _weights(channel: Channel) -> tuple[float, ...]:
+def _weights(channel: SinumerikChannel) -> tuple[float, ...]:
     """FGROUP: what a millimetre or degree of each axis counts; a degree of a rotary axis an arc of FGREF, else 1 mm."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     named = group(memory)
     if not named:
         return ()
@@ -64,9 +64,9 @@ def _weights(channel: Channel) -> tuple[float, ...]:
     return tuple(weights)
 
 
-def _tops(channel: Channel) -> tuple[float, ...]:
+def _tops(channel: SinumerikChannel) -> tuple[float, ...]:
     """FL: limits of synchronous axes, those outside FGROUP."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     named = group(memory)
     tops = [
         memory.values.get(("FL", (column,)), inf) if named and column not in named else inf
@@ -75,8 +75,8 @@ def _tops(channel: Channel) -> tuple[float, ...]:
     return tuple(tops) if min(tops, default=inf) < inf else ()
 
 
-def _factors(channel: Channel, address: str) -> tuple[float, ...]:
-    memory: Memory = channel.memory
+def _factors(channel: SinumerikChannel, address: str) -> tuple[float, ...]:
+    memory = channel.memory
     factors = [1.0] * len(channel.axes)
     for (name, axis), percent in memory.percent.items():
         if name == address and (axis in memory.columns or axis in memory.machine_columns):
@@ -84,12 +84,12 @@ def _factors(channel: Channel, address: str) -> tuple[float, ...]:
     return tuple(factors) if any(factor != 1.0 for factor in factors) else ()
 
 
-def _with_technology(channel: Channel, address: str, datum: str, limit: str) -> tuple[float, ...]:
+def _with_technology(channel: SinumerikChannel, address: str, datum: str, limit: str) -> tuple[float, ...]:
     """The programmed factors times those of the technology's dynamics (DYNNORM …), where machine data name them.
 
     MD32300 and MD32431 are in m/s² and m/s³.
     """
-    memory: Memory = channel.memory
+    memory = channel.memory
     factors = list(_factors(channel, address)) or [1.0] * len(channel.axes)
     mode = gcodes.number_of(channel.mode["dynamics"]) - 1
     for column, axis in enumerate(channel.axis_data):

@@ -19,7 +19,7 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.feed.spindles import Spindle
     from polycnc.control.sinumerik.memory import Memory
 
@@ -33,9 +33,9 @@ _SPINDLE = re.compile(r"S\d+")
 KEEPS_SPEED = frozenset(("G97", "G971", "G972", "G973"))
 
 
-def change_of_feed_type(channel: Channel, surface_speed: bool, code: str) -> None:
+def change_of_feed_type(channel: SinumerikChannel, surface_speed: bool, code: str) -> None:
     """Enter or leave constant cutting speed; alarm 10870 for a channel without transverse axis."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     if surface_speed and memory.transverse < 0:
         raise AlarmError("10870")
     spindle = memory.spindles.all.get(memory.spindles.master)
@@ -44,7 +44,7 @@ def change_of_feed_type(channel: Channel, surface_speed: bool, code: str) -> Non
         spindle.speed = speed_at(channel, spindle.cutting_speed, limit)
 
 
-def set_limit(channel: Channel, datum: str, spindle: Spindle, speed: float) -> None:
+def set_limit(channel: SinumerikChannel, datum: str, spindle: Spindle, speed: float) -> None:
     """G25 S, G26 S, LIMS: write the setting datum of a spindle."""
     channel.memory.data.write(datum, (f"S{spindle.number}",), speed)
     channel.context_changed()
@@ -65,19 +65,19 @@ def turning_speed(memory: Memory, spindle: Spindle, feed: str) -> float:
     return min(max(spindle.speed, lowest), highest(memory, spindle, feed)) if spindle.speed > 0.0 else 0.0
 
 
-def is_settled(channel: Channel, surface_speed: bool, code: str) -> bool:
+def is_settled(channel: SinumerikChannel, surface_speed: bool, code: str) -> bool:
     """Whether the kind of feed that is in force would change nothing and not alarm when it is written again.
 
     S words under G97 do not change a cutting speed, so what holds stays.
     """
-    memory: Memory = channel.memory
+    memory = channel.memory
     if surface_speed:
         return memory.transverse >= 0
     spindle = memory.spindles.all.get(memory.spindles.master)
     return code not in KEEPS_SPEED or spindle is None or not spindle.cutting_speed
 
 
-def speed_at(channel: Channel, cutting_speed: float, limit: float) -> float:
+def speed_at(channel: SinumerikChannel, cutting_speed: float, limit: float) -> float:
     """Speed (rpm) for a cutting speed (m/min) where the transverse axis stands, at most the limit."""
     diameter = 2.0 * abs(channel.coordinates.position[channel.memory.transverse])
     return min(limit, MM_PER_M * cutting_speed / (pi * diameter)) if diameter > 0.0 else limit
@@ -86,11 +86,11 @@ def speed_at(channel: Channel, cutting_speed: float, limit: float) -> float:
 # ---- grinding wheels
 
 
-def wheel_speed(on: bool) -> Callable[[Channel, Arguments], None]:
+def wheel_speed(on: bool) -> Callable[[SinumerikChannel, Arguments], None]:
     """GWPSON(T), GWPSOF(T): S is the speed of the wheel's circumference; of the active tool without a number."""
 
-    def switch(channel: Channel, args: Arguments) -> None:
-        memory: Memory = channel.memory
+    def switch(channel: SinumerikChannel, args: Arguments) -> None:
+        memory = channel.memory
         tools = memory.tools
         number = arguments.whole(args[0]) if args and args[0] is not None else tools.active
         if on and number != tools.active:
@@ -102,7 +102,7 @@ def wheel_speed(on: bool) -> Callable[[Channel, Arguments], None]:
     return switch
 
 
-def set_wheel_speed(channel: Channel, spindle: Spindle, speed: float) -> None:
+def set_wheel_speed(channel: SinumerikChannel, spindle: Spindle, speed: float) -> None:
     """S in m/s: the revolutions that it takes, at most $TC_TPG6 rpm and $TC_TPG7 m/s where the tool names them."""
     tools = channel.memory.tools
     if tools.radius <= 0.0:
@@ -116,19 +116,19 @@ def set_wheel_speed(channel: Channel, spindle: Spindle, speed: float) -> None:
 # ---- feed per revolution
 
 
-def feed_source(channel: Channel, args: Arguments) -> None:
+def feed_source(channel: SinumerikChannel, args: Arguments) -> None:
     """FPR(spindle): the spindle that a feed per revolution follows; FPR() for the master spindle again.
 
     PC0001 for an axis.
     """
-    memory: Memory = channel.memory
+    memory = channel.memory
     memory.feed_source = 0
     if args:
         memory.feed_source = memory.spindles.get(_source(args[0])).number
     channel.context_changed()
 
 
-def axis_feed_source(channel: Channel, args: Arguments) -> None:
+def axis_feed_source(channel: SinumerikChannel, args: Arguments) -> None:
     """FPRAON(axis, spindle, …): feeds of positioning axes per revolution of a spindle (SD43300).
 
     12330 for an axis without its spindle.
@@ -141,7 +141,7 @@ def axis_feed_source(channel: Channel, args: Arguments) -> None:
         channel.memory.data.write("$SA_ASSIGN_FEED_PER_REV_SOURCE", (name,), number)
 
 
-def axis_feed_source_off(channel: Channel, args: Arguments) -> None:
+def axis_feed_source_off(channel: SinumerikChannel, args: Arguments) -> None:
     """FPRAOF(axis, …): their feeds are per minute again."""
     for axis in args:
         name = channel.axes[arguments.column(channel, axis)]

@@ -10,13 +10,13 @@ from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.feed.axis_settings import of_axis
-from polycnc.control.sinumerik.signals.sections import Row
+from polycnc.control.sinumerik.variables.row import RowWithStop
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.language.sinumerik.words import WordShape
 
@@ -28,7 +28,7 @@ def tolerance(draft: Draft, position: int, shape: WordShape) -> Step:
     """CTOL, OTOL, ATOL[axis]: tolerance of smoothing; a negative value takes it back."""
     key = () if shape.index is None else (axis_column(draft, position, shape),)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)
         channel.memory.values[shape.address, key] = value if value >= 0.0 else NO_TOLERANCE
         channel.context_changed()
@@ -41,16 +41,16 @@ def contour_tolerance(memory: Memory) -> float:
     return max(float(memory.values.get(("CTOL", ()), NO_TOLERANCE)), 0.0)
 
 
-def _programmed(address: str) -> Callable[[Channel, Arguments], float]:
+def _programmed(address: str) -> Callable[[SinumerikChannel, Arguments], float]:
     return lambda channel, _indices: float(channel.memory.values.get((address, ()), NO_TOLERANCE))
 
 
-def _programmed_of_axis(channel: Channel, indices: Arguments) -> float:
+def _programmed_of_axis(channel: SinumerikChannel, indices: Arguments) -> float:
     return float(of_axis("$PA_ATOL", "ATOL", -1)(channel, indices))
 
 
-def _axis_tolerance(channel: Channel, column: int) -> float:
-    memory: Memory = channel.memory
+def _axis_tolerance(channel: SinumerikChannel, column: int) -> float:
+    memory = channel.memory
     geometry = [i for i in channel.coordinates.geometry if i >= 0]
     contour = contour_tolerance(memory)
     if contour and column in geometry:
@@ -59,18 +59,18 @@ def _axis_tolerance(channel: Channel, column: int) -> float:
     return own if own >= 0.0 else memory.data.number("$MA_COMPRESS_POS_TOL", channel.axes[column])
 
 
-def _active_of_axis(channel: Channel, indices: Arguments) -> float:
+def _active_of_axis(channel: SinumerikChannel, indices: Arguments) -> float:
     if len(indices) != 1 or not isinstance(indices[0], Axis):
         raise AlarmError("12400", text="$AA_ATOL")
     return _axis_tolerance(channel, channel.memory.column(indices[0].name))
 
 
-def _active_contour(channel: Channel, _indices: Arguments) -> float:
+def _active_contour(channel: SinumerikChannel, _indices: Arguments) -> float:
     geometry = [i for i in channel.coordinates.geometry if i >= 0]
     return contour_tolerance(channel.memory) or hypot(*(_axis_tolerance(channel, i) for i in geometry))
 
 
-TOLERANCE_VARIABLES: dict[str, Row] = {
+TOLERANCE_VARIABLES: dict[str, RowWithStop] = {
     "$P_CTOL": (Type.REAL, _programmed("CTOL"), None, False),
     "$P_OTOL": (Type.REAL, _programmed("OTOL"), None, False),
     "$PA_ATOL": (Type.REAL, _programmed_of_axis, None, False),

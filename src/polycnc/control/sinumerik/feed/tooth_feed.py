@@ -12,9 +12,8 @@ from polycnc.control.sinumerik.motion import moves
 from polycnc.language.sinumerik.words import WordAlarm
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.language.sinumerik.words import WordShape
 
 #: The feed type that FZ is for.
@@ -27,7 +26,7 @@ def tooth_feed(draft: Draft, position: int, _shape: WordShape) -> Step:
         raise WordAlarm("12080", position, text="FZ")
     factor = moves.feed_factor(draft)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)
         if value < 0.0:
             raise WordAlarm("14800", position)
@@ -36,16 +35,16 @@ def tooth_feed(draft: Draft, position: int, _shape: WordShape) -> Step:
     return run
 
 
-def follow(channel: Channel) -> None:
+def follow(channel: SinumerikChannel) -> None:
     """Another edge or number of teeth: the feed follows, unless F or another feed type has taken its place."""
     kept = channel.memory.tooth_feed
     if kept is not None and channel.feed == kept[1]:
         set_feed(channel, kept[0])
 
 
-def set_feed(channel: Channel, tooth_feed: float) -> None:
+def set_feed(channel: SinumerikChannel, tooth_feed: float) -> None:
     """The path feed that a feed per tooth gives with the active edge; none without teeth (then 0, alarm 10860)."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     edge = memory.tools.edge
     channel.feed = tooth_feed * (edge.teeth if edge is not None else 0.0)
     memory.tooth_feed = tooth_feed, channel.feed

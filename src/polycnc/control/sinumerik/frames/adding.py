@@ -10,7 +10,7 @@ from polycnc.control.sinumerik.frames.variables import FRAME_VARIABLES
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.language.sinumerik.names.frame import NcFrame
 
@@ -33,7 +33,7 @@ _LINKS = {
 }
 
 
-def add(channel: Channel, args: tuple[Any, ...]) -> int:
+def add(channel: SinumerikChannel, args: tuple[Any, ...]) -> int:
     """ADDFRAME(frame, target): the target changes so that the total frame becomes the old one chained with the frame.
 
     Returns:

@@ -23,9 +23,8 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 
 def named(draft: Draft) -> list[tuple[str, int, float]]:
@@ -47,7 +46,7 @@ def _values(words: list[tuple[str, int, float]], values: Values) -> dict[str, fl
 def _programmable(elementary: Callable[[Values], NcFrame], *, additive: bool) -> Step:
     """A step that replaces the programmable frame, or adds to it."""
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         state = channel.memory.frames
         frame = elementary(values)
         state.programmable = state.programmable @ frame if additive else frame
@@ -155,8 +154,8 @@ def fine_offset(draft: Draft) -> Step:
 def _offset(draft: Draft, component: str) -> Step:
     words = named(draft)
 
-    def run(channel: Channel, values: Values) -> None:
-        memory: Memory = channel.memory
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        memory = channel.memory
         if not memory.data.number("$MC_FRAME_ADD_COMPONENTS"):
             raise AlarmError("18312")
         for axis, value in _values(words, values).items():
@@ -176,7 +175,7 @@ def pole(draft: Draft) -> Step:
     terms = draft.take_axes()
     plane = PLANES[draft.mode["plane"]]
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         polar = channel.memory.polar
         geometry = channel.coordinates.geometry
         position = channel.coordinates.position
@@ -221,8 +220,8 @@ def _limit(draft: Draft, side: str) -> Step:
         speeds.append(word)
     terms: list[AxisTerm] = draft.take_axes()
 
-    def run(channel: Channel, values: Values) -> None:
-        memory: Memory = channel.memory
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        memory = channel.memory
         for position, shape in speeds:
             spindle = memory.spindles.get(shape.index if isinstance(shape.index, int) else None)
             datum = spindle_speed.LOWEST if side == "MINUS" else spindle_speed.HIGHEST

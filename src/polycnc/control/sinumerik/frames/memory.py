@@ -21,8 +21,7 @@ from polycnc.language.sinumerik.names.frame import NEUTRAL, NcFrame, ctrans
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.frames import Frame
 
 #: System frames by the name of their variable, in the order of the chain (job planning 5.7.2).
@@ -125,7 +124,7 @@ def stored_frames(
     return frames
 
 
-def apply(channel: Channel, suppression: str = "", *, travelled: bool = False) -> None:
+def apply(channel: SinumerikChannel, suppression: str = "", *, travelled: bool = False) -> None:
     """Bring the active frames and the tool into the channel's coordinates; the machine does not move.
 
     Args:
@@ -140,15 +139,15 @@ def apply(channel: Channel, suppression: str = "", *, travelled: bool = False) -
         channel.context_changed()
 
 
-def is_settled(channel: Channel) -> bool:
+def is_settled(channel: SinumerikChannel) -> bool:
     """Whether a zero offset that is in force would change nothing now: G500, G54 ... once more."""
     frames, c = channel.memory.frames, channel.coordinates
     return frames.is_settled and _to_machine(channel, "") == (c.zero, c.offsets)
 
 
-def _to_machine(channel: Channel, suppression: str) -> tuple[Frame, list[float]]:
+def _to_machine(channel: SinumerikChannel, suppression: str) -> tuple[Frame, list[float]]:
     """The way from the display to the machine by the active frames and the tool."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     total = memory.frames.total(suppression)
     offsets = [0.0] * len(channel.axes)
     for axis, part in total.others.items():
@@ -161,7 +160,7 @@ def _to_machine(channel: Channel, suppression: str) -> tuple[Frame, list[float]]
     return total.frame, offsets
 
 
-def changed(channel: Channel) -> None:
+def changed(channel: SinumerikChannel) -> None:
     """A frame has changed: it acts at once; incremental words travel the change if SD42440 says so."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     apply(channel, travelled=bool(memory.data.number("$SC_FRAME_OFFSET_INCR_PROG")))

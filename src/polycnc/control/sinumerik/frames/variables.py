@@ -9,17 +9,15 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.frames import memory as frames
+from polycnc.control.sinumerik.variables.row import Indices, Row
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NcFrame
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.frames.memory import Frames
-    from polycnc.control.sinumerik.memory import Memory
 
-Indices = tuple[Any, ...]
-Row = tuple[Type, Callable[["Channel", Indices], Any], Callable[["Channel", Indices, Any], None] | None]
 Get = Callable[["Frames", int], NcFrame]
 Put = Callable[["Frames", int, NcFrame], None]
 
@@ -39,7 +37,7 @@ def split(indices: Indices, name: str, *, numbered: bool) -> tuple[int, str, str
     return number, rest[0].name, rest[1]
 
 
-def frame_axis(channel: Channel, axis: str) -> str:
+def frame_axis(channel: SinumerikChannel, axis: str) -> str:
     """The name by which frames know an axis: X, Y, Z for the geometry, else the channel's name."""
     column = channel.memory.column(axis)
     geometry = channel.coordinates.geometry
@@ -60,12 +58,12 @@ def _variable(
         plain: It takes no rotation (frames of the whole control, 18310).
     """
 
-    def read(channel: Channel, indices: Indices) -> Any:
+    def read(channel: SinumerikChannel, indices: Indices) -> Any:
         number, axis, component = split(indices, name, numbered=numbered)
         frame = _got(channel, name, number, get)
         return frame.component(frame_axis(channel, axis), component) if axis else frame
 
-    def write(channel: Channel, indices: Indices, value: Any) -> None:
+    def write(channel: SinumerikChannel, indices: Indices, value: Any) -> None:
         assert put is not None
         number, axis, component = split(indices, name, numbered=numbered)
         frame = _got(channel, name, number, get)
@@ -84,9 +82,9 @@ def _variable(
     return Type.FRAME, read, write if put is not None else None
 
 
-def _check_allowed(channel: Channel, name: str, frame: NcFrame, *, plain: bool) -> None:
+def _check_allowed(channel: SinumerikChannel, name: str, frame: NcFrame, *, plain: bool) -> None:
     """18310 for the rotation of a frame of the whole control, 18312 for a fine offset without MD18600."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     is_global = plain or (name == "$P_UIFR" and memory.data.integer("$MN_MM_NUM_GLOBAL_USER_FRAMES") > 0)
     if is_global and frame.has_rotation:
         raise AlarmError("18310", text=name)
@@ -94,18 +92,18 @@ def _check_allowed(channel: Channel, name: str, frame: NcFrame, *, plain: bool) 
         raise AlarmError("18312")
 
 
-def _external(channel: Channel, indices: Indices) -> tuple[str, int]:
+def _external(channel: SinumerikChannel, indices: Indices) -> tuple[str, int]:
     if len(indices) != 1 or not isinstance(indices[0], Axis):
         raise AlarmError("12400", text="$AA_ETRANS")
     return frame_axis(channel, indices[0].name), channel.memory.column(indices[0].name)
 
 
-def _external_shift(channel: Channel, indices: Indices) -> float:
+def _external_shift(channel: SinumerikChannel, indices: Indices) -> float:
     _, column = _external(channel, indices)
     return float(channel.memory.values.get(("$AA_ETRANS", (column,)), 0.0))
 
 
-def _set_external_shift(channel: Channel, indices: Indices, value: float) -> None:
+def _set_external_shift(channel: SinumerikChannel, indices: Indices, value: float) -> None:
     """$AA_ETRANS: kept; it acts when the PLC takes it over (DB31 ff., DBX3.0), as part of $P_EXTFRAME (5.4)."""
     axis, column = _external(channel, indices)
     channel.memory.values["$AA_ETRANS", (column,)] = float(value)
@@ -116,7 +114,7 @@ def _set_external_shift(channel: Channel, indices: Indices, value: float) -> Non
         frames.changed(channel)
 
 
-def _got(channel: Channel, name: str, number: int, get: Get) -> NcFrame:
+def _got(channel: SinumerikChannel, name: str, number: int, get: Get) -> NcFrame:
     try:
         if number < 0:
             raise IndexError
@@ -162,18 +160,18 @@ def _system(name: str) -> tuple[Get, Put]:
 
 
 def _mask(attribute: str) -> Row:
-    def read(channel: Channel, _indices: Indices) -> int:
+    def read(channel: SinumerikChannel, _indices: Indices) -> int:
         mask: int = getattr(channel.memory.frames, attribute)
         return mask
 
-    def write(channel: Channel, _indices: Indices, value: int) -> None:
+    def write(channel: SinumerikChannel, _indices: Indices, value: int) -> None:
         setattr(channel.memory.frames, attribute, value)
         frames.changed(channel)
 
     return Type.INT, read, write
 
 
-def _number(channel: Channel, _indices: Indices) -> int:
+def _number(channel: SinumerikChannel, _indices: Indices) -> int:
     number: int = channel.memory.frames.number
     return number
 

@@ -14,8 +14,7 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 #: Bits of the last argument.
 SWITCHES, AREA, ACTIVE_ZONES, PREACTIVE_ZONES = 1, 2, 4, 8
@@ -35,7 +34,7 @@ class Violation(NamedTuple):
     status: int
 
 
-def calculate(channel: Channel, args: tuple[Any, ...]) -> int:
+def calculate(channel: SinumerikChannel, args: tuple[Any, ...]) -> int:
     """CALCPOSI(start, way, clearances, free way[, basic system][, what to test]).
 
     Returns:
@@ -69,7 +68,9 @@ def _items(value: Any, count: int) -> list[float]:
     return value.items
 
 
-def _machine_ways(channel: Channel, start: list[float], way: list[float]) -> tuple[list[float], list[float]]:
+def _machine_ways(
+    channel: SinumerikChannel, start: list[float], way: list[float]
+) -> tuple[list[float], list[float]]:
     """Start and end of a way of the workpiece coordinate system, abscissa first, as positions of the machine's axes."""
     geometry = channel.coordinates.geometry
     first = channel.coordinates.position.copy()
@@ -82,10 +83,10 @@ def _machine_ways(channel: Channel, start: list[float], way: list[float]) -> tup
 
 
 def _of_limits(
-    channel: Channel, first: list[float], last: list[float], margins: list[float], tested: int
+    channel: SinumerikChannel, first: list[float], last: list[float], margins: list[float], tested: int
 ) -> Iterator[Violation]:
     """Software limit switches by machine axis, working area by geometry axis."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     geometry = channel.coordinates.geometry
     plane = PLANES[channel.mode["plane"]]
     for limit in memory.limits:
@@ -117,7 +118,7 @@ def _beyond(start: float, end: float, limit: working_area.Limit, margin: float) 
 
 
 def _of_zones(
-    channel: Channel, first: list[float], last: list[float], margin: float, tested: int
+    channel: SinumerikChannel, first: list[float], last: list[float], margin: float, tested: int
 ) -> Iterator[Violation]:
     """The first zone on the way; the clearance shortens the way in front of it."""
     found = protection.protection(channel)
@@ -142,5 +143,5 @@ def _of_zones(
         yield Violation(max(free, 0.0), unit + ON_THE_WAY)
 
 
-def _is_inside(channel: Channel, placed: protection.Placed, point: list[float]) -> bool:
+def _is_inside(channel: SinumerikChannel, placed: protection.Placed, point: list[float]) -> bool:
     return protection.contact(channel, placed, point, point) is not None

@@ -27,9 +27,8 @@ from polycnc.toolpath.kinds import CCW_KINDS
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from polycnc.channel.channel import Channel
     from polycnc.channel.path import Move
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.arcs import Point
 
 #: Kinds of zones: of the machine (NPROTDEF) and of the channel (CPROTDEF), with the alarm for running into one.
@@ -94,7 +93,7 @@ class Protection:
     open: Definition | None = None
 
     def placed(
-        self, channel: Channel, *, preactive: bool = False
+        self, channel: SinumerikChannel, *, preactive: bool = False
     ) -> Iterator[tuple[Zone, tuple[float, ...]]]:
         """Zones that are effective with their offsets; with `preactive` those that only wait for the PLC."""
         for (kind, number), (state, offset) in self.states.items():
@@ -104,15 +103,15 @@ class Protection:
                 yield self.zones[kind, number], offset
 
 
-def _plc_signal(channel: Channel, kind: str, number: int) -> bool:
+def _plc_signal(channel: SinumerikChannel, kind: str, number: int) -> bool:
     byte, bit = divmod(number - 1, 8)
     name = f"DB{20 + channel.number}.DBX{PLC_BYTES[kind] + byte}.{bit}"
     return bool(channel.setup.switches.plc.get(name))
 
 
-def protection(channel: Channel) -> Protection:
+def protection(channel: SinumerikChannel) -> Protection:
     """The zones of a channel."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     if memory.protection is None:
         shared = channel.group.shared if channel.group is not None else {}
         memory.protection = Protection(shared.setdefault("protection zones", {}), {})
@@ -122,15 +121,15 @@ def protection(channel: Channel) -> Protection:
 # ---- definition
 
 
-def begin(kind: str) -> Callable[[Channel, Arguments], None]:
+def begin(kind: str) -> Callable[[SinumerikChannel, Arguments], None]:
     """CPROTDEF, NPROTDEF(n, of the tool, limits, upper, lower): the contour blocks follow."""
 
-    def run(channel: Channel, args: Arguments) -> None:
+    def run(channel: SinumerikChannel, args: Arguments) -> None:
         if not 2 <= len(args) <= 5 or any(arg is None for arg in args[:2]):
             raise AlarmError("14020", text=f"{kind}PROTDEF")
         arguments.whole(args[0])
         state = protection(channel)
-        memory: Memory = channel.memory
+        memory = channel.memory
         if state.open is not None:
             raise AlarmError("PC0009", text=f"{kind}PROTDEF")
         if channel.mode["side"] != "G40":
@@ -152,7 +151,7 @@ def _is_shifted(frame: NcFrame) -> bool:
     return not frame.frame.is_identity or any(part.coarse + part.fine for part in frame.others.values())
 
 
-def execute(channel: Channel, _args: Arguments) -> None:
+def execute(channel: SinumerikChannel, _args: Arguments) -> None:
     """EXECUTE: the zone is defined; position, path and feed are as before."""
     state = protection(channel)
     definition = state.open
@@ -163,9 +162,9 @@ def execute(channel: Channel, _args: Arguments) -> None:
     state.zones[zone.kind, zone.number] = zone
 
 
-def leave(channel: Channel) -> None:
+def leave(channel: SinumerikChannel) -> None:
     """A definition ends, or is abandoned: position, path and feed are as before it."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     definition = memory.protection.open if memory.protection is not None else None
     if memory.protection is None or definition is None:
         return
@@ -178,15 +177,15 @@ def leave(channel: Channel) -> None:
     working_area.refresh(channel)
 
 
-def check_end(channel: Channel) -> None:
+def check_end(channel: SinumerikChannel) -> None:
     """PC0009: the program ends while a zone is being defined."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     if memory.protection is not None and memory.protection.open is not None:
         leave(channel)
         raise AlarmError("PC0009", text="M30")
 
 
-def _zone(channel: Channel, definition: Definition) -> Zone:
+def _zone(channel: SinumerikChannel, definition: Definition) -> Zone:
     number, of_tool, sides, upper, lower = (*definition.arguments, None, None, None)[:5]
     axes = PLANES[channel.mode["plane"]]
     outline = _outline(channel, definition.recorder.moves, axes)
@@ -210,7 +209,7 @@ def _sense(move: Move) -> str:
     return "G3" if move.kind in CCW_KINDS else "G2"
 
 
-def _outline(channel: Channel, moves: list[Move], axes: tuple[int, int, int]) -> list[Point]:
+def _outline(channel: SinumerikChannel, moves: list[Move], axes: tuple[int, int, int]) -> list[Point]:
     """The closed contour of the moves; PC0010 where it is none."""
     if not len(moves) + 1 >= 4 or len(moves) > MAX_MOVES:
         raise AlarmError("PC0010", text=str(len(moves)))
@@ -243,10 +242,10 @@ def _point(position: list[float], geometry: tuple[int, ...], axes: tuple[int, in
 # ---- activation
 
 
-def switch(kind: str) -> Callable[[Channel, Arguments], None]:
+def switch(kind: str) -> Callable[[SinumerikChannel, Arguments], None]:
     """CPROT, NPROT(n, state, x, y, z)."""
 
-    def run(channel: Channel, args: Arguments) -> None:
+    def run(channel: SinumerikChannel, args: Arguments) -> None:
         if not 2 <= len(args) <= 5:
             raise AlarmError("14020", text=f"{kind}PROT")
         number, state = arguments.whole(args[0]), arguments.whole(args[1])
@@ -264,7 +263,7 @@ def switch(kind: str) -> Callable[[Channel, Arguments], None]:
     return run
 
 
-def _guard(channel: Channel, wanted: bool) -> None:
+def _guard(channel: SinumerikChannel, wanted: bool) -> None:
     """Put the guard into the path, or take it out."""
     if not wanted:
         channel.path.take(Guard)
@@ -278,7 +277,7 @@ class Guard(Stage):
     rank = Rank.ZONES
     lasts = True
 
-    def __init__(self, channel: Channel) -> None:
+    def __init__(self, channel: SinumerikChannel) -> None:
         self._channel = channel
 
     def move(self, move: Move) -> None:
@@ -306,7 +305,7 @@ Placed = list[tuple[Zone, tuple[float, ...]]]
 
 
 def contact(
-    channel: Channel, placed: Placed, start: list[float], end: list[float]
+    channel: SinumerikChannel, placed: Placed, start: list[float], end: list[float]
 ) -> tuple[float, Zone] | None:
     """The part of a straight way of the machine's axes at which a zone is first run into, and that zone.
 
@@ -326,7 +325,12 @@ def contact(
 
 
 def _contacts(
-    channel: Channel, zone: Zone, offset: tuple[float, ...], tools: Placed, a: list[float], b: list[float]
+    channel: SinumerikChannel,
+    zone: Zone,
+    offset: tuple[float, ...],
+    tools: Placed,
+    a: list[float],
+    b: list[float],
 ) -> Iterator[float]:
     """Contacts of everything that goes with the tool with one zone of the workpiece."""
     i, j, k = zone.axes

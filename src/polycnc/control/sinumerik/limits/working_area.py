@@ -12,18 +12,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from polycnc.control.sinumerik import gcodes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.frames.memory import chain
+from polycnc.control.sinumerik.variables.row import Indices, Row
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.memory import Memory
-
-Row = tuple[
-    Type, "Callable[[Channel, tuple[Any, ...]], Any]", "Callable[[Channel, tuple[Any, ...], Any], None]"
-]
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 SWITCH, WORKING_AREA, WORK_SYSTEM_AREA = "10720", "10730", "10735"
 _SLACK = 1e-6
@@ -54,9 +48,9 @@ class Limit(NamedTuple):
     system: int = MACHINE
 
 
-def refresh(channel: Channel) -> None:
+def refresh(channel: SinumerikChannel) -> None:
     """Work out the limits that hold now; only those that setup or program gave a value."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     data = memory.data
     limits = []
     for column, name in enumerate(channel.axes):
@@ -75,7 +69,7 @@ def refresh(channel: Channel) -> None:
     memory.limits = tuple(limit for limit in limits if limit.low > -inf or limit.high < inf)
 
 
-def _of_work_system(channel: Channel) -> list[Limit]:
+def _of_work_system(channel: SinumerikChannel) -> list[Limit]:
     """WALCS1 to WALCS10: the ranges of a group, in the system that the group names."""
     values = channel.memory.values
     group = gcodes.number_of(channel.mode["working_area_wcs"]) - 1
@@ -97,7 +91,7 @@ def _of_work_system(channel: Channel) -> list[Limit]:
 def _area(name: str, type_: Type, *, of_axis: bool) -> Row:
     """A variable of the working areas in the workpiece system: by group, and by axis."""
 
-    def place(channel: Channel, indices: tuple[Any, ...]) -> tuple[int, ...]:
+    def place(channel: SinumerikChannel, indices: Indices) -> tuple[int, ...]:
         if len(indices) != 1 + of_axis:
             raise AlarmError("12400", text=name)
         group = arguments.whole(indices[0])
@@ -105,11 +99,11 @@ def _area(name: str, type_: Type, *, of_axis: bool) -> Row:
             raise AlarmError("17020", text=name, index=group)
         return (group, arguments.column(channel, indices[1])) if of_axis else (group,)
 
-    def read(channel: Channel, indices: tuple[Any, ...]) -> Any:
+    def read(channel: SinumerikChannel, indices: Indices) -> Any:
         empty = {Type.BOOL: False, Type.INT: WORK}.get(type_, 0.0)
         return channel.memory.values.get((name, place(channel, indices)), empty)
 
-    def write(channel: Channel, indices: tuple[Any, ...], value: Any) -> None:
+    def write(channel: SinumerikChannel, indices: Indices, value: Any) -> None:
         if name.endswith("COORD_SYSTEM") and value not in (WORK, SETTABLE):
             raise AlarmError("12560", text=name)
         channel.memory.values[name, place(channel, indices)] = value
@@ -128,15 +122,15 @@ AREA_VARIABLES: dict[str, Row] = {
 }
 
 
-def _pair(channel: Channel, column: int, side: str) -> str:
+def _pair(channel: SinumerikChannel, column: int, side: str) -> str:
     """Which of the two limit switches the PLC has chosen: nothing for the first, `2` for the second."""
     bit = {"MINUS": 2, "PLUS": 3}[side]
     return "2" if channel.setup.switches.plc.get(f"DB{31 + column}.DBX12.{bit}") else ""
 
 
-def check(channel: Channel, end: list[float]) -> None:
+def check(channel: SinumerikChannel, end: list[float]) -> None:
     """Refuse a target beyond a limit: 10720 for a software limit switch, 10730 and 10735 for working areas."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     systems = {MACHINE: channel.coordinates.to_machine(end), WORK: end}
     if any(limit.system == SETTABLE for limit in memory.limits):
         systems[SETTABLE] = channel.coordinates.image(chain(memory.frames.inner()).frame, end)

@@ -25,9 +25,8 @@ from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import CCW_KINDS, arc_kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.frames import Vector
 
 LETTERS = "IJK"
@@ -72,7 +71,7 @@ class Arc:
         first, second = (centers.get(axis) for axis in self.axes[:2])
         return ArcAsData(self.ccw, self.axes, targets, (first, second), radius)
 
-    def run(self, channel: Channel, values: Values) -> None:
+    def run(self, channel: SinumerikChannel, values: Values) -> None:
         """Check the arc and move along it."""
         start = channel.coordinates.position
         end = target(channel, self.terms, values)
@@ -94,7 +93,7 @@ class Arc:
         feed = channel.feed if self.feed is None else number(values, self.feed) * self.feed_factor
         arc(channel, self.columns, self.axes, end, center, moves.checked_feed(feed), self.ccw, turns)
 
-    def _programmed_centre(self, channel: Channel, values: Values, begin: arcs.Point) -> arcs.Point:
+    def _programmed_centre(self, channel: SinumerikChannel, values: Values, begin: arcs.Point) -> arcs.Point:
         """Centre from I, J, K: from the start point, or absolute with AC."""
         shift, absolute = [0.0, 0.0], dict[int, float]()
         for index, position, modifier in self.centre:
@@ -109,11 +108,13 @@ class Arc:
         u, v = (absolute.get(i, begin[i] + shift[i]) for i in (0, 1))
         return u, v
 
-    def _by_radius(self, values: Values, begin: arcs.Point, end: arcs.Point, channel: Channel) -> arcs.Point:
+    def _by_radius(
+        self, values: Values, begin: arcs.Point, end: arcs.Point, channel: SinumerikChannel
+    ) -> arcs.Point:
         """CR: positive for up to 180 degrees, negative for more; no full circle."""
         assert self.radius is not None
         radius = number(values, self.radius) * self.factor
-        memory: Memory = channel.memory
+        memory = channel.memory
         if hypot(end[0] - begin[0], end[1] - begin[1]) <= NO_WAY:
             raise AlarmError("14040")
         try:
@@ -122,7 +123,9 @@ class Arc:
         except ValueError:
             raise AlarmError("14095") from None
 
-    def _by_angle(self, channel: Channel, values: Values, begin: arcs.Point, end: list[float]) -> arcs.Point:
+    def _by_angle(
+        self, channel: SinumerikChannel, values: Values, begin: arcs.Point, end: list[float]
+    ) -> arcs.Point:
         """AR with the end point, or with the centre."""
         assert self.angle is not None
         angle = number(values, self.angle)
@@ -145,12 +148,12 @@ class Arc:
         du, dv = end[u] - begin[0], end[v] - begin[1]
         return 0.5 * (begin[0] + end[u]) - height * dv, 0.5 * (begin[1] + end[v]) + height * du
 
-    def _pole(self, channel: Channel) -> arcs.Point:
+    def _pole(self, channel: SinumerikChannel) -> arcs.Point:
         pole = channel.memory.polar.pole
         return pole[self.axes[0]], pole[self.axes[1]]
 
     def _polar_end(
-        self, channel: Channel, values: Values, begin: arcs.Point, center: arcs.Point
+        self, channel: SinumerikChannel, values: Values, begin: arcs.Point, center: arcs.Point
     ) -> tuple[float, float]:
         """The end point at angle AP; without RP the radius is the distance from the pole."""
         if self.polar[1] is None:
@@ -184,7 +187,7 @@ def centre_words(draft: Draft, letters: str) -> list[tuple[int, int, str]]:
     return found
 
 
-def absolute_factor(channel: Channel, draft: Draft, column: int) -> float:
+def absolute_factor(channel: SinumerikChannel, draft: Draft, column: int) -> float:
     """From an absolute coordinate to mm: diameters of the transverse axis included."""
     factor = length_factor(draft.mode)
     if is_diameter(draft.mode, Way.ABSOLUTE, column, channel.memory.transverse):
@@ -192,9 +195,9 @@ def absolute_factor(channel: Channel, draft: Draft, column: int) -> float:
     return factor
 
 
-def check_end(channel: Channel, begin: arcs.Point, end: arcs.Point, center: arcs.Point) -> None:
+def check_end(channel: SinumerikChannel, begin: arcs.Point, end: arcs.Point, center: arcs.Point) -> None:
     """14040 if start and end are not equally far from the centre (MD21000), or there is no radius."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     if arcs.radius_of(center, begin) <= NO_WAY:
         raise AlarmError("14040")
     if abs(arcs.radius_mismatch(begin, end, center)) > memory.data.number("$MC_CIRCLE_ERROR_CONST") + 1e-9:
@@ -202,7 +205,7 @@ def check_end(channel: Channel, begin: arcs.Point, end: arcs.Point, center: arcs
 
 
 def arc(
-    channel: Channel,
+    channel: SinumerikChannel,
     columns: tuple[int, int, int],
     axes: tuple[int, int, int],
     end: list[float],
@@ -223,7 +226,7 @@ def arc(
 
 
 def curve(
-    channel: Channel,
+    channel: SinumerikChannel,
     kind: Kind,
     end: list[float],
     feed: float,
@@ -232,7 +235,7 @@ def curve(
     turns: float = 0.0,
 ) -> None:
     """Move along an arc in space and remember it for CT."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     if memory.limits:
         working_area.check(channel, end)
     sense = 1.0 if kind in CCW_KINDS else -1.0
@@ -253,7 +256,7 @@ def through_point(draft: Draft) -> Step | None:
         return None
     incremental = draft.mode["dimensions"] == "G91"
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         start = channel.coordinates.position
         end = target(channel, terms, values)
         via = start.copy()
@@ -272,7 +275,7 @@ def through_point(draft: Draft) -> Step | None:
 
 
 def _three_points(
-    channel: Channel, draft: Draft, start: list[float], via: list[float], end: list[float]
+    channel: SinumerikChannel, draft: Draft, start: list[float], via: list[float], end: list[float]
 ) -> None:
     geometry = channel.coordinates.geometry
     a, b, c = (_vector([p[i] if i >= 0 else 0.0 for i in geometry]) for p in (start, via, end))
@@ -297,7 +300,7 @@ def tangential(draft: Draft) -> Step | None:
     if goal is None:
         return None
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         start = channel.coordinates.position
         tangent = last_direction(channel, columns, axes)
         end = goal(channel, values)
@@ -321,9 +324,11 @@ def tangential(draft: Draft) -> Step | None:
     return run
 
 
-def last_direction(channel: Channel, columns: tuple[int, int, int], axes: tuple[int, int, int]) -> arcs.Point:
+def last_direction(
+    channel: SinumerikChannel, columns: tuple[int, int, int], axes: tuple[int, int, int]
+) -> arcs.Point:
     """Direction in the plane in which the previous move ended; alarm 14045 if there was none."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     if memory.previous is None:
         raise AlarmError("14045")
     start, circle_data, sense = memory.previous

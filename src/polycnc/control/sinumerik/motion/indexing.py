@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 #: The plain attribute that leads to a coded position.
 WAYS = {"CAC": "AC", "CIC": "AC", "CDC": "DC", "CACP": "ACP", "CACN": "ACN"}
 
 
-def position(channel: Channel, column: int, modifier: str, value: float) -> float:
+def position(channel: SinumerikChannel, column: int, modifier: str, value: float) -> float:
     """The position that a coded position names.
 
     Raises:
@@ -36,8 +35,8 @@ def position(channel: Channel, column: int, modifier: str, value: float) -> floa
     return table[place]
 
 
-def _table(channel: Channel, column: int) -> list[float]:
-    memory: Memory = channel.memory
+def _table(channel: SinumerikChannel, column: int) -> list[float]:
+    memory = channel.memory
     number = memory.data.integer("$MA_INDEX_AX_ASSIGN_POS_TAB", channel.axes[column])
     if number not in (1, 2):
         raise AlarmError("17500", axis=channel.axes[column])
@@ -45,7 +44,7 @@ def _table(channel: Channel, column: int) -> list[float]:
     return [memory.data.number(f"$MN_INDEX_AX_POS_TAB_{number}", i) for i in range(length)]
 
 
-def _nearest(channel: Channel, column: int, table: list[float]) -> int:
+def _nearest(channel: SinumerikChannel, column: int, table: list[float]) -> int:
     """The number of the position at which the axis stands."""
     now = channel.coordinates.position[column]
     if channel.axis_data[column].modulo:

@@ -23,9 +23,8 @@ from polycnc.toolpath import Kind
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 
 # ---- straight lines
@@ -39,7 +38,7 @@ def rapid(draft: Draft) -> Step | None:
         return None
     names_feed = draft.has("F")
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         line(channel, Kind.RAPID, goal(channel, values), channel.feed if names_feed else nan)
 
     return run if straight is None else declare(run, straight._replace(names_feed=names_feed))
@@ -55,7 +54,7 @@ def linear(draft: Draft) -> Step | None:
         return None
     factor = feed_factor(draft)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         feed = channel.feed if block_feed is None else number(values, block_feed) * factor
         line(channel, Kind.FEED, goal(channel, values), checked_feed(feed))
 
@@ -73,7 +72,7 @@ def _plain_linear(draft: Draft) -> Step | None:
     own_feed = draft.take_plain("F") if draft.mode["feed"] != "G931" else None
     feed_place, feed_to_internal = -1 if own_feed is None else own_feed, feed_factor(draft)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         if feed_place >= 0:
             value = values[feed_place]
             if value.__class__ is not float:
@@ -100,7 +99,7 @@ def _plain_linear(draft: Draft) -> Step | None:
         if not feed > 0.0:
             raise AlarmError("10860")
         if moves:
-            memory: Memory = channel.memory
+            memory = channel.memory
             if memory.limits:
                 working_area.check(channel, end)
             memory.previous = (start, None, 0.0)
@@ -111,7 +110,7 @@ def _plain_linear(draft: Draft) -> Step | None:
 
 
 def _incremental_linear(terms: list[AxisTerm]) -> Step:
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         line(channel, Kind.FEED, target(channel, terms, values), checked_feed(channel.feed))
 
     told = plain.straight(terms)
@@ -131,11 +130,11 @@ def checked_feed(feed: float) -> float:
     return feed
 
 
-def line(channel: Channel, kind: Kind, end: list[float], feed: float) -> None:
+def line(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> None:
     """Move straight to a point; remembers where the move came from, for CT."""
     start = channel.coordinates.position
     if any(abs(a - b) > NO_WAY for a, b in zip(end, start, strict=True)):
-        memory: Memory = channel.memory
+        memory = channel.memory
         if memory.limits:
             working_area.check(channel, end)
         memory.previous = (start, None, 0.0)
@@ -162,7 +161,7 @@ def goal_of(draft: Draft) -> Goal | None:
     if all(term.way is Way.ABSOLUTE and not term.coded for term in terms):
         return _absolute([(term.position, term.column, term.factor) for term in terms])
 
-    def goal(channel: Channel, values: Values) -> list[float]:
+    def goal(channel: SinumerikChannel, values: Values) -> list[float]:
         return target(channel, terms, values)
 
     return goal
@@ -171,7 +170,7 @@ def goal_of(draft: Draft) -> Goal | None:
 def _absolute(places: list[tuple[int, int, float]]) -> Goal:
     """The common case: all words absolute."""
 
-    def goal(channel: Channel, values: Values) -> list[float]:
+    def goal(channel: SinumerikChannel, values: Values) -> list[float]:
         coordinates = channel.coordinates
         end = coordinates.position.copy()
         owed = coordinates.pending
@@ -192,7 +191,7 @@ def _polar(draft: Draft, terms: list[AxisTerm], angle: Any, radius: Any) -> Goal
     if any(term.column in columns[:2] for term in terms):
         raise AlarmError("14280")
 
-    def goal(channel: Channel, values: Values) -> list[float]:
+    def goal(channel: SinumerikChannel, values: Values) -> list[float]:
         end = target(channel, terms, values)
         u, v = polar_point(draft, channel, values, angle, radius)
         end[columns[0]], end[columns[1]] = u, v
@@ -202,7 +201,7 @@ def _polar(draft: Draft, terms: list[AxisTerm], angle: Any, radius: Any) -> Goal
 
 
 def polar_point(
-    draft: Draft, channel: Channel, values: Values, angle: Any, radius: Any
+    draft: Draft, channel: SinumerikChannel, values: Values, angle: Any, radius: Any
 ) -> tuple[float, float]:
     """The plane point that AP and RP name; both are modal.
 
@@ -210,7 +209,7 @@ def polar_point(
         AlarmError: 14200 for a negative radius, 14210 for an angle beyond 360 degrees, 14280 without any
             radius.
     """
-    memory: Memory = channel.memory
+    memory = channel.memory
     polar = memory.polar
     incremental = draft.mode["dimensions"] == "G91"
     if angle is not None:
@@ -260,7 +259,7 @@ def _contour_angle(draft: Draft, terms: list[AxisTerm], position: int) -> Goal:
     if len(given) != 1:
         raise WordAlarm("12080", position, text="ANG")
 
-    def goal(channel: Channel, values: Values) -> list[float]:
+    def goal(channel: SinumerikChannel, values: Values) -> list[float]:
         start = channel.coordinates.position
         end = target(channel, terms, values)
         slope = tan(radians(number(values, position)))
@@ -280,7 +279,7 @@ def _open_line(draft: Draft, position: int) -> Goal:
     """A line of which only the angle is known yet."""
     draft.opens_line = True
 
-    def goal(channel: Channel, values: Values) -> list[float]:
+    def goal(channel: SinumerikChannel, values: Values) -> list[float]:
         channel.memory.open_line = number(values, position)
         channel.mode = channel.mode.with_code("open_line", "ANG")
         return channel.coordinates.position
@@ -293,8 +292,8 @@ def _meeting_lines(draft: Draft, terms: list[AxisTerm], position: int, columns: 
     kind = Kind.RAPID if draft.mode["motion"] == "G0" else Kind.FEED
     u, v = columns[:2]
 
-    def first_line(channel: Channel, values: Values) -> None:
-        memory: Memory = channel.memory
+    def first_line(channel: SinumerikChannel, values: Values) -> None:
+        memory = channel.memory
         start = channel.coordinates.position
         end = target(channel, terms, values)
         a, b = radians(memory.open_line), radians(number(values, position))
@@ -325,7 +324,7 @@ def lead_of(draft: Draft) -> Any:
     leads = [(i, draft.take(letter)) for i, letter in enumerate("IJK")]
     given = [(i, position) for i, position in leads if position is not None]
 
-    def lead(channel: Channel, values: Values, end: list[float]) -> float:
+    def lead(channel: SinumerikChannel, values: Values, end: list[float]) -> float:
         coordinates = channel.coordinates
         ways = [
             (
@@ -354,7 +353,7 @@ def thread(draft: Draft) -> Step | None:
     if goal is None:
         return None
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         end = goal(channel, values)
         angle = number(values, start_angle) if start_angle is not None else 0.0
         if not 0.0 <= angle < tables.TURN:
@@ -374,7 +373,7 @@ def tap(draft: Draft) -> Step | None:
     if goal is None:
         return None
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         end = goal(channel, values)
         special(channel, Kind.TAP, end, nan, [lead(channel, values, end)])
 
@@ -387,9 +386,9 @@ def tap_with_chuck(draft: Draft) -> Step | None:
     if goal is None:
         return None
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         feed = checked_feed(channel.feed)
-        memory: Memory = channel.memory
+        memory = channel.memory
         speed = memory.spindles.get().speed
         lead = (
             feed
@@ -403,10 +402,12 @@ def tap_with_chuck(draft: Draft) -> Step | None:
     return run
 
 
-def special(channel: Channel, kind: Kind, end: list[float], feed: float, parameters: list[float]) -> None:
+def special(
+    channel: SinumerikChannel, kind: Kind, end: list[float], feed: float, parameters: list[float]
+) -> None:
     """A straight move with curve parameters."""
     start = channel.coordinates.position
-    memory: Memory = channel.memory
+    memory = channel.memory
     if any(abs(a - b) > NO_WAY for a, b in zip(end, start, strict=True)):
         if memory.limits:
             working_area.check(channel, end)
@@ -421,7 +422,7 @@ def dwell(draft: Draft) -> Step | None:
     """G4: F seconds or S revolutions of the master spindle; the modal F and S stay."""
     seconds, revolutions = draft.take("F"), draft.take_shape("S")
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         channel.dwell(
             seconds=number(values, seconds) if seconds is not None else 0.0,
             revolutions=number(values, revolutions[0]) if revolutions is not None else 0.0,
@@ -435,7 +436,7 @@ def reference_point(draft: Draft) -> Step | None:
     columns = [column for _, column in draft.take_machine_axes()]
     columns += [term.column for term in draft.take_axes()]
 
-    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - values are ignored by the function
+    def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - values are ignored by the function
         points = {column: channel.axis_data[column].reference_points[0] for column in columns}
         _to_machine(channel, Kind.REF, points)
 
@@ -448,8 +449,8 @@ def fixed_point(draft: Draft) -> Step | None:
     columns = [column for _, column in draft.take_machine_axes()]
     via = goal_of(draft) if draft.codes.get("block_motion") == "G751" else None
 
-    def run(channel: Channel, values: Values) -> None:
-        memory: Memory = channel.memory
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        memory = channel.memory
         if via is not None:
             line(channel, Kind.RAPID, via(channel, values), nan)
         point = int(number(values, number_position)) if number_position is not None else 1
@@ -462,7 +463,7 @@ def fixed_point(draft: Draft) -> Step | None:
     return run
 
 
-def _to_machine(channel: Channel, kind: Kind, points: dict[int, float]) -> None:
+def _to_machine(channel: SinumerikChannel, kind: Kind, points: dict[int, float]) -> None:
     """Move some axes to machine positions, the others stay."""
     coordinates = channel.coordinates
     machine = coordinates.machine
@@ -493,7 +494,7 @@ def _in_parts(term: AxisTerm) -> Step:
     """POSP[axis]=(end, part, mode): as POS, in parts; 12560 for a mode but 0 and 1, a part without length."""
     whole = _position_axis(term)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         listed = values[term.position]
         if not isinstance(listed, tuple) or len(listed) != 3 or listed[2] not in (0, 1) or listed[1] <= 0:
             raise WordAlarm("12560", term.position, text="POSP")
@@ -503,7 +504,7 @@ def _in_parts(term: AxisTerm) -> Step:
 
 
 def _position_axis(term: AxisTerm) -> Step:
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         end = target(channel, (term,), values)
         if channel.memory.limits:
             working_area.check(channel, end)

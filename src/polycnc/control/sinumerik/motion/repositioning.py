@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.control.sinumerik.block.positions import length_factor, number
 from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.signals import interrupts
+from polycnc.control.sinumerik.variables.row import RowWithStop
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.values import Axis, Type
@@ -23,9 +24,9 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.channel.way import Way
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.arcs import Point
 
 LINES, QUARTERS, HALVES = ("REPOSL", "REPOSA"), ("REPOSQ", "REPOSQA"), ("REPOSH", "REPOSHA")
@@ -60,7 +61,7 @@ def reposition(draft: Draft) -> Step:
     if code.endswith("A"):
         named = set(range(len(draft.channel.axes)))
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         interrupted = interrupts.running(channel)
         if interrupted is None or interrupted.way is None:
             if interrupted is None and not _in_routine(channel):
@@ -83,7 +84,7 @@ def reposition(draft: Draft) -> Step:
     return run
 
 
-def _in_routine(channel: Channel) -> bool:
+def _in_routine(channel: SinumerikChannel) -> bool:
     return any(level.kind == interrupts.LEVEL for level in channel.stack)
 
 
@@ -95,7 +96,7 @@ def _part(way: Way, point: str, interrupted_at: float, position: list[float]) ->
 
 
 def _touching_arc(
-    channel: Channel, way: Way, part: float, plane: Plane, radius: float, *, half: bool
+    channel: SinumerikChannel, way: Way, part: float, plane: Plane, radius: float, *, half: bool
 ) -> Arc | None:
     """The quarter or half circle that touches the contour; None without DISR or a direction in the plane.
 
@@ -120,7 +121,9 @@ def _touching_arc(
     return Arc((u, v, columns[2]), plane, begin, center, ccw=is_left)
 
 
-def _approach(channel: Channel, target: list[float], named: set[int], feed: float, arc: Arc | None) -> None:
+def _approach(
+    channel: SinumerikChannel, target: list[float], named: set[int], feed: float, arc: Arc | None
+) -> None:
     """Go to a point of the contour: geometry axes and named ones; the others stay."""
     position = channel.coordinates.position
     moved = named.union(column for column in channel.coordinates.geometry if column >= 0)
@@ -139,7 +142,7 @@ def _approach(channel: Channel, target: list[float], named: set[int], feed: floa
 # ---- system variables
 
 
-def _return_point(channel: Channel, indices: tuple[Any, ...]) -> float:
+def _return_point(channel: SinumerikChannel, indices: tuple[Any, ...]) -> float:
     """$AC_RETPOINT[axis]: where the contour was left, in work coordinates."""
     if len(indices) != 1 or not isinstance(indices[0], Axis):
         raise AlarmError("12400", text="$AC_RETPOINT")
@@ -150,13 +153,13 @@ def _return_point(channel: Channel, indices: tuple[Any, ...]) -> float:
     return float(interrupted.way.at(interrupted.part)[column])
 
 
-def _is_possible(channel: Channel, _indices: tuple[Any, ...]) -> int:
+def _is_possible(channel: SinumerikChannel, _indices: tuple[Any, ...]) -> int:
     """$P_REPINF: 1 where REPOS leads back to a contour."""
     return int(interrupts.running(channel) is not None)
 
 
-REPOS_VARIABLES: dict[str, Any] = {
+REPOS_VARIABLES: dict[str, RowWithStop] = {
     "$AC_REPOS_PATH_MODE": (Type.INT, lambda channel, _indices: channel.memory.repos_mode, None, True),
     "$AC_RETPOINT": (Type.REAL, _return_point, None, True),
-    "$P_REPINF": (Type.INT, _is_possible),
+    "$P_REPINF": (Type.INT, _is_possible, None, False),
 }

@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.block.arguments import Procedure
 from polycnc.control.sinumerik.block.positions import AxisTerm, axis_term, length_factor, number, target
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.motion.spline_stage import TOLERANCE_MM
@@ -22,8 +23,8 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 LARGEST_WEIGHT, DEGREES, STANDARD_DEGREE = 3.0, (2, 3), 3
 LEAST_PARAMETER, LARGEST_PARAMETER = 0.0001, 99999.9999
@@ -52,7 +53,7 @@ def count_blocks(draft: Draft, *, is_point: bool) -> Step:
     datum = draft.memory.data.integer("$MC_CUBIC_SPLINE_BLOCKS")
     least = LEAST_POINTS.get(code, datum + 1)
 
-    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
         before = [] if begins else channel.memory.values.get(_WINDOW, [])
         last = [*before, is_point][-WINDOW:]
         channel.memory.values[_WINDOW] = last
@@ -69,7 +70,7 @@ def positioned(draft: Draft) -> Step | None:
     if not columns:
         return None
 
-    def run(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
         group = channel.memory.values.get((GROUP, ()), range(LEAST_GROUP))
         for column in columns:
             if column in group:
@@ -84,7 +85,7 @@ def through_points(draft: Draft) -> Step | None:
     if goal is None:
         return None
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         moves.line(channel, Kind.SPLINE, goal(channel, values), moves.checked_feed(channel.feed))
 
     return run
@@ -97,7 +98,7 @@ def control_points(draft: Draft) -> Step | None:
     if goal is None:
         return None
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         pull = number(values, weight) if weight is not None else 1.0
         if weight is not None and not 0.0 <= pull <= LARGEST_WEIGHT:
             raise WordAlarm("12560", weight, text="PW")
@@ -121,7 +122,7 @@ def _parameter(values: Values, position: int | None) -> float:
     return value
 
 
-def spline_group(channel: Channel, args: tuple[Any, ...]) -> None:
+def spline_group(channel: SinumerikChannel, args: tuple[Any, ...]) -> None:
     """SPLINEPATH(1, axis, …): the axes that a spline bends; the others move evenly with the path."""
     if len(args) < 2 or args[0] != 1 or len(args) - 1 > LARGEST_GROUP:
         raise AlarmError("14020", text="SPLINEPATH")
@@ -161,7 +162,7 @@ def polynomial(draft: Draft) -> Step | None:
         return None
     factor = length_factor(draft.mode)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         feed = moves.checked_feed(channel.feed)
         end = _end(channel, terms, polynomials, values)
         interval = _parameter(values, length)
@@ -194,7 +195,7 @@ def straight_to_ends(draft: Draft) -> Step | None:
     terms = draft.take_axes()
     kind = Kind.RAPID if draft.mode["motion"] == "G0" else Kind.FEED
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         end = _end(channel, terms, polynomials, values)
         moves.line(channel, kind, end, moves.checked_feed(channel.feed))
 
@@ -233,7 +234,7 @@ def _list(values: Values, position: int) -> tuple[Any, ...]:
 
 
 def _end(
-    channel: Channel, terms: Sequence[AxisTerm], polynomials: Sequence[Polynomial], values: Values
+    channel: SinumerikChannel, terms: Sequence[AxisTerm], polynomials: Sequence[Polynomial], values: Values
 ) -> list[float]:
     """The target of a block: a polynomial's end point stands for the value of its axis."""
     ends = tuple(value[0] if isinstance(value, tuple) and value else value for value in values)
@@ -301,11 +302,11 @@ def _deviation(points: Sequence[Sequence[float]]) -> float:
     return max(gaps)
 
 
-def polynomial_groups(channel: Channel, args: tuple[Any, ...]) -> None:
+def polynomial_groups(channel: SinumerikChannel, args: tuple[Any, ...]) -> None:
     """POLYPATH("AXES", "VECT"): which axes coefficients are for; none without arguments."""
     if any(group not in ("AXES", "VECT") for group in args):
         raise AlarmError("14020", text="POLYPATH")
     channel.memory.values[INTERPOLATED, ()] = args
 
 
-PROCEDURES = {"SPLINEPATH": spline_group, "POLYPATH": polynomial_groups}
+PROCEDURES: dict[str, Procedure] = {"SPLINEPATH": spline_group, "POLYPATH": polynomial_groups}

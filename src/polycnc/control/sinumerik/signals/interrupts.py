@@ -19,10 +19,9 @@ from polycnc.language.sinumerik.statements.calls import call_without_arguments, 
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.channel.path import Move
     from polycnc.channel.stack import Level
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.machine.setup.values import Interrupt
     from polycnc.program import Program
 
@@ -78,7 +77,7 @@ class Watch(Stage):
     rank = Rank.INTERRUPTS
     lasts = True
 
-    def __init__(self, channel: Channel) -> None:
+    def __init__(self, channel: SinumerikChannel) -> None:
         self.came: set[int] = set()
         self.running: list[Interrupted] = []
         self._channel = channel
@@ -130,7 +129,7 @@ class Watch(Stage):
         return first
 
     def _wanted(self, interrupt: Interrupt) -> dict[int, float]:
-        memory: Memory = self._channel.memory
+        memory = self._channel.memory
         return {memory.column(axis.upper()): value for axis, value in interrupt.at.items()}
 
     def _runs(self, interrupt: Interrupt, program: int, line: int) -> bool:
@@ -144,7 +143,7 @@ class Watch(Stage):
 
     def _is_called(self, interrupt: Interrupt) -> bool:
         """Note the routine of an input; false where it has none, or none of higher priority than what runs."""
-        memory: Memory = self._channel.memory
+        memory = self._channel.memory
         assignment = memory.interrupts.get(interrupt.input)
         if assignment is None or not assignment.enabled:
             return False
@@ -256,33 +255,33 @@ class Watch(Stage):
 # ---- procedures
 
 
-def watch(channel: Channel) -> None:
+def watch(channel: SinumerikChannel) -> None:
     """Let inputs interrupt from now on, if the setup has any."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     if channel.setup.switches.interrupts:
         memory.watch = channel.path.put(Watch(channel))
 
 
-def running(channel: Channel) -> Interrupted | None:
+def running(channel: SinumerikChannel) -> Interrupted | None:
     """The block that the running routine has interrupted."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     return memory.watch.running[-1] if memory.watch is not None and memory.watch.running else None
 
 
-def set_interrupt(channel: Channel, args: tuple[Any, ...]) -> None:
+def set_interrupt(channel: SinumerikChannel, args: tuple[Any, ...]) -> None:
     """SETINT(n) PRIO=v NAME LIFTFAST BLSYNC: a new assignment of an input replaces the old one."""
     number, priority, name, lifts, waits_for_block = args
     if number not in INPUTS or priority not in PRIORITIES or not (name or lifts):
         raise AlarmError("14020", text="SETINT")
     program = named_program(channel, name) if name else None
-    memory: Memory = channel.memory
+    memory = channel.memory
     memory.interrupts[number] = Assignment(program, priority, lifts, waits_for_block)
 
 
 def switch(on: bool) -> Any:
     """DISABLE(n), ENABLE(n): suspend the assignment of an input, and reactivate it."""
 
-    def run(channel: Channel, args: tuple[Any, ...]) -> None:
+    def run(channel: SinumerikChannel, args: tuple[Any, ...]) -> None:
         for number in _inputs(args, "ENABLE" if on else "DISABLE"):
             assignment = channel.memory.interrupts.get(number)
             if assignment is not None:
@@ -291,7 +290,7 @@ def switch(on: bool) -> Any:
     return run
 
 
-def clear(channel: Channel, args: tuple[Any, ...]) -> None:
+def clear(channel: SinumerikChannel, args: tuple[Any, ...]) -> None:
     """CLRINT(n): delete the assignment of an input."""
     for number in _inputs(args, "CLRINT"):
         channel.memory.interrupts.pop(number, None)

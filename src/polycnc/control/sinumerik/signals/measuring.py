@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.path import Move, Rank, Stage
 from polycnc.channel.way import Way
 from polycnc.control.sinumerik.block.positions import shown
+from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
@@ -22,13 +23,12 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.language.sinumerik.words import WordShape
     from polycnc.machine.setup.values import ProbeEdge
 
-Indices = tuple[Any, ...]
 #: Words of a block for all its axes, and those for one axis each; the first of each pair deletes the distance to go.
 OF_BLOCK, OF_AXIS = ("MEAS", "MEAW"), ("MEASA", "MEAWA")
 CONTINUOUS = "MEAC"
@@ -89,7 +89,7 @@ class Prober(Stage):
     rank = Rank.PROBES
     lasts = True
 
-    def __init__(self, channel: Channel) -> None:
+    def __init__(self, channel: SinumerikChannel) -> None:
         self.jobs: list[Job] = []
         self.continuous: dict[int, Job] = {}
         self.stopped: list[float] | None = None
@@ -124,7 +124,7 @@ class Prober(Stage):
 
     def _edges_on(self, way: Way) -> Iterator[tuple[float, int, ProbeEdge]]:
         """The edges that come on a way, each probe's own in their order."""
-        memory: Memory = self._channel.memory
+        memory = self._channel.memory
         for probe, edges in self._edges.items():
             before = 0.0
             for edge in edges:
@@ -136,7 +136,7 @@ class Prober(Stage):
 
     def _record(self, event: int, point: list[float]) -> None:
         machine = self._channel.coordinates.to_machine(point)
-        memory: Memory = self._channel.memory
+        memory = self._channel.memory
         for job in (*self.jobs, *self.continuous.values()):
             place = job.place(event)
             if place is None:
@@ -165,9 +165,9 @@ class Prober(Stage):
                 self._channel.memory.triggered[probe] = came
 
 
-def watch(channel: Channel) -> None:
+def watch(channel: SinumerikChannel) -> None:
     """Follow the probes from now on, if the setup has any."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     if channel.setup.switches.probe:
         memory.prober = channel.path.put(Prober(channel))
 
@@ -188,7 +188,7 @@ def measure(draft: Draft) -> tuple[Step, Step, Step] | None:
     path = {draft.memory.columns[w.address] for w in draft.block.words if w.address in draft.memory.columns}
     moved = _moved_columns(draft, path)
 
-    def begin(channel: Channel, values: Values) -> None:
+    def begin(channel: SinumerikChannel, values: Values) -> None:
         jobs = [_job(channel, word, values, position, moved) for position, word in words]
         _check_geometry(channel, words, values, path)
         _start(channel, [job for job in jobs if job is not None])
@@ -205,7 +205,7 @@ def _moved_columns(draft: Draft, path: set[int]) -> tuple[int, ...]:
 
 
 def _job(
-    channel: Channel, word: WordShape, values: Values, position: int, moved: tuple[int, ...]
+    channel: SinumerikChannel, word: WordShape, values: Values, position: int, moved: tuple[int, ...]
 ) -> Job | None:
     """The job of a word; None where it only ends one."""
     if word.address in OF_BLOCK:
@@ -266,7 +266,7 @@ def _check_start(prober: Prober, event: int) -> None:
 
 
 def _check_geometry(
-    channel: Channel, words: list[tuple[int, WordShape]], values: Values, path: set[int]
+    channel: SinumerikChannel, words: list[tuple[int, WordShape]], values: Values, path: set[int]
 ) -> None:
     """14020: geometry axes that travel in the block need one and the same job each."""
     jobs = {
@@ -282,8 +282,8 @@ def _check_geometry(
         raise AlarmError("14020", text="MEASA")
 
 
-def _start(channel: Channel, jobs: list[Job]) -> None:
-    memory: Memory = channel.memory
+def _start(channel: SinumerikChannel, jobs: list[Job]) -> None:
+    memory = channel.memory
     prober = memory.prober
     for job in jobs:
         for probe in {abs(event) for event in job.events}:
@@ -297,9 +297,9 @@ def _start(channel: Channel, jobs: list[Job]) -> None:
         prober.continuous.update({job.columns[0]: job for job in jobs if job.fifo})
 
 
-def _positioned(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+def _positioned(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """Positioning axes have moved without a row: probes switch on their way as well."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     prober, start, end = memory.prober, memory.measured_from, channel.coordinates.position
     if prober is None or start is None or start == end:
         return
@@ -310,7 +310,7 @@ def _positioned(channel: Channel, values: Values) -> None:  # noqa: ARG001 - ste
         prober.stopped = None
 
 
-def _end(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+def _end(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """The block has moved: nothing of it is held back, and it stands where its distance to go was deleted."""
     prober: Prober | None = channel.memory.prober
     if prober is None:
@@ -325,9 +325,9 @@ def _end(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have
 # ---- what measuring leaves
 
 
-def _append(channel: Channel, job: Job, event: int, value: float) -> None:
+def _append(channel: SinumerikChannel, job: Job, event: int, value: float) -> None:
     """A value of a continuous job: each probe has its own memory; a full one ends the job."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     others = sorted({abs(each) for each in job.events})
     number = job.fifo + others.index(abs(event))
     fifo = memory.fifos.setdefault(number, deque())
@@ -336,10 +336,10 @@ def _append(channel: Channel, job: Job, event: int, value: float) -> None:
         fifo.append(value)
 
 
-def _measured(slot: int, *, work: bool) -> Callable[[Channel, Indices], float]:
+def _measured(slot: int, *, work: bool) -> Callable[[SinumerikChannel, Indices], float]:
     name = f"$AA_M{'W' if work else 'M'}{slot or ''}"
 
-    def read(channel: Channel, indices: Indices) -> float:
+    def read(channel: SinumerikChannel, indices: Indices) -> float:
         if len(indices) != 1 or not isinstance(indices[0], Axis):
             raise AlarmError("12400", text=name)
         column = channel.memory.column(indices[0].name)
@@ -349,8 +349,10 @@ def _measured(slot: int, *, work: bool) -> Callable[[Channel, Indices], float]:
     return read
 
 
-def _of_probe(name: str, state: Callable[[Memory], dict[int, bool]]) -> Callable[[Channel, Indices], int]:
-    def read(channel: Channel, indices: Indices) -> int:
+def _of_probe(
+    name: str, state: Callable[[Memory], dict[int, bool]]
+) -> Callable[[SinumerikChannel, Indices], int]:
+    def read(channel: SinumerikChannel, indices: Indices) -> int:
         if len(indices) != 1 or indices[0] not in (1, 2):
             raise AlarmError("17020", text=name, index=", ".join(map(str, indices)))
         return int(state(channel.memory).get(indices[0], False))
@@ -358,18 +360,18 @@ def _of_probe(name: str, state: Callable[[Memory], dict[int, bool]]) -> Callable
     return read
 
 
-def _is_active(channel: Channel, indices: Indices) -> bool:
+def _is_active(channel: SinumerikChannel, indices: Indices) -> bool:
     if len(indices) != 1 or not isinstance(indices[0], Axis):
         raise AlarmError("12400", text="$AA_MEAACT")
     prober: Prober | None = channel.memory.prober
     return prober is not None and channel.memory.column(indices[0].name) in prober.continuous
 
 
-def _fifo(number: int) -> tuple[Type, Any, Any, bool]:
+def _fifo(number: int) -> RowWithStop:
     """$AC_FIFOn: [0] takes the oldest value out, [1] oldest, [2] newest, [3] sum, [4] count, from [6] on all."""
     name = f"$AC_FIFO{number}"
 
-    def read(channel: Channel, indices: Indices) -> float:
+    def read(channel: SinumerikChannel, indices: Indices) -> float:
         fifo: deque[float] = channel.memory.fifos.setdefault(number, deque())
         index = indices[0] if len(indices) == 1 and isinstance(indices[0], int) else -1
         if index == 0:
@@ -386,7 +388,7 @@ def _fifo(number: int) -> tuple[Type, Any, Any, bool]:
             return float(len(fifo)) if index == 5 else fifo[index - 6]
         raise AlarmError("17020", text=name, index=index)
 
-    def write(channel: Channel, indices: Indices, value: float) -> None:
+    def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
         fifo: deque[float] = channel.memory.fifos.setdefault(number, deque())
         if indices == (0,):
             fifo.append(float(value))
@@ -398,7 +400,7 @@ def _fifo(number: int) -> tuple[Type, Any, Any, bool]:
     return Type.REAL, read, write, True
 
 
-MEASURE_VARIABLES: dict[str, Any] = {
+MEASURE_VARIABLES: dict[str, RowWithStop] = {
     **{f"$AA_MM{slot or ''}": (Type.REAL, _measured(slot, work=False), None, False) for slot in range(5)},
     **{f"$AA_MW{slot or ''}": (Type.REAL, _measured(slot, work=True), None, False) for slot in range(5)},
     "$AC_MEA": (Type.INT, _of_probe("$AC_MEA", lambda memory: memory.triggered), None, True),

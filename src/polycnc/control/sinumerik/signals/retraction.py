@@ -23,9 +23,8 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.frames import Vector
     from polycnc.language.sinumerik.words import WordShape
 
@@ -37,16 +36,16 @@ INTO_CONTOUR = {"G41": range(2, 5), "G42": range(6, 9)}
 POSITIONS, ENABLED = "POLF", "POLFMASK"
 
 
-def lift(channel: Channel, tangent: Vector) -> None:
+def lift(channel: SinumerikChannel, tangent: Vector) -> None:
     """Retract from where the channel stands; `tangent` is the direction of the interrupted path, zero for none."""
     end = _positions(channel) if channel.mode["retraction_plane"] == "LFPOS" else _along(channel, tangent)
     if end is not None:
         channel.straight(Kind.RAPID, end, nan)
 
 
-def _positions(channel: Channel) -> list[float]:
+def _positions(channel: SinumerikChannel) -> list[float]:
     """LFPOS: the positions of POLF for the axes that are enabled."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     end = channel.coordinates.position.copy()
     for column in memory.values.get((ENABLED, ()), ()):
         value, relative = memory.values.get((POSITIONS, (column,)), (end[column], False))
@@ -54,8 +53,8 @@ def _positions(channel: Channel) -> list[float]:
     return end
 
 
-def _along(channel: Channel, tangent: Vector) -> list[float] | None:
-    memory: Memory = channel.memory
+def _along(channel: SinumerikChannel, tangent: Vector) -> list[float] | None:
+    memory = channel.memory
     direction = int(memory.values.get(("ALF", ()), 1.0))
     if direction == 0:
         return None
@@ -92,7 +91,7 @@ def _signed(vector: Vector, signs: list[float]) -> Vector:
 def direction_code(_draft: Draft, position: int, _shape: WordShape) -> Step:
     """ALF: direction of the retraction, 1 to 8; 0 for none."""
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)
         if value not in DIRECTIONS:
             raise WordAlarm("12560", position, text="ALF")
@@ -107,14 +106,14 @@ def retraction_position(draft: Draft, position: int, shape: WordShape) -> Step:
     modifier = shape.modifier
     term = axis_term(draft.channel, draft.mode, position, column, modifier)
 
-    def run(channel: Channel, values: Values) -> None:
+    def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position) * term.factor
         channel.memory.values[POSITIONS, (column,)] = (value, modifier == "IC")
 
     return run
 
 
-def enable(channel: Channel, args: tuple[Any, ...]) -> None:
+def enable(channel: SinumerikChannel, args: tuple[Any, ...]) -> None:
     """POLFMASK(axis, …), POLFMLIN(axis, …): the axes that retract, instead of those of the last call."""
     columns = tuple(arguments.column(channel, axis) for axis in args)
     missing = [axis for axis, column in zip(args, columns, strict=True) if not _has_position(channel, column)]
@@ -123,7 +122,7 @@ def enable(channel: Channel, args: tuple[Any, ...]) -> None:
     channel.memory.values[ENABLED, ()] = columns
 
 
-def _has_position(channel: Channel, column: int) -> bool:
+def _has_position(channel: SinumerikChannel, column: int) -> bool:
     return (POSITIONS, (column,)) in channel.memory.values
 
 

@@ -6,16 +6,14 @@ effect.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
+from polycnc.control.sinumerik.variables.row import RowWithStop
 from polycnc.language.sinumerik.names.values import Type
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
-
-Row = tuple[Type, Callable[["Channel", Arguments], Any], None, bool]
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 STOP_DELAY, POINTER_LOCK = "DELAYFST", "IPTRLOCK"
 
@@ -23,7 +21,7 @@ STOP_DELAY, POINTER_LOCK = "DELAYFST", "IPTRLOCK"
 def begin(section: str) -> Procedure:
     """DELAYFSTON, IPTRLOCK: the section begins, unless one is open."""
 
-    def run(channel: Channel, _args: Arguments) -> None:
+    def run(channel: SinumerikChannel, _args: Arguments) -> None:
         if not is_open(channel, section):
             channel.memory.sections[section] = channel.level
 
@@ -33,20 +31,20 @@ def begin(section: str) -> Procedure:
 def end(section: str) -> Procedure:
     """DELAYFSTOF, IPTRUNLOCK: the section ends, on the level that began it."""
 
-    def run(channel: Channel, _args: Arguments) -> None:
+    def run(channel: SinumerikChannel, _args: Arguments) -> None:
         if channel.memory.sections.get(section) is channel.level:
             del channel.memory.sections[section]
 
     return run
 
 
-def is_open(channel: Channel, section: str) -> bool:
+def is_open(channel: SinumerikChannel, section: str) -> bool:
     """Whether a section is open: its level has not ended."""
     level = channel.memory.sections.get(section)
     return any(level is each for each in channel.stack)
 
 
-SECTION_VARIABLES: dict[str, Row] = {
+SECTION_VARIABLES: dict[str, RowWithStop] = {
     "$P_DELAYFST": (Type.INT, lambda channel, _indices: int(is_open(channel, STOP_DELAY)), None, False),
     "$AC_DELAYFST": (Type.INT, lambda channel, _indices: int(is_open(channel, STOP_DELAY)), None, True),
     "$P_IPTRLOCK": (Type.BOOL, lambda channel, _indices: is_open(channel, POINTER_LOCK), None, False),

@@ -11,18 +11,18 @@ from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.tools.memory import Tool, Tools
 
 INVALID = 32001
 
 
-def _tool(channel: Channel, number: int) -> Tool | None:
+def _tool(channel: SinumerikChannel, number: int) -> Tool | None:
     tools: Tools = channel.memory.tools
     return tools.tools.get(number)
 
 
-def get_number(channel: Channel, args: Arguments) -> int:
+def get_number(channel: SinumerikChannel, args: Arguments) -> int:
     """GETDNO(t, ce): D number of an edge; 0 if there is none, above 32000 after DZERO."""
     tool = _tool(channel, args[0])
     for number, edge in tool.edges.items() if tool else ():
@@ -31,7 +31,7 @@ def get_number(channel: Channel, args: Arguments) -> int:
     return 0
 
 
-def set_number(channel: Channel, args: Arguments) -> int:
+def set_number(channel: SinumerikChannel, args: Arguments) -> int:
     """SETDNO(t, ce, d): give an edge another D number; 0 if there is no such edge or the tool has the number."""
     tool, edge, number = args
     if number <= 0:
@@ -46,7 +46,7 @@ def set_number(channel: Channel, args: Arguments) -> int:
     return 1
 
 
-def check_numbers(channel: Channel, args: Arguments) -> bool:
+def check_numbers(channel: SinumerikChannel, args: Arguments) -> bool:
     """CHKDNO([t1 [, t2 [, d]]]): whether D numbers are unique, of all tools or of two."""
     tools: Tools = channel.memory.tools
     given = [arg for arg in args if arg is not None]
@@ -61,7 +61,7 @@ def check_numbers(channel: Channel, args: Arguments) -> bool:
     return len(numbers) == len(set(numbers))
 
 
-def tool_of_number(channel: Channel, args: Arguments) -> int:
+def tool_of_number(channel: SinumerikChannel, args: Arguments) -> int:
     """GETACTTD(VAR t, d): the tool of a D number; 0 found, -1 no such tool, -2 several (the first is told)."""
     tools: Tools = channel.memory.tools
     found = [number for number, tool in sorted(tools.tools.items()) if args[1] in tool.edges]
@@ -69,7 +69,7 @@ def tool_of_number(channel: Channel, args: Arguments) -> int:
     return -1 if not found else -2 if len(found) > 1 else 0
 
 
-def invalidate(channel: Channel, _args: Arguments) -> None:
+def invalidate(channel: SinumerikChannel, _args: Arguments) -> None:
     """DZERO: all D numbers are invalid until SETDNO."""
     tools: Tools = channel.memory.tools
     for tool in tools.tools.values():
@@ -77,7 +77,7 @@ def invalidate(channel: Channel, _args: Arguments) -> None:
             edge.is_valid = False
 
 
-def delete_additive(channel: Channel, args: Arguments) -> None:
+def delete_additive(channel: SinumerikChannel, args: Arguments) -> None:
     """DELDL(t, d), DELDL(t), DELDL: take additive offsets away; those of the active tool stay."""
     tools: Tools = channel.memory.tools
     wanted_tool, wanted_edge = (*args, None, None)[:2]

@@ -39,9 +39,8 @@ from polycnc.toolpath import Kind
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
 
 __all__ = ["APPROACHES", "RETRACTIONS", "approach", "retract"]
 
@@ -77,7 +76,7 @@ class Words:
         return cls(distance, clearance, infeed[0] if infeed is not None else None)
 
     def shape(
-        self, draft: Draft, channel: Channel, values: Values, compensation: int, tangent_side: int
+        self, draft: Draft, channel: SinumerikChannel, values: Values, compensation: int, tangent_side: int
     ) -> Shape:
         """The line or arc; alarm 10742 without DISR or with one that is not positive."""
         if self.distance is None:
@@ -123,8 +122,8 @@ def approach(draft: Draft) -> Step | None:
     names_point = any(term.column in columns[:2] for term in terms)
     draft.steps.append(_remember_feed)
 
-    def run(channel: Channel, values: Values) -> None:
-        memory: Memory = channel.memory
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        memory = channel.memory
         start = channel.coordinates.position
         end = target(channel, terms, values)
         compensation = stages.SIDES.get(draft.mode["side"], 0)
@@ -158,8 +157,8 @@ def retract(draft: Draft) -> Step | None:
     names_point = any(term.column in columns[:2] for term in terms)
     draft.steps.append(_remember_feed)
 
-    def run(channel: Channel, values: Values) -> None:
-        memory: Memory = channel.memory
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        memory = channel.memory
         cutter = stages.active_cutter(channel)
         compensation = cutter.side if cutter is not None else 0
         direction = circles.last_direction(channel, columns, axes)
@@ -191,7 +190,7 @@ def retract(draft: Draft) -> Step | None:
 
 
 def _away(
-    channel: Channel,
+    channel: SinumerikChannel,
     draft: Draft,
     third: int,
     point: list[float],
@@ -216,12 +215,12 @@ def _away(
 # ---- helpers
 
 
-def _remember_feed(channel: Channel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+def _remember_feed(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """The feed before the block's own F: it holds for the part of the way that belongs to the block before."""
     channel.memory.feed_before = channel.feed
 
 
-def _place(channel: Channel, kind: Kind, feed: float) -> Move:
+def _place(channel: SinumerikChannel, kind: Kind, feed: float) -> Move:
     position = channel.coordinates.position
     number_ = channel.level.program_number
     return Move(kind, position, position, feed, number_, channel.line, channel.context_number())

@@ -24,7 +24,7 @@ from polycnc.geometry.planes import PLANES
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.geometry.arcs import Point
 
@@ -55,7 +55,7 @@ PlaneStage = SplineStage | SmoothApproach | CornerStage | CutterCompensation
 OF_PLANE: tuple[type[PlaneStage], ...] = (SplineStage, SmoothApproach, CornerStage, CutterCompensation)
 
 
-def cutter(channel: Channel) -> CutterCompensation:
+def cutter(channel: SinumerikChannel) -> CutterCompensation:
     """The stage of cutter radius compensation, in the path."""
     change_plane(channel)
     stage = channel.path.find(CutterCompensation)
@@ -65,37 +65,37 @@ def cutter(channel: Channel) -> CutterCompensation:
     return stage
 
 
-def active_cutter(channel: Channel) -> CutterCompensation | None:
+def active_cutter(channel: SinumerikChannel) -> CutterCompensation | None:
     """The stage that compensates; None while none does."""
     stage = channel.path.find(CutterCompensation)
     return stage if stage is not None and stage.active else None
 
 
-def corner(channel: Channel) -> CornerStage:
+def corner(channel: SinumerikChannel) -> CornerStage:
     """The stage of chamfers and roundings, in the path."""
     change_plane(channel)
     stage = channel.path.find(CornerStage)
     return stage or channel.path.put(CornerStage(plane(channel), CORNERS, CORNER_VIOLATIONS))
 
 
-def approach(channel: Channel) -> SmoothApproach:
+def approach(channel: SinumerikChannel) -> SmoothApproach:
     """The stage that holds a smooth approach back, in the path."""
     change_plane(channel)
     return channel.path.find(SmoothApproach) or channel.path.put(SmoothApproach(plane(channel)))
 
 
-def spline(channel: Channel) -> SplineStage:
+def spline(channel: SinumerikChannel) -> SplineStage:
     """The stage that collects control points, in the path."""
     change_plane(channel)
     return channel.path.find(SplineStage) or channel.path.put(SplineStage(plane(channel)))
 
 
-def plane(channel: Channel) -> Plane:
+def plane(channel: SinumerikChannel) -> Plane:
     """The active plane."""
     return Plane(*PLANES[channel.mode["plane"]], channel.coordinates.geometry)
 
 
-def change_plane(channel: Channel) -> None:
+def change_plane(channel: SinumerikChannel) -> None:
     """G17 to G19: stages of another plane end what they hold; alarm 10757 while compensation is active."""
     first = PLANES[channel.mode["plane"]][0]
     found = [stage for kind in OF_PLANE if (stage := channel.path.find(kind)) and stage.plane.u != first]
@@ -108,7 +108,7 @@ def change_plane(channel: Channel) -> None:
     channel.path.take(*OF_PLANE)
 
 
-def insert(channel: Channel, shape: Shape, size: float, feed: float = nan) -> None:
+def insert(channel: SinumerikChannel, shape: Shape, size: float, feed: float = nan) -> None:
     """CHF, CHR, RND: a chamfer or rounding after the move of this block; alarm 16500 for a negative size."""
     if size < 0.0:
         raise AlarmError("16500")
@@ -116,7 +116,7 @@ def insert(channel: Channel, shape: Shape, size: float, feed: float = nan) -> No
         corner(channel).insert(shape, size, feed)
 
 
-def round_all(channel: Channel, radius: float, feed: float = nan) -> None:
+def round_all(channel: SinumerikChannel, radius: float, feed: float = nan) -> None:
     """RNDM: round every corner from now on; 0 ends it."""
     if radius < 0.0:
         raise AlarmError("16500")
@@ -126,9 +126,9 @@ def round_all(channel: Channel, radius: float, feed: float = nan) -> None:
 # ---- cutter radius compensation
 
 
-def policy(channel: Channel) -> Policy:
+def policy(channel: SinumerikChannel) -> Policy:
     """The rules that hold now: approach, corner, and the limits of the machine data."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     mode = channel.mode
     rules = POLICIES[mode["approach"], mode["corner"]]
     outer = replace(rules.outer, disc_percent=memory.disc)
@@ -138,9 +138,9 @@ def policy(channel: Channel) -> Policy:
     return replace(rules, outer=outer, read_blocks=idle + 2)
 
 
-def select_side(channel: Channel) -> None:
+def select_side(channel: SinumerikChannel) -> None:
     """G41, G42: the contour begins with the next move; alarm 10750 without a tool edge."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     if memory.tools.edge is None:
         raise AlarmError("10750")
     stage = cutter(channel)
@@ -148,28 +148,28 @@ def select_side(channel: Channel) -> None:
     stage.engage(SIDES[channel.mode["side"]], radius(memory), tip(channel))
 
 
-def leave_contour(channel: Channel) -> None:
+def leave_contour(channel: SinumerikChannel) -> None:
     """G40: the next move leads back to the programmed path."""
     stage = active_cutter(channel)
     if stage is not None:
         stage.cancel()
 
 
-def changed_radius(channel: Channel) -> None:
+def changed_radius(channel: SinumerikChannel) -> None:
     """Another edge, TOFFR or OFFN while compensation is active."""
     stage = active_cutter(channel)
     if stage is not None and channel.mode["side"] != "G40":
         stage.change_radius(radius(channel.memory), tip(channel))
 
 
-def changed_rules(channel: Channel) -> None:
+def changed_rules(channel: SinumerikChannel) -> None:
     """NORM, KONT, G450, G451 while compensation is active."""
     stage = active_cutter(channel)
     if stage is not None:
         stage.policy = policy(channel)
 
 
-def suspend(channel: Channel) -> None:
+def suspend(channel: SinumerikChannel) -> None:
     """CUTCONON, CUTCONOF: blocks keep the vector of the last one, or are compensated themselves again."""
     stage = channel.path.find(CutterCompensation)
     if stage is not None:
@@ -181,9 +181,9 @@ def radius(memory: Memory) -> float:
     return memory.tools.radius + memory.allowance_mm
 
 
-def tip(channel: Channel) -> Point:
+def tip(channel: SinumerikChannel) -> Point:
     """From the nose centre to the programmed tip in units of the radius; zero for milling tools."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     edge = memory.tools.edge
     if edge is None or not edge.is_turning:
         return (0.0, 0.0)

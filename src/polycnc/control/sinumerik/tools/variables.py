@@ -10,15 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.feed import tooth_feed
 from polycnc.control.sinumerik.tools.memory import DP_TYPE, PARAMETERS
+from polycnc.control.sinumerik.variables.row import Indices, Row
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.tools.memory import Edge, Tool, Tools
-
-Indices = tuple[Any, ...]
-Row = tuple[Type, Callable[["Channel", Indices], Any], Callable[["Channel", Indices, Any], None] | None]
 
 
 def _numbers(indices: Indices, name: str, count: int) -> list[int]:
@@ -28,7 +26,7 @@ def _numbers(indices: Indices, name: str, count: int) -> list[int]:
     return [int(index) for index in indices]
 
 
-def _edge(channel: Channel, tool: int, number: int) -> Edge:
+def _edge(channel: SinumerikChannel, tool: int, number: int) -> Edge:
     """An edge that is there; alarm 17190 or 17181 else."""
     tools: Tools = channel.memory.tools
     if tool not in tools.tools:
@@ -43,11 +41,11 @@ def _parameter(number: int) -> Row:
     """`$TC_DPn[t,d]`; what is written acts when the edge is selected again."""
     name = f"$TC_DP{number}"
 
-    def read(channel: Channel, indices: Indices) -> float:
+    def read(channel: SinumerikChannel, indices: Indices) -> float:
         tool, edge = _numbers(indices, name, 2)
         return _edge(channel, tool, edge).values[number]
 
-    def write(channel: Channel, indices: Indices, value: float) -> None:
+    def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
         tool, edge = _numbers(indices, name, 2)
         if tool < 1:
             raise AlarmError("17190", tool=tool)
@@ -58,12 +56,12 @@ def _parameter(number: int) -> Row:
     return (Type.INT if number == DP_TYPE else Type.REAL), read, write
 
 
-def _teeth(channel: Channel, indices: Indices) -> float:
+def _teeth(channel: SinumerikChannel, indices: Indices) -> float:
     tool, edge = _numbers(indices, "$TC_DPNT", 2)
     return _edge(channel, tool, edge).teeth
 
 
-def _set_teeth(channel: Channel, indices: Indices, value: float) -> None:
+def _set_teeth(channel: SinumerikChannel, indices: Indices, value: float) -> None:
     tool, edge = _numbers(indices, "$TC_DPNT", 2)
     channel.memory.tools.new_edge(tool, edge).teeth = float(value)
     tooth_feed.follow(channel)
@@ -73,23 +71,23 @@ def _additive(kind: str, number: int) -> Row:
     """`$TC_SCPn[t,d]`, `$TC_ECPn[t,d]`: additive offset; acts when DL or D is programmed again."""
     name = f"$TC_{kind}{number}"
 
-    def read(channel: Channel, indices: Indices) -> float:
+    def read(channel: SinumerikChannel, indices: Indices) -> float:
         tool, edge = _numbers(indices, name, 2)
         return _edge(channel, tool, edge).additive.get((kind, number), 0.0)
 
-    def write(channel: Channel, indices: Indices, value: float) -> None:
+    def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
         tool, edge = _numbers(indices, name, 2)
         _edge(channel, tool, edge).additive[kind, number] = float(value)
 
     return Type.REAL, read, write
 
 
-def _cutting_edge(channel: Channel, indices: Indices) -> int:
+def _cutting_edge(channel: SinumerikChannel, indices: Indices) -> int:
     tool, edge = _numbers(indices, "$TC_DPCE", 2)
     return _edge(channel, tool, edge).cutting_edge or edge
 
 
-def _set_cutting_edge(channel: Channel, indices: Indices, value: int) -> None:
+def _set_cutting_edge(channel: SinumerikChannel, indices: Indices, value: int) -> None:
     tool, edge = _numbers(indices, "$TC_DPCE", 2)
     _edge(channel, tool, edge).cutting_edge = int(value)
 
@@ -101,10 +99,10 @@ def _carrier(number: int) -> Row:
     name = f"$TC_CARR{number}"
     empty: Any = {Type.AXIS: Axis("X"), Type.STRING: ""}.get(type_, 0.0)
 
-    def read(channel: Channel, indices: Indices) -> Any:
+    def read(channel: SinumerikChannel, indices: Indices) -> Any:
         return channel.memory.values.get((name, tuple(_numbers(indices, name, 1))), empty)
 
-    def write(channel: Channel, indices: Indices, value: Any) -> None:
+    def write(channel: SinumerikChannel, indices: Indices, value: Any) -> None:
         channel.memory.values[name, tuple(_numbers(indices, name, 1))] = value
 
     return type_, read, write
@@ -114,17 +112,17 @@ def _oem(kind: str, number: int) -> Row:
     """`$TC_DPCn[t,d]`, `$TC_TPCn[t]`: data of the machine's builder, kept without any effect."""
     name, count = f"$TC_{kind}{number}", 2 if kind == "DPC" else 1
 
-    def read(channel: Channel, indices: Indices) -> float:
+    def read(channel: SinumerikChannel, indices: Indices) -> float:
         value: float = channel.memory.values.get((name, tuple(_numbers(indices, name, count))), 0.0)
         return value
 
-    def write(channel: Channel, indices: Indices, value: float) -> None:
+    def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
         channel.memory.values[name, tuple(_numbers(indices, name, count))] = float(value)
 
     return Type.REAL, read, write
 
 
-def _tool(channel: Channel, indices: Indices, name: str) -> Tool:
+def _tool(channel: SinumerikChannel, indices: Indices, name: str) -> Tool:
     (number,) = _numbers(indices, name, 1)
     tools: Tools = channel.memory.tools
     if number not in tools.tools:
@@ -132,11 +130,11 @@ def _tool(channel: Channel, indices: Indices, name: str) -> Tool:
     return tools.tools[number]
 
 
-def _name(channel: Channel, indices: Indices) -> str:
+def _name(channel: SinumerikChannel, indices: Indices) -> str:
     return _tool(channel, indices, "$TC_TP2").name
 
 
-def _set_name(channel: Channel, indices: Indices, value: str) -> None:
+def _set_name(channel: SinumerikChannel, indices: Indices, value: str) -> None:
     (number,) = _numbers(indices, "$TC_TP2", 1)
     channel.memory.tools.new_tool(number).name = value
 
@@ -144,17 +142,17 @@ def _set_name(channel: Channel, indices: Indices, value: str) -> None:
 def _tool_value(name: str) -> Row:
     """A datum of the tool that is kept and has no effect of its own."""
 
-    def read(channel: Channel, indices: Indices) -> float:
+    def read(channel: SinumerikChannel, indices: Indices) -> float:
         return _tool(channel, indices, name).values.get(name, 0.0)
 
-    def write(channel: Channel, indices: Indices, value: float) -> None:
+    def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
         (number,) = _numbers(indices, name, 1)
         channel.memory.tools.new_tool(number).values[name] = float(value)
 
     return Type.REAL, read, write
 
 
-def _active_length(channel: Channel, indices: Indices) -> float:
+def _active_length(channel: SinumerikChannel, indices: Indices) -> float:
     (number,) = _numbers(indices, "$P_TOOLL", 1)
     edge = channel.memory.tools.edge
     if not 1 <= number <= 3:
@@ -162,7 +160,7 @@ def _active_length(channel: Channel, indices: Indices) -> float:
     return float(edge.lengths[number - 1]) if edge else 0.0
 
 
-def _active_parameter(channel: Channel, indices: Indices) -> float:
+def _active_parameter(channel: SinumerikChannel, indices: Indices) -> float:
     (number,) = _numbers(indices, "$P_AD", 1)
     edge = channel.memory.tools.edge
     if not 1 <= number <= PARAMETERS:
@@ -170,7 +168,7 @@ def _active_parameter(channel: Channel, indices: Indices) -> float:
     return float(edge.values[number]) if edge else 0.0
 
 
-def _of_tools(attribute: str) -> Callable[[Channel, Indices], Any]:
+def _of_tools(attribute: str) -> Callable[[SinumerikChannel, Indices], Any]:
     return lambda channel, _indices: getattr(channel.memory.tools, attribute)
 
 

@@ -1,1 +1,1 @@
-"""System variables: `registry`, `known` (names that exist), `by_name` (for reports), `functions` of the state."""
+"""System variables: `registry`, `row` of its tables, `known` (names that exist), `by_name` (reports), `functions`."""

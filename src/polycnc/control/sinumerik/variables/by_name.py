@@ -17,7 +17,7 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.language.sinumerik.executable import SinumerikProgram
 
 #: How a value from outside becomes one of a type.
@@ -31,7 +31,7 @@ _CONVERSIONS: dict[Type, Callable[[Any], Any]] = {
 }
 
 
-def read(channel: Channel, name: str) -> Any:
+def read(channel: SinumerikChannel, name: str) -> Any:
     """The value of a variable: number, text, BOOL as 1 or 0, AXIS as its name.
 
     Raises:
@@ -52,7 +52,7 @@ def read(channel: Channel, name: str) -> Any:
     return found.name if isinstance(found, Axis) else int(found) if isinstance(found, bool) else found
 
 
-def write(channel: Channel, name: str, value: object) -> None:
+def write(channel: SinumerikChannel, name: str, value: object) -> None:
     """Set a variable from outside.
 
     Raises:
@@ -68,12 +68,12 @@ def write(channel: Channel, name: str, value: object) -> None:
         compiler.emitter.step()(channel)
 
 
-def _compiler(channel: Channel, program: SinumerikProgram, name: str) -> BlockCompiler:
+def _compiler(channel: SinumerikChannel, program: SinumerikProgram, name: str) -> BlockCompiler:
     return BlockCompiler(tokenize(name, 0), program, 0, channel)
 
 
 @contextmanager
-def _main_program(channel: Channel) -> Iterator[SinumerikProgram]:
+def _main_program(channel: SinumerikChannel) -> Iterator[SinumerikProgram]:
     """While it lasts, names and local variables are those of the main program."""
     running = channel.level
     channel.level = channel.stack[0]

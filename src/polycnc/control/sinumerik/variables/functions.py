@@ -22,12 +22,11 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.frames import Vector
 
 
-def value(channel: Channel, name: str, args: Arguments, column: int) -> Any:
+def value(channel: SinumerikChannel, name: str, args: Arguments, column: int) -> Any:
     """The value of a function; PC0001 for one that is not executed, with the column of the call."""
     function = FUNCTIONS.get(name)
     if function is None:
@@ -43,7 +42,7 @@ def value(channel: Channel, name: str, args: Arguments, column: int) -> Any:
         raise
 
 
-def is_axis(channel: Channel, args: Arguments) -> bool:
+def is_axis(channel: SinumerikChannel, args: Arguments) -> bool:
     """ISAXIS(n): whether geometry axis 1, 2 or 3 exists."""
     number = args[0]
     if not 1 <= number <= 3:
@@ -51,9 +50,9 @@ def is_axis(channel: Channel, args: Arguments) -> bool:
     return channel.coordinates.geometry[number - 1] >= 0
 
 
-def modulo_position(channel: Channel, args: Arguments) -> float:
+def modulo_position(channel: SinumerikChannel, args: Arguments) -> float:
     """MODAXVAL(axis, position): the position within the modulo range; unchanged for other axes."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     column = memory.column(args[0].name)
     position = float(args[1])
     if not channel.axis_data[column].modulo:
@@ -63,7 +62,7 @@ def modulo_position(channel: Channel, args: Arguments) -> float:
     return start + (position - start) % memory.data.number("$MA_MODULO_RANGE", name)
 
 
-def spindle_of(_channel: Channel, args: Arguments) -> int:
+def spindle_of(_channel: SinumerikChannel, args: Arguments) -> int:
     """AXTOSPI(axis): number of the spindle that an identifier means."""
     name = args[0].name
     if name[:1] != "S" or not name[1:].isdigit():
@@ -71,13 +70,13 @@ def spindle_of(_channel: Channel, args: Arguments) -> int:
     return int(name[1:])
 
 
-def axis_of_spindle(channel: Channel, args: Arguments) -> Axis:
+def axis_of_spindle(channel: SinumerikChannel, args: Arguments) -> Axis:
     """SPI(n): identifier of a spindle."""
     channel.memory.spindles.get(args[0])
     return Axis(f"S{args[0]}")
 
 
-def rotation_in_plane(_channel: Channel, args: Arguments) -> NcFrame:
+def rotation_in_plane(_channel: SinumerikChannel, args: Arguments) -> NcFrame:
     """CRPL(plane, angle): 0 for Z, 1 for X, 2 for Y as the axis of rotation."""
     plane = args[0]
     if not 0 <= plane <= 3:
@@ -85,7 +84,7 @@ def rotation_in_plane(_channel: Channel, args: Arguments) -> NcFrame:
     return crpl((plane + 2) % 3, float(args[1]))
 
 
-def solid_rotation(channel: Channel, args: Arguments) -> NcFrame:
+def solid_rotation(channel: SinumerikChannel, args: Arguments) -> NcFrame:
     """CROTS(axis, angle, …): rotation with solid angles."""
     if len(args) % 2:
         raise AlarmError("14020", text="CROTS")
@@ -95,7 +94,7 @@ def solid_rotation(channel: Channel, args: Arguments) -> NcFrame:
     return codes.crots(angles)
 
 
-def in_window(channel: Channel, args: Arguments) -> bool:
+def in_window(channel: SinumerikChannel, args: Arguments) -> bool:
     """POSRANGE(axis, reference, window, system): whether the axis stands within a window (system 1: work)."""
     column = channel.memory.column(args[0].name)
     coordinates = channel.coordinates
@@ -103,7 +102,7 @@ def in_window(channel: Channel, args: Arguments) -> bool:
     return bool(abs(position[column] - args[1]) <= args[2])
 
 
-def measured_frame(_channel: Channel, args: Arguments) -> NcFrame:
+def measured_frame(_channel: SinumerikChannel, args: Arguments) -> NcFrame:
     """MEAFRAME(ideal, measured, VAR quality): best fit; quality -1 or -2 where points lie on a line."""
     ideal, measured = (_points(array) for array in args[:2])
     for points, mistake in ((ideal, -1.0), (measured, -2.0)):
@@ -123,7 +122,7 @@ def _points(array: Any) -> list[Vector]:
     return [(float(x), float(y), float(z)) for x, y, z in rows]
 
 
-FUNCTIONS: dict[str, Callable[[Channel, Arguments], Any]] = {
+FUNCTIONS: dict[str, Callable[[SinumerikChannel, Arguments], Any]] = {
     "ISAXIS": is_axis,
     "MEAFRAME": measured_frame,
     "MODAXVAL": modulo_position,

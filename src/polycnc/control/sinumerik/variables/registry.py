@@ -9,7 +9,6 @@ Source: job planning 1.1.2 (prefixes), 5.1 (actual values), and the manual of sy
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import isnan
 from typing import TYPE_CHECKING, Any
@@ -31,19 +30,15 @@ from polycnc.control.sinumerik.signals.sections import SECTION_VARIABLES
 from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.control.sinumerik.tools.variables import TOOL_VARIABLES
 from polycnc.control.sinumerik.variables.known import is_known
+from polycnc.control.sinumerik.variables.row import Indices, Reader, Writer
 from polycnc.language.sinumerik.names.frame import NcFrame
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.feed.spindles import Spindle
-    from polycnc.control.sinumerik.memory import Memory
-
-Indices = tuple[Any, ...]
-Reader = Callable[["Channel", Indices], Any]
-Writer = Callable[["Channel", Indices, Any], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,11 +59,11 @@ class SystemVariable:
     writer: Writer | None = None
     stop: bool = False
 
-    def read(self, channel: Channel, indices: Indices) -> Any:
+    def read(self, channel: SinumerikChannel, indices: Indices) -> Any:
         """The value; indices are ints, axes or frame components as programmed."""
         return self.reader(channel, indices)
 
-    def write(self, channel: Channel, indices: Indices, value: Any) -> None:
+    def write(self, channel: SinumerikChannel, indices: Indices, value: Any) -> None:
         """Set the value; alarm 17210 for a variable that can only be read."""
         if self.writer is None:
             raise AlarmError("17210", text=self.name)
@@ -125,8 +120,8 @@ def axis_of(indices: Indices, name: str) -> str:
     return indices[0].name
 
 
-def _spindle_of(channel: Channel, axis: str) -> Spindle | None:
-    memory: Memory = channel.memory
+def _spindle_of(channel: SinumerikChannel, axis: str) -> Spindle | None:
+    memory = channel.memory
     number = axis[1:]
     return memory.spindles.all.get(int(number)) if axis[:1] == "S" and number.isdigit() else None
 
@@ -139,13 +134,13 @@ def _machine_datum(name: str) -> SystemVariable:
     kinds = {bool: Type.BOOL, int: Type.INT, str: Type.STRING}
     axial = name[2] == "A"
 
-    def read(channel: Channel, indices: Indices) -> Any:
+    def read(channel: SinumerikChannel, indices: Indices) -> Any:
         if axial and not any(isinstance(index, Axis) for index in indices):
             raise AlarmError("12400", text=name)
         data: MachineData = channel.memory.data
         return data.read(name, *indices)
 
-    def write(channel: Channel, indices: Indices, new: Any) -> None:
+    def write(channel: SinumerikChannel, indices: Indices, new: Any) -> None:
         channel.memory.data.write(name, indices, new)
         if name in working_area.DATA:
             working_area.refresh(channel)
@@ -158,9 +153,9 @@ def _machine_datum(name: str) -> SystemVariable:
 # ---- positions
 
 
-def _work_frame(channel: Channel, outer: str) -> list[float]:
+def _work_frame(channel: SinumerikChannel, outer: str) -> list[float]:
     """Positions of all axes in the system below `outer`: WCS, SZS (settable), BZS (base)."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     coordinates = channel.coordinates
     if outer == "work":
         return coordinates.position
@@ -176,7 +171,7 @@ def _work_frame(channel: Channel, outer: str) -> list[float]:
 
 
 def _position(name: str, system: str, *, stop: bool = True) -> SystemVariable:
-    def read(channel: Channel, indices: Indices) -> float:
+    def read(channel: SinumerikChannel, indices: Indices) -> float:
         axis = axis_of(indices, name)
         spindle = _spindle_of(channel, axis)
         if spindle is not None:
@@ -192,56 +187,56 @@ def _position(name: str, system: str, *, stop: bool = True) -> SystemVariable:
 # ---- states of the program
 
 
-def _group_number(channel: Channel, indices: Indices) -> int:
+def _group_number(channel: SinumerikChannel, indices: Indices) -> int:
     number = index_of(indices, "$P_GG", 62, first=1)
     group = gcodes.BY_NUMBER.get(number)
     return gcodes.number_of(channel.mode[group.name]) if group and group.is_modal else 0
 
 
 def _geometry_axis(position: int) -> Reader:
-    def read(channel: Channel, _indices: Indices) -> Axis:
+    def read(channel: SinumerikChannel, _indices: Indices) -> Axis:
         column = channel.coordinates.geometry[position]
         return Axis(channel.axes[column] if column >= 0 else "XYZ"[position])
 
     return read
 
 
-def _programmed_feed(channel: Channel, _indices: Indices) -> float:
+def _programmed_feed(channel: SinumerikChannel, _indices: Indices) -> float:
     feed: float = 0.0 if isnan(channel.feed) else channel.feed
     return feed * MINUTE if channel.memory.feed_mode is not FeedMode.PER_REVOLUTION else feed
 
 
 def _spindle_value(attribute: str) -> Reader:
-    def read(channel: Channel, indices: Indices) -> Any:
+    def read(channel: SinumerikChannel, indices: Indices) -> Any:
         number = arguments.spindle(indices[0]) if indices else None
         return getattr(channel.memory.spindles.get(number), attribute)
 
     return read
 
 
-def _turning_speed(channel: Channel, indices: Indices) -> float:
+def _turning_speed(channel: SinumerikChannel, indices: Indices) -> float:
     """What a spindle turns with, without sign."""
-    memory: Memory = channel.memory
+    memory = channel.memory
     spindle = memory.spindles.get(arguments.spindle(indices[0]) if indices else None)
     return spindle_speed.turning_speed(memory, spindle, channel.mode["feed"])
 
 
-def _direction(channel: Channel, indices: Indices) -> int:
+def _direction(channel: SinumerikChannel, indices: Indices) -> int:
     """3, 4 or 5, as the M function."""
     direction: int = _spindle_value("direction")(channel, indices)
     return {1: 3, -1: 4}.get(direction, 5)
 
 
-def _polar_mode(channel: Channel, _indices: Indices) -> float:
+def _polar_mode(channel: SinumerikChannel, _indices: Indices) -> float:
     return float(channel.memory.allowance_mm)
 
 
-def _program_name(channel: Channel, indices: Indices) -> str:
+def _program_name(channel: SinumerikChannel, indices: Indices) -> str:
     level = index_of(indices, "$P_PROG", len(channel.stack)) if indices else len(channel.stack) - 1
     return channel.stack[level].code.program.name
 
 
-def _line_number(channel: Channel, _indices: Indices) -> int:
+def _line_number(channel: SinumerikChannel, _indices: Indices) -> int:
     return channel.line
 
 
@@ -296,18 +291,18 @@ def _store(
     """An array that keeps what is written; its size is a number or a machine datum."""
     empty: Any = {Type.BOOL: False, Type.INT: 0}.get(type_, 0.0)
 
-    def place(channel: Channel, indices: Indices) -> int:
-        memory: Memory = channel.memory
+    def place(channel: SinumerikChannel, indices: Indices) -> int:
+        memory = channel.memory
         size = size_datum if isinstance(size_datum, int) else memory.data.integer(size_datum)
         return index_of(indices, name, size + first, first)
 
-    def read(channel: Channel, indices: Indices) -> Any:
+    def read(channel: SinumerikChannel, indices: Indices) -> Any:
         return kept(channel).get((name, (place(channel, indices),)), empty)
 
-    def write(channel: Channel, indices: Indices, value: Any) -> None:
+    def write(channel: SinumerikChannel, indices: Indices, value: Any) -> None:
         kept(channel)[name, (place(channel, indices),)] = value
 
-    def kept(channel: Channel) -> dict[tuple[str, Indices], Any]:
+    def kept(channel: SinumerikChannel) -> dict[tuple[str, Indices], Any]:
         values: dict[tuple[str, Indices], Any]
         values = channel.memory.nck if name.startswith("$A_") else channel.memory.values
         return values
