@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 
 #: A value that only the machine knows, where the setup does not say it.
 MACHINE: Literal["machine"] = "machine"
-Delivered: TypeAlias = float | Literal["machine"]
+#: How handlers read a parameter, unless the list says otherwise.
+BY_NAME = "by name"
 
 
 # ---- the list --------------------------------------------------------------------------------------------------
@@ -41,7 +42,7 @@ class KnownParameter:
         unit: Unit of the value, empty for bits and whole numbers.
         delivered: Value that a control has without a setup; None where it depends on the machine.
         by_axis: Every axis has its own value.
-        by_number: What several controls share reads it, by its number.
+        read: `by name` as an attribute; `by number` in what several controls share; `not yet` where it is only listed.
     """
 
     number: str
@@ -50,7 +51,7 @@ class KnownParameter:
     unit: str
     delivered: float | None
     by_axis: bool
-    by_number: bool
+    read: str
 
     @property
     def key(self) -> ParameterKey:
@@ -85,7 +86,7 @@ def load_parameters(name: str) -> tuple[KnownParameter, ...]:
                 entry.get("unit", ""),
                 None if delivered == MACHINE else delivered,
                 by_axis=entry.get("axis", False),
-                by_number=entry.get("by_number", False),
+                read=entry.get("read", BY_NAME),
             )
         )
     return tuple(found)
@@ -206,6 +207,11 @@ class ControlParameters(Parameters, Generic[A_co]):
     def __init__(self, values: Mapping[ParameterKey, Value] | None = None) -> None:
         super().__init__(values)
         self._of_axis: dict[str, A_co] = {}
+
+    @classmethod
+    def naming(cls, given: Parameters) -> Self:
+        """The parameters of a setup with their names; the very same ones where they have them already."""
+        return given if isinstance(given, cls) else cls(dict(given.items()))
 
     @property
     def given(self) -> Parameters:

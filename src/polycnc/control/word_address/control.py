@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 from importlib import resources
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step as ProgramStep
+    from polycnc.control.parameters import AxisParameters, ControlParameters
     from polycnc.control.word_address.block.codes import Handler, Planner, Step
     from polycnc.control.word_address.memory import ToolOffset
     from polycnc.geometry.arcs import Point
@@ -92,6 +94,7 @@ class WordAddressControl:
     only_context: ClassVar[frozenset[Handler]] = frozenset((systems.note_context,))
     settled_codes: ClassVar[Mapping[str, Condition]] = {}
     foreign_codes: ClassVar[Mapping[str, str]] = {}
+    parameter_class: ClassVar[type[ControlParameters[AxisParameters]] | None] = None
     drilling: ClassVar[Drilling] = Drilling({})
     FEED_AT_START: ClassVar[float | None] = None
     DIAMETER_PROGRAMMING: ClassVar[bool] = False
@@ -178,8 +181,9 @@ class WordAddressControl:
 
     def start(self, channel: Channel) -> None:
         """Power-on state."""
-        channel.mode = channel.modes.mode(self.start_codes(channel))
+        self.name_parameters(channel)
         channel.memory = self.make_memory(channel)
+        channel.mode = channel.modes.mode(self.start_codes(channel))
         channel.skip_levels = channel.setup.switches.block_skip_mask(plain=1)
         if channel.number == 1:
             channel.memory.tool = channel.memory.next_tool = int(channel.setup.spindle_tool)
@@ -191,6 +195,12 @@ class WordAddressControl:
                 self.write_variable(channel, name, value)
             except (KeyError, ValueError):
                 raise self.fail("variable_number", detail=text("setup.no-variable", name=name)) from None
+
+    def name_parameters(self, channel: Channel) -> None:
+        """Let parameters of the setup be attributes by their names, where the control has a list of them."""
+        if self.parameter_class is not None:
+            setup = channel.setup
+            channel.setup = replace(setup, parameters=self.parameter_class.naming(setup.parameters))
 
     def begin(self, channel: Channel) -> None:
         """A main program begins in the state that the channel is in."""

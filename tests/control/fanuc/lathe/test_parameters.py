@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import re
+import ast
 from importlib.resources import files
 from pathlib import Path
 
 from polycnc.control import registry
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.parameter_module import module_text
-from polycnc.control.parameters import known_parameters
+from polycnc.control.parameters import BY_NAME, known_parameters
 
 LATHE = known_parameters(registry.control("fanuc-0i-tf"))
-#: A bit or a number of a parameter, as the lathe's modules ask for them.
-READ = re.compile(r"\b(?:bit|number|cycle_parameter)\(\s*(\d+)(?:, (\d)\b)?")
 CONTROL = Path(str(files("polycnc.control")))
 
 
@@ -22,16 +20,16 @@ def test_the_module_is_what_the_list_gives() -> None:
     assert written == module_text("fanuc/lathe/parameters.toml", "Lathe")
 
 
-def test_every_parameter_that_the_lathe_reads_is_in_the_list() -> None:
-    names = {parameter.number for parameter in LATHE}
-    numbers = {name.partition("#")[0] for name in names}
-    missing = set()
-    for module in Path(str(files("polycnc.control.fanuc.lathe"))).rglob("*.py"):
-        for number, bit in READ.findall(module.read_text(encoding="utf-8")):
-            wanted = f"{number}#{bit}" if bit else number
-            if wanted not in (names if bit else numbers):
-                missing.add(wanted)
-    assert not missing
+def test_the_parameters_that_the_list_gives_to_handlers_are_those_that_they_read() -> None:
+    modules = [path for path in (CONTROL / "fanuc").rglob("*.py") if path.name != "parameters.py"]
+    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in modules]
+    read = {node.attr for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
+    names = {
+        how: {each.name for each in LATHE if each.read == how} for how in (BY_NAME, "by number", "not yet")
+    }
+    assert names[BY_NAME] <= read
+    assert not names["not yet"] & read
+    assert sum(map(len, names.values())) == len(LATHE)
 
 
 def test_every_parameter_has_both_languages_and_a_key_and_a_name_of_its_own() -> None:

@@ -12,18 +12,18 @@ from polycnc.language.bulk import Note, declare, declared
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
 
 
-def output_while_moving(_channel: Channel, _words: Words) -> None:
+def output_while_moving(_channel: LatheChannel, _words: Words) -> None:
     """G50.9: auxiliary functions at a point of the way; not executed yet."""
     raise AlarmError(NOT_YET, address="G50.9", hint="hint.not-supported", code="G50.9")
 
 
-def dwell(channel: Channel, words: Words) -> None:
+def dwell(channel: LatheChannel, words: Words) -> None:
     """G04 X, U (seconds) or P (milliseconds); spindle revolutions under G99 with 3405#1 DWL.
 
     Behind a line whose end lies in the next block (II.4.9) it waits for that line.
@@ -35,8 +35,8 @@ def dwell(channel: Channel, words: Words) -> None:
         line.behind.append((channel.level.current, partial(_dwell, channel, words)))
 
 
-def _dwell(channel: Channel, words: Words) -> None:
-    if not (channel.memory.parameters.bit(3405, 1) and channel.mode["feed"] == "G99"):
+def _dwell(channel: LatheChannel, words: Words) -> None:
+    if not (channel.memory.parameters.DWL and channel.mode["feed"] == "G99"):
         functions.dwell(channel, words)
         return
     thousandths = words.integer("P") if "P" in words else None
@@ -50,7 +50,7 @@ def _dwell(channel: Channel, words: Words) -> None:
             return
 
 
-def wait_for_blocks(channel: Channel, _words: Words) -> None:
+def wait_for_blocks(channel: LatheChannel, _words: Words) -> None:
     """G04.1: blocks behind are taken in when those in front have ended."""
     channel.flush()
     channel.synchronise()
@@ -63,7 +63,7 @@ def plan_spindle_speed(builder: Builder) -> Step:
         raise builder.control.fail("point", address="S")
     set_speed = functions.plan_spindle_speed(builder)
 
-    def checked(channel: Channel, values: list[float]) -> None:
+    def checked(channel: LatheChannel, values: list[float]) -> None:
         if values[slot] < 0.0:
             raise channel.control.fail("minus", address="S")
         set_speed(channel, values)
@@ -78,12 +78,12 @@ def plan_second_auxiliary(builder: Builder) -> Step | None:
     return functions.plan_second_auxiliary(builder)
 
 
-def surface_speed(channel: Channel, words: Words) -> None:
+def surface_speed(channel: LatheChannel, words: Words) -> None:
     """G96 S [P]: P is the controlled axis whose work coordinate is the diameter, 0 for that of 3770.
 
     Beside an M code, or with 3703#3 MPP, P names the spindle instead.
     """
-    names_spindle = words.plan.m_codes or channel.memory.parameters.bit(3703, 3)
+    names_spindle = words.plan.m_codes or channel.memory.parameters.MPP
     if "P" in words and not names_spindle:
         axis = words.integer("P") or 0
         if not 0 <= axis <= len(channel.axes):
@@ -91,11 +91,11 @@ def surface_speed(channel: Channel, words: Words) -> None:
     channel.context_changed()
 
 
-def switch_by_q(_channel: Channel, words: Words) -> None:
+def switch_by_q(_channel: LatheChannel, words: Words) -> None:
     """G05.4 Q1, Q0: another current loop of the drives; the path is unchanged."""
     if words.integer("Q") not in (0, 1):
         raise words.fail("preview_value", "Q")
 
 
-def note_fluctuation(_channel: Channel, _words: Words) -> None:
+def note_fluctuation(_channel: LatheChannel, _words: Words) -> None:
     """G26 P Q R I: the spindle's speed is watched; an ideal spindle never leaves the window."""

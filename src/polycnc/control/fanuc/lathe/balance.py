@@ -14,7 +14,7 @@ from polycnc.control.fanuc.lathe.cycles.single import CYCLES
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
@@ -25,12 +25,12 @@ ON, OFF, CUT = 68, 69, 1
 RAPID, LINE = "G0", "G1"
 
 
-def is_available(channel: Channel) -> bool:
+def is_available(channel: LatheChannel) -> bool:
     """Whether G68 is balance cutting here: several paths and 8137#0 NVC = 0; else it mirrors a turret."""
-    return len(channel.machine.channels) > 1 and not channel.setup.parameters.bit(8137, 0)
+    return len(channel.machine.channels) > 1 and not channel.memory.parameters.NVC
 
 
-def start_paths(channel: Channel) -> None:
+def start_paths(channel: LatheChannel) -> None:
     """Cycle start: with the first path the others start their programs of the same name."""
     group = channel.group
     if group is None or channel is not group.first:
@@ -45,7 +45,7 @@ def start_paths(channel: Channel) -> None:
             group.start(other.number)
 
 
-def begin(channel: Channel, words: Words) -> None:
+def begin(channel: LatheChannel, words: Words) -> None:
     """G68 [P]: wait for G68 of the other paths; from here on they cut together. Without P: paths 1 and 2."""
     _check_alone(words, "P")
     memory = channel.memory
@@ -55,7 +55,7 @@ def begin(channel: Channel, words: Words) -> None:
     _meet(channel, ON, memory.balanced)
 
 
-def end(channel: Channel, words: Words) -> None:
+def end(channel: LatheChannel, words: Words) -> None:
     """G69: wait for G69 of the other paths; every path cuts by itself again."""
     _check_alone(words, "")
     memory = channel.memory
@@ -72,7 +72,7 @@ def together(builder: Builder, plan: Plan, move: Step | None) -> Step | None:
     if (motion == RAPID and builder.mode["cycle"] == "G80") or not (plan.axis_words or motion in CYCLES):
         return move
 
-    def cut(channel: Channel, values: list[float]) -> None:
+    def cut(channel: LatheChannel, values: list[float]) -> None:
         before = list(channel.coordinates.position)
         move(channel, values)
         if motion != LINE or channel.coordinates.position != before:
@@ -81,12 +81,12 @@ def together(builder: Builder, plan: Plan, move: Step | None) -> Step | None:
     return cut
 
 
-def _paths(channel: Channel, words: Words) -> frozenset[int]:
+def _paths(channel: LatheChannel, words: Words) -> frozenset[int]:
     """The paths that P names: as a sum of 2^(n-1), or as digits (8103#1 MWP); PS0163 for a wrong one."""
     value = words.integer("P")
     if value is None:
         return frozenset({1, 2})
-    if channel.setup.parameters.bit(8103, 1):
+    if channel.memory.parameters.MWP:
         digits = [int(digit) for digit in str(abs(value))]
     else:
         digits = [n + 1 for n in range(abs(value).bit_length()) if abs(value) >> n & 1]
@@ -105,7 +105,7 @@ def _check_alone(words: Words, allowed: str) -> None:
         raise words.fail("turret_form", foreign[0] if foreign else plan.order[0])
 
 
-def _meet(channel: Channel, mark: int, paths: Iterable[int]) -> None:
+def _meet(channel: LatheChannel, mark: int, paths: Iterable[int]) -> None:
     group = channel.group
     if group is None:
         return

@@ -18,6 +18,7 @@ from polycnc.control.fanuc.lathe.cycles import repetitive, single
 from polycnc.control.fanuc.lathe.cycles.drilling import NORMAL_CYCLES, SERIES_15_CYCLES
 from polycnc.control.fanuc.lathe.cycles.tapping import RIGID, RIGID_OFF, rigid_tapping
 from polycnc.control.fanuc.lathe.motion import drawing, threads
+from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools import data_input, measuring, nose_radius, offsets
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block.codes import GCode, MCode, Order, m_table
@@ -30,7 +31,6 @@ from polycnc.control.word_address.transformations import cylinder, normal_line, 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.machine.setup.values import Parameters
 
 SYSTEMS = "ABC"
 
@@ -189,19 +189,17 @@ GRINDING = tuple(
 )
 
 
-#: Functions that a machine may lack: parameter, bit, the value of the bit that says so, and the codes it takes away.
+#: Functions that a machine may lack: the bit, its value that says so, and the codes it takes away.
 FUNCTIONS = (
-    (8133, 0, 0, frozenset({"G96"})),
-    (8135, 5, 1, frozenset({"G65", "G66", "G66.1", "G67"})),
-    (8136, 7, 1, frozenset({"G38", "G39", "G41", "G42"})),
+    (LatheParameters.SSC, False, frozenset({"G96"})),
+    (LatheParameters.MNC, True, frozenset({"G65", "G66", "G66.1", "G67"})),
+    (LatheParameters.NCR, True, frozenset({"G38", "G39", "G41", "G42"})),
 )
 
 
-def missing_codes(parameters: Parameters) -> frozenset[str]:
+def missing_codes(parameters: LatheParameters) -> frozenset[str]:
     """The codes whose functions the machine lacks: they are improper ones then (PS0010, II.2)."""
-    lacking = (
-        codes for number, bit, off, codes in FUNCTIONS if parameters.bit(number, bit, default=1 - off) == off
-    )
+    lacking = (codes for function, off, codes in FUNCTIONS if parameters.value(function) is off)
     return frozenset[str]().union(*lacking)
 
 

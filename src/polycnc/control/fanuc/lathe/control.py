@@ -21,6 +21,7 @@ from polycnc.control.fanuc.lathe.coordinates import limits, systems
 from polycnc.control.fanuc.lathe.cycles import drilling, intervention, repetitive, shape, single, tapping
 from polycnc.control.fanuc.lathe.memory import TurningMemory
 from polycnc.control.fanuc.lathe.motion import drawing, threads
+from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools import data_input, files, nose_radius, offsets
 from polycnc.control.fanuc.lathe.variables import TURNING_VARIABLES
 from polycnc.control.fanuc.operation import dry_run
@@ -38,12 +39,12 @@ from polycnc.toolpath.modes import FeedMode
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-    from polycnc.channel.channel import Channel
     from polycnc.channel.intervention import TakesBack
     from polycnc.channel.stack import Level
     from polycnc.channel.steps import Step as ProgramStep
     from polycnc.compensation.policy import Policy
     from polycnc.control.data_files import DataFiles
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import GCode, Handler, Planner, Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.cycles.drilling import Drilling
@@ -75,6 +76,7 @@ class FanucTurning(CustomMacroControl):
     foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
     data_files: ClassVar[DataFiles] = files
     parameter_file: ClassVar[str] = "fanuc/lathe/parameters.toml"
+    parameter_class: ClassVar = LatheParameters
     EXTENDED_WORK_SYSTEMS: ClassVar[int] = 48
     DIAMETER_PROGRAMMING: ClassVar[bool] = True
     POINT_IN_WHOLE_NUMBERS: ClassVar[bool] = False
@@ -91,57 +93,58 @@ class FanucTurning(CustomMacroControl):
 
     # ---- state -----------------------------------------------------------------------------------------------
 
-    def system(self, channel: Channel) -> str:
+    def system(self, channel: LatheChannel) -> str:
         """The G code system, A, B or C (3401#6 GSB, #7 GSC)."""
-        bit = channel.setup.parameters.bit
-        return "C" if bit(3401, 7) else "B" if bit(3401, 6) else "A"
+        parameters = channel.memory.parameters
+        return "C" if parameters.GSC else "B" if parameters.GSB else "A"
 
-    def g_table(self, channel: Channel) -> Mapping[str, GCode]:
+    def g_table(self, channel: LatheChannel) -> Mapping[str, GCode]:
         """The G codes as programs of this channel write them."""
-        bit = channel.setup.parameters.bit
+        parameters = channel.memory.parameters
         table = g_table(
             self.system(channel),
-            circular_thread=bool(bit(3405, 3)),
-            grinding=bool(bit(5106, 0)),
+            circular_thread=parameters.G36,
+            grinding=parameters.GFX,
             series_15=drilling.drills_in_series_15(channel),
             balance=balance.is_available(channel),
-            missing=missing_codes(channel.setup.parameters),
+            missing=missing_codes(channel.memory.parameters),
         )
         return self.with_calls(channel, table)
 
-    def code_calls(self, channel: Channel) -> CodeCalls:
+    def code_calls(self, channel: LatheChannel) -> CodeCalls:
         """Codes registered by 6050 to 6089 and 6001#5."""
         return registered_codes(channel)
 
-    def written_code(self, channel: Channel, group: str) -> str:
+    def written_code(self, channel: LatheChannel, group: str) -> str:
         """The active code of a modal group as the program writes it."""
         code = channel.mode[group]
         return written_codes(self.system(channel)).get((group, code), code)
 
-    def motion_settings(self, channel: Channel) -> MotionSettings:
+    def motion_settings(self, channel: LatheChannel) -> MotionSettings:
         """1401#1 LRP: rapids run on a line, else every axis by itself; what acts on a rigid tap (5203#4, 5200#6).
 
-        7001#0 MIT: manual intervention and return.
+        7001#0 MIT: manual intervention and return. The main run asks this also in front of power-on.
         """
-        bit = channel.setup.parameters.bit
+        parameters = LatheParameters.naming(channel.setup.parameters)
         return replace(
             super().motion_settings(channel),
-            rapid_by_axis=not bit(1401, 1),
-            taps_overridden=bool(bit(5203, 4)),
-            taps_held=bool(bit(5200, 6)),
-            returns_to_path=bool(bit(7001, 0)),
-            dry_run=dry_run(channel.setup.parameters),
+            rapid_by_axis=not parameters.LRP,
+            taps_overridden=parameters.OVS,
+            taps_held=parameters.FHD,
+            returns_to_path=parameters.MIT,
+            dry_run=dry_run(parameters),
         )
 
-    def stays_at_end(self, channel: Channel, code: int) -> bool:
+    def stays_at_end(self, channel: LatheChannel, code: int) -> bool:
         """3404#5 M02, 3404#4 M30: the program is not rewound to its top."""
-        return bool(channel.setup.parameters.bit(3404, 4 if code == 30 else 5))
+        parameters = channel.memory.parameters
+        return parameters.M30 if code == 30 else parameters.M02
 
-    def make_memory(self, channel: Channel) -> TurningMemory:
+    def make_memory(self, channel: LatheChannel) -> TurningMemory:
         """Offsets, tools and variables."""
         return TurningMemory(channel, TURNING_VARIABLES)
 
-    def start(self, channel: Channel) -> None:
+    def start(self, channel: LatheChannel) -> None:
         """Power-on state; positions of the setup are those of the displays, X in diameter."""
         super().start(channel)
         machine = channel.coordinates.machine
@@ -151,51 +154,49 @@ class FanucTurning(CustomMacroControl):
         channel.memory.feed_code, channel.memory.plane = channel.mode["feed"], channel.mode["plane"]
         balance.start_paths(channel)
 
-    def begin(self, channel: Channel) -> None:
+    def begin(self, channel: LatheChannel) -> None:
         """Cycle start: further paths start with the first one."""
         super().begin(channel)
         balance.start_paths(channel)
 
-    def reset(self, channel: Channel) -> None:
+    def reset(self, channel: LatheChannel) -> None:
         """The state after reset, and after the end of a program."""
         turning_reset.reset(channel)
 
-    def halts(self, channel: Channel, level: Level, step: ProgramStep) -> bool:
+    def halts(self, channel: LatheChannel, level: Level, step: ProgramStep) -> bool:
         """Single block halts behind the first block that is no thread (II.3.1)."""
         if channel.memory.thread_step == level.current and channel.mode["motion"] in offsets.THREADS:
             return False
         return super().halts(channel, level, step)
 
-    def start_codes(self, channel: Channel) -> dict[str, str]:
+    def start_codes(self, channel: LatheChannel) -> dict[str, str]:
         """Code of every modal group at power-on (3402)."""
-        bit = channel.setup.parameters.bit
+        parameters = channel.memory.parameters
         codes = dict(self.power_on)
-        if bit(3402, 0):
+        if parameters.start_g01:
             codes["motion"] = "G1"
-        if bit(3402, 1):
+        if parameters.start_g17:
             codes["plane"] = "G17"
-        elif bit(3402, 2):
+        elif parameters.start_g19:
             codes["plane"] = "G19"
-        if bit(3402, 3) and self.system(channel) != "A":
+        if parameters.start_g91 and self.system(channel) != "A":
             codes["distance"] = "G91"
-        if bit(3402, 4, default=1):
+        if parameters.FPM:
             codes["feed"] = "G98"
-        if bit(3402, 7):
+        if parameters.start_g23:
             codes["stroke"] = "G23"
-        if bit(0, 2):
+        if parameters.INI:
             codes["unit"] = "G20"
         return codes
 
     # ---- axes and numbers ------------------------------------------------------------------------------------
 
-    def is_diameter(self, channel: Channel, axis: int) -> bool:
+    def is_diameter(self, channel: LatheChannel, axis: int) -> bool:
         """Whether words of an axis are diameters (1006#3 DIA; delivered: X)."""
-        data = channel.axis_data[axis]
-        delivered = int(data.diameter)
         polar = PolarState.of(channel).plane
-        if polar is not None and axis == polar.linear and not channel.setup.parameters.bit(5450, 0):
+        if polar is not None and axis == polar.linear and not channel.memory.parameters.PDI:
             return False
-        return bool(channel.setup.parameters.bit(1006, 3, channel.axes[axis], delivered)) and not data.rotary
+        return channel.memory.has_diameter(channel, axis)
 
     def feed_factor(self, builder: Builder, form: str, mode: FeedMode) -> float:
         """F without a point: also feeds per minute count 0.01 inch (II.4.5.1, "unit of F")."""
@@ -208,22 +209,24 @@ class FanucTurning(CustomMacroControl):
             return 0.01
         return super().feed_factor(builder, form, mode)
 
-    def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
+    def axis_of_address(
+        self, channel: LatheChannel, address: str, builder: Builder
+    ) -> tuple[int, bool] | None:
         """X/U, Z/W, Y/V, C/H in system A; G90/G91 in B and C."""
         if self.system(channel) != "A":
             index = channel.axis_index.get(address)
             return None if index is None else (index, builder.mode["distance"] == "G91")
         return super().axis_of_address(channel, address, builder)
 
-    def reference_point(self, channel: Channel, axis: int, number: int) -> float:
+    def reference_point(self, channel: LatheChannel, axis: int, number: int) -> float:
         """Machine position of a reference point; the parameter of a diameter axis is a diameter."""
         name = channel.axes[axis]
-        shown = channel.setup.parameters.get(self.REFERENCE_PARAMETERS[number], name)
+        shown = channel.memory.parameters.get(self.REFERENCE_PARAMETERS[number], name)
         if isinstance(shown, int | float):
             return float(channel.memory.radius_of(axis, float(shown)))
         return channel.axis_data[axis].reference_points[number - 1]
 
-    def context(self, channel: Channel) -> Context:
+    def context(self, channel: LatheChannel) -> Context:
         """The context that holds now, with what threads and taps keep from the operator."""
         context = threads.locked(channel, super().context(channel))
         tapping, overlap = OverrideState.of(channel).tapping, CycleState.of(channel).overlap
@@ -238,7 +241,7 @@ class FanucTurning(CustomMacroControl):
         normal_line.check_block(builder)
         return data_input.plan_parameter_block(builder, plan) or super().call_by_code(builder, plan)
 
-    def check_nesting(self, channel: Channel, kind: str) -> None:
+    def check_nesting(self, channel: LatheChannel, kind: str) -> None:
         """As everywhere; the shape that G70 runs calls no program at all (II.4.2.8)."""
         if channel.level.kind == nose_radius.SHAPE_KIND:
             raise self.fail("shape_command", address="P")
@@ -291,7 +294,7 @@ class FanucTurning(CustomMacroControl):
         )
         return [*super().after_motion(builder, plan), *(step for step in further if step is not None)]
 
-    def end_of_program(self, channel: Channel) -> None:
+    def end_of_program(self, channel: LatheChannel) -> None:
         """The shape of G70 ends with its last block; every other text as usual."""
         if channel.level.kind == nose_radius.SHAPE_KIND:
             repetitive.end_of_shape(channel)
@@ -300,11 +303,11 @@ class FanucTurning(CustomMacroControl):
 
     def plan_arc_without_center(self, builder: Builder, plan: Plan) -> Step | None:
         """G02/G03 without R, I, K: a straight line; PS0022 by 3403#5 CIR."""
-        if builder.channel.setup.parameters.bit(3403, 5):
+        if builder.channel.memory.parameters.CIR:
             raise self.fail("no_center", address=builder.mode["motion"])
         return path.plan_line(builder, plan)
 
-    def plan_corner(self, builder: Builder) -> Callable[[Channel, list[float]], object] | None:
+    def plan_corner(self, builder: Builder) -> Callable[[LatheChannel, list[float]], object] | None:
         """Chamfer and corner R, or a vector given by I and K within compensation."""
         return nose_radius.plan_line_words(builder)
 
@@ -316,11 +319,11 @@ class FanucTurning(CustomMacroControl):
 
     # ---- drilling, spindle, M --------------------------------------------------------------------------------
 
-    def drilling_rules(self, channel: Channel) -> Drilling:
+    def drilling_rules(self, channel: LatheChannel) -> Drilling:
         """The drilling cycles of the chosen format."""
         return drilling.rules(channel)
 
-    def packs_repeats(self, channel: Channel) -> bool:
+    def packs_repeats(self, channel: LatheChannel) -> bool:
         """In the Series 15 format the last four digits of P count, and L has the repeats (II.6.2)."""
         return not drilling.is_series_15(channel)
 
@@ -328,7 +331,7 @@ class FanucTurning(CustomMacroControl):
         """P beside S or M names the spindle (3703#3 MPP, or the builder's), where no code takes it."""
         if not builder.has("P"):
             return None
-        names_spindle = builder.m_codes or builder.channel.setup.parameters.bit(3703, 3)
+        names_spindle = builder.m_codes or builder.channel.memory.parameters.MPP
         if any(
             ("P" in row.takes and not (row.code == "G96" and names_spindle)) or row.takes == "*"
             for row in builder.codes
@@ -354,15 +357,15 @@ class FanucTurning(CustomMacroControl):
 
     # ---- offsets ---------------------------------------------------------------------------------------------
 
-    def radius_value(self, channel: Channel, _number: int) -> float:
+    def radius_value(self, channel: LatheChannel, _number: int) -> float:
         """Nose radius of the active offset, mm."""
         return offsets.nose_radius(channel)
 
-    def nose_tip(self, channel: Channel) -> tuple[float, float]:
+    def nose_tip(self, channel: LatheChannel) -> tuple[float, float]:
         """Way from the nose centre to the imaginary tip, in units of the radius."""
         return offsets.nose_tip(channel)
 
-    def compensation_policy(self, channel: Channel) -> Policy:
+    def compensation_policy(self, channel: LatheChannel) -> Policy:
         """Rules of nose radius compensation by 5003, 5008, 5010, 19607, 19625."""
         return nose_radius.policy(channel)
 

@@ -5,18 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.macro_b.parameter_input import set_parameter
 from polycnc.control.word_address.macro_b.variables import MacroMemory
 from polycnc.control.word_address.memory import ProgrammingFrames
 from polycnc.geometry.frames import IDENTITY, Frame, scaling, translation
-from polycnc.machine.setup.values import ParameterKey
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.channel.interface import Zone
     from polycnc.control.fanuc.lathe.cycles.shape import Shape
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.fanuc.lathe.motion.drawing import OpenLine
+    from polycnc.control.fanuc.lathe.parameters import LatheParameters
+    from polycnc.control.parameters import Parameter
+    from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.control.word_address.macro_b.variables import Registry
     from polycnc.machine.setup.values import Offsets, Tool
 
@@ -105,25 +106,26 @@ class TurningMemory(MacroMemory):
         shape: What has been read of it.
     """
 
-    def __init__(self, channel: Channel, registry: Registry) -> None:
+    parameters: LatheParameters
+
+    def __init__(self, channel: LatheChannel, registry: Registry) -> None:
         super().__init__(channel, registry)
-        self.parameters: LatheParameters = LatheParameters(dict(channel.setup.parameters.items()))
         count = len(channel.axes)
         self.frames: TurningFrames = TurningFrames(count, channel.coordinates.geometry)
         self.tool_shift = [0.0] * count
         self.geometry_shift = [0.0] * count
         self.work_shift = [0.0] * count
-        self.common_offsets = bool(self.parameters.bit(8136, 6))
+        self.common_offsets = self.parameters.NGW
         self.offsets: dict[int, TurningOffset] = {}
         for number, tool in channel.setup.tools.items():
             if isinstance(number, int) or str(number).isdigit():
-                self.offsets[int(number)] = self._from_setup(tool)
+                self.offsets[int(number)] = self._from_setup(channel, tool)
         self.tool_word = 0
         self.offset_active = 0
         self.geometry_active = 0
         self.feed_code = ""
         self.grinding: dict[str, float] = {}
-        self.single_cycle: dict[str, Any] = {}
+        self.single_cycle: dict[Any, Any] = {}
         self.thread_depths: dict[str, float] = {}
         self.clamp = 0
         self.rotation_angle = 0.0
@@ -140,9 +142,17 @@ class TurningMemory(MacroMemory):
         self.reading_shape = False
         self.shape: Shape | None = None
 
-    def from_setup(self, channel: Channel, shown: list[float]) -> list[float]:
+    def from_setup(self, channel: WordAddressChannel, shown: list[float]) -> list[float]:
         """Offsets as radii, where the setup says diameters."""
-        return [channel.control.from_display(channel, axis, value) for axis, value in enumerate(shown)]
+        return [
+            value / 2.0 if self.has_diameter(channel, axis) else value for axis, value in enumerate(shown)
+        ]
+
+    def has_diameter(self, channel: WordAddressChannel, axis: int) -> bool:
+        """Whether an axis is one whose words are diameters (1006#3 DIA; as delivered: as the machine says)."""
+        data = channel.axis_data[axis]
+        chosen = self.parameters.of(channel.axes[axis]).DIA
+        return (data.diameter if chosen is None else chosen) and not data.rotary
 
     def radius_of(self, axis: int, shown: float) -> float:
         """A value of the displays (diameter where the axis has one), mm, in internal units."""
@@ -152,20 +162,25 @@ class TurningMemory(MacroMemory):
     @property
     def y_offset_axis(self) -> int:
         """The axis that has the Y offset: Y, or any other by 5043 (II.5.1.6.1); -1 for none."""
-        number = int(self.parameters.number(5043))
+        number = self.parameters.y_offset_axis
         return number - 1 if 1 <= number <= len(self.channel.axes) else self.channel.axis_index.get("Y", -1)
 
     def offset_of(self, axis: int, shown: float) -> float:
         """A tool offset of the screens, in mm: with 5004#1 ORC a radius value also where the axis has diameters."""
-        return shown if self.parameters.bit(5004, 1) else self.radius_of(axis, shown)
+        return shown if self.parameters.ORC else self.radius_of(axis, shown)
 
-    def _from_setup(self, tool: Tool) -> TurningOffset:
+    def _from_setup(self, channel: LatheChannel, tool: Tool) -> TurningOffset:
         def vector(values: Offsets | Tool) -> dict[str, float]:
             named = {"X": values.x, "Y": values.y, "Z": values.z, **values.axes}
-            index = dict(self.channel.axis_index)
+            index = dict(channel.axis_index)
             if self.y_offset_axis >= 0:
                 index["Y"] = self.y_offset_axis
-            return {k: self.offset_of(index[k], v) if k in index else v for k, v in named.items() if v}
+            halved = (
+                set()
+                if self.parameters.ORC
+                else {k for k, i in index.items() if self.has_diameter(channel, i)}
+            )
+            return {k: v / 2.0 if k in halved else v for k, v in named.items() if v}
 
         if self.common_offsets:
             return TurningOffset(wear=vector(tool), radius_wear=tool.radius, tip=tool.tip)
@@ -173,14 +188,10 @@ class TurningMemory(MacroMemory):
             vector(tool), vector(tool.wear), vector(tool.geom2), tool.radius, tool.wear.radius, tool.tip
         )
 
-    def cycle_parameter(self, number: int) -> float:
-        """A parameter of the turning cycles. Programs overwrite it by the first block of a cycle."""
-        return self.parameters.number(number)
-
-    def set_cycle_parameter(self, number: int, value: float) -> None:
+    def set_cycle_parameter(self, parameter: Parameter[float], value: float) -> None:
         """What the first block of a turning cycle says, a parameter from then on (II.4.2.1 to 4.2.7)."""
-        if value != self.parameters.number(number):
-            set_parameter(self.channel, ParameterKey(number), value, keeps_plans=True)
+        if value != self.parameters.value(parameter):
+            set_parameter(self.channel, parameter.key, value, keeps_plans=True)
 
     def turning_offset(self, number: int) -> TurningOffset:
         """An offset number; zero until it is set."""

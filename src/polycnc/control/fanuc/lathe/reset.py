@@ -15,7 +15,7 @@ from polycnc.control.word_address.transformations import cylinder, normal_line, 
 from polycnc.geometry.frames import IDENTITY
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
 
 #: Groups that a reset never touches.
 _KEPT = ("unit", "stroke")
@@ -25,11 +25,11 @@ _CLEARED = (
 )  # fmt: skip
 
 
-def reset(channel: Channel) -> None:
+def reset(channel: LatheChannel) -> None:
     """Clear state (CLR = 1): power-on codes but for units and stroke check; reset state (0): modal codes stay."""
     memory, c = channel.memory, channel.coordinates
-    bit = memory.parameters.bit
-    clears = bool(bit(3402, 6))
+    parameters = memory.parameters
+    clears = parameters.CLR
     polar_interpolation.leave_polar(channel)
     cylinder.end_cylinder(channel)
     normal_line.end(channel)
@@ -40,13 +40,13 @@ def reset(channel: Channel) -> None:
     codes = {**fresh, **{group: before[group] for group in _KEPT}} if clears else dict(before)
     codes.update({group: fresh[group] for group in _CLEARED if group in fresh})
     codes.pop("shape", None)
-    if clears and bit(3407, 2):
+    if clears and parameters.C10:
         codes["cycle"] = before["cycle"]
-    if before["motion"] in single.CYCLES and (not clears or bit(3406, 1)):
+    if before["motion"] in single.CYCLES and (not clears or parameters.C01):
         codes["motion"] = "G1"
     channel.mode = channel.modes.mode(codes)
     _clear_memory(channel, clears=clears)
-    _cancel_offsets(channel, wear=bool(bit(5006, 3)), geometry=bool(bit(5003, 7)))
+    _cancel_offsets(channel, wear=parameters.LVC, geometry=parameters.TGC)
     memory.plane = codes["plane"]
     offsets.refresh(channel)
     c.set_programming(memory.frames.product(), memory.frames.shift)
@@ -57,7 +57,7 @@ def reset(channel: Channel) -> None:
     channel.context_changed()
 
 
-def _clear_memory(channel: Channel, *, clears: bool) -> None:
+def _clear_memory(channel: LatheChannel, *, clears: bool) -> None:
     memory = channel.memory
     memory.locals = [None] * LOCALS
     ModalCallState.of(channel).calls = []
@@ -79,17 +79,17 @@ def _clear_memory(channel: Channel, *, clears: bool) -> None:
         memory.wcs = "G54"
         memory.frames.rotation = memory.frames.mirror = memory.frames.turret = IDENTITY
         memory.frames.mirrored = {}
-    if memory.parameters.bit(1202, 3):
+    if memory.parameters.RLC:
         memory.local_shift = [0.0] * len(channel.axes)
 
 
-def _cancel_offsets(channel: Channel, *, wear: bool, geometry: bool) -> None:
+def _cancel_offsets(channel: LatheChannel, *, wear: bool, geometry: bool) -> None:
     """5006#3 LVC ends movement and wear, 5003#7 TGC geometry that shifts."""
     memory = channel.memory
     if wear:
         memory.frames.offset = [0.0] * len(channel.axes)
         memory.tool_shift = list(memory.geometry_shift)
         memory.offset_active = memory.d = 0
-    if geometry and not memory.parameters.bit(5002, 4):
+    if geometry and not memory.parameters.LGT:
         memory.tool_shift = [s - g for s, g in zip(memory.tool_shift, memory.geometry_shift, strict=True)]
         memory.geometry_shift = [0.0] * len(channel.axes)

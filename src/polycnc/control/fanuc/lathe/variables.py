@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe.tools.offsets import offset_changed, refresh
 from polycnc.control.fanuc.system_variables import (
@@ -17,7 +17,6 @@ from polycnc.control.word_address.memory import EXTERNAL
 
 if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.memory import TurningMemory
-    from polycnc.control.word_address.macro_b.variables import MacroMemory
 
 #: Modal groups in the order of #4001 to #4030.
 GROUPS = {1: "motion", 2: "surface_speed", 3: "distance", 4: "turret_mirror", 5: "feed", 6: "unit", 7: "compensation",
@@ -25,7 +24,7 @@ GROUPS = {1: "motion", 2: "surface_speed", 3: "distance", 4: "turret_mirror", 5:
           17: "rotation", 19: "normal_line", 20: "polygon", 21: "polar_interpolation", 22: "mirror"}  # fmt: skip
 
 
-def _shown(m: MacroMemory, axis: int, value: float) -> float:
+def _shown(m: TurningMemory, axis: int, value: float) -> float:
     """A position as the program sees it: diameter, inches, degrees."""
     channel = m.channel
     if channel.axis_data[axis].rotary:
@@ -34,11 +33,11 @@ def _shown(m: MacroMemory, axis: int, value: float) -> float:
     return m.to_program_unit(value * factor)
 
 
-def _taken(m: MacroMemory, axis: int, value: float | None) -> float:
+def _taken(m: TurningMemory, axis: int, value: float | None) -> float:
     """A value of the program as a position."""
     if m.channel.axis_data[axis].rotary:
         return value or 0.0
-    return cast("TurningMemory", m).radius_of(axis, m.from_program_unit(value))
+    return m.radius_of(axis, m.from_program_unit(value))
 
 
 # ---- tool offsets ------------------------------------------------------------------------------------------------
@@ -47,18 +46,16 @@ def _taken(m: MacroMemory, axis: int, value: float | None) -> float:
 def _offset(memory: str, name: str) -> tuple[Read, Write]:
     """Offset along an axis, geometry or wear."""
 
-    def read(m: MacroMemory, i: int) -> float:
-        values = getattr(cast("TurningMemory", m).turning_offset(i + 1), memory)
+    def read(m: TurningMemory, i: int) -> float:
+        values = getattr(m.turning_offset(i + 1), memory)
         value: float = values.get(name, 0.0)
         axis = m.channel.axis_index.get(name)
-        return (
-            m.to_program_unit(value) if axis is None or m.parameters.bit(5004, 1) else _shown(m, axis, value)
-        )
+        return m.to_program_unit(value) if axis is None or m.parameters.ORC else _shown(m, axis, value)
 
-    def write(m: MacroMemory, i: int, value: float | None, _text: str) -> None:
-        values = getattr(cast("TurningMemory", m).turning_offset(i + 1), memory)
+    def write(m: TurningMemory, i: int, value: float | None, _text: str) -> None:
+        values = getattr(m.turning_offset(i + 1), memory)
         axis = m.channel.axis_index.get(name)
-        if axis is None or m.parameters.bit(5004, 1):
+        if axis is None or m.parameters.ORC:
             values[name] = m.from_program_unit(value)
         else:
             values[name] = _taken(m, axis, value)
@@ -70,21 +67,21 @@ def _offset(memory: str, name: str) -> tuple[Read, Write]:
 def _nose(field: str) -> tuple[Read, Write]:
     """Nose radius."""
 
-    def read(m: MacroMemory, i: int) -> float:
-        return m.to_program_unit(getattr(cast("TurningMemory", m).turning_offset(i + 1), field))
+    def read(m: TurningMemory, i: int) -> float:
+        return m.to_program_unit(getattr(m.turning_offset(i + 1), field))
 
-    def write(m: MacroMemory, i: int, value: float | None, _text: str) -> None:
-        setattr(cast("TurningMemory", m).turning_offset(i + 1), field, m.from_program_unit(value))
+    def write(m: TurningMemory, i: int, value: float | None, _text: str) -> None:
+        setattr(m.turning_offset(i + 1), field, m.from_program_unit(value))
 
     return read, write
 
 
 def _tip() -> tuple[Read, Write]:
-    def read(m: MacroMemory, i: int) -> float:
-        return float(cast("TurningMemory", m).turning_offset(i + 1).tip)
+    def read(m: TurningMemory, i: int) -> float:
+        return float(m.turning_offset(i + 1).tip)
 
-    def write(m: MacroMemory, i: int, value: float | None, _text: str) -> None:
-        cast("TurningMemory", m).turning_offset(i + 1).tip = int(value or 0)
+    def write(m: TurningMemory, i: int, value: float | None, _text: str) -> None:
+        m.turning_offset(i + 1).tip = int(value or 0)
 
     return read, write
 
@@ -116,23 +113,23 @@ def _rows_tools() -> list[SystemRange]:
 
 
 def _work_shift(name: str) -> tuple[Read, Write]:
-    def read(m: MacroMemory, _i: int) -> float:
+    def read(m: TurningMemory, _i: int) -> float:
         axis = m.channel.axis_index[name]
-        return _shown(m, axis, cast("TurningMemory", m).work_shift[axis])
+        return _shown(m, axis, m.work_shift[axis])
 
-    def write(m: MacroMemory, _i: int, value: float | None, _text: str) -> None:
+    def write(m: TurningMemory, _i: int, value: float | None, _text: str) -> None:
         axis = m.channel.axis_index[name]
-        cast("TurningMemory", m).work_shift[axis] = _taken(m, axis, value)
+        m.work_shift[axis] = _taken(m, axis, value)
         refresh(m.channel)
 
     return read, write
 
 
 def _work_offset(name: str) -> tuple[Read, Write]:
-    def read(m: MacroMemory, i: int) -> float:
+    def read(m: TurningMemory, i: int) -> float:
         return _shown(m, axis_at(m, i), m.work_offset(name)[i])
 
-    def write(m: MacroMemory, i: int, value: float | None, _text: str) -> None:
+    def write(m: TurningMemory, i: int, value: float | None, _text: str) -> None:
         m.work_offset(name)[axis_at(m, i)] = _taken(m, i, value)
         refresh(m.channel)
 
@@ -150,27 +147,27 @@ def _rows_work_offsets() -> list[SystemRange]:
     return [*rows, *extended]
 
 
-def _end_point(m: MacroMemory, i: int) -> float:
+def _end_point(m: TurningMemory, i: int) -> float:
     """Work coordinates of the block end, before the offset that moves the point; one still owed is not in it."""
     c = m.channel.coordinates
     return _shown(m, axis_at(m, i), c.programmed[i] + c.pending[i])
 
 
-def _machine(m: MacroMemory, i: int) -> float:
+def _machine(m: TurningMemory, i: int) -> float:
     return _shown(m, axis_at(m, i), m.channel.coordinates.machine[i])
 
 
-def _work(m: MacroMemory, i: int) -> float:
+def _work(m: TurningMemory, i: int) -> float:
     return _shown(m, axis_at(m, i), m.channel.coordinates.position[i])
 
 
-def _skip(m: MacroMemory, i: int) -> float:
+def _skip(m: TurningMemory, i: int) -> float:
     position = m.skip_position or m.channel.coordinates.position
     return _shown(m, axis_at(m, i), position[i])
 
 
-def _offset_in_force(m: MacroMemory, i: int) -> float:
-    memory = cast("TurningMemory", m)
+def _offset_in_force(m: TurningMemory, i: int) -> float:
+    memory = m
     return _shown(m, axis_at(m, i), memory.tool_shift[i] + memory.frames.offset[i])
 
 
@@ -178,7 +175,7 @@ def _offset_in_force(m: MacroMemory, i: int) -> float:
 
 
 def _modal(group: str) -> Read:
-    def read(m: MacroMemory, _i: int) -> float:
+    def read(m: TurningMemory, _i: int) -> float:
         code: str = m.channel.control.written_code(m.channel, group)
         return float(code[1:].split(maxsplit=1)[0])
 
@@ -186,7 +183,7 @@ def _modal(group: str) -> Read:
 
 
 def _rows_modal(first: int) -> list[SystemRange]:
-    words: dict[int, Read] = {120: lambda m, _i: float(cast("TurningMemory", m).tool_word)}
+    words: dict[int, Read] = {120: lambda m, _i: float(m.tool_word)}
     return modal_rows(first, {n: _modal(group) for n, group in GROUPS.items()}, words)
 
 

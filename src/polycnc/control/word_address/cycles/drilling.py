@@ -30,6 +30,7 @@ from polycnc.toolpath.modes import FeedMode
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
+    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.numbers import NumberRules
     from polycnc.control.word_address.block.plan import AxisWord, Builder, Plan
@@ -200,18 +201,16 @@ class Drilling:
     dwells_at_r: bool = False
     axis: Callable[[Builder], int] = third_axis
     seconds: Callable[[float, str, NumberRules], float] = in_milliseconds
-    relief: Callable[[WordAddressChannel, str], float] = no_relief
-    shift: Callable[[WordAddressChannel, CycleData, tuple[int, int]], tuple[float, float]] = (
-        shift_by_center_words
-    )
-    lead: Callable[[WordAddressChannel], float] = lead_from_feed
-    largest_override: Callable[[WordAddressChannel], float] = any_override
-    turn: Callable[[WordAddressChannel, int], None] = turn_spindle
-    check: Callable[[WordAddressChannel, str], None] = nothing_to_check
+    relief: Callable[[Channel, str], float] = no_relief
+    shift: Callable[[Channel, CycleData, tuple[int, int]], tuple[float, float]] = shift_by_center_words
+    lead: Callable[[Channel], float] = lead_from_feed
+    largest_override: Callable[[Channel], float] = any_override
+    turn: Callable[[Channel, int], None] = turn_spindle
+    check: Callable[[Channel, str], None] = nothing_to_check
     least_increments: Sequence[str] = ""
-    dress: Callable[[WordAddressChannel, str, Hole, Iterator[Stroke]], Iterator[Stroke]] = as_it_is
-    halts: Callable[[WordAddressChannel, str], Halts] = halts_nowhere
-    overlaps: Callable[[WordAddressChannel, str], bool | None] = no_overlap
+    dress: Callable[[Channel, str, Hole, Iterator[Stroke]], Iterator[Stroke]] = as_it_is
+    halts: Callable[[Channel, str], Halts] = halts_nowhere
+    overlaps: Callable[[Channel, str], bool | None] = no_overlap
 
     @property
     def words(self) -> tuple[str, ...]:

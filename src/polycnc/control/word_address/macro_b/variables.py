@@ -9,7 +9,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.snapshot import unchanging
 from polycnc.control.word_address.memory import Memory
@@ -23,8 +23,9 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.messages import AlarmError
 
-Read = Callable[["MacroMemory", int], "float | None"]
-Write = Callable[["MacroMemory", int, "float | None", str], None]
+#: What reads and what writes a variable: they get the memory of their family.
+Read = Callable[[Any, int], "float | None"]
+Write = Callable[[Any, int, "float | None", str], None]
 LOCALS = 34
 COMMONS = 1000
 

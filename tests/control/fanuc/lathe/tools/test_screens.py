@@ -204,8 +204,8 @@ def test_set_takes_the_present_position_for_three_symbols() -> None:
 
 
 def test_every_value_of_the_barrier_has_a_parameter_of_its_own() -> None:
-    numbers = [number for page in screens.BARRIER.values() for number in page.values()]
-    assert sorted(numbers) == [*range(1330, 1337), *range(1341, 1349)]
+    numbers = [each.key.id for page in screens.BARRIER.values() for each in page.values()]
+    assert sorted(map(int, numbers)) == [*range(1330, 1337), *range(1341, 1349)]
 
 
 # ---- modal codes ----

@@ -10,19 +10,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
+    from polycnc.control.fanuc.lathe.parameters import LatheParameters
     from polycnc.geometry.arcs import Point
-    from polycnc.machine.setup.values import Parameters
-
-#: Parameters of the chuck (TY, L, W, L1, W1, CX, CZ) and of the tailstock (L, D, L1, D1, L2, D2, D3, TZ).
-CHUCK = range(1330, 1337)
-TAILSTOCK = range(1341, 1349)
 
 #: Corners of a convex polygon in (Z, X as radius), counter-clockwise.
 Polygon = tuple["Point", ...]
 
 
-def barrier(channel: Channel) -> Barrier | None:
+def barrier(channel: LatheChannel) -> Barrier | None:
     """The barrier that the parameters describe; None where there is none (8134#1, or all dimensions zero)."""
     chuck, tailstock = _described(channel)
     if tailstock and channel.memory.signals.get("*TSB"):
@@ -31,42 +27,47 @@ def barrier(channel: Channel) -> Barrier | None:
     return Barrier(channel.axis_index["Z"], channel.axis_index["X"], bodies) if bodies else None
 
 
-def is_described(channel: Channel) -> bool:
+def is_described(channel: LatheChannel) -> bool:
     """Whether the parameters describe a barrier, whatever the machine's signals say of it now."""
     return any(_described(channel))
 
 
-def _described(channel: Channel) -> tuple[tuple[Polygon, ...], tuple[Polygon, ...]]:
-    parameters = channel.setup.parameters
-    if not parameters.bit(8134, 1, default=1) or not {"X", "Z"} <= set(channel.axes):
+def _described(channel: LatheChannel) -> tuple[tuple[Polygon, ...], tuple[Polygon, ...]]:
+    parameters = channel.memory.parameters
+    if not parameters.BAR or not {"X", "Z"} <= set(channel.axes):
         return (), ()
     return _chuck(channel, parameters), _tailstock(parameters)
 
 
-def _chuck(channel: Channel, parameters: Parameters) -> tuple[Polygon, ...]:
-    kind, length, width, grip_length, step, x, z = (parameters.number(n) for n in CHUCK)
+def _chuck(channel: LatheChannel, parameters: LatheParameters) -> tuple[Polygon, ...]:
+    length, width, z = parameters.jaw_length, parameters.jaw_size, parameters.chuck_z
+    grip_length, step = parameters.grip_length, parameters.grip_step
     if length <= grip_length or width <= step:
         return ()
-    surface = channel.control.from_display(channel, channel.axis_index["X"], x)
-    back = -1.0 if z <= parameters.number(TAILSTOCK[-1]) else 1.0
-    outwards = 1.0 if kind else -1.0
+    surface = channel.control.from_display(channel, channel.axis_index["X"], parameters.chuck_x)
+    back = -1.0 if z <= parameters.tailstock_z else 1.0
+    outwards = 1.0 if parameters.jaw_kind else -1.0
     edge = surface + outwards * (width - step)
     jaw = _box(z, z + back * grip_length, surface, edge)
     base = _box(z + back * grip_length, z + back * length, surface - outwards * step, edge)
     return tuple(body for body in (jaw, base) if body)
 
 
-def _tailstock(parameters: Parameters) -> tuple[Polygon, ...]:
-    length, d, length1, d1, length2, d2, d3, z = (parameters.number(n) for n in TAILSTOCK)
-    if d2 <= d3 or not length:
+def _tailstock(parameters: LatheParameters) -> tuple[Polygon, ...]:
+    z, d2, d3 = parameters.tailstock_z, parameters.tailstock_diameter_2, parameters.tailstock_hole
+    if d2 <= d3 or not parameters.tailstock_length:
         return ()
-    back = 1.0 if parameters.number(CHUCK[-1]) < z else -1.0
+    back = 1.0 if parameters.chuck_z < z else -1.0
     # The point is taken as one of 90 degrees: as long as its radius grows.
     point = 0.5 * (d2 - d3)
     tip = _ordered(((z, 0.0), (z, 0.5 * d3), (z + back * point, 0.5 * d2), (z + back * point, 0.0)))
     bodies = [
         _box(z + back * begin, z + back * end, 0.0, 0.5 * diameter)
-        for begin, end, diameter in ((point, length2, d2), (length2, length1, d1), (length1, length, d))
+        for begin, end, diameter in (
+            (point, parameters.tailstock_length_2, d2),
+            (parameters.tailstock_length_2, parameters.tailstock_length_1, parameters.tailstock_diameter_1),
+            (parameters.tailstock_length_1, parameters.tailstock_length, parameters.tailstock_diameter),
+        )
         if end > begin and diameter > 0.0
     ]
     return (tip, *(body for body in bodies if body))
@@ -93,7 +94,7 @@ class Barrier:
     x: int
     bodies: tuple[Polygon, ...]
 
-    def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:
+    def check(self, channel: LatheChannel, machine: list[float], *, straight: bool) -> None:
         """The control's alarm for a way into a body; of a curve the end and points on it are looked at."""
         c = channel.coordinates
         end = c.from_machine(machine)
@@ -106,7 +107,7 @@ class Barrier:
                     direction = 1 if end[axis] >= start[axis] else -1
                     raise channel.control.forbidden_zone(channel.axes[axis], direction)
 
-    def check_point(self, channel: Channel, machine: list[float]) -> None:
+    def check_point(self, channel: LatheChannel, machine: list[float]) -> None:
         """The control's alarm for a point of a curve in a body."""
         self.check(channel, machine, straight=False)
 

@@ -12,22 +12,21 @@ from polycnc.control.word_address.coordinates.stroke_check import StrokeZone
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.channel.channel import Channel
     from polycnc.channel.interface import Zone
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.words import Words
 
 #: Parameters of stored stroke checks 1, 2 and 3: upper and lower limits.
-TRAVEL, ZONE, INNER_ZONE = (1320, 1321), (1322, 1323), (1324, 1325)
 
 
-def at_power_on(channel: Channel) -> None:
+def at_power_on(channel: LatheChannel) -> None:
     """What parameters forbid before any program speaks."""
     if channel.mode["stroke"] == "G22":
         channel.memory.zone = barrier(channel) or _zone_of_parameters(channel)
     renew_zones(channel)
 
 
-def stroke_check_on(channel: Channel, words: Words) -> None:
+def stroke_check_on(channel: LatheChannel, words: Words) -> None:
     """G22 X Z I K: stored stroke check 2 in machine coordinates; values of a diameter axis are diameters.
 
     The zone stays stored: a G22 without words brings back the one of the last words.
@@ -39,13 +38,13 @@ def stroke_check_on(channel: Channel, words: Words) -> None:
     renew_zones(channel)
 
 
-def stroke_check_off(channel: Channel, _words: Words) -> None:
+def stroke_check_off(channel: LatheChannel, _words: Words) -> None:
     """G23: no forbidden zone."""
     channel.memory.zone = None
     renew_zones(channel)
 
 
-def limit_increment(channel: Channel, words: Words) -> None:
+def limit_increment(channel: LatheChannel, words: Words) -> None:
     """G91.1: largest increment of each named axis in one block; 0 ends the check."""
     limits = channel.memory.increment_limits
     for axis, value, _ in words.axes():
@@ -55,7 +54,7 @@ def limit_increment(channel: Channel, words: Words) -> None:
     renew_zones(channel)
 
 
-def renew_zones(channel: Channel) -> None:
+def renew_zones(channel: LatheChannel) -> None:
     """Let the channel check every move against what is forbidden now."""
     memory = channel.memory
     travel = _travel(channel)
@@ -72,7 +71,7 @@ def renew_zones(channel: Channel) -> None:
     channel.stroke_zone = Zones(tuple(zones)) if zones else None
 
 
-def _zone_of_words(channel: Channel, words: Words) -> StrokeZone | None:
+def _zone_of_words(channel: LatheChannel, words: Words) -> StrokeZone | None:
     upper = {axis: value for axis, value, _ in words.axes()}
     named: list[tuple[int, float, float]] = []
     for letter, axis in zip("IJK", channel.coordinates.geometry, strict=True):
@@ -84,44 +83,47 @@ def _zone_of_words(channel: Channel, words: Words) -> StrokeZone | None:
     return _zone(channel, named)
 
 
-def _zone_of_parameters(channel: Channel) -> StrokeZone | None:
+def _zone_of_parameters(channel: LatheChannel) -> StrokeZone | None:
     """Stored stroke check 2 of the axes that 1310#0 names, with the limits of 1322 and 1323."""
-    return _zone(channel, _limits(channel, ZONE, bit=0))
+    parameters = channel.memory.parameters
+    named = [
+        (i, channel.memory.radius_of(i, of.zone_2_lower), channel.memory.radius_of(i, of.zone_2_upper))
+        for i, of in enumerate(map(parameters.of, channel.axes))
+        if of.OT2
+    ]
+    return _zone(channel, named)
 
 
-def _zone_3(channel: Channel) -> StrokeZone | None:
+def _zone_3(channel: LatheChannel) -> StrokeZone | None:
     """Stored stroke check 3, always on: the inside of 1324 and 1325, of the axes that 1310#1 names."""
-    zone = _zone(channel, _limits(channel, INNER_ZONE, bit=1))
+    parameters = channel.memory.parameters
+    named = [
+        (i, channel.memory.radius_of(i, of.zone_3_lower), channel.memory.radius_of(i, of.zone_3_upper))
+        for i, of in enumerate(map(parameters.of, channel.axes))
+        if of.OT3
+    ]
+    zone = _zone(channel, named)
     return None if zone is None else replace(zone, inside=True, number=3)
 
 
-def _limits(channel: Channel, numbers: tuple[int, int], bit: int) -> list[tuple[int, float, float]]:
-    parameters = channel.memory.parameters
-    return [
-        (i, *(channel.memory.radius_of(i, parameters.number(number, axis)) for number in reversed(numbers)))
-        for i, axis in enumerate(channel.axes)
-        if parameters.bit(1310, bit, axis)
-    ]
-
-
-def _zone(channel: Channel, named: list[tuple[int, float, float]]) -> StrokeZone | None:
+def _zone(channel: LatheChannel, named: list[tuple[int, float, float]]) -> StrokeZone | None:
     if not named:
         return None
     axes = tuple(axis for axis, _, _ in named)
     lows, highs = tuple(min(a, b) for _, a, b in named), tuple(max(a, b) for _, a, b in named)
-    return StrokeZone(lows, highs, axes, inside=not channel.memory.parameters.bit(1300, 0))
+    return StrokeZone(lows, highs, axes, inside=not channel.memory.parameters.OUT)
 
 
-def _travel(channel: Channel) -> dict[int, tuple[float, float]]:
+def _travel(channel: LatheChannel) -> dict[int, tuple[float, float]]:
     """Stored stroke check 1: limits by parameter, where the setup gives them."""
     parameters = channel.memory.parameters
     found: dict[int, tuple[float, float]] = {}
-    for i, axis in enumerate(channel.axes):
-        high, low = (parameters.get(number, axis) for number in TRAVEL)
-        if isinstance(high, int | float) or isinstance(low, int | float):
+    for i, of in enumerate(map(parameters.of, channel.axes)):
+        low, high = of.travel_lower, of.travel_upper
+        if low is not None or high is not None:
             found[i] = (
-                channel.memory.radius_of(i, float(low)) if isinstance(low, int | float) else -inf,
-                channel.memory.radius_of(i, float(high)) if isinstance(high, int | float) else inf,
+                -inf if low is None else channel.memory.radius_of(i, low),
+                inf if high is None else channel.memory.radius_of(i, high),
             )
     return found
 
@@ -132,12 +134,12 @@ class Zones:
 
     zones: tuple[Zone, ...]
 
-    def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:
+    def check(self, channel: LatheChannel, machine: list[float], *, straight: bool) -> None:
         """The alarm of the first one that is violated."""
         for zone in self.zones:
             zone.check(channel, machine, straight=straight)
 
-    def check_point(self, channel: Channel, machine: list[float]) -> None:
+    def check_point(self, channel: LatheChannel, machine: list[float]) -> None:
         """The same for a point of a curve."""
         for zone in self.zones:
             zone.check_point(channel, machine)
@@ -149,14 +151,14 @@ class IncrementCheck:
 
     limits: Mapping[int, float]
 
-    def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:  # noqa: ARG002
+    def check(self, channel: LatheChannel, machine: list[float], *, straight: bool) -> None:  # noqa: ARG002
         """The control's alarm for a longer way of an axis."""
         here = channel.coordinates.machine
         for axis, limit in self.limits.items():
             if abs(machine[axis] - here[axis]) > limit + 1e-9:
                 raise channel.control.fail("increment_limit", address=channel.axes[axis])
 
-    def check_point(self, channel: Channel, machine: list[float]) -> None:
+    def check_point(self, channel: LatheChannel, machine: list[float]) -> None:
         """What counts is the end of the block."""
 
 
@@ -166,12 +168,12 @@ class TravelCheck:
 
     limits: Mapping[int, tuple[float, float]]
 
-    def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:  # noqa: ARG002
+    def check(self, channel: LatheChannel, machine: list[float], *, straight: bool) -> None:  # noqa: ARG002
         """The control's alarm for a target beyond a limit."""
         for axis, (low, high) in self.limits.items():
             if not low - 1e-9 <= machine[axis] <= high + 1e-9:
                 raise channel.control.over_travel(channel.axes[axis], 1 if machine[axis] > high else -1)
 
-    def check_point(self, channel: Channel, machine: list[float]) -> None:
+    def check_point(self, channel: LatheChannel, machine: list[float]) -> None:
         """The same for a point of a curve."""
         self.check(channel, machine, straight=False)

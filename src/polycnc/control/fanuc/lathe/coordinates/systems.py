@@ -19,14 +19,14 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.words import Words
     from polycnc.geometry.frames import Frame
 
 T = TypeVar("T")
 
 
-def set_position(channel: Channel, words: Words) -> None:
+def set_position(channel: LatheChannel, words: Words) -> None:
     """G50 (B, C: G92, absolute even under G91): the present point reads these coordinates; U, W change the reading.
 
     S clamps the speed of G96. The point is the one before the tool offset that moves it (II.5.1.2), so a T in the
@@ -54,7 +54,7 @@ def set_position(channel: Channel, words: Words) -> None:
     refresh(channel)
 
 
-def set_local_system(channel: Channel, words: Words) -> None:
+def set_local_system(channel: LatheChannel, words: Words) -> None:
     """G52: zero of a local system within each of G54 to G59; an increment moves it."""
     _refuse_rotation(channel, words, "G52")
     local = channel.memory.local_shift
@@ -64,7 +64,7 @@ def set_local_system(channel: Channel, words: Words) -> None:
     refresh(channel)
 
 
-def preset_system(channel: Channel, words: Words) -> None:
+def preset_system(channel: LatheChannel, words: Words) -> None:
     """G50.3 (B, C: G92.1): G50 and G52 of the named axes vanish, and offsets that move the point (1205#7)."""
     _refuse_rotation(channel, words, "G50.3")
     memory = channel.memory
@@ -72,23 +72,23 @@ def preset_system(channel: Channel, words: Words) -> None:
         if value != 0.0:
             raise words.fail("preset_value", words.plan.axis_words[0].address)
         memory.preset_shift[axis] = memory.local_shift[axis] = 0.0
-        if not memory.parameters.bit(1205, 7):
+        if not memory.parameters.WTC:
             memory.frames.offset[axis] = 0.0
     refresh(channel)
     channel.coordinates.set_programming(memory.frames.product(), memory.frames.shift)
 
 
-def move_in_machine_system(channel: Channel, words: Words) -> None:
+def move_in_machine_system(channel: LatheChannel, words: Words) -> None:
     """G53: rapid to machine coordinates whatever the modal code; an increment is ignored by the control."""
     _move_in_machine_system(channel, words, rapid=True)
 
 
-def feed_in_machine_system(channel: Channel, words: Words) -> None:
+def feed_in_machine_system(channel: LatheChannel, words: Words) -> None:
     """G53.2: as G53, at the feed of G01; rapid under G00."""
     _move_in_machine_system(channel, words, rapid=channel.mode["motion"] == "G0")
 
 
-def _move_in_machine_system(channel: Channel, words: Words, *, rapid: bool) -> None:
+def _move_in_machine_system(channel: LatheChannel, words: Words, *, rapid: bool) -> None:
     if not rapid and not channel.feed > 0.0:
         raise words.fail("no_feed", "G53.2")
     c = channel.coordinates
@@ -103,7 +103,7 @@ def _move_in_machine_system(channel: Channel, words: Words, *, rapid: bool) -> N
     _owe_offset(channel, [axis for axis, _, incremental in words.axes() if not incremental])
 
 
-def _owe_offset(channel: Channel, axes: list[int]) -> None:
+def _owe_offset(channel: LatheChannel, axes: list[int]) -> None:
     """At a machine position an offset that moves the point is suspended; the axis' next move has it again (5.1.5)."""
     c, offset = channel.coordinates, channel.memory.frames.offset
     for axis in axes:
@@ -111,45 +111,45 @@ def _owe_offset(channel: Channel, axes: list[int]) -> None:
     c.owes = any(c.pending)
 
 
-def return_to_reference(channel: Channel, words: Words) -> None:
+def return_to_reference(channel: LatheChannel, words: Words) -> None:
     """G28: over the intermediate point to the first reference point."""
     _refuse_rotation(channel, words, "G28")
     systems.return_to_reference(channel, words)
     _owe_offset(channel, [axis for axis, _, _ in words.axes()])
 
 
-def return_to_further_reference(channel: Channel, words: Words) -> None:
+def return_to_further_reference(channel: LatheChannel, words: Words) -> None:
     """G30 [P2 … P4]: over the intermediate point to another reference point."""
     _refuse_rotation(channel, words, "G30")
     systems.return_to_further_reference(channel, words)
     _owe_offset(channel, [axis for axis, _, _ in words.axes()])
 
 
-def check_reference(channel: Channel, words: Words) -> None:
+def check_reference(channel: LatheChannel, words: Words) -> None:
     """G27: rapid to the point, which must be the reference point of the named axes."""
     _refuse_rotation(channel, words, "G27")
     systems.check_reference(channel, words)
 
 
-def return_from_reference(channel: Channel, words: Words) -> None:
+def return_from_reference(channel: LatheChannel, words: Words) -> None:
     """G29: over the intermediate point of the last reference return to a point."""
     _refuse_rotation(channel, words, "G29")
     systems.return_from_reference(channel, words)
 
 
-def _refuse_rotation(channel: Channel, words: Words, code: str) -> None:
+def _refuse_rotation(channel: LatheChannel, words: Words, code: str) -> None:
     if channel.memory.frames.rotates:
         raise words.fail("in_rotation", code)
 
 
-def drop_vector(channel: Channel) -> None:
+def drop_vector(channel: LatheChannel) -> None:
     """A command for which the tool goes to the uncompensated point and back (II.5.4.3)."""
     stage = active_compensation(channel)
     if stage is not None:
         stage.drop_vector()
 
 
-def keep_feed_number(channel: Channel, words: Words) -> None:
+def keep_feed_number(channel: LatheChannel, words: Words) -> None:
     """G98, G99: the number of F stays as it is when its unit changes."""
     memory = channel.memory
     code = channel.mode["feed"]
@@ -159,21 +159,21 @@ def keep_feed_number(channel: Channel, words: Words) -> None:
     channel.context_changed()
 
 
-def _feed_is_settled(channel: Channel) -> bool:
+def _feed_is_settled(channel: LatheChannel) -> bool:
     """G98, G99: F has been typed under this code."""
     return bool(channel.memory.feed_code == channel.mode["feed"])
 
 
-def _plane_is_settled(channel: Channel) -> bool:
+def _plane_is_settled(channel: LatheChannel) -> bool:
     """G17 to G19: as on every control; no corner waits for its next block, and no single cycle has words."""
     memory = channel.memory
     unchanged = memory.plane == channel.mode["plane"] and not memory.single_cycle
     return channel.path.head is None and unchanged and settled.plane(channel)
 
 
-def _length_is_settled(channel: Channel) -> bool:
+def _length_is_settled(channel: LatheChannel) -> bool:
     """G49: the lathe has no offsets by code (5040#3)."""
-    return not channel.memory.parameters.bit(5040, 3)
+    return not channel.memory.parameters.TCT
 
 
 #: Codes that change nothing where they are in force already; see `word_address.settled`.
@@ -187,12 +187,12 @@ SETTLED = {
 }
 
 
-def feed_number(channel: Channel) -> float:
+def feed_number(channel: LatheChannel) -> float:
     """F as the number that was typed, mm: the lead of a thread, whatever the feed unit."""
     return channel.feed * (60.0 if channel.mode["feed"] == "G98" else 1.0)
 
 
-def select_plane(channel: Channel, words: Words) -> None:
+def select_plane(channel: LatheChannel, words: Words) -> None:
     """G17 to G19: the plane; an axis word names a parallel axis (1022) in place of the basic one."""
     memory, code = channel.memory, channel.mode["plane"]
     if memory.side and memory.plane != code:
@@ -203,21 +203,21 @@ def select_plane(channel: Channel, words: Words) -> None:
     planes.lay_axes(channel, words)
 
 
-def _refuse_corner(channel: Channel, words: Words, code: str) -> None:
+def _refuse_corner(channel: LatheChannel, words: Words, code: str) -> None:
     """A plane code behind a chamfer or corner R is an alarm, even if it names the same plane (II.4.7)."""
     if corner_waits(channel):
-        drawing = channel.memory.parameters.bit(3453, 0)
+        drawing = channel.memory.parameters.CRD
         raise words.fail("drawing_increment" if drawing else "corner_no_move", code)
 
 
-def select_work_offset(channel: Channel, words: Words) -> None:
+def select_work_offset(channel: LatheChannel, words: Words) -> None:
     """G54 to G59, G54 P: the work coordinate system; no motion by itself."""
     if channel.memory.frames.rotates:
         raise words.fail("in_rotation", channel.mode["wcs"])
     systems.select_work_offset(channel, words)
 
 
-def rotate(channel: Channel, words: Words) -> None:
+def rotate(channel: LatheChannel, words: Words) -> None:
     """G68.1 X Z R: rotation of the plane about a point, counter-clockwise; 5410 where R is missing."""
     memory, c = channel.memory, channel.coordinates
     parts = memory.frames
@@ -228,24 +228,24 @@ def rotate(channel: Channel, words: Words) -> None:
         center[axis] = value
     angle = words.angle("R")
     if angle is None:
-        angle = memory.parameters.number(5410)
-    elif words.form("R") == "" and memory.parameters.bit(11630, 0):
+        angle = memory.parameters.rotation_angle
+    elif words.form("R") == "" and memory.parameters.FRD:
         # FRD: without a decimal point R counts 0.00001 degrees.
         angle /= 100.0
-    if "R" in words and channel.mode["distance"] == "G91" and memory.parameters.bit(5400, 0):
+    if "R" in words and channel.mode["distance"] == "G91" and memory.parameters.RIN:
         angle += memory.rotation_angle
     memory.rotation_angle = angle
     x, y, z = (center[i] if i >= 0 else 0.0 for i in c.geometry)
     parts.rotation = about((x, y, z), rotation(PLANES[channel.mode["plane"]][2], angle))
     # 11600#5 AX1 = 0: an axis that the next block does not name keeps the value that it had before the rotation.
-    c.set_programming(parts.product(), parts.shift, stays=bool(memory.parameters.bit(11600, 5)))
+    c.set_programming(parts.product(), parts.shift, stays=memory.parameters.AX1)
 
 
-def without_rotation(cycle: Callable[[Channel, T], None]) -> Callable[[Channel, T], None]:
+def without_rotation(cycle: Callable[[LatheChannel, T], None]) -> Callable[[LatheChannel, T], None]:
     """A cycle, step or handler, in which coordinate rotation has no effect (II.5.9)."""
 
     @wraps(cycle)
-    def run(channel: Channel, words: T) -> None:
+    def run(channel: LatheChannel, words: T) -> None:
         before = set_rotation(channel, IDENTITY)
         try:
             cycle(channel, words)
@@ -255,7 +255,7 @@ def without_rotation(cycle: Callable[[Channel, T], None]) -> Callable[[Channel, 
     return run
 
 
-def set_rotation(channel: Channel, turned: Frame) -> Frame:
+def set_rotation(channel: LatheChannel, turned: Frame) -> Frame:
     """Rotate the coordinates from now on; the rotation before."""
     parts = channel.memory.frames
     before: Frame = parts.rotation
@@ -265,17 +265,17 @@ def set_rotation(channel: Channel, turned: Frame) -> Frame:
     return before
 
 
-def mirror_turret(channel: Channel, words: Words) -> None:
+def mirror_turret(channel: LatheChannel, words: Words) -> None:
     """G68: X of the opposite turret: mirrored, and shifted by the distance of the turrets (1290; II.4.8)."""
     _check_alone(words, "G68")
     memory = channel.memory
     axis = channel.coordinates.geometry[0]
-    distance = memory.radius_of(axis, memory.parameters.number(1290))
+    distance = memory.radius_of(axis, memory.parameters.turret_distance)
     memory.frames.set_turret(distance)
     channel.coordinates.set_programming(memory.frames.product(), memory.frames.shift)
 
 
-def end_mirror_turret(channel: Channel, words: Words) -> None:
+def end_mirror_turret(channel: LatheChannel, words: Words) -> None:
     """G69."""
     _check_alone(words, "G69")
     memory = channel.memory
@@ -288,7 +288,7 @@ def _check_alone(words: Words, code: str) -> None:
         raise words.fail("turret_form", code)
 
 
-def plane_axes(channel: Channel) -> tuple[int, int]:
+def plane_axes(channel: LatheChannel) -> tuple[int, int]:
     """Channel axes that are the first and the second one of the active plane; -1 for one that is missing."""
     u, v, _ = PLANES[channel.mode["plane"]]
     geometry = channel.coordinates.geometry

@@ -7,6 +7,7 @@ from functools import cache, partial
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe.cycles import tapping
+from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.cycles import drilling as base
 from polycnc.control.word_address.cycles.drilling import CycleState, DrillCycle, Drilling, Halts
 from polycnc.cycles.drilling import holes, lathe
@@ -16,8 +17,8 @@ from polycnc.geometry.planes import PLANES
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import Handler, Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
@@ -31,25 +32,35 @@ NORMAL_CYCLES = ("G83", "G83.5", "G83.6", "G84", "G85", "G87", "G87.5", "G87.6",
 #: Series 15 format (II.6.5).
 SERIES_15_CYCLES = ("G81", "G82", "G83", "G83.1", "G84", "G84.2", "G85", "G89")
 _RELIEF = {
-    "G83.1": 5114,
-    "G83.5": 5114,
-    "G87.5": 5114,
-    "G83.6": 5115,
-    "G87.6": 5115,
-    "G84": 5213,
-    "G88": 5213,
-    "G84.2": 5213,
+    "G83.1": LatheParameters.peck_retract,
+    "G83.5": LatheParameters.peck_retract,
+    "G87.5": LatheParameters.peck_retract,
+    "G83.6": LatheParameters.peck_clearance,
+    "G87.6": LatheParameters.peck_clearance,
+    "G84": LatheParameters.tap_peck_retract,
+    "G88": LatheParameters.tap_peck_retract,
+    "G84.2": LatheParameters.tap_peck_retract,
+}
+
+#: The bit of 1681 that keeps the strokes at a joint apart.
+_APART = {
+    Joint.HOLE: LatheParameters.DPS,
+    Joint.R_LEVEL: LatheParameters.DRL,
+    Joint.RETRACT: LatheParameters.DRV,
+    Joint.REENTRY: LatheParameters.DFW,
+    Joint.PECK: LatheParameters.DQL,
+    Joint.BOTTOM: LatheParameters.DZL,
 }
 
 
-def is_series_15(channel: Channel) -> bool:
+def is_series_15(channel: LatheChannel) -> bool:
     """Whether programs are in the Series 15 format (0001#1 FCV)."""
-    return bool(channel.setup.parameters.bit(1, 1))
+    return channel.memory.parameters.FCV
 
 
-def drills_in_series_15(channel: Channel) -> bool:
+def drills_in_series_15(channel: LatheChannel) -> bool:
     """Whether drilling is in that format too. 5102#3 F16: drilling stays in the normal format, with repeats by L."""
-    return is_series_15(channel) and not channel.setup.parameters.bit(5102, 3)
+    return is_series_15(channel) and not channel.memory.parameters.F16
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,18 +75,18 @@ class _Choice:
     diameter_r: bool
 
 
-def rules(channel: Channel) -> Drilling:
+def rules(channel: LatheChannel) -> Drilling:
     """The drilling cycles by the channel's parameters."""
-    bit = channel.setup.parameters.bit
+    parameters = channel.memory.parameters
     series_15 = drills_in_series_15(channel)
     return _rules(
         _Choice(
             series_15,
             repeats_by_l=is_series_15(channel),
-            clears_chips=bool(bit(5101, 2)),
-            taps_clear=bool(bit(5200, 5)),
-            absolute_r=series_15 and bool(bit(5102, 6)),
-            diameter_r=series_15 and bool(bit(5102, 7)),
+            clears_chips=parameters.RTR,
+            taps_clear=parameters.PCP,
+            absolute_r=series_15 and parameters.RAB,
+            diameter_r=series_15 and parameters.RDI,
         )
     )
 
@@ -132,16 +143,16 @@ def _axis(builder: Builder) -> int:
     return _free_axis(builder.channel, builder.mode, is_rigid=tapping.taps_rigidly(builder))
 
 
-def _free_axis(channel: Channel, mode: Mode, *, is_rigid: bool) -> int:
+def _free_axis(channel: LatheChannel, mode: Mode, *, is_rigid: bool) -> int:
     """Taps: Z (G84) or X (G88); rigid ones by 5209#0 RTX the plane's first or second axis (II.4.3, 4.5.1).
 
     Series 15: Z, or the axis on the plane by 5101#0 FXY.
     """
     plane, geometry = PLANES[mode["plane"]], channel.coordinates.geometry
     if drills_in_series_15(channel):
-        return geometry[plane[2] if channel.setup.parameters.bit(5101, 0) else 2]
+        return geometry[plane[2] if channel.memory.parameters.FXY else 2]
     is_face = mode["cycle"] == "G84"
-    if channel.setup.parameters.bit(5209, 0) or not is_rigid:
+    if channel.memory.parameters.RTX or not is_rigid:
         return geometry[2 if is_face else 0]
     return geometry[plane[0 if is_face else 1]]
 
@@ -156,18 +167,17 @@ def _drilling_axis(builder: Builder, mode: Mode) -> int:
     return _free_axis(builder.channel, mode, is_rigid=tapping.taps_rigidly(builder))
 
 
-def _relief(channel: Channel, code: str) -> float:
+def _relief(channel: LatheChannel, code: str) -> float:
     """Retract or clearance between pecks: `,D`, else the cycle's parameter, mm."""
     data = CycleState.of(channel).active
     if ",D" in data:
-        amount: float = data.amount(",D")
-        return amount
-    number = _RELIEF.get(code)
-    if number is None:
-        clears = channel.memory.parameters.bit(5101, 2) or drills_in_series_15(channel)
-        number = 5115 if clears else 5114
-    clearance: float = channel.memory.parameters.number(number)
-    return clearance
+        return data.amount(",D")
+    parameters = channel.memory.parameters
+    chosen = _RELIEF.get(code)
+    if chosen is not None:
+        return parameters.value(chosen)
+    clears = parameters.RTR or drills_in_series_15(channel)
+    return parameters.peck_clearance if clears else parameters.peck_retract
 
 
 def plan(builder: Builder, plan: Plan) -> Step:
@@ -182,7 +192,7 @@ def plan(builder: Builder, plan: Plan) -> Step:
 def _check_plane(builder: Builder) -> None:
     """A plane code while a cycle is active: both axes of the plane exist, or 5103#3 PNA lets it pass (II.6.5)."""
     channel = builder.channel
-    if not drills_in_series_15(channel) or channel.setup.parameters.bit(5103, 3):
+    if not drills_in_series_15(channel) or channel.memory.parameters.PNA:
         return
     if not any(row.group == "plane" for row in builder.codes):
         return
@@ -194,7 +204,7 @@ def _check_plane(builder: Builder) -> None:
 def _along_parallel(builder: Builder, plan: Plan) -> Step | None:
     """Series 15 with 5101#0 FXY: a parallel axis (1022) named in the cycle's block drills in place of the basic one."""
     channel = builder.channel
-    if not (drills_in_series_15(channel) and channel.setup.parameters.bit(5101, 0)):
+    if not (drills_in_series_15(channel) and channel.memory.parameters.FXY):
         return None
     third = PLANES[builder.mode["plane"]][2]
     if not any(row.group == "cycle" for row in builder.codes):
@@ -205,7 +215,7 @@ def _along_parallel(builder: Builder, plan: Plan) -> Step | None:
     if axis < 0:
         return None
 
-    def choose(channel: Channel) -> None:
+    def choose(channel: LatheChannel) -> None:
         geometry = list(channel.coordinates.geometry)
         geometry[third] = axis
         channel.coordinates.geometry = (geometry[0], geometry[1], geometry[2])
@@ -213,7 +223,7 @@ def _along_parallel(builder: Builder, plan: Plan) -> Step | None:
     choose(channel)
     drill = base.plan_drilling(builder, plan)
 
-    def run(channel: Channel, values: list[float]) -> None:
+    def run(channel: LatheChannel, values: list[float]) -> None:
         choose(channel)
         drill(channel, values)
 
@@ -228,13 +238,13 @@ def give_way(builder: Builder) -> None:
 # ---- spindle ---------------------------------------------------------------------------------------------------
 
 
-def _turn(channel: Channel, direction: int) -> None:
+def _turn(channel: LatheChannel, direction: int) -> None:
     """A reversal goes to the machine as M03 or M04, by 5105#3 M5T with M05 in front; rigid tapping sends none."""
     memory = channel.memory
     base.turn_spindle(channel, direction)
     if tapping.is_rigid(channel):
         return
-    if memory.parameters.bit(5105, 3):
+    if memory.parameters.M5T:
         channel.event("m", code=5)
     if direction:
         channel.event("m", code=3 if direction > 0 else 4)
@@ -243,7 +253,7 @@ def _turn(channel: Channel, direction: int) -> None:
 # ---- what the machine adds ---------------------------------------------------------------------------------------
 
 
-def _dress(channel: Channel, code: str, hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
+def _dress(channel: LatheChannel, code: str, hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
     """Clamping of the C axis about the hole, and the speed of a rigid tap on its way out."""
     if code in tapping.TAPS:
         tapping.check(channel, CycleState.of(channel).active)
@@ -252,50 +262,50 @@ def _dress(channel: Channel, code: str, hole: Hole, strokes: Iterator[Stroke]) -
         strokes = lathe.overlapping(strokes, hole, _apart(channel))
     clamp = channel.memory.clamp
     if clamp:
-        seconds = channel.memory.parameters.number(5111) / 1000.0
+        seconds = channel.memory.parameters.unclamp_dwell / 1000.0
         strokes = lathe.clamped(strokes, clamp, _unclamp(channel, clamp), seconds)
     return strokes
 
 
-def _apart(channel: Channel) -> frozenset[Joint]:
+def _apart(channel: LatheChannel) -> frozenset[Joint]:
     """Joints of strokes at which the axes come to rest (1681#0 to #5; II.4.4, 6.6)."""
-    bit = channel.memory.parameters.bit
-    return frozenset(joint for joint in Joint if bit(1681, joint))
+    parameters = channel.memory.parameters
+    return frozenset(joint for joint, bit in _APART.items() if parameters.value(bit))
 
 
-def _overlaps_hole(channel: Channel, code: str) -> bool | None:
+def _overlaps_hole(channel: LatheChannel, code: str) -> bool | None:
     """Whether the way over a hole and the one to R overlap; taps know no overlap."""
     return None if code in tapping.TAPS else Joint.HOLE not in _apart(channel)
 
 
-def _halts(channel: Channel, code: str) -> Halts:
+def _halts(channel: LatheChannel, code: str) -> Halts:
     """Single block halts over the hole, on R and at the end; in rigid tapping by 5200#6 FHD behind every action."""
     rigid = code in tapping.TAPS and tapping.is_rigid(channel)
-    return Halts.ALL if rigid and channel.memory.parameters.bit(5200, 6) else Halts.APPROACH
+    return Halts.ALL if rigid and channel.memory.parameters.FHD else Halts.APPROACH
 
 
-def is_clamp(channel: Channel, number: int) -> bool:
+def is_clamp(channel: LatheChannel, number: int) -> bool:
     """Whether an M code clamps the C axis in a drilling block (5110; with 5161#4 also 13544)."""
-    parameters = channel.setup.parameters
+    parameters = channel.memory.parameters
     if drills_in_series_15(channel) or not number:
         return False
-    codes = [int(parameters.number(5110))]
-    if parameters.bit(5161, 4):
-        codes.append(int(parameters.number(13544)))
+    codes = [parameters.clamp_code]
+    if parameters.second_clamp_pair:
+        codes.append(parameters.second_clamp_code)
     return number in codes
 
 
-def _unclamp(channel: Channel, clamp: int) -> int:
+def _unclamp(channel: LatheChannel, clamp: int) -> int:
     parameters = channel.memory.parameters
-    if not parameters.bit(5161, 4):
+    if not parameters.second_clamp_pair:
         return clamp + 1
-    return int(parameters.number(13543 if clamp == int(parameters.number(5110)) else 13545))
+    return parameters.unclamp_code if clamp == parameters.clamp_code else parameters.second_unclamp_code
 
 
 def note_clamp(number: int) -> Handler:
     """The handler of a clamp code: it holds until the cycle ends."""
 
-    def note(channel: Channel, _words: Words) -> None:
+    def note(channel: LatheChannel, _words: Words) -> None:
         channel.memory.clamp = number
 
     return note

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.code_calls import PROGRAM_M
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
+from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.motion.skip import signal_position
 from polycnc.cycles.turning.grinding import Grinding, GrindStroke, oscillate, traverse
@@ -15,7 +16,7 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
 
@@ -26,7 +27,12 @@ TRAVERSE, TRAVERSE_GAUGED, OSCILLATE, OSCILLATE_GAUGED = (
     "G73 grinding",
     "G74 grinding",
 )
-_AXIS_PARAMETERS = {TRAVERSE: 5176, TRAVERSE_GAUGED: 5177, OSCILLATE: 5178, OSCILLATE_GAUGED: 5179}
+_AXIS_PARAMETERS = {
+    TRAVERSE: LatheParameters.traverse_axis,
+    TRAVERSE_GAUGED: LatheParameters.traverse_gauged_axis,
+    OSCILLATE: LatheParameters.oscillation_axis,
+    OSCILLATE_GAUGED: LatheParameters.oscillation_gauged_axis,
+}
 CODES = frozenset(_AXIS_PARAMETERS)
 _GAUGED = frozenset({TRAVERSE_GAUGED, OSCILLATE_GAUGED})
 _OSCILLATING = frozenset({OSCILLATE, OSCILLATE_GAUGED})
@@ -54,7 +60,7 @@ def plan_grinding(builder: Builder, plan: Plan) -> Step | None:
         return None
     once = ("H", "P", "B") if code in _OSCILLATING else ("H", "P")
 
-    def run(channel: Channel, values: list[float]) -> None:
+    def run(channel: LatheChannel, values: list[float]) -> None:
         words = {
             a: _value(builder, a, form, values[slot], infeed, along) for a, (slot, form) in slots.items()
         }
@@ -71,8 +77,8 @@ def plan_grinding(builder: Builder, plan: Plan) -> Step | None:
 def _axes(builder: Builder, code: str) -> tuple[int, int]:
     """The cutting axis and the grinding axis of a cycle."""
     control, channel = builder.control, builder.channel
-    infeed = plane_axes(channel)[0] if channel.setup.parameters.bit(5101, 0) else 0
-    along = int(channel.setup.parameters.number(_AXIS_PARAMETERS[code])) - 1
+    infeed = plane_axes(channel)[0] if channel.memory.parameters.FXY else 0
+    along = channel.memory.parameters.value(_AXIS_PARAMETERS[code]) - 1
     if along < 0:
         along = channel.axis_index.get("Z", -1)
     if not 0 <= along < len(channel.axes):
@@ -96,7 +102,7 @@ def _value(builder: Builder, address: str, form: str, value: float, infeed: int,
     return convert(value) if convert else value
 
 
-def _run(channel: Channel, code: str, words: Mapping[str, float], infeed: int, along: int) -> None:
+def _run(channel: LatheChannel, code: str, words: Mapping[str, float], infeed: int, along: int) -> None:
     first = words.get("A", 0.0)
     second = words.get("B", first if code in _OSCILLATING else 0.0)
     cycle = Grinding(first, second, words["W"], words.get("U", 0.0), max(int(words.get("H", 1)), 1))
@@ -116,7 +122,7 @@ def _run(channel: Channel, code: str, words: Mapping[str, float], infeed: int, a
 
 
 def _stroke(
-    channel: Channel,
+    channel: LatheChannel,
     stroke: GrindStroke,
     words: Mapping[str, float],
     axes: tuple[int, int],
@@ -137,7 +143,7 @@ def _stroke(
     return reached is not None
 
 
-def _move(channel: Channel, end: list[float], feed: float) -> None:
+def _move(channel: LatheChannel, end: list[float], feed: float) -> None:
     if not feed > 0.0:
         raise channel.control.fail("no_feed")
     channel.straight(Kind.FEED, end, feed)

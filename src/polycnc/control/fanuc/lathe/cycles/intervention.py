@@ -10,7 +10,7 @@ from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
 
@@ -38,7 +38,7 @@ def plan_return(builder: Builder, plan: Plan) -> list[Step]:
     if takes_back(builder) is None:
         return []
 
-    def count_from_path(channel: Channel, _values: list[float]) -> None:
+    def count_from_path(channel: LatheChannel, _values: list[float]) -> None:
         moved, c = channel.moved_by_hand, channel.coordinates
         channel.moved_by_hand = None
         if moved is None or any(abs(a - b) > NO_WAY for a, b in zip(c.machine, moved.machine, strict=True)):

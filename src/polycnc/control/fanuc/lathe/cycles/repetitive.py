@@ -33,6 +33,7 @@ from polycnc.control.fanuc.lathe.cycles.strokes import (
     uncompensated_cycle,
 )
 from polycnc.control.fanuc.lathe.motion.threads import CHAMFERS, lead_in_force, refuse_corners, start_angle
+from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools.nose_radius import SHAPE_KIND
 from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.cycles.turning.contour import points, reversal, swapped, swapped_stroke
@@ -46,10 +47,11 @@ from polycnc.language.word_address.functions import round_half_away
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.fanuc.lathe.cycles.shape import Shape
+    from polycnc.control.fanuc.lathe.family import LatheChannel
+    from polycnc.control.parameters import Parameter
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.cycles.turning.contour import Contour
@@ -62,11 +64,10 @@ WORDS = "P Q U V W R D I J K A E"
 INCREMENTS = {"G18": ("W", "U"), "G17": ("U", "V"), "G19": ("V", "W")}
 #: Centre words of the plane's first and second axis.
 CENTERS = {"G18": ("K", "I"), "G17": ("I", "J"), "G19": ("J", "K")}
-DEPTH, ESCAPE, CLEARANCE = 5132, 5133, 5134
-PATTERN_SECOND, PATTERN_FIRST, PATTERN_PASSES = 5135, 5136, 5137
-RETURN = 5139
-THREAD_LEAST, THREAD_ALLOWANCE, THREAD_FINISHING, THREAD_ANGLE = 5140, 5141, 5142, 5143
-CHAMFER = 5130
+#: Parameters that keep their sign when the first block of a cycle writes them.
+_SIGNED = frozenset(
+    {LatheParameters.stroke_depth, LatheParameters.pattern_escape_x, LatheParameters.pattern_escape_z}
+)
 MAX_TIP_ANGLE = 120.0
 #: A thread with more passes is taken for one that does not end.
 MAX_PASSES = 10_000
@@ -88,7 +89,7 @@ def check_block(builder: Builder, plan: Plan) -> None:
         raise builder.control.fail("cycle_block", address=builder.order[0])
 
 
-def finish(channel: Channel, words: Words) -> None:
+def finish(channel: LatheChannel, words: Words) -> None:
     """G70 P Q: run the shape once as it is written, then back to where the cycle began."""
     _refuse_points(words)
     first, last = _shape_numbers(channel, words)
@@ -110,7 +111,7 @@ def finish(channel: Channel, words: Words) -> None:
     channel.mode = channel.mode.with_code(GROUP, FINISHING)
 
 
-def end_of_shape(channel: Channel) -> None:
+def end_of_shape(channel: LatheChannel) -> None:
     """The shape of G70 is cut: back to the start in rapid, on with the block behind G70."""
     section = channel.pop()
     end_finishing(channel)
@@ -129,27 +130,28 @@ def end_of_shape(channel: Channel) -> None:
 
 
 @without_rotation
-def rough_turning(channel: Channel, words: Words) -> None:
+def rough_turning(channel: LatheChannel, words: Words) -> None:
     """G71: strokes along the first axis of the plane."""
     _rough(channel, words, along=0)
 
 
 @without_rotation
-def rough_facing(channel: Channel, words: Words) -> None:
+def rough_facing(channel: LatheChannel, words: Words) -> None:
     """G72: strokes along the second axis of the plane."""
     _rough(channel, words, along=1)
 
 
-def _rough(channel: Channel, words: Words, *, along: int) -> None:
+def _rough(channel: LatheChannel, words: Words, *, along: int) -> None:
     memory, plane = channel.memory, channel.mode["plane"]
     depth_word = INCREMENTS[plane][1 - along]
     series_15 = is_series_15(channel)
     _refuse_points(words, INCREMENTS[plane])
     _check_words(words, ("P", "Q", "R", *INCREMENTS[plane]), ("D", *CENTERS[plane]) if series_15 else ())
     if "P" not in words and "Q" not in words:
-        _store(channel, words, {depth_word: DEPTH, "R": ESCAPE})
+        stored = {depth_word: LatheParameters.stroke_depth, "R": LatheParameters.stroke_escape}
+        _store(channel, words, stored)
         return
-    depth = _series_15_depth(words) if series_15 and "D" in words else memory.cycle_parameter(DEPTH)
+    depth = _series_15_depth(words) if series_15 and "D" in words else memory.parameters.stroke_depth
     if not depth > 0.0:
         raise words.fail("cycle_depth", "D" if series_15 else depth_word)
     shape, contour = _read(channel, words)
@@ -159,23 +161,23 @@ def _rough(channel: Channel, words: Words, *, along: int) -> None:
     _check_start(channel, shape, 1 - along, allowance[1 - along])
     pockets = axes[along] in (shape.first_axes or ())
     _check_monotone(channel, contour, along, pockets=pockets)
-    bit = memory.parameters.bit
+    parameters = memory.parameters
     cuts = Roughing(
         depth,
-        memory.cycle_parameter(ESCAPE),
+        parameters.stroke_escape,
         allowance=_turned(allowance, along),
         extra=_turned(extra, along),
         pockets=pockets,
-        finishes=not bit(5105, 2 if pockets else 1),
+        finishes=not (parameters.RF2 if pockets else parameters.RF1),
         infeed_rapid=shape.first_code == "G0",
-        escape_rapid=bool(bit(5124, 0)),
-        clearance=memory.cycle_parameter(CLEARANCE),
-        returns_rapid=bool(bit(5107, 0)),
-        returns_merged=bool(bit(5107, 1)) and not pockets,
-        returns_straight=bool(bit(5125, 6) and bit(1401, 1)) and not pockets,
-        follows_flats=bool(bit(5108, 0) or bit(5108, 3)),
-        skips_bottoms=bool(bit(5108, 3)),
-        feeds_last=memory.cycle_parameter(5126) or 0.5 * memory.cycle_parameter(ESCAPE),
+        escape_rapid=parameters.CBR,
+        clearance=parameters.pocket_clearance,
+        returns_rapid=parameters.ASU,
+        returns_merged=parameters.ASC and not pockets,
+        returns_straight=parameters.RPA and parameters.LRP and not pockets,
+        follows_flats=parameters.R16 or parameters.NSP,
+        skips_bottoms=parameters.NSP,
+        feeds_last=parameters.last_feed or 0.5 * parameters.stroke_escape,
     )
     if along:
         strokes: Iterable[PlaneStroke] = (swapped_stroke(stroke) for stroke in rough(swapped(contour), cuts))
@@ -185,7 +187,7 @@ def _rough(channel: Channel, words: Words, *, along: int) -> None:
     _go_on_behind(channel, shape)
 
 
-def _go_on_behind(channel: Channel, shape: Shape) -> None:
+def _go_on_behind(channel: LatheChannel, shape: Shape) -> None:
     """Behind the shape; behind the cycle itself where the shape stands in front of it, or it would never end."""
     level = channel.level
     level.index = max(level.current, shape.end) + 1
@@ -196,7 +198,7 @@ def _turned(pair: tuple[float, float], along: int) -> tuple[float, float]:
 
 
 @without_rotation
-def repeat_pattern(channel: Channel, words: Words) -> None:
+def repeat_pattern(channel: LatheChannel, words: Words) -> None:
     """G73: the shape itself, pass by pass nearer to the finished part."""
     memory, plane = channel.memory, channel.mode["plane"]
     first_word, second_word = INCREMENTS[plane]
@@ -205,17 +207,22 @@ def repeat_pattern(channel: Channel, words: Words) -> None:
         words, ("P", "Q", "R", *INCREMENTS[plane]), ("D", *CENTERS[plane]) if is_series_15(channel) else ()
     )
     if "P" not in words and "Q" not in words:
-        _store(channel, words, {first_word: PATTERN_FIRST, second_word: PATTERN_SECOND})
+        _store(
+            channel,
+            words,
+            {first_word: LatheParameters.pattern_escape_z, second_word: LatheParameters.pattern_escape_x},
+        )
         if "R" in words:
-            memory.set_cycle_parameter(PATTERN_PASSES, round_half_away(words.typed("R") or 0.0))
+            passes = round_half_away(words.typed("R") or 0.0)
+            memory.set_cycle_parameter(LatheParameters.pattern_passes, passes)
         return
     if is_series_15(channel) and "D" in words:
         first_center, second_center = CENTERS[plane]
         escape = (words.length(first_center) or 0.0, words.length(second_center) or 0.0)
         passes = _count(words, "D")
     else:
-        escape = (memory.cycle_parameter(PATTERN_FIRST), memory.cycle_parameter(PATTERN_SECOND))
-        passes = int(memory.cycle_parameter(PATTERN_PASSES))
+        escape = (memory.parameters.pattern_escape_z, memory.parameters.pattern_escape_x)
+        passes = memory.parameters.pattern_passes
     if passes < 1:
         raise words.fail("pattern_passes", "D" if "D" in words else "R")
     shape, contour = _read(channel, words)
@@ -226,9 +233,9 @@ def repeat_pattern(channel: Channel, words: Words) -> None:
     _go_on_behind(channel, shape)
 
 
-def _halt_in_passes(channel: Channel, shape: Shape, passes: int) -> None:
+def _halt_in_passes(channel: LatheChannel, shape: Shape, passes: int) -> None:
     """Single block halts behind every block of every pass; by 5125#2 PRS behind the way off A and every pass."""
-    if channel.memory.parameters.bit(5125, 2):
+    if channel.memory.parameters.PRS:
         lines = [0] * (passes + 1)
     else:
         lines = [line for line, _ in groupby(move.line for move in shape.moves)] * passes
@@ -236,8 +243,8 @@ def _halt_in_passes(channel: Channel, shape: Shape, passes: int) -> None:
         channel.halt_inside(line)
 
 
-def _read(channel: Channel, words: Words) -> tuple[Shape, Contour]:
-    if "S" in words and channel.memory.parameters.bit(3703, 3):
+def _read(channel: LatheChannel, words: Words) -> tuple[Shape, Contour]:
+    if "S" in words and channel.memory.parameters.MPP:
         raise words.fail("spindle_choice", "S")
     first, last = _shape_numbers(channel, words)
     shape = read_shape(channel, first, last)
@@ -254,7 +261,7 @@ def _refuse_points(words: Words, amounts: tuple[str, ...] = ()) -> None:
             raise words.fail("cycle_block", word.address)
 
 
-def _shape_numbers(channel: Channel, words: Words) -> tuple[int, int]:
+def _shape_numbers(channel: LatheChannel, words: Words) -> tuple[int, int]:
     """P and Q. The program that holds the cycle must be stored: MDI may only call one that has it (II.4.2.8)."""
     first, last = words.integer("P"), words.integer("Q")
     if first is None or last is None:
@@ -264,7 +271,7 @@ def _shape_numbers(channel: Channel, words: Words) -> tuple[int, int]:
     return first, last
 
 
-def _check_first_block(channel: Channel, shape: Shape, infeed: int) -> None:
+def _check_first_block(channel: LatheChannel, shape: Shape, infeed: int) -> None:
     """The first block says G00 or G01, and moves the axis of infeed."""
     if not shape.first_code:
         raise channel.control.fail("shape_first_block", address="P")
@@ -272,7 +279,7 @@ def _check_first_block(channel: Channel, shape: Shape, infeed: int) -> None:
         raise channel.control.fail("shape_command", address="P")
 
 
-def _check_start(channel: Channel, shape: Shape, infeed: int, allowance: float) -> None:
+def _check_start(channel: LatheChannel, shape: Shape, infeed: int, allowance: float) -> None:
     """With a positive allowance no point of the shape lies higher than the start, with a negative one none lower."""
     contour = contour_of(channel, shape, as_written=True)
     outwards = copysign(1.0, allowance)
@@ -281,21 +288,26 @@ def _check_start(channel: Channel, shape: Shape, infeed: int, allowance: float) 
         raise channel.control.fail("shape_beyond_start", address="P")
 
 
-def _check_monotone(channel: Channel, contour: Contour, along: int, *, pockets: bool) -> None:
+def _check_monotone(channel: LatheChannel, contour: Contour, along: int, *, pockets: bool) -> None:
     """Type I: both axes go one way only; type II: that of the strokes. Small reversals are allowed (5145, 5146)."""
     shape = contour[1:]
     if not shape:
         return
-    for axis, (parameter, mistake) in enumerate(((5145, "shape_first_axis"), (5146, "shape_second_axis"))):
+    parameters = channel.memory.parameters
+    allowed = (
+        (parameters.reversal_first_axis, "shape_first_axis"),
+        (parameters.reversal_second_axis, "shape_second_axis"),
+    )
+    for axis, (limit, mistake) in enumerate(allowed):
         if pockets and axis != along:
             continue
         begin, end = shape[0].edge.start[axis], shape[-1].edge.end[axis]
         direction = 1.0 if end >= begin else -1.0
-        if reversal(shape, axis, direction) > channel.memory.cycle_parameter(parameter) + 1e-6:
+        if reversal(shape, axis, direction) > limit + 1e-6:
             raise channel.control.fail(mistake, address="P")
 
 
-def _allowance(channel: Channel, words: Words) -> tuple[float, float]:
+def _allowance(channel: LatheChannel, words: Words) -> tuple[float, float]:
     """Finishing allowances along the first and second axis, mm of radius; the words follow their axis."""
     found = []
     for axis, address in zip(plane_axes(channel), INCREMENTS[channel.mode["plane"]], strict=True):
@@ -303,7 +315,7 @@ def _allowance(channel: Channel, words: Words) -> tuple[float, float]:
     return found[0], found[1]
 
 
-def _extra(channel: Channel, words: Words, contour: Contour) -> tuple[float, float]:
+def _extra(channel: LatheChannel, words: Words, contour: Contour) -> tuple[float, float]:
     """Rough-finishing allowances of the Series 15 format (II.6.4.1).
 
     They have no sign: they lie on the side of the finishing allowance, or without one on that of the start point.
@@ -320,7 +332,7 @@ def _extra(channel: Channel, words: Words, contour: Contour) -> tuple[float, flo
     return extra[0], extra[1]
 
 
-def _cut(channel: Channel, strokes: Iterable[PlaneStroke]) -> None:
+def _cut(channel: LatheChannel, strokes: Iterable[PlaneStroke]) -> None:
     """Make the strokes; compensation is in the shape already, so the path's own one rests meanwhile."""
     compensated = is_compensated(channel)
     if compensated:
@@ -334,23 +346,23 @@ def _cut(channel: Channel, strokes: Iterable[PlaneStroke]) -> None:
 
 
 @without_rotation
-def peck_facing(channel: Channel, words: Words) -> None:
+def peck_facing(channel: LatheChannel, words: Words) -> None:
     """G74: pecks along the first axis of the plane, columns along the second."""
     _peck(channel, words, along=0)
 
 
 @without_rotation
-def groove(channel: Channel, words: Words) -> None:
+def groove(channel: LatheChannel, words: Words) -> None:
     """G75: pecks along the second axis of the plane, columns along the first."""
     _peck(channel, words, along=1)
 
 
-def _peck(channel: Channel, words: Words, *, along: int) -> None:
+def _peck(channel: LatheChannel, words: Words, *, along: int) -> None:
     memory, plane = channel.memory, channel.mode["plane"]
     forms = ("D", *CENTERS[plane]) if is_series_15(channel) else ("P", "Q", "R")
     _check_words(words, ("R",), forms)
     if not words.axes():
-        _store(channel, words, {"R": RETURN})
+        _store(channel, words, {"R": LatheParameters.groove_return})
         return
     axes = plane_axes(channel)
     start, end = _corner(channel, words, axes)
@@ -363,7 +375,7 @@ def _peck(channel: Channel, words: Words, *, along: int) -> None:
         if min(amounts) < 0.0:
             raise words.fail("peck_amount", "Q" if amounts[0] < 0.0 else "P")
         relief = words.length("R") or 0.0
-    pecks = Pecks(amounts[along], memory.cycle_parameter(RETURN), amounts[1 - along], relief)
+    pecks = Pecks(amounts[along], memory.parameters.groove_return, amounts[1 - along], relief)
     start, end = _turned(start, along), _turned(end, along)
     _check_pecks(words, start, end, pecks)
     strokes = peck_columns(start, end, pecks)
@@ -380,7 +392,7 @@ def _check_pecks(words: Words, start: Point, end: Point, pecks: Pecks) -> None:
 
 
 def _corner(
-    channel: Channel, words: Words, axes: tuple[int, int]
+    channel: LatheChannel, words: Words, axes: tuple[int, int]
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """Start and corner of a cycle in the plane, on the display."""
     c = channel.coordinates
@@ -397,7 +409,7 @@ def _corner(
 
 
 @without_rotation
-def thread(channel: Channel, words: Words) -> None:
+def thread(channel: LatheChannel, words: Words) -> None:
     """G76: a whole thread, pass by pass."""
     memory = channel.memory
     if not words.axes():
@@ -420,20 +432,20 @@ def thread(channel: Channel, words: Words) -> None:
         if "Q" in words and words.form("Q") not in ("", "#"):
             raise words.fail("point", "Q")
         turn = start_angle(words.typed("Q") or 0.0)
-        finishing = max(int(memory.cycle_parameter(THREAD_FINISHING)), 1)
+        finishing = max(memory.parameters.thread_finishing_passes, 1)
     else:
         taper = words.length("R") or 0.0
         height, first = _modal_depth(channel, words, "P"), _modal_depth(channel, words, "Q")
-        angle, method, turn = memory.cycle_parameter(THREAD_ANGLE), 1, 0.0
-        finishing = max(int(memory.cycle_parameter(THREAD_FINISHING)), 1)
+        angle, method, turn = memory.parameters.thread_angle, 1, 0.0
+        finishing = max(memory.parameters.thread_finishing_passes, 1)
     lead = INCH_MM / _threads_per_inch(words) if "E" in words else lead_in_force(channel)
     if not height > 0.0 or not first > 0.0:
         raise words.fail("thread_words", "P" if not height > 0.0 else "Q")
     cuts = ThreadCuts(
         height,
         min(first, height),
-        memory.cycle_parameter(THREAD_LEAST) if method in (0, 1, 2) else 0.0,
-        memory.cycle_parameter(THREAD_ALLOWANCE),
+        memory.parameters.thread_least_depth if method in (0, 1, 2) else 0.0,
+        memory.parameters.thread_allowance,
         finishing,
         constant_depth=method in (3, 4),
     )
@@ -449,7 +461,7 @@ def thread(channel: Channel, words: Words) -> None:
         cut_pass(channel, (start, begin, last), out, lead, turn)
 
 
-def _store_thread(channel: Channel, words: Words) -> None:
+def _store_thread(channel: LatheChannel, words: Words) -> None:
     """The first block of G76: P packs finishing passes, chamfer in 0.1 leads and tip angle; Q and R are depths."""
     store = channel.memory.set_cycle_parameter
     packed = words.integer("P") if "P" in words else None
@@ -458,14 +470,14 @@ def _store_thread(channel: Channel, words: Words) -> None:
         chamfer, angle = divmod(rest, 100)
         if angle not in TIP_ANGLES or passes > 99:
             raise words.fail("thread_angle" if passes <= 99 else "thread_words", "P")
-        store(CHAMFER, chamfer)
-        store(THREAD_ANGLE, angle)
+        store(LatheParameters.thread_chamfer, chamfer)
+        store(LatheParameters.thread_angle, angle)
         if passes:
-            store(THREAD_FINISHING, passes)
+            store(LatheParameters.thread_finishing_passes, passes)
     if "Q" in words:
-        store(THREAD_LEAST, abs(_increments(words, "Q")))
+        store(LatheParameters.thread_least_depth, abs(_increments(words, "Q")))
     if "R" in words:
-        store(THREAD_ALLOWANCE, abs(words.length("R") or 0.0))
+        store(LatheParameters.thread_allowance, abs(words.length("R") or 0.0))
 
 
 def _threads_per_inch(words: Words) -> float:
@@ -492,13 +504,12 @@ def _check_words(words: Words, common: tuple[str, ...], of_format: tuple[str, ..
 # ---- words -------------------------------------------------------------------------------------------------------
 
 
-def _store(channel: Channel, words: Words, parameters: dict[str, int]) -> None:
+def _store(channel: LatheChannel, words: Words, parameters: Mapping[str, Parameter[float]]) -> None:
     """The first block of the two: its words overwrite the parameters, as radius values."""
-    for address, number in parameters.items():
+    for address, parameter in parameters.items():
         value = words.length(address)
         if value is not None:
-            signed = number in (DEPTH, PATTERN_FIRST, PATTERN_SECOND)
-            channel.memory.set_cycle_parameter(number, value if signed else abs(value))
+            channel.memory.set_cycle_parameter(parameter, value if parameter in _SIGNED else abs(value))
 
 
 def _increments(words: Words, address: str) -> float:
@@ -510,7 +521,7 @@ def _increments(words: Words, address: str) -> float:
     return _least_increments(words, address)
 
 
-def _modal_depth(channel: Channel, words: Words, address: str) -> float:
+def _modal_depth(channel: LatheChannel, words: Words, address: str) -> float:
     """P or Q of G76; without the word that of the thread before (II.4.2.7 note 3)."""
     kept: dict[str, float] = channel.memory.thread_depths
     if address in words:

@@ -26,10 +26,10 @@ from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.channel.path import Move
     from polycnc.channel.stack import Level
     from polycnc.channel.steps import Step as BlockStep
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
 
@@ -87,7 +87,7 @@ def plan_note(builder: Builder, plan: Plan) -> Step | None:
     axes = frozenset(word.axis for word in plan.axis_words)
     code = codes[-1] if codes and codes[-1] in _INFEED_CODES else ""
 
-    def note(channel: Channel, _values: list[float]) -> None:
+    def note(channel: LatheChannel, _values: list[float]) -> None:
         shape: Shape | None = channel.memory.shape
         if shape is not None and shape.first_axes is None:
             shape.first_axes, shape.first_code = axes, code
@@ -99,7 +99,7 @@ def plan_note(builder: Builder, plan: Plan) -> Step | None:
     return note
 
 
-def section_steps(channel: Channel, code: Any, first: int, last: int) -> tuple[int, int]:
+def section_steps(channel: LatheChannel, code: Any, first: int, last: int) -> tuple[int, int]:
     """First and last step of a shape. No other block of the program may have its numbers (II.4.2.8).
 
     A shape holds no further cycle: its blocks might lead back into it without end.
@@ -114,7 +114,7 @@ def section_steps(channel: Channel, code: Any, first: int, last: int) -> tuple[i
     return begin, end
 
 
-def read_shape(channel: Channel, first: int, last: int) -> Shape:
+def read_shape(channel: LatheChannel, first: int, last: int) -> Shape:
     """Read the blocks from sequence number `first` to `last` of the running program."""
     level = channel.level
     code: Any = level.code
@@ -132,7 +132,7 @@ def read_shape(channel: Channel, first: int, last: int) -> Shape:
     return shape
 
 
-def _run_blocks(channel: Channel, level: Level, begin: int, end: int) -> None:
+def _run_blocks(channel: LatheChannel, level: Level, begin: int, end: int) -> None:
     code: Any = level.code
     level.index = begin
     for _ in range(MAX_SHAPE_BLOCKS):
@@ -152,7 +152,7 @@ def _run_blocks(channel: Channel, level: Level, begin: int, end: int) -> None:
     raise channel.control.fail("no_shape_end", address="Q")
 
 
-def refuse_open_end(channel: Channel) -> None:
+def refuse_open_end(channel: LatheChannel) -> None:
     """The last block of a shape may not need the next one for its corner or its end (II.4.7, 4.9)."""
     line = channel.memory.open_line
     channel.memory.open_line = None
@@ -165,7 +165,7 @@ def refuse_open_end(channel: Channel) -> None:
 class _Kept:
     """What reading must not change."""
 
-    def __init__(self, channel: Channel) -> None:
+    def __init__(self, channel: LatheChannel) -> None:
         c, memory, level = channel.coordinates, channel.memory, channel.level
         self.mode, self.feed = channel.mode, channel.feed
         self.position, self.programmed, self.pending = c.position, c.programmed, list(c.pending)
@@ -173,7 +173,7 @@ class _Kept:
         self.stack, self.finished, self.wait = list(channel.stack), channel.finished, channel.wait
         self.memory = {name: copy(getattr(memory, name)) for name in _MEMORY_FIELDS}
 
-    def put_back(self, channel: Channel) -> None:
+    def put_back(self, channel: LatheChannel) -> None:
         c, level = channel.coordinates, self.level
         channel.mode, channel.feed = self.mode, self.feed
         c.position, c.programmed, c.pending = self.position, self.programmed, self.pending
@@ -201,7 +201,7 @@ _MEMORY_FIELDS = (
 )
 
 
-def contour_of(channel: Channel, shape: Shape, *, as_written: bool = False) -> Contour:
+def contour_of(channel: LatheChannel, shape: Shape, *, as_written: bool = False) -> Contour:
     """The shape as edges of the plane, after nose radius compensation where that is active, or `as_written`."""
     first, second = plane_axes(channel)
     u, v, w = PLANES[channel.mode["plane"]]
@@ -223,7 +223,7 @@ def contour_of(channel: Channel, shape: Shape, *, as_written: bool = False) -> C
     return contour
 
 
-def _compensated(channel: Channel, moves: list[Move], plane: Plane) -> list[Move]:
+def _compensated(channel: LatheChannel, moves: list[Move], plane: Plane) -> list[Move]:
     """The moves off the contour by the nose: start-up in the first one, square at the end (II.4.2.1)."""
     recorder = Recorder()
     codes = violation_codes(channel.control.alarms)
@@ -259,11 +259,11 @@ class Section:
         return getattr(self.code, name)
 
 
-def _outside(channel: Channel) -> None:
+def _outside(channel: LatheChannel) -> None:
     raise channel.control.fail("shape_command", address="P")
 
 
-def end_finishing(channel: Channel) -> None:
+def end_finishing(channel: LatheChannel) -> None:
     """Behind the last block of the shape that G70 runs any command is allowed again."""
     codes = dict(channel.mode.codes)
     codes.pop(GROUP, None)
@@ -278,7 +278,7 @@ def interruptible(builder: Builder, motion: Step) -> Step:
     if cut is motion:
         return motion
 
-    def move(channel: Channel, values: list[float]) -> None:
+    def move(channel: LatheChannel, values: list[float]) -> None:
         (motion if channel.level.kind == SHAPE_KIND else cut)(channel, values)
 
     return move

@@ -22,7 +22,7 @@ from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.geometry.arcs import Point
@@ -55,7 +55,7 @@ def plan_single_cycle(builder: Builder, plan: Plan) -> Step | None:
     taper_of = builder.length(taper) if taper is not None else None
     words = plan.axis_words
 
-    def run(channel: Channel, values: list[float]) -> None:
+    def run(channel: LatheChannel, values: list[float]) -> None:
         data = channel.memory.single_cycle
         axes = plane_axes(channel)
         for word in words:
@@ -74,7 +74,7 @@ def plan_single_cycle(builder: Builder, plan: Plan) -> Step | None:
     return run
 
 
-def _run(channel: Channel, code: str, axes: tuple[int, int], angle: float) -> None:
+def _run(channel: LatheChannel, code: str, axes: tuple[int, int], angle: float) -> None:
     data, c = channel.memory.single_cycle, channel.coordinates
     if not channel.feed > 0.0 and "lead" not in data:
         raise channel.control.fail("no_feed")
@@ -97,7 +97,7 @@ def _run(channel: Channel, code: str, axes: tuple[int, int], angle: float) -> No
 
 
 def cut_pass(
-    channel: Channel, way: tuple[Point, Point, Point], out: Runout, lead: float, angle: float
+    channel: LatheChannel, way: tuple[Point, Point, Point], out: Runout, lead: float, angle: float
 ) -> None:
     """One pass of G92 or G76: from the start to where it begins, to its end, and back.
 
@@ -113,7 +113,7 @@ def cut_pass(
     uncompensated_cycle(channel, thread_pass(start, begin, end, out, angle), lead=lead)
 
 
-def _held_end(channel: Channel, begin: Point, end: Point, out: Runout) -> Point | None:
+def _held_end(channel: LatheChannel, begin: Point, end: Point, out: Runout) -> Point | None:
     """Where a thread ends that feed hold breaks off; None where it does not come in the thread."""
     axes = plane_axes(channel)
     at = channel.setup.switches.signals_at.get(FEED_HOLD)
@@ -138,7 +138,7 @@ def _plan_inch_thread(builder: Builder) -> Step | None:
     builder.take("E")
     slot, names_lead = builder.slot("E"), builder.has("F")
 
-    def choose(channel: Channel, values: list[float]) -> None:
+    def choose(channel: LatheChannel, values: list[float]) -> None:
         data = channel.memory.single_cycle
         if slot is None:
             if names_lead:
@@ -151,7 +151,7 @@ def _plan_inch_thread(builder: Builder) -> Step | None:
     return choose
 
 
-def runout(channel: Channel, lead: float | None = None) -> Runout:
+def runout(channel: LatheChannel, lead: float | None = None) -> Runout:
     """Chamfer at the end of a thread: the machine's input, 5130 (0.1 leads), 5131 (0 for 45 degrees).
 
     Args:
@@ -162,8 +162,10 @@ def runout(channel: Channel, lead: float | None = None) -> Runout:
     if switch is False:
         return Runout()
     memory = channel.memory
-    tenths = memory.cycle_parameter(5130)
-    return Runout(tenths * 0.1 * (lead or feed_number(channel)), memory.cycle_parameter(5131) or 45.0)
+    tenths = memory.parameters.thread_chamfer
+    return Runout(
+        tenths * 0.1 * (lead or feed_number(channel)), memory.parameters.thread_chamfer_angle or 45.0
+    )
 
 
 def _taper_letters(builder: Builder, code: str) -> tuple[str, ...]:

@@ -24,7 +24,7 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.cycles.turning.stroke import PlaneStroke
 
 
@@ -34,7 +34,7 @@ WAYS_OFF = 2
 MAX_STROKES = 300_000
 
 
-def emit(channel: Channel, strokes: Iterable[PlaneStroke], *, lead: float = 0.0) -> None:
+def emit(channel: LatheChannel, strokes: Iterable[PlaneStroke], *, lead: float = 0.0) -> None:
     """Make the strokes, at the feed in force; threads at a lead (mm)."""
     first, second = plane_axes(channel)
     c = channel.coordinates
@@ -63,7 +63,7 @@ def emit(channel: Channel, strokes: Iterable[PlaneStroke], *, lead: float = 0.0)
     lock(channel, "")
 
 
-def _lead_off(channel: Channel, ways: int) -> float:
+def _lead_off(channel: LatheChannel, ways: int) -> float:
     """Lock the next rapid as the first or last of the ways off a thread, or free it; its speed, 0 for rapid traverse.
 
     Feed hold waits for the return to the start, by 5109#3 TFH for the retract only (II.4.1.2).
@@ -71,11 +71,11 @@ def _lead_off(channel: Channel, ways: int) -> float:
     if ways == WAYS_OFF:
         lock(channel, RETRACT)
         return retract_speed(channel)
-    lock(channel, OFF_THREAD if ways and not channel.memory.parameters.bit(5109, 3) else "")
+    lock(channel, OFF_THREAD if ways and not channel.memory.parameters.TFH else "")
     return 0.0
 
 
-def _arc(channel: Channel, stroke: PlaneStroke, end: list[float], feed: float) -> None:
+def _arc(channel: LatheChannel, stroke: PlaneStroke, end: list[float], feed: float) -> None:
     u, v, w = PLANES[channel.mode["plane"]]
     third = channel.coordinates.geometry[w]
     center = [0.0, 0.0, 0.0]
@@ -86,13 +86,13 @@ def _arc(channel: Channel, stroke: PlaneStroke, end: list[float], feed: float) -
     channel.curve(stroke.kind, end, feed, center=(center[0], center[1], center[2]), normal=normal)
 
 
-def uncompensated_cycle(channel: Channel, strokes: Iterable[PlaneStroke], *, lead: float = 0.0) -> None:
+def uncompensated_cycle(channel: LatheChannel, strokes: Iterable[PlaneStroke], *, lead: float = 0.0) -> None:
     """G92, G74, G75, G76: nose radius compensation does not act in them (II.4.1.4, 4.2.5 to 4.2.7)."""
     with suspended(channel):
         emit(channel, strokes, lead=lead)
 
 
-def compensated_cycle(channel: Channel, strokes: Sequence[PlaneStroke]) -> None:
+def compensated_cycle(channel: LatheChannel, strokes: Sequence[PlaneStroke]) -> None:
     """G90, G94 within nose radius compensation: as if the four strokes were written as G00 and G01 (II.4.1.4).
 
     The vector is zero at the start and at the end; the nose stays on the side of the material's outside, whatever
@@ -113,12 +113,12 @@ def compensated_cycle(channel: Channel, strokes: Sequence[PlaneStroke]) -> None:
     enter_compensation(channel)
 
 
-def is_compensated(channel: Channel) -> bool:
+def is_compensated(channel: LatheChannel) -> bool:
     """Whether nose radius compensation is at work."""
     return active_compensation(channel) is not None and bool(channel.memory.side)
 
 
-def leave_compensation(channel: Channel) -> None:
+def leave_compensation(channel: LatheChannel) -> None:
     """The tool stands on the programmed point and compensation is off, until `enter_compensation`."""
     stage = active_compensation(channel)
     if stage is not None:
@@ -126,7 +126,7 @@ def leave_compensation(channel: Channel) -> None:
         stage.discard()
 
 
-def enter_compensation(channel: Channel) -> None:
+def enter_compensation(channel: LatheChannel) -> None:
     """The next move starts compensation up again."""
     stage = channel.path.find(CutterCompensation)
     if stage is not None:

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.motion.path import FEED_MODES
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import CycleData
-    from polycnc.machine.setup.values import Parameters
 
 #: Modal group of M29.
 RIGID, RIGID_ON, RIGID_OFF = "rigid", "M29", "off"
@@ -23,29 +23,34 @@ TAPS = frozenset({"G84", "G88", "G84.2"})
 #: Fastest spindle whose encoder still gives fewer than 32768 pulses in 8 ms (4095 a turn), rev/min.
 _MAX_RPM = 32767 * 1000 / 8 * 60 / 4095
 #: Highest speed of the spindle in each gear.
-_GEAR_LIMITS = (5241, 5242, 5243, 5244)
+_GEAR_LIMITS = (
+    LatheParameters.tap_speed_gear_1,
+    LatheParameters.tap_speed_gear_2,
+    LatheParameters.tap_speed_gear_3,
+    LatheParameters.tap_speed_gear_4,
+)
 
 
-def is_rigid(channel: Channel) -> bool:
+def is_rigid(channel: LatheChannel) -> bool:
     """Whether a tap is cut in step with a servo spindle: M29, 5200#0, or G84.2."""
-    return _is_rigid(channel.mode, channel.setup.parameters)
+    return _is_rigid(channel.mode, channel.memory.parameters)
 
 
 def was_rigid(builder: Builder) -> bool:
     """Whether a rigid tapping cycle was active before a block."""
-    return builder.before["cycle"] in TAPS and _is_rigid(builder.before, builder.channel.setup.parameters)
+    return builder.before["cycle"] in TAPS and _is_rigid(builder.before, builder.channel.memory.parameters)
 
 
 def taps_rigidly(builder: Builder) -> bool:
     """Whether a tap in a block is rigid: by the state before it, or by an M29 of its own."""
-    return _is_rigid(builder.mode, builder.channel.setup.parameters) or 29 in builder.m_codes
+    return _is_rigid(builder.mode, builder.channel.memory.parameters) or 29 in builder.m_codes
 
 
-def _is_rigid(mode: Mode, parameters: Parameters) -> bool:
-    return mode[RIGID] == RIGID_ON or bool(parameters.bit(5200, 0)) or mode["cycle"] == "G84.2"
+def _is_rigid(mode: Mode, parameters: LatheParameters) -> bool:
+    return mode[RIGID] == RIGID_ON or parameters.G84 or mode["cycle"] == "G84.2"
 
 
-def rigid_tapping(channel: Channel, _words: Words) -> None:
+def rigid_tapping(channel: LatheChannel, _words: Words) -> None:
     """M29: the next tapping cycle locks spindle and axis."""
     channel.mode = channel.mode.with_code(RIGID, RIGID_ON)
 
@@ -73,7 +78,7 @@ def plan_waiting(builder: Builder, plan: Plan) -> None:
         )
 
 
-def check(channel: Channel, data: CycleData) -> None:
+def check(channel: LatheChannel, data: CycleData) -> None:
     """A rigid tap needs a speed that the gear and the encoder allow, no constant surface speed, and a feed."""
     if not is_rigid(channel):
         return
@@ -87,44 +92,43 @@ def check(channel: Channel, data: CycleData) -> None:
         raise fail("rigid_feed", address="F")
     per_revolution = FEED_MODES[channel.mode["feed"]] is FeedMode.PER_REVOLUTION
     mm_min = channel.feed * (speed if per_revolution else 60.0)
-    limit = channel.memory.parameters.number(1430, channel.axes[data.axis])
+    limit = channel.memory.parameters.of(channel.axes[data.axis]).largest_feed
     if limit and mm_min >= limit:
         # II.4.5.1 and II.4.5.2 name different alarms for the same mistake.
         raise fail("no_feed" if data.amount("Q") else "rigid_feed", address="F")
 
 
-def gear_limit(channel: Channel) -> float:
+def gear_limit(channel: LatheChannel) -> float:
     """Highest speed of the spindle in the gear that the machine reports (GR1, GR2), rev/min; 0 for none."""
     signals = channel.memory.signals
     gear = int(bool(signals.get("GR1"))) + 2 * int(bool(signals.get("GR2")))
-    highest: float = channel.memory.parameters.number(_GEAR_LIMITS[gear])
-    return highest
+    return channel.memory.parameters.value(_GEAR_LIMITS[gear])
 
 
-def largest_override(channel: Channel) -> float:
+def largest_override(channel: LatheChannel) -> float:
     """The feed override (5203#4) may not lead the spindle above its gear's highest speed; 0 for any (II.4.5.4.2)."""
     speed = channel.memory.spindle_speed
     return gear_limit(channel) / speed if speed > 0.0 else 0.0
 
 
-def extraction(channel: Channel) -> float:
+def extraction(channel: LatheChannel) -> float:
     """How much faster a rigid tap comes out (5200#4 DOV, 5201#4 OV3, 5211, J; II.4.5.4)."""
     memory = channel.memory
-    if not is_rigid(channel) or not memory.parameters.bit(5200, 4):
+    if not is_rigid(channel) or not memory.parameters.DOV:
         return 1.0
     factor = _wanted_extraction(channel)
     highest = gear_limit(channel)
     return min(factor, highest / memory.spindle_speed) if highest else factor
 
 
-def _wanted_extraction(channel: Channel) -> float:
+def _wanted_extraction(channel: LatheChannel) -> float:
     memory = channel.memory
     parameters, data, speed = memory.parameters, CycleState.of(channel).active, memory.spindle_speed
-    if "J" in data and parameters.bit(5201, 4):
+    if "J" in data and parameters.OV3:
         rpm = data.amount("J") * (1.0 if channel.control.number_rules(channel).calculator else 1000.0)
         factor = rpm / speed
         return factor if 1.0 <= factor <= 2.0 else 1.0
-    percent: float = parameters.number(5211) * (10.0 if parameters.bit(5201, 3) else 1.0)
+    percent = parameters.tap_extraction_override * (10.0 if parameters.OVU else 1.0)
     return percent / 100.0 if percent > 0.0 else 1.0
 
 
@@ -138,7 +142,7 @@ def plan_leaving(builder: Builder) -> Step | None:
         return None
     forgets_speed = was_rigid(builder) and not builder.has("S")
 
-    def leave(channel: Channel, _values: list[float]) -> None:
+    def leave(channel: LatheChannel, _values: list[float]) -> None:
         channel.memory.clamp = 0
         channel.mode = channel.mode.with_code(RIGID, RIGID_OFF)
         if forgets_speed:

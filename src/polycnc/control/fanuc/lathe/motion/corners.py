@@ -14,8 +14,8 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.channel import Channel
     from polycnc.channel.path import Move
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.control import WordAddressControl
 
@@ -43,7 +43,7 @@ class Expected:
 class TurningCorner(CornerStage):
     """The corner stage of the lathe: it also checks that the next block is the one that the corner needs."""
 
-    def __init__(self, channel: Channel) -> None:
+    def __init__(self, channel: LatheChannel) -> None:
         control = channel.control
         u, v, w = PLANES[channel.mode["plane"]]
         codes = {
@@ -102,24 +102,24 @@ class TurningCorner(CornerStage):
         return self._expected is not None or self.active
 
 
-def corner_waits(channel: Channel) -> bool:
+def corner_waits(channel: LatheChannel) -> bool:
     """Whether a corner waits for its second move."""
     stage = channel.path.find(TurningCorner)
     return stage is not None and stage.waits
 
 
-def corner_stage(channel: Channel) -> TurningCorner:
+def corner_stage(channel: LatheChannel) -> TurningCorner:
     """The corner stage of the path: the one that waits for its second move, or a new one."""
     stage = channel.path.find(TurningCorner)
     return stage if stage is not None and stage.waits else channel.path.put(TurningCorner(channel))
 
 
-def plan_corner(builder: Builder) -> Callable[[Channel, list[float]], object] | None:
+def plan_corner(builder: Builder) -> Callable[[LatheChannel, list[float]], object] | None:
     """I, J, K (or C by 3405#4) and R of a G01 block; not with drawing dimensions (3453#0)."""
-    parameters = builder.channel.setup.parameters
-    if builder.mode["motion"] != "G1" or parameters.bit(3453, 0) or not parameters.bit(8134, 2, default=1):
+    parameters = builder.channel.memory.parameters
+    if builder.mode["motion"] != "G1" or parameters.CRD or not parameters.CCR:
         return None
-    by_c = bool(parameters.bit(3405, 4))
+    by_c = parameters.chamfer_by_c
     letters = "C" if by_c and "C" not in builder.channel.axes else "" if by_c else _CENTERS
     # A letter that a code of the block takes is that code's: I K of G40, R of G68.1.
     taken = {letter for row in builder.codes for letter in row.takes.split()}
@@ -146,13 +146,13 @@ def plan_corner(builder: Builder) -> Callable[[Channel, list[float]], object] | 
     slot, convert = builder.slots[letter][0], builder.length(letter)
     shape = Shape.ROUNDING if letter == "R" else Shape.CHAMFER
 
-    def insert(channel: Channel, values: list[float]) -> None:
+    def insert(channel: LatheChannel, values: list[float]) -> None:
         value = convert(values[slot]) if convert else values[slot]
         if value:
             stage = corner_stage(channel)
             stage.expect(Expected(other, value, channel.line))
             stage.insert(shape, abs(value))
-            if channel.memory.parameters.bit(5105, 0):
+            if channel.memory.parameters.SBC:
                 # SBC: single block halts in front of the inserted block as well as behind it.
                 channel.halt_inside()
 

@@ -22,7 +22,7 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import GCode, Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.geometry.arcs import Point
@@ -57,8 +57,8 @@ class OpenLine:
 
 def is_on(builder: Builder) -> bool:
     """Whether drawing dimensions are chosen (3453#0 CRD); they need memory operation (II.4.9, note 1)."""
-    setup = builder.channel.setup
-    return bool(setup.parameters.bit(3453, 0)) and setup.switches.mode != "mdi"
+    channel = builder.channel
+    return channel.memory.parameters.CRD and channel.setup.switches.mode != "mdi"
 
 
 def plan_line(builder: Builder, plan: Plan) -> Step | None:
@@ -66,7 +66,7 @@ def plan_line(builder: Builder, plan: Plan) -> Step | None:
     return _plan(builder, plan) if is_on(builder) else path.plan_line(builder, plan)
 
 
-def plan_end(builder: Builder, plan: Plan) -> Callable[[Channel, list[float]], list[float]]:
+def plan_end(builder: Builder, plan: Plan) -> Callable[[LatheChannel, list[float]], list[float]]:
     """The end point of a thread block: ,A completes it where drawing dimensions are chosen (G33 of note 2)."""
     if not (is_on(builder) and builder.has(",A")):
         return lambda channel, values: path.reach(channel, plan.axis_words, values)
@@ -85,7 +85,7 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
     if not words.any and not plan.axis_words:
         return vector
 
-    def run(channel: Channel, values: list[float]) -> None:
+    def run(channel: LatheChannel, values: list[float]) -> None:
         line: OpenLine | None = channel.memory.open_line
         angle, corner = words.angle(values), words.corner(values)
         if vector is not None:
@@ -108,10 +108,10 @@ class _DrawingWords:
     def __init__(self, builder: Builder, plan: Plan) -> None:
         self.control = builder.control
         self.plan = plan
-        parameters = builder.channel.setup.parameters
-        self._supplement = bool(parameters.bit(3405, 5))
-        self._absolute_size = bool(parameters.bit(3458, 7))
-        bare = bool(parameters.bit(3405, 4))
+        parameters = builder.channel.memory.parameters
+        self._supplement = parameters.DDP
+        self._absolute_size = parameters.unsigned_corners
+        bare = parameters.chamfer_by_c
         self._angle = self._find(builder, "A", bare=bare)
         self._angle_of: Convert | None = None
         if self._angle is not None:
@@ -147,7 +147,7 @@ class _DrawingWords:
             raise self.control.fail("corner_too_short", address=self._corner)
         return (_SHAPES[self._shape], abs(size)) if size else None
 
-    def completed(self, channel: Channel, angle_deg: float, values: list[float]) -> list[float]:
+    def completed(self, channel: LatheChannel, angle_deg: float, values: list[float]) -> list[float]:
         """The end point of a line with an angle: the axis that is not named is worked out."""
         end = path.reach(channel, self.plan.axis_words, values)
         first, second = plane_axes(channel)
@@ -170,7 +170,7 @@ class _DrawingWords:
 
 
 def _close(
-    channel: Channel,
+    channel: LatheChannel,
     words: _DrawingWords,
     line: OpenLine,
     angle: float | None,
@@ -208,7 +208,7 @@ def _close(
     _move(channel, end, corner)
 
 
-def _move(channel: Channel, programmed: list[float], corner: tuple[Shape, float] | None) -> None:
+def _move(channel: LatheChannel, programmed: list[float], corner: tuple[Shape, float] | None) -> None:
     """One line, with what stands at its end: at the feed in force, or at rapid."""
     is_rapid = channel.mode["motion"] == "G0"
     if not is_rapid and not channel.feed > 0.0:
@@ -237,7 +237,7 @@ def plan_check(builder: Builder, plan: Plan) -> Step | None:
     else:
         mistake = "drawing_next"
 
-    def check(channel: Channel, _values: list[float]) -> None:
+    def check(channel: LatheChannel, _values: list[float]) -> None:
         line: OpenLine | None = channel.memory.open_line
         if line is None or line.step == channel.level.current:
             if mistake == "drawing_increment" and not idle and corner_waits(channel):

@@ -21,7 +21,7 @@ from polycnc.toolpath.modes import FeedMode
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
@@ -66,7 +66,7 @@ def _plan_straight(builder: Builder, plan: Plan, *, grows: bool) -> Step | None:
         return None
     end_of = drawing.plan_end(builder, plan)
 
-    def cut(channel: Channel, values: list[float]) -> None:
+    def cut(channel: LatheChannel, values: list[float]) -> None:
         lead = lead_in_force(channel)
         programmed = end_of(channel, values)
         growth = 0.0
@@ -111,7 +111,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
         if builder.has(letter)
     }
 
-    def cut(channel: Channel, values: list[float]) -> None:
+    def cut(channel: LatheChannel, values: list[float]) -> None:
         given = {
             letter: convert(values[slot]) if convert else values[slot]
             for letter, (slot, convert) in amounts.items()
@@ -167,7 +167,7 @@ def refuse_corners(builder: Builder, plan: Plan, addresses: tuple[str, ...]) -> 
             raise builder.control.fail("corner_thread", address=address)
 
 
-def plan_start_angle(builder: Builder) -> Callable[[Channel, list[float]], float]:
+def plan_start_angle(builder: Builder) -> Callable[[LatheChannel, list[float]], float]:
     """Q of a thread block, degrees; it needs an integer. Within a continuous thread it has no effect (II.3.2)."""
     builder.take("Q")
     slot = builder.slot("Q")
@@ -178,7 +178,7 @@ def plan_start_angle(builder: Builder) -> Callable[[Channel, list[float]], float
     return lambda channel, values: 0.0 if is_continued(channel) else start_angle(values[slot])
 
 
-def is_continued(channel: Channel) -> bool:
+def is_continued(channel: LatheChannel) -> bool:
     """Whether the block in front was a thread too: then the spindle's mark is not waited for (II.3.1)."""
     chunk, line = channel.toolpath.chunk, channel.level.code.line(channel.level.current)
     for row in range(len(chunk) - 1, -1, -1):
@@ -194,7 +194,7 @@ def start_angle(thousandths: float) -> float:
     return float(min(abs(thousandths), MAX_START_ANGLE)) / 1000.0
 
 
-def lead_in_force(channel: Channel) -> float:
+def lead_in_force(channel: LatheChannel) -> float:
     """The lead, mm: the number of F, whatever the feed unit; the alarm where a thread cannot have it."""
     lead = feed_number(channel)
     if not lead > 0.0:
@@ -208,7 +208,7 @@ def lead_in_force(channel: Channel) -> float:
 
 
 def thread_move(
-    channel: Channel,
+    channel: LatheChannel,
     end: list[float],
     thread: Sequence[float],
     programmed: list[float] | None = None,
@@ -226,14 +226,14 @@ def thread_move(
     channel.curve(Kind.THREAD, end, thread[0], parameters=thread, programmed=programmed)
 
 
-def lock(channel: Channel, kind: str) -> None:
+def lock(channel: LatheChannel, kind: str) -> None:
     """From now on moves are locked against the operator as on a thread, or off it; empty: no more."""
     if channel.memory.thread_lock != kind:
         channel.memory.thread_lock = kind
         channel.context_changed()
 
 
-def locked(channel: Channel, context: Context) -> Context:
+def locked(channel: LatheChannel, context: Context) -> Context:
     """A context with what threads keep from the operator (II.3.1: feed hold acts behind the first other block)."""
     kind = channel.memory.thread_lock
     if not kind:
@@ -251,7 +251,7 @@ def locked(channel: Channel, context: Context) -> Context:
     )
 
 
-def _accelerated(channel: Channel, context: Context) -> Context:
+def _accelerated(channel: LatheChannel, context: Context) -> Context:
     """Acceleration after interpolation of thread cycles: exponential, or as for cuts by 1610#5 THL (II.4.1.2).
 
     1626 is the time constant in milliseconds, and how far an exponential acceleration is behind at speed; a linear or a
@@ -259,39 +259,38 @@ def _accelerated(channel: Channel, context: Context) -> Context:
     """
     lags, speeds = [], []
     for axis in plane_axes(channel):
-        name, parameters = channel.axes[axis], channel.memory.parameters
-        as_cuts = parameters.bit(1610, 5, name)
-        straight = as_cuts and (parameters.bit(1610, 0, name) or parameters.bit(1610, 1, name))
-        lags.append(parameters.number(1626, name) / (2000.0 if straight else 1000.0))
-        speeds.append(0.0 if straight else parameters.number(1627, name) / 60.0)
+        of = channel.memory.parameters.of(channel.axes[axis])
+        straight = of.THL and (of.CTL or of.CTB)
+        lags.append(of.thread_time_constant / (2000.0 if straight else 1000.0))
+        speeds.append(0.0 if straight else of.thread_fl_speed / 60.0)
     return replace(context, lag_s=max(lags), lag_from=min(speeds)) if any(lags) else context
 
 
-def _retract(channel: Channel, context: Context) -> Context:
+def _retract(channel: LatheChannel, context: Context) -> Context:
     """The retract of G92 and G76 runs at 1466, or at rapid traverse; 1403#4 ROC keeps its override off (II.4.1.2)."""
     parameters = channel.memory.parameters
     speed = retract_speed(channel)
     if speed > 0.0:
         context = replace(context, feed_mode=FeedMode.PER_MINUTE, rapid_speed=speed)
-    elif parameters.bit(1611, 0):
+    elif parameters.CFR:
         context = replace(context, lag_s=0.0)
     elif context.lag_s:
         context = replace(context, rapid_speed=channel.axis_data[plane_axes(channel)[1]].rapid)
-    return replace(context, rapid_override=not parameters.bit(1403, 4))
+    return replace(context, rapid_override=not parameters.ROC)
 
 
-def retract_speed(channel: Channel) -> float:
+def retract_speed(channel: LatheChannel) -> float:
     """1466, mm/s; 0 for rapid traverse, as with 1611#0 CFR."""
     parameters = channel.memory.parameters
-    return 0.0 if parameters.bit(1611, 0) else parameters.number(1466) / 60.0
+    return 0.0 if parameters.CFR else parameters.thread_retract_speed / 60.0
 
 
-def prepare_retract(channel: Channel, words: Words) -> None:
+def prepare_retract(channel: LatheChannel, words: Words) -> None:
     """G10.6: axes and ways of a retract that the operator asks for; without words none is prepared."""
     channel.memory.retract_axes = frozenset(axis for axis, _, _ in words.axes())
 
 
-def note_retract(channel: Channel, end: list[float]) -> None:
+def note_retract(channel: LatheChannel, end: list[float]) -> None:
     """A retract along the long axis of a thread is not made: an alarm follows behind the thread (II.3.1)."""
     ways = [abs(e - p) for e, p in zip(end, channel.coordinates.position, strict=True)]
     if ways.index(max(ways)) in channel.memory.retract_axes:
@@ -303,7 +302,7 @@ def plan_way_off(builder: Builder, step: Step | None) -> Step | None:
     if builder.before["motion"] not in THREADS or builder.mode["motion"] in THREADS:
         return step
 
-    def move(channel: Channel, values: list[float]) -> None:
+    def move(channel: LatheChannel, values: list[float]) -> None:
         lock(channel, OFF_THREAD)
         if step is not None:
             step(channel, values)
@@ -316,7 +315,7 @@ def plan_way_off(builder: Builder, step: Step | None) -> Step | None:
     return move
 
 
-def check_last_lead(channel: Channel, end: list[float], lead: float, growth: float) -> None:
+def check_last_lead(channel: LatheChannel, end: list[float], lead: float, growth: float) -> None:
     """The lead must be possible at the end too: with s the way, `lead² + 2·growth·s` is its square there."""
     way = max(abs(e - p) for e, p in zip(end, channel.coordinates.programmed, strict=True))
     last2 = lead * lead + 2.0 * growth * way

@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe.coordinates import limits
+from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools.offsets import MAX_OFFSETS, offset_changed, refresh
 from polycnc.control.word_address.macro_b import parameter_input
 from polycnc.control.word_address.tools.data_input import WORK_SYSTEMS
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
@@ -23,10 +24,10 @@ MAX_OFFSET_MM = 9999.999
 #: Axes whose offsets have words of their own names.
 BASIC = frozenset("XYZ")
 #: 4th and 5th axis offsets: word and the parameter with the axis' number (II.5.1.5).
-FURTHER_AXES = {"E": 5044, "F": 5045}
+FURTHER_AXES = {"E": LatheParameters.axis_of_offset_4, "F": LatheParameters.axis_of_offset_5}
 
 
-def input_data(channel: Channel, words: Words) -> None:
+def input_data(channel: LatheChannel, words: Words) -> None:
     """G10 L2, L20 work offsets, L50, L52 parameters; without L by P: 0 work shift, 1 … wear, 10001 … geometry."""
     kind = words.integer("L") if "L" in words else None
     number = words.integer("P") if "P" in words else None
@@ -61,7 +62,7 @@ def plan_parameter_block(builder: Builder, plan: Plan) -> Step | None:
         raise builder.control.fail("parameter_words", address="N")
     write = parameter_input.plan_parameter_block(builder, plan)
 
-    def act(channel: Channel, values: list[float]) -> None:
+    def act(channel: LatheChannel, values: list[float]) -> None:
         if write is not None:
             write(channel, values)
         limits.renew_zones(channel)
@@ -69,13 +70,13 @@ def plan_parameter_block(builder: Builder, plan: Plan) -> Step | None:
     return act
 
 
-def _set_work_offset(channel: Channel, words: Words, offset: list[float]) -> None:
+def _set_work_offset(channel: LatheChannel, words: Words, offset: list[float]) -> None:
     for axis, value, incremental in words.axes():
         offset[axis] = offset[axis] + value if incremental else value
     refresh(channel)
 
 
-def _set_tool_offset(channel: Channel, words: Words, number: int) -> None:
+def _set_tool_offset(channel: LatheChannel, words: Words, number: int) -> None:
     memory = channel.memory
     base = next((base for base in (GEOMETRY, PRINTED_GEOMETRY) if number > base), 0)
     is_geometry, number = base > 0, number - base
@@ -99,7 +100,7 @@ def _set_tool_offset(channel: Channel, words: Words, number: int) -> None:
     offset_changed(channel)
 
 
-def _set_axis_offsets(channel: Channel, words: Words, values: dict[str, float]) -> None:
+def _set_axis_offsets(channel: LatheChannel, words: Words, values: dict[str, float]) -> None:
     """The offsets along the axes of a block: X, Z, Y by their words, the 4th and 5th axis by E and F."""
     further = further_words(channel)
     for axis, value, incremental in words.axes():
@@ -112,7 +113,7 @@ def _set_axis_offsets(channel: Channel, words: Words, values: dict[str, float]) 
             raise words.fail("g10_format", name)
         if name not in BASIC and not _is_in_use(channel, name):
             continue
-        if channel.memory.parameters.bit(5004, 1) and channel.control.is_diameter(channel, axis):
+        if channel.memory.parameters.ORC and channel.control.is_diameter(channel, axis):
             value *= 2.0  # ORC: the word of a diameter axis is a radius value
         values[name] = values.get(name, 0.0) + value if incremental else value
     for address in FURTHER_AXES:
@@ -125,7 +126,7 @@ def _set_axis_offsets(channel: Channel, words: Words, values: dict[str, float]) 
             values[further[address]] = amount
 
 
-def further_words(channel: Channel) -> dict[str, str]:
+def further_words(channel: LatheChannel) -> dict[str, str]:
     """The words of the 4th and 5th axis offsets and the axes that 5044 and 5045 name.
 
     They are E and F; by 11403#2 OFN the axis' own name, if that is A or B (III.1.1.3).
@@ -133,18 +134,18 @@ def further_words(channel: Channel) -> dict[str, str]:
     parameters = channel.memory.parameters
     found: dict[str, str] = {}
     for address, parameter in FURTHER_AXES.items():
-        number = int(parameters.number(parameter))
+        number = parameters.value(parameter)
         if 1 <= number <= len(channel.axes):
             name = channel.axes[number - 1]
-            found[name if parameters.bit(11403, 2) and name in ("A", "B") else address] = name
+            found[name if parameters.OFN and name in ("A", "B") else address] = name
     return found
 
 
-def _is_in_use(channel: Channel, name: str) -> bool:
+def _is_in_use(channel: LatheChannel, name: str) -> bool:
     """Whether a 4th or 5th axis offset acts: the 5th by 11400#1 NO5, and none on the axis of the Y offset."""
     memory = channel.memory
     axis = channel.axis_index[name]
-    if axis == memory.parameters.number(FURTHER_AXES["F"]) - 1 and not memory.parameters.bit(11400, 1):
+    if axis == memory.parameters.axis_of_offset_5 - 1 and not memory.parameters.NO5:
         return False
-    has_y_offset = memory.parameters.bit(8132, 1, default=1) and axis == memory.y_offset_axis
+    has_y_offset = memory.parameters.YOF and axis == memory.y_offset_axis
     return not has_y_offset

@@ -17,9 +17,9 @@ from polycnc.control.fanuc.lathe.tools.offsets import MAX_OFFSETS, offset_change
 from polycnc.control.word_address.tools.data_input import WORK_SYSTEMS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.fanuc.lathe.memory import TurningMemory, TurningOffset
 
 #: Second geometry offsets are numbered from here.
@@ -40,16 +40,16 @@ _COMMENT = re.compile(r"\([^)]*\)")
 # ---- writing ----------------------------------------------------------------------------------------------------
 
 
-def write(channel: Channel, kind: str) -> str:
+def write(channel: LatheChannel, kind: str) -> str:
     """The file of a kind of data; `KeyError` for a kind that there is not."""
     lines = _WRITERS[kind](channel)
     return "%\n" + "".join(f"{line} ;\n" for line in lines) + "%\n"
 
 
-def _offset_lines(channel: Channel) -> Iterator[str]:
+def _offset_lines(channel: LatheChannel) -> Iterator[str]:
     """Wear of all numbers, then geometry; R and Q where nose radius compensation is there (8136#7)."""
     memory: TurningMemory = channel.memory
-    nose = not memory.parameters.bit(8136, 7)
+    nose = not memory.parameters.NCR
     axes = {**{name: name for name in "XZ" if name in channel.axes}, "": "", **_y_and_further(channel)}
     for number in range(1, sets(channel) + 1):
         offset = memory.turning_offset(number)
@@ -64,7 +64,7 @@ def _offset_lines(channel: Channel) -> Iterator[str]:
         yield _line(channel, f"P{GEOMETRY + number}", offset.geometry, axes, nose_words)
 
 
-def _y_lines(channel: Channel) -> Iterator[str]:
+def _y_lines(channel: LatheChannel) -> Iterator[str]:
     memory: TurningMemory = channel.memory
     for number in range(1, sets(channel) + 1):
         yield _line(channel, f"P{number:02d}", memory.turning_offset(number).wear, {"Y": "Y"}, None)
@@ -75,13 +75,13 @@ def _y_lines(channel: Channel) -> Iterator[str]:
             )
 
 
-def _second_lines(channel: Channel) -> Iterator[str]:
+def _second_lines(channel: LatheChannel) -> Iterator[str]:
     axes = {name: name for name in "XZY" if name in channel.axes}
     for number in range(1, sets(channel) + 1):
         yield _line(channel, f"P{SECOND + number}", channel.memory.turning_offset(number).second, axes, None)
 
 
-def _work_lines(channel: Channel) -> Iterator[str]:
+def _work_lines(channel: LatheChannel) -> Iterator[str]:
     memory: TurningMemory = channel.memory
     axes = {name: name for name in channel.axes}
     extended = ((f"L20 P{p}", f"G54.1 P{p}") for p in range(1, channel.control.EXTENDED_WORK_SYSTEMS + 1))
@@ -91,7 +91,7 @@ def _work_lines(channel: Channel) -> Iterator[str]:
         yield _line(channel, words, values, axes, None, work=True)
 
 
-_WRITERS = {
+_WRITERS: Mapping[str, Callable[[LatheChannel], Iterator[str]]] = {
     "offsets": _offset_lines,
     "y-offsets": _y_lines,
     "second-geometry": _second_lines,
@@ -99,19 +99,19 @@ _WRITERS = {
 }
 
 
-def sets(channel: Channel) -> int:
+def sets(channel: LatheChannel) -> int:
     """Number of offset sets (5024; 0: the standard 32, or as many as are in use)."""
-    number = int(channel.memory.parameters.number(5024))
+    number = channel.memory.parameters.offset_sets
     return number if number > 0 else max(STANDARD_SETS, *channel.memory.offsets, 0)
 
 
-def _y_and_further(channel: Channel) -> dict[str, str]:
+def _y_and_further(channel: LatheChannel) -> dict[str, str]:
     words = {"Y": "Y"} if "Y" in channel.axes else {}
     return {**words, **{word: axis for word, axis in further_words(channel).items() if axis not in words}}
 
 
 def _line(
-    channel: Channel,
+    channel: LatheChannel,
     start: str,
     values: Mapping[str, float],
     axes: Mapping[str, str],
@@ -129,11 +129,11 @@ def _line(
     return " ".join(words)
 
 
-def _number(channel: Channel, value: float) -> str:
+def _number(channel: LatheChannel, value: float) -> str:
     return f"{value + 0.0:.{4 if channel.memory.is_inch else 3}f}"
 
 
-def shown(channel: Channel, axis: str, value: float, *, work: bool = False) -> float:
+def shown(channel: LatheChannel, axis: str, value: float, *, work: bool = False) -> float:
     """A tool offset (or work offset) as the control shows it: diameter where it is one, in the input unit."""
     index = channel.axis_index.get(axis)
     if index is not None and channel.axis_data[index].rotary:
@@ -142,7 +142,7 @@ def shown(channel: Channel, axis: str, value: float, *, work: bool = False) -> f
     return float(channel.memory.to_program_unit(value * (2.0 if diameter else 1.0)))
 
 
-def taken(channel: Channel, axis: str, value: float, *, work: bool = False) -> float:
+def taken(channel: LatheChannel, axis: str, value: float, *, work: bool = False) -> float:
     """What is shown as the control keeps it: mm, X as radius."""
     index = channel.axis_index.get(axis)
     if index is None or channel.axis_data[index].rotary:
@@ -151,9 +151,9 @@ def taken(channel: Channel, axis: str, value: float, *, work: bool = False) -> f
     return float(length / 2.0 if has_diameter(channel, index, work=work) else length)
 
 
-def has_diameter(channel: Channel, axis: int, *, work: bool = False) -> bool:
+def has_diameter(channel: LatheChannel, axis: int, *, work: bool = False) -> bool:
     """Whether offsets of an axis are diameters (1006#3 DIA); 5004#1 ORC makes tool offsets radius values."""
-    radii = not work and channel.memory.parameters.bit(5004, 1)
+    radii = not work and channel.memory.parameters.ORC
     return not radii and bool(channel.control.is_diameter(channel, axis))
 
 
@@ -179,7 +179,7 @@ class Taken:
     systems: frozenset[str]
 
 
-def read(channel: Channel, content: str) -> Taken:
+def read(channel: LatheChannel, content: str) -> Taken:
     """Take a file over.
 
     Raises:
@@ -213,7 +213,7 @@ def _blocks(content: str) -> Iterator[tuple[int, str]]:
             yield number, block
 
 
-def _entry(channel: Channel, line: int, block: str) -> _Entry:
+def _entry(channel: LatheChannel, line: int, block: str) -> _Entry:
     words: dict[str, float] = {}
     rest = _WORD.sub("", block)
     if rest:
@@ -234,11 +234,11 @@ def _entry(channel: Channel, line: int, block: str) -> _Entry:
     return _Entry(line, None if level is None else int(level), int(words.pop("P")), words)
 
 
-def _increments(channel: Channel, number: str) -> float:
+def _increments(channel: LatheChannel, number: str) -> float:
     return int(number) / (10_000.0 if channel.memory.is_inch else 1000.0)
 
 
-def _check(channel: Channel, entry: _Entry) -> None:
+def _check(channel: LatheChannel, entry: _Entry) -> None:
     allowed = _addresses(channel, entry)
     if allowed is None:
         prefix = "" if entry.level is None else f"L{entry.level} "
@@ -251,7 +251,7 @@ def _check(channel: Channel, entry: _Entry) -> None:
             raise DataFileError(entry.line, "value", word=f"{address}{value:g}")
 
 
-def _addresses(channel: Channel, entry: _Entry) -> set[str] | None:
+def _addresses(channel: LatheChannel, entry: _Entry) -> set[str] | None:
     """The words that a block may have; None where there is no such number."""
     if entry.level == 2:
         return set(channel.axes) if entry.number < len(WORK_SYSTEMS) else None
@@ -273,7 +273,7 @@ def _system(entry: _Entry) -> str:
     return WORK_SYSTEMS[entry.number] if entry.level == 2 else f"G54.1 P{entry.number}"
 
 
-def _take_over(channel: Channel, entry: _Entry) -> None:
+def _take_over(channel: LatheChannel, entry: _Entry) -> None:
     memory: TurningMemory = channel.memory
     if entry.level is not None:
         for address, value in entry.words.items():
@@ -304,7 +304,7 @@ def _set_radius(offset: TurningOffset, value: float, *, wear: bool) -> None:
 # ---- setups -----------------------------------------------------------------------------------------------------
 
 
-def as_setup(channel: Channel, taken: Taken) -> dict[str, dict[Any, Any]]:
+def as_setup(channel: LatheChannel, taken: Taken) -> dict[str, dict[Any, Any]]:
     """What a file has written, as a setup writes it: mm, X as diameter."""
     memory: TurningMemory = channel.memory
     tools = {
@@ -320,7 +320,7 @@ def as_setup(channel: Channel, taken: Taken) -> dict[str, dict[Any, Any]]:
     return {key: values for key, values in found.items() if values}
 
 
-def _tool_of_setup(channel: Channel, offset: TurningOffset) -> dict[str, Any]:
+def _tool_of_setup(channel: LatheChannel, offset: TurningOffset) -> dict[str, Any]:
     common = channel.memory.common_offsets
     main = offset.wear if common else offset.geometry
     radius = offset.radius_wear if common else offset.radius
@@ -332,7 +332,7 @@ def _tool_of_setup(channel: Channel, offset: TurningOffset) -> dict[str, Any]:
     return found
 
 
-def _offsets_of_setup(channel: Channel, values: Mapping[str, float]) -> dict[str, Any]:
+def _offsets_of_setup(channel: LatheChannel, values: Mapping[str, float]) -> dict[str, Any]:
     """Offsets along X, Y, Z, and those along further axes by their names."""
     found: dict[str, Any] = {}
     for axis, value in _axes_of_setup(channel, values).items():
@@ -343,6 +343,8 @@ def _offsets_of_setup(channel: Channel, values: Mapping[str, float]) -> dict[str
     return found
 
 
-def _axes_of_setup(channel: Channel, values: Mapping[str, float], *, work: bool = False) -> dict[str, float]:
+def _axes_of_setup(
+    channel: LatheChannel, values: Mapping[str, float], *, work: bool = False
+) -> dict[str, float]:
     diameters = {name: has_diameter(channel, i, work=work) for name, i in channel.axis_index.items()}
     return {axis: round(value * (2.0 if diameters.get(axis) else 1.0), 9) for axis, value in values.items()}

@@ -11,7 +11,7 @@ from polycnc.control.word_address.motion import skip
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.words import Words
 
 
@@ -19,30 +19,30 @@ if TYPE_CHECKING:
 _SKIP_INPUTS = frozenset({1, 2, 3, 4, 98, 99})
 
 
-def skip_move(channel: Channel, words: Words) -> None:
+def skip_move(channel: LatheChannel, words: Words) -> None:
     """G31: straight at F to the target or to where the skip signal comes; P1 to P4 choose the signal."""
     if "P" in words and words.integer("P") not in _SKIP_INPUTS:
         raise words.fail("gauge_number", "P")
     skip.skip_move(channel, words)
 
 
-def measure_first(channel: Channel, words: Words) -> None:
+def measure_first(channel: LatheChannel, words: Words) -> None:
     """G36 X (3405#3 = 1: G37.1)."""
     _measure(channel, words, "X")
 
 
-def measure_second(channel: Channel, words: Words) -> None:
+def measure_second(channel: LatheChannel, words: Words) -> None:
     """G37 Z (3405#3 = 1: G37.2)."""
     _measure(channel, words, "Z")
 
 
-def _measure(channel: Channel, words: Words, name: str) -> None:
+def _measure(channel: LatheChannel, words: Words, name: str) -> None:
     """Rapid to the deceleration point, on at 6241 to the signal; its distance from the target goes to the offset.
 
     Deceleration point: 6251 before the target; the signal counts within 6254 on either side of it.
     """
     memory, c = channel.memory, channel.coordinates
-    parameters = memory.parameters
+    parameters = memory.parameters.of(name)
     named = words.axes()
     if len(named) != 1 or channel.axes[named[0][0]] != name or named[0][2]:
         raise words.fail("measure_axis", name)
@@ -52,7 +52,7 @@ def _measure(channel: Channel, words: Words, name: str) -> None:
         raise words.fail("comp_skip", name)
     axis, target, _ = named[0]
     # 6251 and 6254 are radius values whatever the axis.
-    before, window = parameters.number(6251, name), parameters.number(6254, name)
+    before, window = parameters.measuring_deceleration, parameters.measuring_window
     programmed = c.programmed[:]
     programmed[axis] = target
     target_position = c.to_position(programmed)[axis]
@@ -63,7 +63,7 @@ def _measure(channel: Channel, words: Words, name: str) -> None:
     measured, comes = _stop(channel, axis, end[axis], target_position + towards * window)
     end = c.position[:]
     end[axis] = measured
-    channel.straight(Kind.SKIP, end, parameters.number(6241, name) / _seconds(channel))
+    channel.straight(Kind.SKIP, end, parameters.measuring_feed / _seconds(channel))
     if not comes or abs(measured - target_position) > window + 1e-9:
         channel.keep_rows()
         raise words.fail("measure_signal", name)
@@ -72,23 +72,23 @@ def _measure(channel: Channel, words: Words, name: str) -> None:
     offset_changed(channel)
 
 
-def _nose_reach(channel: Channel, axis: int) -> float:
+def _nose_reach(channel: LatheChannel, axis: int) -> float:
     """How far the nose reaches beyond the measured point: its radius where the tip number has no part along the axis.
 
     II.5.8: tips 0, 5, 7 for X, 0, 6, 8 for Z; with nose radius compensation available (8136#7 NCR = 0).
     """
-    if channel.memory.parameters.bit(8136, 7):
+    if channel.memory.parameters.NCR:
         return 0.0
     along = dict(zip(plane_axes(channel), nose_tip(channel), strict=True)).get(axis, 0.0)
     return 0.0 if along else nose_radius(channel)
 
 
-def _seconds(channel: Channel) -> float:
+def _seconds(channel: LatheChannel) -> float:
     """6241 is mm/min; under G99 the toolpath counts mm/rev."""
     return 60.0 if channel.mode["feed"] == "G98" else 1.0
 
 
-def _stop(channel: Channel, axis: int, begin: float, furthest: float) -> tuple[float, bool]:
+def _stop(channel: LatheChannel, axis: int, begin: float, furthest: float) -> tuple[float, bool]:
     """Where the stroke at measuring speed ends, and whether the signal ends it: one that is on before acts at once."""
     at = channel.setup.switches.measure_signal_at.get(channel.axes[axis])
     if at is None:

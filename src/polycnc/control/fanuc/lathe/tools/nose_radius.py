@@ -14,7 +14,7 @@ from polycnc.geometry.planes import PLANES
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
@@ -26,39 +26,38 @@ LINES = frozenset({"G0", "G1"})
 SHAPE_KIND = "shape"
 
 
-def policy(channel: Channel) -> Policy:
+def policy(channel: LatheChannel) -> Policy:
     """The rules that the parameters choose."""
     parameters = channel.memory.parameters
-    bit = parameters.bit
     return replace(
         TYPE_A,
-        approach=Approach.CORNER if bit(5003, 0) else Approach.SQUARE,
-        shifts_without_motion=bool(bit(5003, 1)),
-        outer=Outer(90.0, Joint.ARC) if bit(19607, 2) else TYPE_A.outer,
-        read_blocks=min(max(int(parameters.number(19625, default=3)), 3), 8),
-        least_move_mm=parameters.number(5010, default=0.001),
-        checks_direction=not (bit(5008, 3) or bit(5008, 1)),
-        checks_arcs=not bit(5008, 3),
-        avoids=bool(bit(19607, 5)),
-        dares=bool(bit(19607, 6)),
+        approach=Approach.CORNER if parameters.SUP else Approach.SQUARE,
+        shifts_without_motion=parameters.SUV,
+        outer=Outer(90.0, Joint.ARC) if parameters.CCC else TYPE_A.outer,
+        read_blocks=min(max(parameters.read_blocks, 3), 8),
+        least_move_mm=parameters.least_corner_move,
+        checks_direction=not (parameters.CNV or parameters.CNC),
+        checks_arcs=not parameters.CNV,
+        avoids=parameters.CAV,
+        dares=parameters.NAA,
     )
 
 
-def left(channel: Channel, words: Words) -> None:
+def left(channel: LatheChannel, words: Words) -> None:
     """G41: the nose is left of the contour."""
     _engage(channel, words, radius.compensate_left)
 
 
-def right(channel: Channel, words: Words) -> None:
+def right(channel: LatheChannel, words: Words) -> None:
     """G42: the nose is right of the contour."""
     _engage(channel, words, radius.compensate_right)
 
 
-def _engage(channel: Channel, words: Words, engage: Callable[[Channel, Words], None]) -> None:
+def _engage(channel: LatheChannel, words: Words, engage: Callable[[LatheChannel, Words], None]) -> None:
     memory = channel.memory
     if not _takes(channel, words, starts=True):
         return
-    if channel.setup.switches.mode == "mdi" and memory.parameters.bit(5008, 4):
+    if channel.setup.switches.mode == "mdi" and memory.parameters.MCR:
         raise words.fail("comp_in_mdi", channel.mode["compensation"])
     memory.d = memory.offset_active
     engage(channel, words)
@@ -68,49 +67,49 @@ def _engage(channel: Channel, words: Words, engage: Callable[[Channel, Words], N
         stage.cancel()
 
 
-def cancel(channel: Channel, words: Words) -> None:
+def cancel(channel: LatheChannel, words: Words) -> None:
     """G40, with the direction of the wall behind the last point in I, J, K; without motion by 5000#3 GNI only."""
     if not _takes(channel, words, starts=False):
         return
-    takes_wall = bool(words.axes() or channel.memory.parameters.bit(5000, 3))
+    takes_wall = bool(words.axes() or channel.memory.parameters.wall_without_travel)
     radius.cancel_compensation(channel, words, takes_wall=takes_wall)
 
 
-def _takes(channel: Channel, words: Words, *, starts: bool) -> bool:
+def _takes(channel: LatheChannel, words: Words, *, starts: bool) -> bool:
     """Whether a G40 to G42 acts; in the shape of a cycle it depends (II.4.2.1).
 
     There it is an alarm as delivered. 5106#2 NT1: G71 to G73 pass over it. #3 NT2: they do so too, and G70 takes
     it, if G41 or G42 stands in the first block and compensation was off before.
     """
-    bit, level = channel.memory.parameters.bit, channel.level
+    parameters, level = channel.memory.parameters, channel.level
     finishing = not channel.memory.reading_shape
     if finishing and level.kind != SHAPE_KIND:
         return True
-    if finishing and bit(5106, 3):
+    if finishing and parameters.NT2:
         if starts and (level.current != level.entry or level.data["compensated"]):
             raise words.fail("shape_command", channel.mode["compensation"])
         return True
-    if bit(5106, 2) or (bit(5106, 3) and not finishing):
+    if parameters.NT1 or (parameters.NT2 and not finishing):
         return False
     code = channel.mode["compensation"]
     raise channel.control.fail("shape_command", address=code, hint="hint.shape-compensation", code=code)
 
 
-def hold_vector(channel: Channel, _words: Words) -> None:
+def hold_vector(channel: LatheChannel, _words: Words) -> None:
     """G38: the block in front ends square on itself, and this block keeps that vector."""
     stage = radius.active_compensation(channel)
     if stage is not None:
         stage.hold_vector()
 
 
-def corner_arc(channel: Channel, words: Words) -> None:
+def corner_arc(channel: LatheChannel, words: Words) -> None:
     """G39 [I K]: an arc about the corner; no motion in its block."""
     stage = radius.active_compensation(channel)
     if stage is not None:
         stage.corner_arc(radius.place_of_block(channel), _direction(channel, words))
 
 
-def _direction(channel: Channel, words: Words) -> tuple[float, float] | None:
+def _direction(channel: LatheChannel, words: Words) -> tuple[float, float] | None:
     """The direction that I, J, K give in the plane, None without."""
     u, v, _ = PLANES[channel.mode["plane"]]
     direction = (words.length("IJK"[u]) or 0.0, words.length("IJK"[v]) or 0.0)
@@ -129,7 +128,7 @@ def plan_travel(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
     if builder.mode["compensation"] == "G40":
         return step
 
-    def run(channel: Channel, values: list[float]) -> None:
+    def run(channel: LatheChannel, values: list[float]) -> None:
         before = channel.coordinates.position[:]
         step(channel, values)
         stage = radius.active_compensation(channel)
@@ -139,13 +138,13 @@ def plan_travel(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
     return run
 
 
-def plan_line_words(builder: Builder) -> Callable[[Channel, list[float]], object] | None:
+def plan_line_words(builder: Builder) -> Callable[[LatheChannel, list[float]], object] | None:
     """What I, J, K, R, C and the comma words of a G00 or G01 block ask for: a corner shape or a vector."""
     if builder.mode["motion"] not in LINES:
         return None
-    bit = builder.channel.setup.parameters.bit
+    parameters = builder.channel.memory.parameters
     # I, J, K are chamfers where that function is there and takes them (II.4.7).
-    chamfers = bit(8134, 2, default=1) and not bit(3453, 0) and not bit(3405, 4)
+    chamfers = parameters.CCR and not parameters.CRD and not parameters.chamfer_by_c
     if chamfers or builder.mode["compensation"] == "G40" or any(row.code == "G40" for row in builder.codes):
         return corners.plan_corner(builder)
     u, v, _ = PLANES[builder.mode["plane"]]
@@ -155,7 +154,7 @@ def plan_line_words(builder: Builder) -> Callable[[Channel, list[float]], object
     builder.take(*letters)
     words = [(builder.slot(a), builder.length(a) if builder.has(a) else None) for a in letters]
 
-    def force(channel: Channel, values: list[float]) -> None:
+    def force(channel: LatheChannel, values: list[float]) -> None:
         stage = radius.active_compensation(channel)
         if stage is not None:
             direction = [0.0 if s is None else (c(values[s]) if c else values[s]) for s, c in words]

@@ -20,7 +20,7 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
@@ -60,7 +60,7 @@ def plan_tool(builder: Builder) -> Step | None:
     third = builder.channel.coordinates.geometry[PLANES[mode["plane"]][2]]
     helix = arc and any(word.axis == third for word in builder.axis_words())
 
-    def select(channel: Channel, values: list[float]) -> None:
+    def select(channel: LatheChannel, values: list[float]) -> None:
         memory = channel.memory
         if memory.reading_shape:
             return
@@ -84,60 +84,60 @@ def plan_tool(builder: Builder) -> Step | None:
     return select
 
 
-def split_tool_word(channel: Channel, value: float) -> tuple[int, int | None]:
+def split_tool_word(channel: LatheChannel, value: float) -> tuple[int, int | None]:
     """The code sent to the turret and the offset number; None where the tool has no offset in it (5040#3)."""
     parameters = channel.memory.parameters
     number = int(value)
     if number != value or number < 0:
         raise channel.control.fail("point" if number != value else "minus", address="T")
-    longest = int(parameters.number(3032, default=0))
+    longest = parameters.t_digits
     if longest and len(str(number)) > longest:
         raise channel.control.fail("too_many_digits", address="T")
-    if parameters.bit(5040, 3):
+    if parameters.TCT:
         return number, None
     tool, offset = divmod(number, 10 ** offset_digits(channel))
     return tool, offset
 
 
-def offset_digits(channel: Channel) -> int:
+def offset_digits(channel: LatheChannel) -> int:
     """How many last digits of T are the offset number (5028; 0: as many as the offset sets need)."""
     parameters = channel.memory.parameters
-    digits = int(parameters.number(5028, default=0))
+    digits = parameters.offset_digits
     if 1 <= digits <= 3:
         return digits
-    sets = int(parameters.number(5024, default=0)) or 99
+    sets = parameters.offset_sets or 99
     return 1 if sets < 10 else 2 if sets < 100 else 3
 
 
-def select_offset(channel: Channel, number: int, tool: int) -> None:
+def select_offset(channel: LatheChannel, number: int, tool: int) -> None:
     """Make an offset number the active one; number 0 cancels. Not in a thread (II.3.1)."""
     if channel.mode["motion"] in THREADS:
         raise channel.control.fail("offset_in_thread", address="T")
-    if not 0 <= number <= (int(channel.memory.parameters.number(5024)) or MAX_OFFSETS):
+    if not 0 <= number <= (channel.memory.parameters.offset_sets or MAX_OFFSETS):
         raise channel.control.fail("offset_number", address="T")
     _refuse_rotation(channel)
     memory = channel.memory
     memory.offset_active = number
-    by_tool = memory.parameters.bit(5002, 1) and not memory.common_offsets
+    by_tool = memory.parameters.LGN and not memory.common_offsets
     memory.geometry_active = 0 if not number else tool if by_tool else number
     apply_offset(channel, cancels=number == 0)
     renew_nose(channel)
 
 
-def _refuse_rotation(channel: Channel) -> None:
+def _refuse_rotation(channel: LatheChannel) -> None:
     """No offset within a rotation, and none that shifts within a mirror (II.5.1.5, 5.9)."""
     memory = channel.memory
     if not memory.frames.rotates:
         return
-    bit = memory.parameters.bit
-    shifts = not memory.common_offsets and (bit(5002, 2) or not bit(5002, 4))
+    parameters = memory.parameters
+    shifts = not memory.common_offsets and (parameters.LWT or not parameters.LGT)
     if shifts:
         raise channel.control.fail("offset_in_thread", address="T")
     if not memory.frames.rotation.is_identity:
         raise channel.control.fail("in_rotation", address="T")
 
 
-def apply_offset(channel: Channel, *, cancels: bool = False) -> None:
+def apply_offset(channel: LatheChannel, *, cancels: bool = False) -> None:
     """Let the active offset act: a shift at once, a movement with the next motion."""
     memory = channel.memory
     moves, shifts = offset_parts(channel, cancels=cancels)
@@ -145,7 +145,7 @@ def apply_offset(channel: Channel, *, cancels: bool = False) -> None:
     refresh(channel)
     memory.frames.offset = moves
     c = channel.coordinates
-    if not memory.parameters.bit(5002, 6):
+    if not memory.parameters.LWM:
         if c.owes:
             # A suspended offset is not in the position: there is nothing of it to take back.
             c.programmed = _sum(c.programmed, c.pending)
@@ -158,34 +158,34 @@ def apply_offset(channel: Channel, *, cancels: bool = False) -> None:
     c.owes = any(c.pending)
 
 
-def offset_parts(channel: Channel, *, cancels: bool = False) -> tuple[list[float], list[float]]:
+def offset_parts(channel: LatheChannel, *, cancels: bool = False) -> tuple[list[float], list[float]]:
     """The active offset as movement and as shift of each axis, by 5002#2 (wear) and #4 (geometry)."""
     memory = channel.memory
-    bit = memory.parameters.bit
+    parameters = memory.parameters
     wear = memory.turning_offset(memory.offset_active).wear if memory.offset_active else {}
     geometry = geometry_values(channel) if memory.geometry_active else {}
     wear_part = _by_axis(channel, wear)
     geometry_part = _by_axis(channel, geometry)
     nothing = [0.0] * len(channel.axes)
-    geometry_moves = bit(5002, 4)
+    geometry_moves = parameters.LGT
     if not geometry_moves:
-        if cancels and not bit(5002, 5):
+        if cancels and not parameters.LGC:
             # LGC = 0: offset number 0 leaves a shift by geometry as it is.
             geometry_part = memory.geometry_shift
         memory.geometry_shift = geometry_part
-    wear_moves = memory.common_offsets or not bit(5002, 2)
+    wear_moves = memory.common_offsets or not parameters.LWT
     moves = _sum(wear_part if wear_moves else nothing, geometry_part if geometry_moves else nothing)
     shifts = _sum(nothing if wear_moves else wear_part, nothing if geometry_moves else geometry_part)
     return moves, shifts
 
 
-def _by_axis(channel: Channel, values: dict[str, float]) -> list[float]:
+def _by_axis(channel: LatheChannel, values: dict[str, float]) -> list[float]:
     """The offsets of all axes; that of Y where the function is there (8132#1 YOF), on the axis that 5043 names."""
     parameters = channel.memory.parameters
     offsets = [0.0 if axis == "Y" else values.get(axis, 0.0) for axis in channel.axes]
     named = channel.memory.y_offset_axis
     if named >= 0:
-        offsets[named] = values.get("Y", 0.0) if parameters.bit(8132, 1, default=1) else 0.0
+        offsets[named] = values.get("Y", 0.0) if parameters.YOF else 0.0
     return offsets
 
 
@@ -193,7 +193,7 @@ def _sum(a: list[float], b: list[float]) -> list[float]:
     return [x + y for x, y in zip(a, b, strict=True)]
 
 
-def geometry_values(channel: Channel) -> dict[str, float]:
+def geometry_values(channel: LatheChannel) -> dict[str, float]:
     """Geometry of the active number, with the second geometry where the machine's signals ask for it (II.5.1.4)."""
     memory = channel.memory
     offset = memory.turning_offset(memory.geometry_active)
@@ -205,10 +205,10 @@ def geometry_values(channel: Channel) -> dict[str, float]:
     return values
 
 
-def move_by_offset(channel: Channel) -> None:
+def move_by_offset(channel: LatheChannel) -> None:
     """A T block without motion moves the axes by the change of the offset (5002#6 = 0)."""
     c = channel.coordinates
-    if channel.memory.parameters.bit(5002, 6):
+    if channel.memory.parameters.LWM:
         return
     end = c.to_position(c.programmed)
     if end == c.position:
@@ -220,14 +220,14 @@ def move_by_offset(channel: Channel) -> None:
     c.set_programming(c.programming, c.shift)
 
 
-def refresh(channel: Channel) -> None:
+def refresh(channel: LatheChannel) -> None:
     """Work out the zero of the display anew: work offsets, shifts, tool."""
     memory = channel.memory
     memory.length_offset = _sum(memory.tool_shift, memory.work_shift)
     refresh_zero(channel)
 
 
-def renew_nose(channel: Channel) -> None:
+def renew_nose(channel: LatheChannel) -> None:
     """Another offset number under G41 or G42: the next block has its radius and tip; 0 cancels (II.5.3, 5.4.1)."""
     memory = channel.memory
     before, memory.d = memory.d, memory.offset_active
@@ -243,7 +243,7 @@ def renew_nose(channel: Channel) -> None:
         stage.engage(side_on_display(channel), nose_radius(channel), nose_tip(channel))
 
 
-def nose_radius(channel: Channel) -> float:
+def nose_radius(channel: LatheChannel) -> float:
     """Nose radius of the active offset: geometry and wear, mm."""
     memory = channel.memory
     if not memory.offset_active:
@@ -253,36 +253,36 @@ def nose_radius(channel: Channel) -> float:
     return wear + geometry
 
 
-def nose_tip(channel: Channel) -> tuple[float, float]:
+def nose_tip(channel: LatheChannel) -> tuple[float, float]:
     """Way from the nose centre to the imaginary tip in units of the radius (5002#7: whose tip number)."""
     memory = channel.memory
-    by_wear = memory.common_offsets or memory.parameters.bit(5002, 7)
+    by_wear = memory.common_offsets or memory.parameters.WNP
     number = memory.offset_active if by_wear else memory.geometry_active
     return tip_direction(memory.turning_offset(number).tip if number else 0)
 
 
-def offset_changed(channel: Channel) -> None:
+def offset_changed(channel: LatheChannel) -> None:
     """A written offset acts from the next T, or from the next move (5002#4, #6; III.2.1.1), or now (5001#6)."""
     memory = channel.memory
-    bit = memory.parameters.bit
-    at_next_move = bit(5002, 6) and (memory.common_offsets or bit(5002, 4))
-    if bit(5001, 6) or at_next_move:
+    parameters = memory.parameters
+    at_next_move = parameters.LWM and (memory.common_offsets or parameters.LGT)
+    if parameters.EVO or at_next_move:
         _refuse_rotation(channel)
         apply_offset(channel)
 
 
-def select_by_code(channel: Channel, words: Words) -> None:
+def select_by_code(channel: LatheChannel, words: Words) -> None:
     """G43.7 D: the offset of an ATC-type lathe (5040#3 TCT = 1; II.5.7)."""
-    _select_by_code(channel, words, "G43.7", is_length=bool(channel.memory.parameters.bit(5040, 4)))
+    _select_by_code(channel, words, "G43.7", is_length=channel.memory.parameters.TLG)
 
 
-def select_by_length_code(channel: Channel, words: Words) -> None:
+def select_by_length_code(channel: LatheChannel, words: Words) -> None:
     """G43, G44: what G43.7 is where 5040#4 TLG exchanges their meaning; else tool length offset."""
-    _select_by_code(channel, words, "G43", is_length=not channel.memory.parameters.bit(5040, 4))
+    _select_by_code(channel, words, "G43", is_length=not channel.memory.parameters.TLG)
 
 
-def _select_by_code(channel: Channel, words: Words, code: str, *, is_length: bool) -> None:
-    if not channel.memory.parameters.bit(5040, 3):
+def _select_by_code(channel: LatheChannel, words: Words, code: str, *, is_length: bool) -> None:
+    if not channel.memory.parameters.TCT:
         raise words.fail("atc_not_chosen", code)
     if is_length:
         raise AlarmError(NOT_YET, address=code, hint="hint.not-supported", code=code)
@@ -294,9 +294,9 @@ def _select_by_code(channel: Channel, words: Words, code: str, *, is_length: boo
         move_by_offset(channel)
 
 
-def cancel_by_code(channel: Channel, words: Words) -> None:
+def cancel_by_code(channel: LatheChannel, words: Words) -> None:
     """G49: the offset of an ATC-type lathe ends."""
-    if not channel.memory.parameters.bit(5040, 3):
+    if not channel.memory.parameters.TCT:
         return
     select_offset(channel, 0, 0)
     if not words.axes():

@@ -10,32 +10,41 @@ from enum import Enum
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe.coordinates.limits import renew_zones
+from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools.data_input import MAX_OFFSET_MM
 from polycnc.control.fanuc.lathe.tools.files import MAX_TIP, shown, taken
 from polycnc.control.fanuc.lathe.tools.offsets import MAX_OFFSETS, offset_changed, refresh
 from polycnc.control.word_address.macro_b.parameter_input import set_parameter
-from polycnc.machine.setup.values import ParameterKey
 from polycnc.messages import UserError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.fanuc.lathe.memory import TurningMemory, TurningOffset
+    from polycnc.control.parameters import Parameter
 
 RADIUS, TIP = "R", "T"
 #: The two pages of the barrier: symbols and their parameters (III.2.1.9).
-BARRIER: Mapping[str, Mapping[str, int]] = {
-    "chuck": {"TY": 1330, "CX": 1335, "CZ": 1336, "L": 1331, "W": 1332, "L1": 1333, "W1": 1334},
+BARRIER: Mapping[str, Mapping[str, Parameter[float]]] = {
+    "chuck": {
+        "TY": LatheParameters.jaw_kind,
+        "CX": LatheParameters.chuck_x,
+        "CZ": LatheParameters.chuck_z,
+        "L": LatheParameters.jaw_length,
+        "W": LatheParameters.jaw_size,
+        "L1": LatheParameters.grip_length,
+        "W1": LatheParameters.grip_step,
+    },
     "tailstock": {
-        "TZ": 1348,
-        "L": 1341,
-        "D": 1342,
-        "L1": 1343,
-        "D1": 1344,
-        "L2": 1345,
-        "D2": 1346,
-        "D3": 1347,
+        "TZ": LatheParameters.tailstock_z,
+        "L": LatheParameters.tailstock_length,
+        "D": LatheParameters.tailstock_diameter,
+        "L1": LatheParameters.tailstock_length_1,
+        "D1": LatheParameters.tailstock_diameter_1,
+        "L2": LatheParameters.tailstock_length_2,
+        "D2": LatheParameters.tailstock_diameter_2,
+        "D3": LatheParameters.tailstock_hole,
     },
 }
 #: Symbols that take the present position by [SET], with their axis.
@@ -67,24 +76,24 @@ class ScreenRefusal(UserError):  # noqa: N818 - the screen shows a warning, noth
 # ---- offsets ----------------------------------------------------------------------------------------------------
 
 
-def pages(channel: Channel) -> tuple[Page, ...]:
+def pages(channel: LatheChannel) -> tuple[Page, ...]:
     """The lists that the control has; where geometry and wear are one, that one is `WEAR`."""
     separate = not channel.memory.common_offsets
     return (Page.GEOMETRY, Page.WEAR, Page.SECOND) if separate else (Page.WEAR, Page.SECOND)
 
 
-def offset(channel: Channel, page: Page, number: int, field: str) -> float:
+def offset(channel: LatheChannel, page: Page, number: int, field: str) -> float:
     """A value of a list, as it is shown."""
     entry: TurningOffset = channel.memory.turning_offset(_checked(number))
     if field == TIP:
         return entry.tip
     if field == RADIUS:
         radius = entry.radius if page is Page.GEOMETRY else entry.radius_wear
-        return float(channel.memory.to_program_unit(radius))
+        return channel.memory.to_program_unit(radius)
     return shown(channel, field, _values(entry, page).get(field, 0.0))
 
 
-def set_offset(channel: Channel, page: Page, number: int, field: str, value: float) -> None:
+def set_offset(channel: LatheChannel, page: Page, number: int, field: str, value: float) -> None:
     """[INPUT]: a value of a list; it acts as 5002#4 and #6 say.
 
     Raises:
@@ -94,12 +103,12 @@ def set_offset(channel: Channel, page: Page, number: int, field: str, value: flo
     _write(channel, page, number, field, value)
 
 
-def add_offset(channel: Channel, page: Page, number: int, field: str, value: float) -> None:
+def add_offset(channel: LatheChannel, page: Page, number: int, field: str, value: float) -> None:
     """[+INPUT]: change a value by an amount; raises `ScreenRefusal` as `set_offset` does."""
     set_offset(channel, page, number, field, offset(channel, page, number, field) + value)
 
 
-def set_offsets(channel: Channel, page: Page, first: int, field: str, values: Sequence[float]) -> None:
+def set_offsets(channel: LatheChannel, page: Page, first: int, field: str, values: Sequence[float]) -> None:
     """[INPUT] of consecutive numbers: those in front of a protected range are set, then comes the warning (3294, 3295).
 
     Raises:
@@ -112,7 +121,7 @@ def set_offsets(channel: Channel, page: Page, first: int, field: str, values: Se
             raise ScreenRefusal(refusal.reason, done) from None
 
 
-def clear_offsets(channel: Channel, chosen: Sequence[Page], fields: Sequence[str]) -> None:
+def clear_offsets(channel: LatheChannel, chosen: Sequence[Page], fields: Sequence[str]) -> None:
     """[CLEAR] with [ALL], [WEAR] or [GEOM]: zero in all numbers (4th and 5th axis offsets, III.2.1.8)."""
     memory: TurningMemory = channel.memory
     for entry in memory.offsets.values():
@@ -122,24 +131,24 @@ def clear_offsets(channel: Channel, chosen: Sequence[Page], fields: Sequence[str
     offset_changed(channel)
 
 
-def further_fields(channel: Channel) -> tuple[str, ...]:
+def further_fields(channel: LatheChannel) -> tuple[str, ...]:
     """Columns of the screen of 4th and 5th axis offsets: names of axes (5044, 5045)."""
     from polycnc.control.fanuc.lathe.tools.data_input import further_words
 
     return tuple(further_words(channel).values())
 
 
-def is_protected(channel: Channel, page: Page, number: int) -> bool:
+def is_protected(channel: LatheChannel, page: Page, number: int) -> bool:
     """Whether values of a number cannot be typed in (3290#0 WOF, #1 GOF, #5 GO2; 3294, 3295)."""
     parameters = channel.memory.parameters
     if page is Page.SECOND:
-        return not parameters.bit(3290, 5)
-    first, count = int(parameters.number(3294)), int(parameters.number(3295))
+        return not parameters.GO2
+    first, count = parameters.locked_offset, parameters.locked_offsets
     in_range = first <= number < first + count if first > 0 else False
-    return in_range or bool(parameters.bit(3290, 1 if page is Page.GEOMETRY else 0))
+    return in_range or (parameters.GOF if page is Page.GEOMETRY else parameters.WOF)
 
 
-def _refuse_protected(channel: Channel, page: Page, number: int) -> None:
+def _refuse_protected(channel: LatheChannel, page: Page, number: int) -> None:
     if is_protected(channel, page, _checked(number)):
         raise ScreenRefusal("protected")
 
@@ -155,7 +164,7 @@ def _values(entry: TurningOffset, page: Page) -> dict[str, float]:
     return values
 
 
-def _write(channel: Channel, page: Page, number: int, field: str, value: float) -> None:
+def _write(channel: LatheChannel, page: Page, number: int, field: str, value: float) -> None:
     entry: TurningOffset = channel.memory.turning_offset(number)
     if field == TIP:
         if value not in range(MAX_TIP + 1):
@@ -178,7 +187,7 @@ def _write(channel: Channel, page: Page, number: int, field: str, value: float) 
 
 
 def measure(
-    channel: Channel, page: Page, number: int, axis: str, measured: float, latched: float | None = None
+    channel: LatheChannel, page: Page, number: int, axis: str, measured: float, latched: float | None = None
 ) -> None:
     """[MEASURE]: the offset is the coordinate of the axis less the measured value (III.2.1.2).
 
@@ -187,9 +196,7 @@ def measure(
     """
     _refuse_protected(channel, page, number)
     amount = _coordinate(channel, axis, latched) - measured
-    if channel.memory.parameters.bit(5004, 1) and channel.control.is_diameter(
-        channel, channel.axis_index[axis]
-    ):
+    if channel.memory.parameters.ORC and channel.control.is_diameter(channel, channel.axis_index[axis]):
         amount /= 2.0
     if page is Page.GEOMETRY:
         _write(channel, page, number, axis, amount)
@@ -200,12 +207,12 @@ def measure(
         _write(channel, page, number, axis, amount - offset(channel, page, number, axis))
 
 
-def counter_input(channel: Channel, page: Page, number: int, axis: str, relative: float) -> None:
+def counter_input(channel: LatheChannel, page: Page, number: int, axis: str, relative: float) -> None:
     """[INP.C.]: the offset of the shown list is the relative coordinate; the other list stays (III.2.1.4)."""
     set_offset(channel, page, number, axis, relative)
 
 
-def _coordinate(channel: Channel, axis: str, latched: float | None) -> float:
+def _coordinate(channel: LatheChannel, axis: str, latched: float | None) -> float:
     """The coordinate that counts for a measured value, as the absolute display shows it."""
     if latched is not None:
         return latched
@@ -215,12 +222,12 @@ def _coordinate(channel: Channel, axis: str, latched: float | None) -> float:
 # ---- work shift -------------------------------------------------------------------------------------------------
 
 
-def work_shift(channel: Channel, axis: str) -> float:
+def work_shift(channel: LatheChannel, axis: str) -> float:
     """The shift of all work coordinate systems along an axis, as it is shown."""
     return shown(channel, axis, channel.memory.work_shift[channel.axis_index[axis]], work=True)
 
 
-def set_work_shift(channel: Channel, axis: str, value: float) -> None:
+def set_work_shift(channel: LatheChannel, axis: str, value: float) -> None:
     """[INPUT] on the screen of the work shift: the display is the old one less the shift, at once (III.2.1.5)."""
     if not abs(value) <= MAX_OFFSET_MM:
         raise ScreenRefusal("value")
@@ -228,12 +235,14 @@ def set_work_shift(channel: Channel, axis: str, value: float) -> None:
     refresh(channel)
 
 
-def add_work_shift(channel: Channel, axis: str, value: float) -> None:
+def add_work_shift(channel: LatheChannel, axis: str, value: float) -> None:
     """[+INPUT] on the screen of the work shift."""
     set_work_shift(channel, axis, work_shift(channel, axis) + value)
 
 
-def measure_work_shift(channel: Channel, axis: str, programmed: float, latched: float | None = None) -> None:
+def measure_work_shift(
+    channel: LatheChannel, axis: str, programmed: float, latched: float | None = None
+) -> None:
     """A measured value: the place where the tool stands (or stood when PRC came) reads `programmed` from now on."""
     add_work_shift(channel, axis, _coordinate(channel, axis, latched) - programmed)
 
@@ -241,12 +250,12 @@ def measure_work_shift(channel: Channel, axis: str, programmed: float, latched: 
 # ---- barrier ----------------------------------------------------------------------------------------------------
 
 
-def barrier_value(channel: Channel, page: str, symbol: str) -> float:
+def barrier_value(channel: LatheChannel, page: str, symbol: str) -> float:
     """A value of the barrier's pages."""
-    return float(channel.setup.parameters.number(BARRIER[page][symbol]))
+    return channel.memory.parameters.value(BARRIER[page][symbol])
 
 
-def set_barrier(channel: Channel, page: str, symbol: str, value: float) -> None:
+def set_barrier(channel: LatheChannel, page: str, symbol: str, value: float) -> None:
     """[INPUT] on a page of the barrier, in the state G23; the area is new with the next G22.
 
     Raises:
@@ -256,16 +265,16 @@ def set_barrier(channel: Channel, page: str, symbol: str, value: float) -> None:
         raise ScreenRefusal("g23")
     if not abs(value) <= MAX_OFFSET_MM or (symbol == "TY" and value not in (0, 1)):
         raise ScreenRefusal("value")
-    set_parameter(channel, ParameterKey(BARRIER[page][symbol]), value)
+    set_parameter(channel, BARRIER[page][symbol].key, value)
     renew_zones(channel)
 
 
-def add_barrier(channel: Channel, page: str, symbol: str, value: float) -> None:
+def add_barrier(channel: LatheChannel, page: str, symbol: str, value: float) -> None:
     """[+INPUT] on a page of the barrier."""
     set_barrier(channel, page, symbol, barrier_value(channel, page, symbol) + value)
 
 
-def set_barrier_here(channel: Channel, page: str, symbol: str) -> None:
+def set_barrier_here(channel: LatheChannel, page: str, symbol: str) -> None:
     """[SET]: CX, CZ or TZ becomes the present work coordinate; an active tool offset is in it."""
     axis = BARRIER_POSITIONS.get(symbol)
     if axis is None:
@@ -276,12 +285,12 @@ def set_barrier_here(channel: Channel, page: str, symbol: str) -> None:
 # ---- modal codes ------------------------------------------------------------------------------------------------
 
 
-def modal_codes(channel: Channel) -> list[list[str]]:
+def modal_codes(channel: LatheChannel) -> list[list[str]]:
     """The modal codes as the screen shows them, column by column; an empty text where a place is free."""
     return [[_modal_code(channel, group) for group in column] for column in MODAL_COLUMNS]
 
 
-def _modal_code(channel: Channel, group: str) -> str:
+def _modal_code(channel: LatheChannel, group: str) -> str:
     code = channel.control.written_code(channel, group) if group in channel.mode.codes else group
     number, point, fraction = code.partition(" ")[0].removeprefix("G").partition(".")
     return f"G{number.zfill(2)}{point}{fraction}" if code else ""

@@ -8,19 +8,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools import screens
 from polycnc.control.fanuc.lathe.tools.files import shown
 from polycnc.control.fanuc.lathe.tools.screens import Page, ScreenRefusal
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
 
 #: Contacts: axis, direction of the touch, parameter with the machine coordinate of the sensor's face.
 CONTACTS = {
-    "+MIT1": ("X", 1, 5015),
-    "-MIT1": ("X", -1, 5016),
-    "+MIT2": ("Z", 1, 5017),
-    "-MIT2": ("Z", -1, 5018),
+    "+MIT1": ("X", 1, LatheParameters.sensor_x_plus),
+    "-MIT1": ("X", -1, LatheParameters.sensor_x_minus),
+    "+MIT2": ("Z", 1, LatheParameters.sensor_z_plus),
+    "-MIT2": ("Z", -1, LatheParameters.sensor_z_minus),
 }
 OFFSETS, SHIFT = "OFST", "WSFT"
 
@@ -38,7 +39,7 @@ class MeasuredInputB:
         locked: Axes and directions that an active contact locks.
     """
 
-    def __init__(self, channel: Channel) -> None:
+    def __init__(self, channel: LatheChannel) -> None:
         self._channel = channel
         self.status = ""
         self.number = 1
@@ -68,7 +69,7 @@ class MeasuredInputB:
 
     def choose(self, number: int) -> None:
         """The cursor; refused where signals choose the number (5005#5 QNI)."""
-        if self._channel.memory.parameters.bit(5005, 5):
+        if self._channel.memory.parameters.QNI:
             raise ScreenRefusal("protected")
         self.choose_by_signal(number)
 
@@ -79,8 +80,8 @@ class MeasuredInputB:
     def _open(self, status: str, *, on: bool) -> None:
         if on and not self.status:
             self.status = status
-            if status == SHIFT and not self._channel.memory.parameters.bit(5005, 5):
-                self.number = int(self._channel.memory.parameters.number(5020)) or self.number
+            if status == SHIFT and not self._channel.memory.parameters.QNI:
+                self.number = self._channel.memory.parameters.work_shift_offset or self.number
         elif not on and self.status == status:
             self.status = ""
             self.locked.clear()
@@ -90,12 +91,12 @@ class MeasuredInputB:
         if self.status != OFFSETS:
             raise ScreenRefusal("no-measuring")
         channel = self._channel
-        if channel.memory.parameters.bit(5004, 3) and contact != "+MIT1":
+        if channel.memory.parameters.TS1 and contact != "+MIT1":
             return  # TS1 = 1: one contact for all directions
         axis, direction, face = CONTACTS[contact]
         self.locked.add((axis, direction))
         machine = channel.coordinates.machine[channel.axis_index[axis]]
-        value = shown(channel, axis, machine) - channel.memory.parameters.number(face)
+        value = shown(channel, axis, machine) - channel.memory.parameters.value(face)
         screens.set_offset(channel, Page.GEOMETRY, self.number, axis, value)
 
     def _set_shift(self) -> None:
