@@ -5,7 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from polycnc.channel.coordinates import Coordinates
-from polycnc.geometry.frames import IDENTITY, rotation, translation
+from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
+from polycnc.transformation.feature import FeatureFrame
 
 LENGTH = st.floats(-1000.0, 1000.0)
 
@@ -54,21 +55,14 @@ def test_a_missing_geometry_axis_counts_as_zero() -> None:
     assert c.to_machine([10.0, 4.0]) == pytest.approx([0.0, 4.0])
 
 
-class Swapped:
-    """X and Y are named each other."""
-
-    geometry = (1, 0, 2)
-
-    def real(self, end: list[float]) -> list[float]:
-        return [end[1], end[0], end[2]]
-
-    display = real
+#: X and Y are named each other.
+SWAPPED = FeatureFrame(Frame(((0.0, 1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0))), (1, 0, 2))
 
 
 def test_axes_that_stand_for_others_leave_the_machine_where_it_is() -> None:
     c = coordinates(100.0, 50.0, 0.0)
     c.set_zero(IDENTITY, [20.0, 10.0, 0.0])
-    c.transform(Swapped(), Swapped.geometry)
+    c.transform(SWAPPED, SWAPPED.geometry)
     assert (c.position, c.programmed, c.geometry) == ([40.0, 80.0, 0.0], [40.0, 80.0, 0.0], (1, 0, 2))
     assert c.machine == [100.0, 50.0, 0.0]
     c.transform(None, (0, 1, 2))

@@ -5,8 +5,9 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.machine.layout import AxisLayout
 from polycnc.toolpath import Context, Event, Kind, Toolpath
-from polycnc.toolpath.trace import AxisLayout, Display
+from polycnc.toolpath.trace import Display
 
 if TYPE_CHECKING:
     from polycnc.toolpath.table import Row

@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from polycnc.geometry.frames import rotation
+from polycnc.machine.layout import AxisLayout
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.export import WRITERS, Csv, JsonLines, Parquet, arrow_table, flattened
 from polycnc.toolpath.modes import FeedMode
-from polycnc.toolpath.trace import AxisLayout
 from tests.toolpath.paths import Z_UP, Draft
 
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from polycnc.geometry.frames import translation
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.strokes import arc_points, strokes
+from polycnc.transformation.parallel import ParallelAxes
 from tests.toolpath.paths import Z_UP, Draft
 
 XYZ = (0, 1, 2)
@@ -38,16 +39,12 @@ def test_a_new_work_offset_moves_the_coordinates_and_not_the_machine() -> None:
     assert last.points == [(-90, 0, 0), (5, 0, 0)]
 
 
-class Identity:
-    geometry = (0, 1, 2)
-
-    def real(self, end: list[float]) -> list[float]:
-        return end
-
-
 def test_a_transformation_begins_a_new_stroke_where_its_first_move_ends() -> None:
     draft = (
-        Draft().move(Kind.FEED, 10, 0, 0).under(Context(transformation=Identity())).move(Kind.FEED, 5, 5, 0)
+        Draft()
+        .move(Kind.FEED, 10, 0, 0)
+        .under(Context(transformation=ParallelAxes((0, 1, 2))))
+        .move(Kind.FEED, 5, 5, 0)
     )
     draft.move(Kind.FEED, 6, 6, 0)
     last = list(strokes(draft.toolpath, XYZ))[-1]

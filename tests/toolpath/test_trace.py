@@ -3,9 +3,11 @@ from __future__ import annotations
 import pytest
 
 from polycnc.geometry.frames import rotation, translation
+from polycnc.machine.layout import AxisLayout
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.modes import FeedMode
-from polycnc.toolpath.trace import AxisLayout
+from polycnc.transformation.cylinder import Cylinder
+from polycnc.transformation.parallel import ParallelAxes
 from tests.toolpath.paths import MILL, Z_UP, Draft
 
 
@@ -142,17 +144,10 @@ def test_a_rotated_frame_leads_to_the_machine_display() -> None:
     assert record["machine"] == {"X": 0, "Y": 10, "Z": 0}
 
 
-class HalfRadius:
-    """Makes X of the toolpath half as far on the real axis."""
-
-    geometry = (0, 1, 2)
-
-    def real(self, end: list[float]) -> list[float]:
-        return [end[0] / 2, *end[1:]]
-
-
 def test_under_a_transformation_the_machine_display_shows_the_real_axes_shifted_by_the_frame() -> None:
-    context = Context(transformation=HalfRadius(), frame=translation(100, 0, 0), offsets=(0, 0, 5))
+    context = Context(
+        transformation=Cylinder(0, 2.0, (0, 1, 2)), frame=translation(100, 0, 0), offsets=(0, 0, 5)
+    )
     draft = Draft().under(context).move(Kind.FEED, 10, 0, 0)
     display = draft.display()
     (record,) = display.records()
@@ -161,18 +156,9 @@ def test_under_a_transformation_the_machine_display_shows_the_real_axes_shifted_
     assert list(display._records_by_column(draft.toolpath.chunks[0])) == [record]
 
 
-class PolarLike:
-    """Makes a length of the rotary third axis."""
-
-    geometry = (0, 2, 1)
-
-    def real(self, end: list[float]) -> list[float]:
-        return end
-
-
 def test_a_rotary_axis_that_is_a_length_of_the_plane_keeps_its_sign() -> None:
     layout = AxisLayout(geometry=(0, 1, -1), rotary=frozenset({2}), modulo=frozenset({2}))
-    draft = Draft().under(Context(transformation=PolarLike())).move(Kind.FEED, 10, 0, -20)
+    draft = Draft().under(Context(transformation=ParallelAxes((0, 2, 1)))).move(Kind.FEED, 10, 0, -20)
     (record,) = draft.display(layout).records()
     assert record["to"]["Z"] == -20
     plain = Draft().move(Kind.FEED, 10, 0, -20)

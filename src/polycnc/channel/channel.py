@@ -241,7 +241,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         c = self.coordinates
         if c.transformation is None or not self.path.leads_axes:
             return c.position
-        return c.transformation.real(c.position)
+        return c.transformation.to_machine(c.position)
 
     def begin_again(self) -> None:
         """The main program goes to its top."""

@@ -14,23 +14,12 @@ incremental words; `owes` says whether there is any.
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from polycnc.geometry.frames import IDENTITY, Frame
 
-
-class Following(Protocol):
-    """How real axes follow the displayed position in a mode that makes axes of others, and back."""
-
-    @property
-    def geometry(self) -> tuple[int, int, int]:
-        """Columns of X, Y and Z in displayed positions, or -1."""
-
-    def real(self, end: list[float]) -> list[float]:
-        """Work coordinates of the real axes at a displayed position."""
-
-    def display(self, real: list[float]) -> list[float]:
-        """The displayed position for work coordinates of the real axes."""
+if TYPE_CHECKING:
+    from polycnc.transformation.contract import Transformation
 
 
 class Coordinates:
@@ -47,7 +36,7 @@ class Coordinates:
         self.programming = IDENTITY
         self.shift: list[float] | None = None
         self.direct = True
-        self.transformation: Following | None = None
+        self.transformation: Transformation | None = None
         self.zero = IDENTITY
         self.offsets = [0.0] * len(axes)
         self.pending = [0.0] * len(axes)
@@ -82,7 +71,7 @@ class Coordinates:
     def to_machine(self, position: list[float]) -> list[float]:
         """Absolute display to machine axes."""
         if self.transformation is not None:
-            position = self.transformation.real(position)
+            position = self.transformation.to_machine(position)
         return [
             value + offset
             for value, offset in zip(self.image(self.zero, position), self.offsets, strict=True)
@@ -92,7 +81,7 @@ class Coordinates:
         """Machine axes to absolute display."""
         inner = [value - offset for value, offset in zip(machine, self.offsets, strict=True)]
         position = self.image(self.zero.inverse(), inner)
-        return position if self.transformation is None else self.transformation.display(position)
+        return position if self.transformation is None else self.transformation.to_work(position)
 
     @property
     def machine(self) -> list[float]:
@@ -114,7 +103,7 @@ class Coordinates:
         self.arrive(self.from_machine(machine))
 
     def transform(
-        self, transformation: Following | None, geometry: tuple[int, int, int] | None = None
+        self, transformation: Transformation | None, geometry: tuple[int, int, int] | None = None
     ) -> None:
         """Let axes stand for others, or (None) for themselves again. The machine stays, the display follows.
 

@@ -38,7 +38,7 @@ def stand_at_last_row(channel: Channel) -> None:
         c.arrive_machine(toolpath.to_machine(end, context, c.geometry))
         return
     if channel.path.leads_axes and c.transformation is not None:
-        end = c.transformation.display(end)
+        end = c.transformation.to_work(end)
     c.arrive(end)
 
 

@@ -10,11 +10,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
-    from polycnc.machine.motion_settings import MotionSettings
     from polycnc.machine.plc import Plc
     from polycnc.messages import Catalogue
     from polycnc.program import Form
     from polycnc.toolpath import Context
+    from polycnc.toolpath.motion_settings import MotionSettings
 
 
 class Control(ChannelControl, Protocol):

@@ -2,8 +2,8 @@
 
 A machine file: `schema` says what may stand in it, `load` turns it into a `Machine` (`model`), `check` asks
 whether all of it fits together, `render` makes a file again; `places` and `errors` say where a mistake
-stands. `kinematics` leads from axes to the tool, `layout` is what displays must know, `motion_settings` how a
-control leads the axes, `rules` and `plc` are the machine's own controller. `setup/` is what a run starts from.
+stands. `kinematics` leads from rotary axes to the tool, `layout` is what displays must know, `rules` and
+`plc` are the machine's own controller. `setup/` is what a run starts from.
 """
 
 from polycnc.machine.errors import FileError, MachineFileError, SetupError

@@ -2,12 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
-
-from polycnc.toolpath.trace import AxisLayout
 
 if TYPE_CHECKING:
     from polycnc.machine.model import Machine
+
+
+@dataclass(frozen=True, slots=True)
+class AxisLayout:
+    """What the displays must know of a channel's axes.
+
+    Attributes:
+        geometry: For X, Y, Z of the geometry the index of the channel axis, or -1.
+        rotary: Indices of rotary axes, in degrees whatever the unit of length.
+        modulo: Indices of the rotary axes whose work display stays within one turn.
+    """
+
+    geometry: tuple[int, int, int] = (-1, -1, -1)
+    rotary: frozenset[int] = frozenset()
+    modulo: frozenset[int] = frozenset()
 
 
 def axis_layout(machine: Machine, channel: int) -> AxisLayout:

@@ -45,15 +45,14 @@ def real_of(laid: Sequence[float], context: Context, geometry: Geometry) -> list
     """The real axes at a position of the path."""
     if context.transformation is None:
         return list(laid)
-    return machine_of(context.transformation.real(work_of(laid, context, geometry)), context, geometry)
+    return machine_of(context.transformation.to_machine(work_of(laid, context, geometry)), context, geometry)
 
 
 def laid_of(real: Sequence[float], context: Context, geometry: Geometry) -> list[float]:
     """The position of the path at which the real axes are."""
-    shows = getattr(context.transformation, "display", None)
-    if shows is None:
+    if context.transformation is None:
         return list(real)
-    return machine_of(shows(work_of(real, context, geometry)), context, geometry)
+    return machine_of(context.transformation.to_work(work_of(real, context, geometry)), context, geometry)
 
 
 def carried(laid: Sequence[float], last: Context, context: Context, geometry: Geometry) -> list[float]:

@@ -15,7 +15,7 @@ from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode
 if TYPE_CHECKING:
     from polycnc.machine import Axis, Machine, Spindle
     from polycnc.toolpath import Context
-    from polycnc.toolpath.context import Transformation
+    from polycnc.transformation.contract import Transformation
 
 #: Deviation that counts as none: what a control resolves.
 EXACT_MM = 0.001

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from array import array
 from itertools import pairwise
-from math import atan2, ceil, cos, degrees, hypot, inf, pi, radians, sin
+from math import atan2, ceil, degrees, hypot, inf, pi, radians
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.frames import machine_of
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from polycnc.motion.frames import Geometry
     from polycnc.motion.row_path import ArcPath, Path
     from polycnc.toolpath import Context
+    from polycnc.transformation.pole import Pole
 
 #: A path that comes so near to the pole (mm) leads through it; radius of the ring.
 POLE_MM, RING_MM = 1e-3, 1e-4
@@ -32,40 +33,6 @@ POLE_MM, RING_MM = 1e-3, 1e-4
 NO_TURN, HALF = 1e-9, 1e-6
 #: Degrees of a piece of a turn, and the part of the rotary axis's limits that cubics so long leave.
 PIECE_DEG, PART = 2.0, 0.995
-
-
-class Pole(NamedTuple):
-    """Where a rotary axis has no direction.
-
-    Attributes:
-        columns: The two columns of the plane.
-        place: Their work coordinates there, mm.
-        rotary: Column of the rotary axis.
-    """
-
-    columns: tuple[int, int]
-    place: tuple[float, float]
-    rotary: int
-
-    def away(self, point: Sequence[float]) -> tuple[float, float]:
-        """From the pole to a point of the plane."""
-        (i, j), (x, y) = self.columns, self.place
-        return point[i] - x, point[j] - y
-
-    def distance(self, point: Sequence[float]) -> float:
-        """Of a point of the plane, mm."""
-        return hypot(*self.away(point))
-
-    def is_at(self, point: Sequence[float]) -> bool:
-        """Whether a point counts as the pole."""
-        return self.distance(point) <= POLE_MM
-
-    def beside(self, point: Sequence[float], angle: float, radius: float) -> list[float]:
-        """The point, moved to an angle (radians) and a distance from the pole."""
-        moved = list(point)
-        for column, centre, part in zip(self.columns, self.place, (cos(angle), sin(angle)), strict=True):
-            moved[column] = centre + radius * part
-        return moved
 
 
 class Turn(NamedTuple):
@@ -108,6 +75,11 @@ class Leg(NamedTuple):
     turn: Turn | None
 
 
+def is_at(pole: Pole, point: Sequence[float]) -> bool:
+    """Whether a point counts as the pole."""
+    return pole.distance(point) <= POLE_MM
+
+
 def legs_of(
     pole: Pole,
     start: list[float],
@@ -127,13 +99,13 @@ def legs_of(
         geometry: Columns of X, Y and Z.
         ccw: Sense of the arc.
     """
-    first, last = (pole.beside(point, 0.0, 0.0) if pole.is_at(point) else point for point in (start, end))
+    first, last = (pole.beside(point, 0.0, 0.0) if is_at(pole, point) else point for point in (start, end))
     arc = arc_path(first, last, curve, geometry, ccw=ccw) if len(curve) else None
     path = arc.at if arc is not None else line_path(first, last)
     knots = _knots(pole, path, arc, first, last)
     if not knots:
         return []
-    if arc is None and pole.is_at(start) and pole.is_at(end):
+    if arc is None and is_at(pole, start) and is_at(pole, end):
         still = pole.beside(end, _angle(pole, start), RING_MM)
         way = hypot(*(b - a for a, b in zip(start, still, strict=True)))
         return [Leg(start, still, line_path(start, still), way, 1.0, (True, True), None)]
@@ -160,11 +132,11 @@ def _knots(
         (a, b), (c, d) = pole.away(start), pole.away(end)
         square, near = (c - a) ** 2 + (d - b) ** 2, 0.0
         knots = [(a * (a - c) + b * (b - d)) / square] if square > 0.0 else []
-    ends = [f for f, point in ((0.0, start), (1.0, end)) if pole.is_at(point)]
+    ends = [f for f, point in ((0.0, start), (1.0, end)) if is_at(pole, point)]
     low, high = (near if 0.0 in ends else 0.0), (1.0 - near if 1.0 in ends else 1.0)
     if arc is None and ends:
         knots = []
-    return sorted({*ends, *(f for f in knots if low < f < high and pole.is_at(path(f)))})
+    return sorted({*ends, *(f for f in knots if low < f < high and is_at(pole, path(f)))})
 
 
 def _leg(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from polycnc.machine.motion_settings import DEFAULT
-from polycnc.machine.motion_settings import MotionSettings as Settings
+from polycnc.toolpath.motion_settings import DEFAULT
+from polycnc.toolpath.motion_settings import MotionSettings as Settings
 
 __all__ = ["DEFAULT", "Settings"]

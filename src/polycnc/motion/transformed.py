@@ -26,7 +26,7 @@ from polycnc.motion.frames import carried, laid_of, machine_of, real_of, work_of
 from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
 from polycnc.motion.limits import averages, axis_limits, channel_axes, rotary_weight
 from polycnc.motion.pace import Travel, pace_of
-from polycnc.motion.pole import RING_MM, Pole, Turn, legs_of, turn_records
+from polycnc.motion.pole import RING_MM, Turn, is_at, legs_of, turn_records
 from polycnc.motion.row_path import arc_path, line_path
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, RAPID_KINDS
@@ -40,8 +40,8 @@ if TYPE_CHECKING:
     from polycnc.motion.row_path import Path
     from polycnc.motion.sampling.run import Moved
     from polycnc.motion.settings import Settings
-    from polycnc.toolpath.context import Transformation
     from polycnc.toolpath.table import Chunk
+    from polycnc.transformation.contract import Transformation
 
 #: Part of the acceleration that is for the bend of the real axes' way; the rest is for changes of speed.
 BEND = 0.5
@@ -252,21 +252,20 @@ class RealAxes:
 
     def _carried(self, context: Context) -> list[float]:
         """Where the path goes on under another transformation: next to its pole in the direction of the rotary axis."""
-        laid, pole = carried(self._laid, self._context, context, self._geometry), _pole(context)
-        if pole is None or not pole.is_at(work_of(laid, context, self._geometry)):
+        laid = carried(self._laid, self._context, context, self._geometry)
+        pole = context.transformation.pole if context.transformation is not None else None
+        if pole is None or not is_at(pole, work_of(laid, context, self._geometry)):
             return laid
-        real = real_of(self._laid, self._context, self._geometry)
-        linear, side = pole.columns[0], context.transformation.side  # type: ignore[union-attr]
-        work = work_of(real, context, self._geometry)
-        work[linear] = side * RING_MM
-        return laid_of(machine_of(work, context, self._geometry), context, self._geometry)
+        real = work_of(real_of(self._laid, self._context, self._geometry), context, self._geometry)
+        beside = machine_of(pole.axes_beside(real, RING_MM), context, self._geometry)
+        return laid_of(beside, context, self._geometry)
 
     def _legs(
         self, chunk: Chunk, row: int, start: list[float], end: list[float], context: Context
     ) -> list[LaidLeg]:
         """The legs of a row that is at the pole somewhere."""
         assert context.transformation is not None
-        pole, kind, own = _pole(context), chunk.kind[row], slice(row, row + 1)
+        pole, kind, own = context.transformation.pole, chunk.kind[row], slice(row, row + 1)
         if pole is None or kind not in LEGGED:
             return []
         curve, made = self._curve(chunk, row), context.transformation.geometry
@@ -443,7 +442,7 @@ class RealAxes:
         step, inside = min(step, PATH_STEP), 4.0 * step < length
         middle = min(max(share, 1.5 * step / length), 1.0 - 1.5 * step / length) if inside else share
         nearby = [path(middle + (k - 1.5) * step / length) for k in range(4)]
-        real = [context.transformation.real(point) for point in nearby]
+        real = [context.transformation.to_machine(point) for point in nearby]
         direction = [(b - a) / step for a, b in zip(nearby[1], nearby[2], strict=True)]
         along = [
             min((limit / abs(u) for limit, u in zip(of, direction, strict=True) if u), default=0.0)
@@ -501,10 +500,10 @@ class RealAxes:
     def _slopes(self, context: Context, point: list[float], columns: list[int]) -> list[list[float]]:
         """Derivatives of every real axis by some columns."""
         assert context.transformation is not None
-        real = context.transformation.real(point)
+        real = context.transformation.to_machine(point)
         slopes: list[list[float]] = [[] for _ in real]
         for j in columns:
-            beside = context.transformation.real([*point[:j], point[j] + STEP, *point[j + 1 :]])
+            beside = context.transformation.to_machine([*point[:j], point[j] + STEP, *point[j + 1 :]])
             for i, (a, b) in enumerate(zip(real, beside, strict=True)):
                 slopes[i].append(self._way(i, b - a) / STEP)
         return slopes
@@ -537,15 +536,6 @@ def _set_shares(columns: Shares, first: int, found: RowShares) -> None:
         for column, number in zip(columns, share, strict=True):
             column[first + k] = number
     columns.ease[first + AT_START], columns.ease[first + AT_END] = found.at_start, found.at_end
-
-
-def _pole(context: Context) -> Pole | None:
-    """The pole of the transformation that acts, if it has one."""
-    transformation = context.transformation
-    place = getattr(transformation, "pole", None)
-    if place is None:
-        return None
-    return Pole((transformation.linear, transformation.rotary), place, transformation.rotary)  # type: ignore[union-attr]
 
 
 def _sum(slopes: list[float], limits: Sequence[float], columns: list[int]) -> float:

@@ -1,8 +1,8 @@
 """The motion of a run as a table: moves and events in order, with the contexts that hold meanwhile.
 
-`table` has the rows, `kinds` what they are, `context` (with `modes`) and
-`events` the rest of a row. `trace` says what the displays
-of a control show for it; `export` and `plot` write it (`strokes`: its lines and arcs as a drawing wants them).
+`table` has the rows, `kinds` what they are, `context` (with `modes`) and `events` the rest of a row; `motion_settings`
+is how a control leads the axes where a context does not say. `trace` says what the displays of a control show for it;
+`export` and `plot` write it (`strokes`: its lines and arcs as a drawing wants them).
 """
 
 from polycnc.toolpath.context import Context

@@ -3,21 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode, StopWindow
 
-
-class Transformation(Protocol):
-    """How real axes follow the Cartesian positions of a mode in which the control makes axes of others."""
-
-    @property
-    def geometry(self) -> tuple[int, int, int]:
-        """Columns of X, Y and Z in positions of the toolpath, or -1."""
-
-    def real(self, end: list[float]) -> list[float]:
-        """Positions of the real axes (work coordinates) at a position of the toolpath."""
+if TYPE_CHECKING:
+    from polycnc.transformation.contract import Transformation
 
 
 #: How a stroke of a drilling cycle meets the next one: it is none, or waits for the axes to rest; it is one whose

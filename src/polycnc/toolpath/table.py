@@ -329,7 +329,7 @@ class Toolpath:
         """Machine position of a row's end point: the frame acts on `geometry` axes, the offsets on all."""
         machine = list(end)
         if context.transformation is not None:
-            machine = context.transformation.real(machine)
+            machine = context.transformation.to_machine(machine)
         if not context.frame.is_identity:
             image = context.frame.apply(*(machine[i] if i >= 0 else 0.0 for i in geometry))
             for i, value in zip(geometry, image, strict=True):

@@ -14,10 +14,12 @@ from typing import TYPE_CHECKING, Any
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
 from polycnc.toolpath.modes import FeedMode
+from polycnc.transformation.rows import machine_rows
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
+    from polycnc.machine.layout import AxisLayout
     from polycnc.toolpath.context import Context
     from polycnc.toolpath.events import Event
     from polycnc.toolpath.table import Chunk, Row, Toolpath
@@ -29,21 +31,6 @@ COLUMN_ROWS = 10_000
 _FULL_TURN = 360.0
 #: Seconds in the time unit of each feed mode: per minute, per revolution (no time in it), inverse minutes.
 _TIME_FACTOR = {FeedMode.INVERSE_TIME: 60.0, FeedMode.PER_MINUTE: 60.0, FeedMode.PER_REVOLUTION: 1.0}
-
-
-@dataclass(frozen=True, slots=True)
-class AxisLayout:
-    """What the displays must know of a channel's axes.
-
-    Attributes:
-        geometry: For X, Y, Z of the geometry the index of the channel axis, or -1.
-        rotary: Indices of rotary axes, in degrees whatever the unit of length.
-        modulo: Indices of the rotary axes whose work display stays within one turn.
-    """
-
-    geometry: tuple[int, int, int] = (-1, -1, -1)
-    rotary: frozenset[int] = frozenset()
-    modulo: frozenset[int] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -286,11 +273,9 @@ def _shown(value: float) -> float:
 
 def _machine_columns(end: Any, context: Context, geometry: tuple[int, int, int]) -> Any:
     """`Toolpath.to_machine` for whole columns (n, axes), in the same order of operations."""
-    import numpy as np
-
     machine = end.copy()
     if context.transformation is not None:
-        machine = np.array([context.transformation.real(row) for row in end.tolist()])
+        machine = machine_rows(context.transformation, end)
     if not context.frame.is_identity:
         x, y, z = (machine[:, i].copy() if i >= 0 else 0.0 for i in geometry)
         for i, (a, b, c), shift in zip(geometry, context.frame.m, context.frame.t, strict=True):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.machine.motion_settings import DryRun
+from polycnc.toolpath.motion_settings import DryRun
 
 if TYPE_CHECKING:
     from polycnc.machine.setup.values import Parameters

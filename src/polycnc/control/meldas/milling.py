@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
-    from polycnc.machine.motion_settings import MotionSettings
     from polycnc.messages import AlarmError
+    from polycnc.toolpath.motion_settings import MotionSettings
 
 
 class MeldasMilling(MillingControl):

@@ -37,12 +37,12 @@ from polycnc.language.sinumerik.names.initialisation import RESET, initialise
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.names.variables import Variable
 from polycnc.language.sinumerik.statements.sections import end_of_subprogram
-from polycnc.machine.motion_settings import MotionSettings
 from polycnc.machine.plc import Plc
 from polycnc.messages import AlarmError
 from polycnc.program import Form
 from polycnc.toolpath import Context
 from polycnc.toolpath.modes import CornerMode, FeedMode
+from polycnc.toolpath.motion_settings import MotionSettings
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -48,9 +48,9 @@ if TYPE_CHECKING:
     from polycnc.geometry.arcs import Point
     from polycnc.language.bulk import Condition
     from polycnc.language.word_address import Grammar
-    from polycnc.machine.motion_settings import MotionSettings
     from polycnc.program import Program
     from polycnc.toolpath import Context
+    from polycnc.toolpath.motion_settings import MotionSettings
 
 
 class SyntecMill(WordAddressControl):

@@ -27,12 +27,12 @@ from polycnc.geometry.arcs import radius_mismatch
 from polycnc.language.bulk import Spelling
 from polycnc.language.word_address import Grammar, WordAddressProgram
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock
-from polycnc.machine.motion_settings import MotionSettings
 from polycnc.machine.plc import Plc, read_plc
 from polycnc.messages import AlarmError, Catalogue, text
 from polycnc.program import Form
 from polycnc.toolpath import Context
 from polycnc.toolpath.modes import AccelerationMode, FeedMode
+from polycnc.toolpath.motion_settings import MotionSettings
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -392,7 +392,7 @@ class WordAddressControl:
         """The context that holds now."""
         mode, memory, c = channel.mode, channel.memory, channel.coordinates
         diameters = sum(1 << i for i in range(len(channel.axes)) if self.is_diameter(channel, i))
-        polar, unrolled = PolarState.of(channel).plane, CylinderState.of(channel).active
+        polar, unrolled = PolarState.of(channel), CylinderState.of(channel).active
         # A path that leads the axes leaves nothing to transform.
         transformation = None if channel.path.leads_axes else c.transformation or memory.parallel
         return Context(
@@ -410,7 +410,7 @@ class WordAddressControl:
             diameter_axes=diameters,
             wcs=memory.wcs,
             transformation=transformation,
-            machine_diameters=diameters | polar.diameter << polar.linear if polar else None,
+            machine_diameters=diameters | polar.diameter << polar.plane.linear if polar.plane else None,
             unrolled=(unrolled.axis, 1.0 / unrolled.mm_per_degree) if unrolled else None,
         )
 

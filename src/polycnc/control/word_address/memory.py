@@ -10,9 +10,9 @@ from polycnc.memory.retained import WORK_OFFSETS
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.family import WordAddressChannel
-    from polycnc.control.word_address.motion.planes import ParallelAxes
     from polycnc.geometry.frames import Vector
     from polycnc.machine.setup.values import Tool
+    from polycnc.transformation.parallel import ParallelAxes
 
 #: Name of the offset that is added to every work coordinate system.
 EXTERNAL = "EXT"

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from polycnc.channel.group import ChannelGroup
     from polycnc.machine.model import Axis as AxisData
     from polycnc.machine.model import Machine
-    from polycnc.machine.motion_settings import MotionSettings
+    from polycnc.toolpath.motion_settings import MotionSettings
 
 
 class Leader(Protocol):

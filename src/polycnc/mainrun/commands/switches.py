@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.machine.model import Axis
-    from polycnc.machine.motion_settings import DryRun
     from polycnc.machine.setup.values import Switches as SetupSwitches
     from polycnc.mainrun.commands.permission import Permission
     from polycnc.mainrun.execution.operation import Operation
+    from polycnc.toolpath.motion_settings import DryRun
 
 #: Lowest and highest overrides, 1 for 100 % (Hartford manual, operator panel).
 FEED_RANGE, RAPID_RANGE, SPINDLE_RANGE = (0.0, 2.0), (0.0, 1.0), (0.5, 1.2)

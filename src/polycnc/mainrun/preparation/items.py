@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.intervention import TakesBack
-    from polycnc.machine.motion_settings import DryRun
     from polycnc.mainrun.motion.geometry import Way
     from polycnc.toolpath import Context, Event
+    from polycnc.toolpath.motion_settings import DryRun
 
 
 @dataclass(frozen=True, slots=True)

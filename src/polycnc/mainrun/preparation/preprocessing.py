@@ -44,11 +44,11 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.intervention import TakesBack
     from polycnc.machine.model import Machine
-    from polycnc.machine.motion_settings import MotionSettings
     from polycnc.mainrun.axes.machine_axes import MachineAxes
     from polycnc.messages import AlarmError
     from polycnc.motion.pole import Turn
     from polycnc.program import Program
+    from polycnc.toolpath.motion_settings import MotionSettings
     from polycnc.toolpath.table import Chunk
 
 #: Items that are prepared at most, and at how few the channel is asked for more.

@@ -50,9 +50,9 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
     from polycnc.language.bulk import Condition
-    from polycnc.machine.motion_settings import MotionSettings
     from polycnc.messages import AlarmError
     from polycnc.toolpath import Context
+    from polycnc.toolpath.motion_settings import MotionSettings
 
 
 class FanucTurning(CustomMacroControl):

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
-    from polycnc.machine.motion_settings import MotionSettings
+    from polycnc.toolpath.motion_settings import MotionSettings
 
 
 class FanucMilling(MillingControl):

@@ -23,6 +23,7 @@ from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, NcFra
 from polycnc.machine.kinematics import Kinematics
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.transformation.orientation import solutions_for
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.cycles.arguments import Arguments
@@ -181,7 +182,7 @@ def _angles(channel: SinumerikChannel, a: Arguments, record: Record, frame: NcFr
     normal = (outer @ frame).frame.direct(square[0], square[1], square[2])
     found = [
         _in_range(channel, record, angles)
-        for angles in record.kinematics.solutions_for(normal, dict.fromkeys(record.axes, 0.0))
+        for angles in solutions_for(record.kinematics, normal, dict.fromkeys(record.axes, 0.0))
     ]
     allowed = [angles for angles in found if angles is not None]
     if not allowed:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.machine.motion_settings import DryFeed, DryRun
+from polycnc.toolpath.motion_settings import DryFeed, DryRun
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.data.machine_data import MachineData

@@ -16,6 +16,7 @@ from polycnc.control.word_address.tools import length
 from polycnc.geometry.frames import translation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
+from polycnc.transformation.orientation import solutions_for
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -128,7 +129,7 @@ def _angles(channel: Channel, words: Words, code: str) -> Angles:
     names = [joint.axis for joint in joints if joint.axis in channel.axis_index]
     master = names[0]
     found = sorted(
-        (_led(solution, near, master, way) for solution in kinematics.solutions_for(wanted, near)),
+        (_led(solution, near, master, way) for solution in solutions_for(kinematics, wanted, near)),
         key=lambda s: (
             round(abs(s[master] - near[master]), 6),
             sum(abs(s[name] - near[name]) for name in names),

@@ -8,12 +8,12 @@ from polycnc.control.syntec.five_axes.spatial_stage import (
     ARC_FIRST,
     INTERSECTION,
     Corners,
-    Posture,
     SpatialStage,
 )
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.machine.kinematics import Kinematics
+from polycnc.transformation.orientation import Posture
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

@@ -17,7 +17,7 @@ from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector
-    from polycnc.machine.kinematics import Kinematics
+    from polycnc.transformation.orientation import Posture
 
 PARALLEL = 1e-6
 #: So many blocks in a row may not be computable once the first one has moved.
@@ -38,20 +38,6 @@ class Corners:
         if self.way == INTERSECTION_FIRST:
             return angle_deg < self.least_intersection_deg
         return self.way == ARC_FIRST and angle_deg <= self.most_arc_deg
-
-
-@dataclass(frozen=True, slots=True)
-class Posture:
-    """How the tool stands on the work: kinematics, names of the axes, and their zero offsets (mm, degrees)."""
-
-    kinematics: Kinematics
-    axes: tuple[str, ...]
-    offsets: tuple[float, ...]
-
-    def tool_at(self, position: list[float]) -> Vector:
-        """Direction of the tool against the work at a position."""
-        places = zip(self.axes, position, self.offsets, strict=True)
-        return self.kinematics.tool_on_work({name: value + zero for name, value, zero in places})
 
 
 @dataclass(slots=True)

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.transformations.polar_interpolation import (
     GROUP,
-    PolarPlane,
     PolarState,
     enter_polar,
     leave_polar,
 )
+from polycnc.transformation.polar import PolarPlane
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -48,8 +48,8 @@ def start_polar(channel: Channel, words: Words) -> None:
     diameter = memory.is_diameter(linear)
     memory.diameters[linear] = False
     geometry = (linear, rotary, c.geometry[2])
-    polar = PolarPlane(linear, rotary, geometry, here[rotary], eccentricity, side, diameter)
-    enter_polar(channel, polar, "G17")
+    polar = PolarPlane(linear, rotary, geometry, here[rotary], eccentricity, side)
+    enter_polar(channel, polar, "G17", diameter=diameter)
 
 
 def end_polar(channel: Channel, words: Words) -> None:

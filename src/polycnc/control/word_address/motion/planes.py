@@ -2,31 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.compensation import CutterCompensation
 from polycnc.control.word_address.transformations import cylinder
 from polycnc.geometry.planes import PLANES
+from polycnc.transformation.parallel import ParallelAxes
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
-
-
-@dataclass(frozen=True, slots=True)
-class ParallelAxes:
-    """Other axes than those of the machine file are X, Y and Z; every axis moves as it is named."""
-
-    geometry: tuple[int, int, int]
-
-    def real(self, end: list[float]) -> list[float]:
-        """The axes where the path is."""
-        return list(end)
-
-    def display(self, real: list[float]) -> list[float]:
-        """The path where the axes are."""
-        return list(real)
 
 
 def choose_axes(channel: Channel, geometry: tuple[int, int, int]) -> None:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.geometry.planes import PLANES
+from polycnc.transformation.cylinder import Cylinder
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -22,34 +23,6 @@ if TYPE_CHECKING:
 #: Modal group that holds `G7.1` while a cylinder is unrolled.
 GROUP = "cylinder"
 _CUTS = frozenset({"G1", "G2", "G3"})
-
-
-@dataclass(frozen=True, slots=True)
-class Cylinder:
-    """An unrolled cylinder, and how its axis follows a length on the surface.
-
-    Attributes:
-        axis: Column of the rotary axis.
-        mm_per_degree: Length of a degree on the surface.
-        geometry: Columns of X, Y and Z while the cylinder is unrolled.
-    """
-
-    axis: int
-    mm_per_degree: float
-    geometry: tuple[int, int, int]
-
-    def real(self, end: list[float]) -> list[float]:
-        """Degrees for a length on the surface."""
-        return self._scaled(end, 1.0 / self.mm_per_degree)
-
-    def display(self, real: list[float]) -> list[float]:
-        """Length on the surface for degrees."""
-        return self._scaled(real, self.mm_per_degree)
-
-    def _scaled(self, point: list[float], factor: float) -> list[float]:
-        scaled = list(point)
-        scaled[self.axis] *= factor
-        return scaled
 
 
 @dataclass(slots=True)

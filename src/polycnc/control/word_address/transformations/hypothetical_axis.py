@@ -13,6 +13,7 @@ from polycnc.channel.state import Lifetime, State
 from polycnc.geometry import arcs
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS
+from polycnc.transformation.standing import StandingAxes
 
 if TYPE_CHECKING:
     from polycnc.channel.path import Move
@@ -23,30 +24,11 @@ if TYPE_CHECKING:
 CHORD_TOLERANCE_MM = 0.001
 
 
-@dataclass(frozen=True, slots=True)
-class Standing:
-    """Axes that stand while the path moves them, by column: their work coordinates; and the geometry columns."""
-
-    axes: dict[int, float]
-    geometry: tuple[int, int, int]
-
-    def real(self, end: list[float]) -> list[float]:
-        """Where the axes are when the path is at a point."""
-        stood = list(end)
-        for axis, value in self.axes.items():
-            stood[axis] = value
-        return stood
-
-    def display(self, real: list[float]) -> list[float]:
-        """The point of the path at which it begins anew."""
-        return list(real)
-
-
 @dataclass(slots=True)
 class HypotheticalState(State, lifetime=Lifetime.RESET):
     """Axes that stand while the path moves them (G07); None for none."""
 
-    standing: Standing | None = None
+    standing: StandingAxes | None = None
 
 
 def switch(channel: WordAddressChannel, words: Words) -> None:
@@ -60,12 +42,12 @@ def switch(channel: WordAddressChannel, words: Words) -> None:
     if foreign or channel.memory.side:
         raise words.fail("hypothetical_mode", "G7")
     position = c.from_machine(c.machine)
-    kept = {} if before is None else before.axes
+    kept = {} if before is None else dict(before.places)
     standing = {axis: kept.get(axis, position[axis]) for axis, value in named.items() if value == 0.0}
     standing = {**{axis: value for axis, value in kept.items() if axis not in named}, **standing}
     end(channel)
     if standing:
-        state.standing = c.transformation = Standing(standing, c.geometry)
+        state.standing = c.transformation = StandingAxes(tuple(standing.items()), c.geometry)
         channel.path.put(StandingStage(state.standing))
 
 
@@ -86,16 +68,16 @@ class StandingStage(Stage):
     rank = Rank.AXES
     lasts = True
 
-    def __init__(self, standing: Standing) -> None:
+    def __init__(self, standing: StandingAxes) -> None:
         self._standing = standing
 
     def move(self, move: Move) -> None:
         """Take the next move; see `Stage`."""
         u, v, w = self._plane(move)
-        if move.kind in ARC_KINDS and {u, v} & set(self._standing.axes):
+        if move.kind in ARC_KINDS and {u, v} & self._standing.columns:
             self._chords(move, (u, v))
             return
-        flat = {Kind.HELIX_CW: Kind.CW, Kind.HELIX_CCW: Kind.CCW} if w in self._standing.axes else {}
+        flat = {Kind.HELIX_CW: Kind.CW, Kind.HELIX_CCW: Kind.CCW} if w in self._standing.columns else {}
         self._straight(replace(move, kind=flat.get(move.kind, move.kind)), move.start, move.end)
 
     def _plane(self, move: Move) -> tuple[int, int, int]:
@@ -105,7 +87,7 @@ class StandingStage(Stage):
         return x[(w + 1) % 3], x[(w + 2) % 3], x[w]
 
     def _straight(self, move: Move, start: list[float], end: list[float]) -> None:
-        real = self._standing.real
+        real = self._standing.to_machine
         self.after.move(replace(move, start=real(start), end=real(end)))
 
     def _chords(self, move: Move, plane: tuple[int, int]) -> None:

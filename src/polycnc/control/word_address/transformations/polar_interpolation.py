@@ -7,12 +7,12 @@ toolpath are Cartesian; the linear axis follows by the distance from the rotatio
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, cos, degrees, hypot, radians, sin
 from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.transformations.cylinder import CylinderState
 from polycnc.geometry.planes import PLANES
+from polycnc.transformation.polar import PolarPlane
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder
@@ -30,61 +30,18 @@ PLANE_OF_LINEAR = ("G17", "G19", "G18")
 _CUTS = frozenset({"G1", "G2", "G3"})
 
 
-@dataclass(frozen=True, slots=True)
-class PolarPlane:
-    """How the real axes follow a point of the plane.
-
-    Attributes:
-        linear: Column of the plane's first axis.
-        rotary: Column of its second axis.
-        geometry: Columns of X, Y and Z while the plane is chosen.
-        start_deg: Work coordinate of the rotary axis where the plane was chosen; it is the direction of the first axis.
-        eccentricity: Program zero against the rotation centre, mm.
-        side: -1 where the linear axis stands on the negative side of the centre.
-        diameter: The machine display shows diameters of the linear axis.
-    """
-
-    linear: int
-    rotary: int
-    geometry: tuple[int, int, int]
-    start_deg: float
-    eccentricity: tuple[float, float] = (0.0, 0.0)
-    side: float = 1.0
-    diameter: bool = False
-
-    @property
-    def pole(self) -> tuple[float, float]:
-        """The rotation centre: work coordinates of both axes of the plane, in which the rotary one has no direction."""
-        return -self.eccentricity[0], -self.eccentricity[1]
-
-    def real(self, end: list[float]) -> list[float]:
-        """Work coordinates of the real axes at a point of the plane: mm (radius) and degrees."""
-        first = self.side * (end[self.linear] + self.eccentricity[0])
-        second = self.side * (end[self.rotary] + self.eccentricity[1])
-        moved = list(end)
-        moved[self.linear] = self.side * hypot(first, second)
-        moved[self.rotary] = self.start_deg + degrees(atan2(second, first))
-        return moved
-
-    def display(self, real: list[float]) -> list[float]:
-        """The point of the plane for work coordinates of the real axes."""
-        distance, angle = real[self.linear], radians(real[self.rotary] - self.start_deg)
-        shown = list(real)
-        shown[self.linear] = distance * cos(angle) - self.eccentricity[0]
-        shown[self.rotary] = distance * sin(angle) - self.eccentricity[1]
-        return shown
-
-
 @dataclass(slots=True)
 class PolarState(State, lifetime=Lifetime.RESET):
     """The plane of polar coordinate interpolation, and what its end brings back.
 
     Attributes:
         plane: None while it is off.
+        diameter: The machine display shows diameters of its linear axis.
         plane_before: Code of the plane that holds again then; `geometry_before` its axes.
     """
 
     plane: PolarPlane | None = None
+    diameter: bool = False
     plane_before: str = "G17"
     geometry_before: tuple[int, int, int] = (-1, -1, -1)
 
@@ -112,22 +69,18 @@ def start_polar(channel: WordAddressChannel, words: Words) -> None:
     geometry = list(c.geometry)
     geometry[PLANES[plane][1]] = rotary
     side = -1.0 if here[linear] < 0.0 else 1.0
-    polar = PolarPlane(
-        linear,
-        rotary,
-        (geometry[0], geometry[1], geometry[2]),
-        here[rotary],
-        side=side,
-        diameter=channel.control.is_diameter(channel, linear),
-    )
-    enter_polar(channel, polar, plane)
+    polar = PolarPlane(linear, rotary, (geometry[0], geometry[1], geometry[2]), here[rotary], side=side)
+    enter_polar(channel, polar, plane, diameter=channel.control.is_diameter(channel, linear))
 
 
-def enter_polar(channel: WordAddressChannel, polar: PolarPlane, plane: str) -> None:
-    """From here on the words name points of the plane, which is `plane` (G17 to G19); nothing moves."""
+def enter_polar(channel: WordAddressChannel, polar: PolarPlane, plane: str, *, diameter: bool) -> None:
+    """From here on the words name points of the plane, which is `plane` (G17 to G19); nothing moves.
+
+    `diameter`: the machine display goes on to show diameters of the linear axis.
+    """
     state = PolarState.of(channel)
     state.plane_before, state.geometry_before = channel.mode["plane"], channel.coordinates.geometry
-    state.plane = polar
+    state.plane, state.diameter = polar, diameter
     channel.mode = channel.mode.with_code("plane", plane)
     channel.coordinates.transform(polar, polar.geometry)
     channel.context_changed()

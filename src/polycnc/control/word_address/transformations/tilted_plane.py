@@ -19,6 +19,7 @@ from polycnc.geometry.vectors import cross, minus
 from polycnc.machine.kinematics import Kinematics
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.transformation.orientation import angles_for
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
@@ -138,7 +139,7 @@ def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: b
     wanted = plane.direct(0.0, 0.0, 1.0)
     if not kinematics.axes and abs(wanted[2] - 1.0) < 1e-9:
         return
-    angles = kinematics.angles_for(wanted, near)
+    angles = angles_for(kinematics, wanted, near)
     if angles is None or not set(angles) <= set(channel.axes):
         raise words.fail("tilt_unreachable", code)
     zero = [c.offsets[axis] - memory.length_offset[axis] if axis >= 0 else 0.0 for axis in c.geometry]

@@ -10,70 +10,27 @@ from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.transformations.tilted_plane import TiltState
 from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
+from polycnc.transformation.orientation import angles_for
+from polycnc.transformation.tool_centre import ToolCentrePoint
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.family import WordAddressChannel
-    from polycnc.geometry.frames import Vector
 
 
-@dataclass(frozen=True)
-class TipFollowing:
-    """How the axes follow the tip.
+@dataclass(slots=True)
+class TipState(State, lifetime=Lifetime.RESET):
+    """What leads the axes while words name the tip; None while they name the axes."""
 
-    Attributes:
-        kinematics: The machine's rotary joints.
-        axes: Names of the channel's axes.
-        geometry: Columns of X, Y, Z.
-        zero: Shift from work to machine of every axis, without the tool.
-        length: Length of the tool, mm.
-    """
-
-    kinematics: Kinematics
-    axes: tuple[str, ...]
-    geometry: tuple[int, int, int]
-    zero: tuple[float, ...]
-    length: float
-
-    def real(self, end: list[float]) -> list[float]:
-        """Work coordinates of the axes for a position of the tip."""
-        angles = self._angles(end)
-        point = self.kinematics.work_turn(angles).apply(*self._machine(end))
-        tip = self._tip(angles)
-        return self._with(end, (point[0] - tip[0], point[1] - tip[1], point[2] - tip[2]))
-
-    def display(self, real: list[float]) -> list[float]:
-        """Position of the tip for work coordinates of the axes."""
-        angles = self._angles(real)
-        point, tip = self._machine(real), self._tip(angles)
-        fixed = self.kinematics.work_turn(angles).inverse()
-        return self._with(real, fixed.apply(point[0] + tip[0], point[1] + tip[1], point[2] + tip[2]))
-
-    def _angles(self, end: list[float]) -> dict[str, float]:
-        return {name: value + zero for name, value, zero in zip(self.axes, end, self.zero, strict=True)}
-
-    def _machine(self, end: list[float]) -> Vector:
-        x, y, z = (end[axis] + self.zero[axis] for axis in self.geometry)
-        return (x, y, z)
-
-    def _tip(self, angles: dict[str, float]) -> Vector:
-        """From where the linear axes stand to the tip."""
-        tip = self.kinematics.head_turn(angles).apply(0.0, 0.0, -self.length)
-        nose = self.kinematics.head_turn({}).apply(0.0, 0.0, 0.0)
-        return (tip[0] - nose[0], tip[1] - nose[1], tip[2] - nose[2])
-
-    def _with(self, end: list[float], machine: Vector) -> list[float]:
-        moved = list(end)
-        for axis, value in zip(self.geometry, machine, strict=True):
-            moved[axis] = value - self.zero[axis]
-        return moved
+    active: ToolCentrePoint | None = None
 
 
 def start_following(channel: WordAddressChannel, words: Words) -> None:
@@ -90,7 +47,9 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
     c.transform(None)
     memory.length_offset = [0.0] * len(channel.axes)
     refresh_zero(channel)
-    c.transform(TipFollowing(kinematics, channel.axes, c.geometry, tuple(c.offsets), value))
+    following = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(c.offsets), (0.0, 0.0, -value))
+    TipState.of(channel).active = following
+    c.transform(following)
     channel.context_changed()
 
 
@@ -112,7 +71,7 @@ def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
         end = c.to_position(reach(channel, plan.axis_words, values))
         i, j, k = (words.typed(letter) or 0.0 for letter in "IJK")
         near = dict(zip(channel.axes, c.machine, strict=True))
-        angles = Kinematics.of(channel.machine).angles_for((i, j, k), near) if i or j or k else None
+        angles = angles_for(Kinematics.of(channel.machine), (i, j, k), near) if i or j or k else None
         if angles is None:
             raise words.fail("tip_direction", letters[0])
         for name, angle in angles.items():
@@ -125,8 +84,9 @@ def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
 
 def end_following(channel: WordAddressChannel) -> None:
     """G49 or another length code: the axes are named themselves again; nothing moves."""
-    c = channel.coordinates
-    if not isinstance(c.transformation, TipFollowing):
+    state, c = TipState.of(channel), channel.coordinates
+    active, state.active = state.active, None
+    if active is None or c.transformation != active:
         return
     c.transform(None)
     channel.context_changed()

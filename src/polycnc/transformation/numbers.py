@@ -1,0 +1,89 @@
+"""Functions of a number or of a column of numbers (a NumPy vector), which give both the same bits.
+
+Sums, products, quotients and roots are rounded alike everywhere. Sines, arcs and the like are not: NumPy has its own,
+so those of a column are taken one by one from `math`. Nothing here loads NumPy unless it is given a column.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, TypeVar
+
+from polycnc.geometry.frames import cos_sin_deg
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import numpy as np
+    import numpy.typing as npt
+
+    Column = npt.NDArray[np.float64]
+
+#: A number, or a column of numbers: one for each point.
+N = TypeVar("N", float, "Column")
+#: Radians of a degree, and degrees of a radian.
+RADIAN, DEGREE = math.pi / 180.0, 180.0 / math.pi
+
+
+def cosine(angle: N) -> N:
+    """Of an angle in radians."""
+    if isinstance(angle, float | int):
+        return math.cos(angle)
+    return _each(math.cos, angle)
+
+
+def sine(angle: N) -> N:
+    """Of an angle in radians."""
+    if isinstance(angle, float | int):
+        return math.sin(angle)
+    return _each(math.sin, angle)
+
+
+def cosine_and_sine_deg(angle: N) -> tuple[N, N]:
+    """Of an angle in degrees, exact at multiples of 90."""
+    if isinstance(angle, float | int):
+        return cos_sin_deg(angle)
+    import numpy as np
+
+    pairs = np.array([cos_sin_deg(one) for one in angle.tolist()]).reshape(-1, 2)
+    return pairs[:, 0], pairs[:, 1]
+
+
+def angle_deg(y: N, x: N) -> N:
+    """Direction of a point from the origin, degrees from -180 to 180."""
+    if isinstance(y, float | int):
+        return math.degrees(math.atan2(y, x))
+    return _each(math.atan2, y, x) * DEGREE
+
+
+def distance(x: N, y: N) -> N:
+    """Of a point from the origin."""
+    if isinstance(x, float | int):
+        return math.hypot(x, y)
+    return _each(math.hypot, x, y)
+
+
+def where_less(number: N, bound: float, then: N | float, otherwise: N | float) -> N:
+    """One of two numbers, as another is less than a bound or not."""
+    if isinstance(number, float | int):
+        return then if number < bound else otherwise
+    import numpy as np
+
+    return np.where(number < bound, then, otherwise)
+
+
+def constant(value: float, like: N) -> N:
+    """A number in the shape of another."""
+    if isinstance(like, float | int):
+        return value
+    import numpy as np
+
+    return np.full_like(like, value)
+
+
+def _each(function: Callable[..., float], *columns: Column) -> Column:
+    """A function of `math` on every number of some columns."""
+    import numpy as np
+
+    numbers = (column.tolist() for column in columns)
+    return np.fromiter(map(function, *numbers), np.float64, len(columns[0]))

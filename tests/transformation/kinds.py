@@ -1,0 +1,102 @@
+"""Transformations of every kind with any parameters, and points of the path that they map."""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import TYPE_CHECKING
+
+from hypothesis import strategies as st
+
+from polycnc.geometry.frames import rotation, translation
+from polycnc.machine.kinematics import Kinematics
+from polycnc.machine.model import Joint
+from polycnc.transformation.chain import Chain
+from polycnc.transformation.cylinder import Cylinder
+from polycnc.transformation.feature import FeatureFrame
+from polycnc.transformation.inclined import InclinedAxis
+from polycnc.transformation.parallel import ParallelAxes
+from polycnc.transformation.polar import PolarPlane
+from polycnc.transformation.tool_centre import ToolCentrePoint
+
+if TYPE_CHECKING:
+    from polycnc.geometry.frames import Vector
+    from polycnc.transformation.contract import Transformation
+
+#: Columns of all points: three linear axes, a virtual one, up to three rotary ones.
+AXES = ("X", "Y", "Z", "V", "A", "B", "C")
+WIDTH, VIRTUAL, ROTARY = len(AXES), 3, (4, 5, 6)
+XYZ = (0, 1, 2)
+
+places = st.floats(-500.0, 500.0, allow_subnormal=False)
+angles = st.floats(-179.0, 179.0, allow_subnormal=False)
+#: The virtual axis is zero, except where a kind makes use of it.
+points = st.tuples(places, places, places, st.just(0.0), angles, angles, angles)
+_parts = st.integers(-10, 10)
+directions = st.tuples(_parts, _parts, _parts).filter(any)
+offsets = st.tuples(places, places, places)
+
+
+def joints(names: str, carries: str) -> st.SearchStrategy[tuple[Joint, ...]]:
+    """Rotary joints of a chain, one for each name."""
+
+    def joint(name: str) -> st.SearchStrategy[Joint]:
+        return st.builds(
+            lambda direction, offset: Joint(name, True, carries, _floats(direction), offset),  # type: ignore[arg-type]
+            directions,
+            offsets,
+        )
+
+    return st.tuples(*(joint(name) for name in names))
+
+
+def _floats(direction: tuple[int, int, int]) -> Vector:
+    x, y, z = direction
+    return (float(x), float(y), float(z))
+
+
+#: Head and table share none to three rotary axes in any way: head/head, table/table, head/table, nutating.
+kinematics = st.sampled_from(
+    [("", ""), ("A", ""), ("", "C"), ("CA", ""), ("", "AC"), ("B", "C"), ("CAB", ""), ("A", "BC")]
+).flatmap(lambda split: st.builds(Kinematics, joints(split[0], "tool"), joints(split[1], "work")))
+
+frames = st.builds(
+    lambda i, j, k, shift: translation(*shift) @ rotation(2, i) @ rotation(0, j) @ rotation(2, k),
+    angles,
+    angles,
+    angles,
+    offsets,
+)
+polars = st.builds(
+    PolarPlane,
+    st.just(0),
+    st.just(6),
+    st.just((0, 6, 2)),
+    angles,
+    st.tuples(places, places),
+    st.sampled_from([1.0, -1.0]),
+)
+cylinders = st.builds(Cylinder.of_radius, st.just(4), st.floats(0.5, 500.0), st.just((0, 4, 2)))
+inclined = st.builds(InclinedAxis, st.just(0), st.just(2), st.floats(-80.0, 80.0), st.just(XYZ))
+tips = st.builds(
+    ToolCentrePoint,
+    kinematics,
+    st.just(AXES),
+    st.just(XYZ),
+    st.tuples(*[places] * 4, *[angles] * 3),
+    st.tuples(places, places, places),
+)
+features = st.builds(FeatureFrame, frames, st.just(XYZ))
+single: st.SearchStrategy[Transformation] = st.one_of(polars, cylinders, inclined, tips, features)
+chains: st.SearchStrategy[Transformation] = st.one_of(
+    st.builds(lambda *links: Chain(links), polars, inclined),
+    st.builds(lambda *links: Chain(links), cylinders, features),
+    st.builds(lambda *links: Chain(links), features, tips),
+    st.builds(lambda *links: Chain(links), inclined, features, tips),
+)
+every: st.SearchStrategy[Transformation] = st.one_of(single, chains, st.just(ParallelAxes((1, 0, 2))))
+
+
+def away_from_pole(transformation: Transformation, point: tuple[float, ...]) -> float:
+    """Distance from the pole, mm; where there is none, a large one."""
+    pole = transformation.pole
+    return 1e9 if pole is None else hypot(*pole.away(point))
