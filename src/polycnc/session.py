@@ -16,12 +16,14 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
 from polycnc.channel.group import ChannelGroup
 from polycnc.channel.passes import Passes
+from polycnc.channel.waits import Why
 from polycnc.control.alarm_text import alarm_text
 from polycnc.language.bulk.scanner import Bulk
 from polycnc.machine.layout import axis_layout
 from polycnc.messages import UserError
 from polycnc.messages.catalogue import listed
 from polycnc.toolpath import Toolpath
+from polycnc.toolpath.events import Raised
 from polycnc.toolpath.trace import Display
 
 if TYPE_CHECKING:
@@ -39,7 +41,6 @@ if TYPE_CHECKING:
     from polycnc.toolpath.table import Chunk
 
 #: A wait of this reason is a halt in single block mode.
-SINGLE_BLOCK = "single-block"
 _BLOCK_NUMBER = re.compile(r"\s*(?:/\d*\s*)?(N\d+)", re.IGNORECASE)
 
 
@@ -273,7 +274,7 @@ class Session:
             progress: Called now and then in a long run.
         """
         for wait in self.group.run(self.result.program):
-            if wait.reason == SINGLE_BLOCK:
+            if wait.reason is Why.SINGLE_BLOCK:
                 self.result.stops.extend([*self.channel.inner_halts, self._halt(wait)])
                 self.channel.inner_halts.clear()
             elif progress is not None:
@@ -304,10 +305,10 @@ class Session:
             self.result.planner.take(chunk)
         return not self._keep
 
-    def _event_text(self, data: Mapping[str, Any]) -> str:
-        """The text of an alarm event."""
+    def _event_text(self, raised: Raised) -> str:
+        """The text of an alarm of the toolpath."""
         same = (
-            alarm for alarm in self.channel.alarms if (alarm.code, alarm.line) == (data["code"], data["line"])
+            alarm for alarm in self.channel.alarms if (alarm.code, alarm.line) == (raised.code, raised.line)
         )
         return next((self.result.alarm_text(alarm) for alarm in same), "")
 

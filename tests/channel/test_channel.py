@@ -5,6 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polycnc.toolpath import Kind, Row
+from polycnc.toolpath.events import Stop
 from tests.support import codes, ends, moves, run
 
 
@@ -90,9 +91,7 @@ def test_a_run_away_loop_of_moves_ends_too() -> None:
 def test_a_programmed_stop_hands_over_and_goes_on() -> None:
     channel = run("O1\nG0 X1.\nM0\nX2.\nM30\n")
     assert ends(channel) == [(1.0, 0.0, 0.0), (2.0, 0.0, 0.0)]
-    stops = [
-        row.event.data["code"] for row in channel.toolpath.rows() if row.event and row.event.type == "stop"
-    ]
+    stops = [row.event.code for row in channel.toolpath.rows() if isinstance(row.event, Stop)]
     assert stops == ["M00"]
 
 

@@ -9,7 +9,8 @@ from polycnc.channel.path import Move, PlacedEvent, Sink, Stage
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane
 from polycnc.compensation.policy import Policy, Violation
-from polycnc.toolpath import Event, Kind
+from polycnc.toolpath import Kind
+from polycnc.toolpath.events import Auxiliary
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -109,7 +110,7 @@ class Reader:
         if {"X", "Y", "Z"} & set(values):
             self._move(values, vector)
         if "M" in values:
-            self.stage.event(PlacedEvent(Event("m", {"code": int(values["M"])}), 0, self.line, 0))
+            self.stage.event(PlacedEvent(Auxiliary(int(values["M"])), 0, self.line, 0))
         self.stage.block()
 
     def _move(self, values: dict[str, float], vector: tuple[float, float]) -> None:

@@ -19,7 +19,8 @@ from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.policy import Policy
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.messages import AlarmError
-from polycnc.toolpath import Event, Kind
+from polycnc.toolpath import Kind
+from polycnc.toolpath.events import Auxiliary
 from tests.compensation import policies
 from tests.compensation.support import CODES, G17, Recorder, into
 
@@ -108,7 +109,7 @@ def compensate(policy: Policy, contour: list[Piece], side: int, radius: float) -
             center = (piece.circle[0], side * piece.circle[1], 0.0)
         start, end = ([p[0], side * p[1], 0.0] for p in (piece.start, piece.end))
         stage.move(Move(kind, start, end, 1.0, line=line, center=center))
-        stage.event(PlacedEvent(Event("m", {"code": line}), 0, line, 0))
+        stage.event(PlacedEvent(Auxiliary(line), 0, line, 0))
         stage.block()
     stage.flush()
     return recorder

@@ -19,7 +19,8 @@ from polycnc.compensation.corner import (
 )
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.messages import AlarmError
-from polycnc.toolpath import Event, Kind
+from polycnc.toolpath import Kind
+from polycnc.toolpath.events import Auxiliary
 from tests.compensation.policies import FANUC_A, FANUC_CORNERS, SINUMERIK_CORNERS
 from tests.compensation.support import G17, Recorder, into
 
@@ -60,7 +61,7 @@ class Path:
 
     def idle(self, code: int = 8) -> Path:
         self.line += 1
-        self.stage.event(PlacedEvent(Event("m", {"code": code}), 0, self.line, 0))
+        self.stage.event(PlacedEvent(Auxiliary(code), 0, self.line, 0))
         self.stage.block()
         return self
 

@@ -16,7 +16,8 @@ from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.policy import Policy, Violation
 from polycnc.geometry import arcs
 from polycnc.messages import AlarmError
-from polycnc.toolpath import Event, Kind
+from polycnc.toolpath import Kind
+from polycnc.toolpath.events import Auxiliary
 from tests.compensation import policies
 from tests.compensation.support import CODES, G17, Recorder, into
 
@@ -55,7 +56,7 @@ def compensate(policy: Policy, contour: list[Corner], side: int, radius: float =
         if line == len(points) - 1:
             stage.cancel()
         stage.move(Move(Kind.FEED, [*one, 0.0], [*two, 0.0], 1.0, line=line))
-        stage.event(PlacedEvent(Event("m", {"code": line}), 0, line, 0))
+        stage.event(PlacedEvent(Auxiliary(line), 0, line, 0))
         stage.block()
     stage.flush()
     return recorder

@@ -62,11 +62,11 @@ class Build:
     def dwell(self, seconds: float = 0.0, revolutions: float = 0.0) -> Build:
         return self.row(Kind.DWELL, *self.end, feed=float("nan"), curve=(seconds, revolutions))
 
-    def event(self, type_: str, same_block: bool = False, **data: Any) -> Build:
+    def event(self, event: Event, *, same_block: bool = False) -> Build:
         if not same_block:
             self.line += 1
         context = self.toolpath.context_number(self.context)
-        self.toolpath.append_event(Event(type_, data), 0, self.line, context, self.end)
+        self.toolpath.append_event(event, 0, self.line, context, self.end)
         return self
 
     def plan(self, machine: Machine = MILL, **options: Any) -> Plan:

@@ -10,6 +10,7 @@ import pytest
 from polycnc.geometry.frames import rotation, scaling
 from polycnc.motion import Settings, plan
 from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.events import Auxiliary
 from polycnc.toolpath.modes import CornerMode, FeedMode
 from tests.motion.paths import LATHE, MILL4, Build, mill
 
@@ -284,7 +285,7 @@ def test_the_feed_counts_rotary_axes_as_the_control_does() -> None:
 
 
 def test_times_of_rows_add_up_to_the_total() -> None:
-    rows = Build().rapid(10.0, 20.0, 30.0).feed(50.0, 20.0, 30.0).dwell(seconds=0.3).event("m", code=19)
+    rows = Build().rapid(10.0, 20.0, 30.0).feed(50.0, 20.0, 30.0).dwell(seconds=0.3).event(Auxiliary(19))
     rows.arc(50.0, 40.0, 30.0, center=(50.0, 30.0)).rapid(0.0, 0.0, 0.0)
     result = plan(rows.toolpath, MACHINE)
     assert len(result.row_s) == len(rows.toolpath)

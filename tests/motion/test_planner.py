@@ -14,6 +14,7 @@ from polycnc.motion import Plan, Settings
 from polycnc.motion import planner as planner_module
 from polycnc.motion.planner import Planner
 from polycnc.toolpath import Context, Kind, Toolpath
+from polycnc.toolpath.events import Auxiliary
 from polycnc.toolpath.modes import AccelerationMode, CornerMode
 from tests.motion.paths import MILL, Build
 
@@ -45,9 +46,9 @@ def varied(rows: int, chunk_rows: int = 65_536) -> Build:
         if k % 7 == 0:
             build.rapid(x, y, 10.0).rapid(0.0, 0.0, 10.0)
         if k % 11 == 0:
-            build.set(spindle_rpm=1000.0 + k, spindle_direction=1).event("m", code=3).dwell(seconds=0.1)
+            build.set(spindle_rpm=1000.0 + k, spindle_direction=1).event(Auxiliary(3)).dwell(seconds=0.1)
         if k % 13 == 0:
-            build.event("m", code=8).feed(x, y, 0.01 * k + 1.0)
+            build.event(Auxiliary(8)).feed(x, y, 0.01 * k + 1.0)
     return build
 
 

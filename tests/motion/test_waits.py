@@ -10,6 +10,7 @@ from polycnc.machine import MFunction
 from polycnc.machine.model import Text
 from polycnc.motion import Settings
 from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.events import Auxiliary, Message, ToolSelection
 from polycnc.toolpath.modes import CornerMode, FeedMode, StopWindow
 from tests.motion.paths import LATHE, MILL, Build
 
@@ -22,8 +23,8 @@ def m_function(code: int, seconds: float, timing: str) -> MFunction:
 
 
 def test_each_tool_change_takes_the_magazines_time_and_belongs_to_the_new_tool() -> None:
-    rows = Build().set(tool=1).event("t", tool=1).feed(10.0, 0.0, 0.0)
-    rows.set(tool=2).event("t", tool=2).feed(20.0, 0.0, 0.0).set(tool=1).feed(30.0, 0.0, 0.0)
+    rows = Build().set(tool=1).event(ToolSelection(1)).feed(10.0, 0.0, 0.0)
+    rows.set(tool=2).event(ToolSelection(2)).feed(20.0, 0.0, 0.0).set(tool=1).feed(30.0, 0.0, 0.0)
     result = rows.plan()
     assert result.times.tool_change_s == 3.0 * CHANGE_S
     assert [(tool.tool, tool.times.tool_change_s) for tool in result.tools] == [
@@ -51,9 +52,9 @@ def test_the_axes_stop_for_a_tool_change() -> None:
 
 
 def test_the_spindle_ramps_up_reverses_and_stops() -> None:
-    rows = Build().set(spindle_rpm=3000.0, spindle_direction=1).event("m", code=3).feed(10.0, 0.0, 0.0)
-    rows.set(spindle_direction=-1).event("m", code=4).feed(20.0, 0.0, 0.0)
-    rows.set(spindle_direction=0).event("m", code=5)
+    rows = Build().set(spindle_rpm=3000.0, spindle_direction=1).event(Auxiliary(3)).feed(10.0, 0.0, 0.0)
+    rows.set(spindle_direction=-1).event(Auxiliary(4)).feed(20.0, 0.0, 0.0)
+    rows.set(spindle_direction=0).event(Auxiliary(5))
     result = rows.plan()
     assert result.times.spindle_s == pytest.approx((3000.0 + 6000.0 + 3000.0) / RAMP)
     assert result.row_s[0] == pytest.approx(3000.0 / RAMP)
@@ -72,13 +73,13 @@ def test_constant_surface_speed_ramps_to_the_speed_at_the_radius() -> None:
 
 
 def test_orienting_the_spindle_takes_its_time() -> None:
-    assert Build().event("m", code=19).plan().times.spindle_s == MILL.spindles[0].orient_s
+    assert Build().event(Auxiliary(19)).plan().times.spindle_s == MILL.spindles[0].orient_s
 
 
 @pytest.mark.parametrize(("timing", "expected"), [("before", 0.7), ("after", 0.7)])
 def test_an_auxiliary_function_takes_its_seconds(timing: str, expected: float) -> None:
     machine = replace(MILL, m_functions={50: m_function(50, 0.7, timing)})
-    rows = Build().feed(50.0, 0.0, 0.0).event("m", code=50).feed(100.0, 0.0, 0.0)
+    rows = Build().feed(50.0, 0.0, 0.0).event(Auxiliary(50)).feed(100.0, 0.0, 0.0)
     still = Build().feed(50.0, 0.0, 0.0).dwell(seconds=1.0).feed(100.0, 0.0, 0.0)
     result = rows.plan(machine)
     assert result.times.auxiliary_s == pytest.approx(expected)
@@ -87,7 +88,7 @@ def test_an_auxiliary_function_takes_its_seconds(timing: str, expected: float) -
 
 def test_a_function_beside_the_motion_takes_only_what_is_longer() -> None:
     machine = replace(MILL, m_functions={8: m_function(8, 3.0, "with")})
-    rows = Build().event("m", code=8)
+    rows = Build().event(Auxiliary(8))
     rows.line -= 1
     rows.feed(100.0, 0.0, 0.0)
     motion = rows.plan(replace(MILL, m_functions={})).times.cutting_s
@@ -99,7 +100,7 @@ def test_a_function_beside_the_motion_takes_only_what_is_longer() -> None:
 
 def test_a_function_beside_a_long_motion_takes_nothing_and_stops_nothing() -> None:
     machine = replace(MILL, m_functions={8: m_function(8, 0.2, "with")})
-    rows = Build().feed(100.0, 0.0, 0.0).event("m", code=8)
+    rows = Build().feed(100.0, 0.0, 0.0).event(Auxiliary(8))
     rows.line -= 1
     rows.feed(200.0, 0.0, 0.0)
     plain = Build().feed(100.0, 0.0, 0.0).feed(200.0, 0.0, 0.0)
@@ -107,7 +108,7 @@ def test_a_function_beside_a_long_motion_takes_nothing_and_stops_nothing() -> No
 
 
 def test_messages_do_not_stop_the_axes() -> None:
-    rows = Build().feed(50.0, 0.0, 0.0).event("message", text="HALF").feed(100.0, 0.0, 0.0)
+    rows = Build().feed(50.0, 0.0, 0.0).event(Message("HALF")).feed(100.0, 0.0, 0.0)
     plain = Build().feed(50.0, 0.0, 0.0).feed(100.0, 0.0, 0.0)
     assert rows.plan().total_s == plain.plan().total_s
 
@@ -135,7 +136,7 @@ SETTLING = replace(MILL, settle_fine_s=0.05, settle_coarse_s=0.02)
 )
 def test_behind_each_exact_stop_the_axes_settle_within_the_window(window: StopWindow, seconds: float) -> None:
     rows = Build(context=Context(corner_mode=CornerMode.EXACT_STOP, stop_window=window)).feed(10.0, 0.0, 0.0)
-    rows.feed(20.0, 0.0, 0.0).feed(20.0, 0.0, 0.0).event("m", code=30)
+    rows.feed(20.0, 0.0, 0.0).feed(20.0, 0.0, 0.0).event(Auxiliary(30))
     settled, at_once = rows.plan(SETTLING), rows.plan()
     assert settled.times.cutting_s == pytest.approx(at_once.times.cutting_s + 2.0 * seconds)
     waits = [after - before for after, before in zip(settled.row_s, at_once.row_s, strict=True)]
@@ -144,7 +145,7 @@ def test_behind_each_exact_stop_the_axes_settle_within_the_window(window: StopWi
 
 def test_nothing_settles_on_a_continuous_path() -> None:
     rows = Build(context=Context(corner_mode=CornerMode.CONTINUOUS)).feed(10.0, 0.0, 0.0).feed(20.0, 9.0, 0.0)
-    assert rows.event("m", code=30).plan(SETTLING).total_s == rows.plan().total_s
+    assert rows.event(Auxiliary(30)).plan(SETTLING).total_s == rows.plan().total_s
 
 
 def test_a_rapid_settles_where_rapids_stop() -> None:

@@ -38,9 +38,8 @@ class Draft:
         self.toolpath.block_boundary()
         return self
 
-    def event(self, type_: str, **data: object) -> Draft:
+    def event(self, event: Event) -> Draft:
         self.line += 1
-        event = Event(type_, data)
         self.toolpath.append_event(event, self.program, self.line, self.context, self.end)
         return self
 

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from polycnc.geometry.frames import rotation
 from polycnc.machine.layout import AxisLayout
 from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.events import Auxiliary, Message, ToolSelection
 from polycnc.toolpath.export import WRITERS, Csv, JsonLines, Parquet, arrow_table, flattened
 from polycnc.toolpath.modes import FeedMode
 from tests.toolpath.paths import Z_UP, Draft
@@ -19,10 +20,10 @@ from tests.toolpath.paths import Z_UP, Draft
 @pytest.fixture
 def draft() -> Draft:
     draft = Draft(chunk_rows=2)
-    draft.event("t", tool=2)
+    draft.event(ToolSelection(2))
     draft.move(Kind.RAPID, 10, -0.0, 5.000000000001)
     draft.move(Kind.CW, 20, 10, 5, feed=2, curve=(20, 0, 5, *Z_UP, 0))
-    draft.event("message", text="工件, 完成")
+    draft.event(Message("工件, 完成"))
     return draft.under(Context(inch=True)).move(Kind.FEED, 25.4, 0, 0, feed=1)
 
 
@@ -96,7 +97,7 @@ def test_whole_columns_show_the_very_values_of_single_rows(
     moved = Context(
         frame=rotation(2, angle), offsets=(1, 2, 3, 4), inch=inch, feed_mode=mode, diameter_axes=diameter
     )
-    draft.event("m", code=3)
+    draft.event(Auxiliary(3))
     for number, (kind, x, y, c, feed) in enumerate(rows):
         draft.under((Context(), moved)[number % 2]).move(kind, x, y, 5, c, feed=feed)
     display = draft.display(layout)

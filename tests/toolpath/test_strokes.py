@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from polycnc.geometry.frames import translation
 from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.events import Auxiliary
 from polycnc.toolpath.strokes import arc_points, strokes
 from polycnc.transformation.parallel import ParallelAxes
 from tests.toolpath.paths import Z_UP, Draft
@@ -27,7 +28,7 @@ def test_rapids_and_feeds_and_tools_are_strokes_of_their_own() -> None:
 
 
 def test_dwells_and_events_do_not_break_a_stroke() -> None:
-    draft = Draft().move(Kind.FEED, 1, 0, 0).event("m", code=8).move(Kind.DWELL, 1, 0, 0, curve=(1, 0))
+    draft = Draft().move(Kind.FEED, 1, 0, 0).event(Auxiliary(8)).move(Kind.DWELL, 1, 0, 0, curve=(1, 0))
     draft.move(Kind.FEED, 2, 0, 0)
     assert len(list(strokes(draft.toolpath, XYZ))) == 1
 

@@ -5,6 +5,7 @@ import pytest
 from polycnc.geometry.frames import rotation, translation
 from polycnc.machine.layout import AxisLayout
 from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.events import Auxiliary, Message, Raised
 from polycnc.toolpath.modes import FeedMode
 from polycnc.transformation.cylinder import Cylinder
 from polycnc.transformation.parallel import ParallelAxes
@@ -125,15 +126,15 @@ def test_a_dwell_tells_seconds_or_revolutions() -> None:
 
 
 def test_events_keep_their_place_and_their_data() -> None:
-    draft = Draft().event("m", code=3).move(Kind.RAPID, 1, 0, 0).event("message", text="完成")
+    draft = Draft().event(Auxiliary(3)).move(Kind.RAPID, 1, 0, 0).event(Message("完成"))
     assert [record["type"] for record in draft.display().records()] == ["m", "rapid", "message"]
 
 
 def test_an_alarm_event_gets_the_text_that_the_control_has_for_it() -> None:
-    draft = Draft().event("alarm", code="PS0010", line=1)
+    draft = Draft().event(Raised("PS0010", 1, 0, "O1"))
     from polycnc.toolpath.trace import Display
 
-    display = Display(draft.toolpath, MILL, lambda data: f"text of {data['code']}")
+    display = Display(draft.toolpath, MILL, lambda raised: f"text of {raised.code}")
     (record,) = display.records()
     assert record["text"] == "text of PS0010"
 

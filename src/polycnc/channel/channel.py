@@ -27,10 +27,12 @@ from polycnc.channel.waits import (
     TYPED_BLOCKS_DONE,
     PreprocessingStop,
     Wait,
+    Why,
 )
 from polycnc.memory.retained import InMemoryStore
 from polycnc.messages import AlarmError
 from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
+from polycnc.toolpath.events import Stop
 from polycnc.toolpath.table import CHUNK_ROWS
 
 if TYPE_CHECKING:
@@ -350,7 +352,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
             self.path.head.block()
         if self.single_block and step is not None:
             if self.control.halts(self, level, step):
-                self._wait = self._wait or Wait("single-block", self.sequence_of(level))
+                self._wait = self._wait or Wait(Why.SINGLE_BLOCK, self.sequence_of(level))
             elif self.block_by_block:
                 self._wait = self._wait or BLOCK
         self.mark = self.toolpath.mark()
@@ -494,11 +496,10 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
             number = NO_CURVE
         toolpath.append(move.kind, move.program, move.line, move.context, move.feed, move.end, number)
 
-    def event(self, type_: str, **data: Any) -> None:
+    def event(self, event: Event) -> None:
         """Record an event in order with the moves."""
         level = self._level
         line = level.code.line(level.current)
-        event = Event(type_, data)
         context = self.context_number()
         if self.path.head is None:
             end = self.coordinates.position
@@ -508,8 +509,8 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
 
     def stop(self, code: str) -> None:
         """A programmed stop: recorded, then the channel waits for a start."""
-        self.event("stop", code=code)
-        self.wait = Wait("stop", code)
+        self.event(Stop(code))
+        self.wait = Wait(Why.STOP, code)
 
     def dwell(self, *, seconds: float = 0.0, revolutions: float = 0.0) -> None:
         """Stand still for a time or a number of spindle revolutions; nothing for zero."""

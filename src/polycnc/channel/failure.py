@@ -6,7 +6,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from polycnc.messages import Alarm, AlarmError
-from polycnc.toolpath import Event
+from polycnc.toolpath.events import Raised
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -46,11 +46,11 @@ def end_run(channel: Channel, error: AlarmError) -> None:
     """End a channel's run with an alarm, at the block that runs unless the error names another place."""
     alarm = _alarm(channel, error)
     channel.alarms.append(alarm)
-    data = {"code": alarm.code, "line": alarm.line, "column": alarm.column, "program": alarm.program}
+    raised = Raised(alarm.code, alarm.line, alarm.column, alarm.program)
     toolpath = channel.toolpath
     number = channel.level.program_number if channel.stack else toolpath.program_number("")
     context = channel.context_number()
-    toolpath.append_event(Event("alarm", data), number, alarm.line, context, channel.coordinates.position)
+    toolpath.append_event(raised, number, alarm.line, context, channel.coordinates.position)
     channel.path.clear()
     channel.finished = True
 

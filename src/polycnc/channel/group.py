@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.channel import Channel
-from polycnc.channel.waits import Wait
+from polycnc.channel.waits import Wait, Why
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -224,16 +224,16 @@ class ChannelGroup:
         meeting = Meeting(number, mark, missing)
         self._meetings.append(meeting)
         self.set_mark(number, mark)
-        channel.wait = Wait("channel", until=lambda: not meeting.missing)
+        channel.wait = Wait(Why.CHANNEL, until=lambda: not meeting.missing)
 
     def wait_for_ends(self, channel: Channel, others: Iterable[int]) -> None:
         """Wait until the programs of other channels have ended."""
         awaited = tuple(others)
-        channel.wait = Wait("channel", until=lambda: not any(self.is_running(number) for number in awaited))
+        channel.wait = Wait(Why.CHANNEL, until=lambda: not any(self.is_running(number) for number in awaited))
 
     def let_run(self, channel: Channel) -> None:
         """Give the other channels a turn."""
-        channel.wait = Wait("channel", until=lambda: True)
+        channel.wait = Wait(Why.CHANNEL, until=lambda: True)
 
 
 class GroupRun:

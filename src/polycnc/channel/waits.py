@@ -3,31 +3,51 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 
+class Why(StrEnum):
+    """Why a channel waits."""
+
+    STOP = "stop"
+    """M00 and the like."""
+    CHUNK = "chunk"
+    """A chunk of the toolpath is full."""
+    PREPROCESSING = "preprocessing"
+    """The main run must catch up."""
+    SINGLE_BLOCK = "single-block"
+    """Behind a block at which single block halts."""
+    BLOCK = "block"
+    """Behind any other block."""
+    CHANNEL = "channel"
+    """For another channel."""
+    TYPED_IN = "mdi"
+    """Behind blocks that were typed in while the program waited."""
+
+
 @dataclass(frozen=True, slots=True)
 class Wait:
     """A channel that waits.
 
-    `reason` is `stop` (M00 and the like: `code` says which), `chunk`, `preprocessing`, `single-block` behind a
-    block at which that halts (`code` is the block), `block` behind any other one, or `channel` for another
-    channel: then `until` is asked again and again, and true once the channel may go on. Behind blocks that were typed
-    in while the program waited it is `mdi`.
+    Attributes:
+        reason: Why.
+        code: The code of a stop, or the block at which single block halts.
+        until: Asked again and again while a channel waits for another one; true once it may go on.
     """
 
-    reason: str
+    reason: Why
     code: str = ""
     until: Callable[[], bool] | None = None
 
 
-CHUNK = Wait("chunk")
-BLOCK = Wait("block")
-PREPROCESSING = Wait("preprocessing")
-TYPED_BLOCKS_DONE = Wait("mdi")
+CHUNK = Wait(Why.CHUNK)
+BLOCK = Wait(Why.BLOCK)
+PREPROCESSING = Wait(Why.PREPROCESSING)
+TYPED_BLOCKS_DONE = Wait(Why.TYPED_IN)
 
 
 class PreprocessingStop(Exception):  # noqa: N818 - no mistake: the block waits, and comes again

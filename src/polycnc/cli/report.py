@@ -8,6 +8,7 @@ from polycnc.cli.console import coloured
 from polycnc.cli.diagnostics import diagnostics_of
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
+from polycnc.toolpath.events import Message, Print, Stop
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 #: A program may say much; the report shows so many messages and stops, the trace shows all.
 MOST_HAPPENINGS = 50
-_SHOWN = frozenset(("message", "stop", "print"))
+_SHOWN = frozenset((Message.type, Stop.type, Print.type))
 _SHARES = ("cutting_s", "rapid_s", "dwell_s", "tool_change_s", "spindle_s", "auxiliary_s")
 
 

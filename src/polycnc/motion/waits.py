@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.toolpath import Kind
 from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS
+from polycnc.toolpath.events import Auxiliary, HFunction, Raised, SpindleSpeed, Stop, ToolSelection
 from polycnc.toolpath.kinds import RAPID_KINDS
 from polycnc.toolpath.modes import CornerMode
 from polycnc.toolpath.table import CURVE_WIDTH
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from polycnc.toolpath.table import Chunk
 
 #: Events that the control puts out between two blocks and waits for: the axes stand still.
-STANDING = frozenset({"m", "s", "t", "h", "stop", "alarm"})
+STANDING = (Auxiliary, SpindleSpeed, ToolSelection, HFunction, Stop, Raised)
 ORIENT = 19
 #: Moves that lead nowhere where they end at their start.
 STRAIGHT = frozenset((Kind.RAPID, Kind.FEED, Kind.REF))
@@ -81,10 +82,10 @@ class Waits:
 
     def stands_for(self, event: Event) -> bool:
         """Whether the axes stand still for an event."""
-        if event.type == "m":
-            function = self.machine.m_functions.get(event.data.get("code", -1))
+        if isinstance(event, Auxiliary):
+            function = self.machine.m_functions.get(event.code)
             return function is None or function.timing != "with"
-        return event.type in STANDING
+        return isinstance(event, STANDING)
 
     def take(self, chunk: Chunk, facing: int) -> None:
         """Note the waits of a chunk's rows; `facing` is the column of X, -1 for none."""
@@ -155,9 +156,9 @@ class Waits:
 
     def _event(self, chunk: Chunk, row: int) -> None:
         event = chunk.events[chunk.curve[row]]
-        if event.type != "m":
+        if not isinstance(event, Auxiliary):
             return
-        code, context = event.data.get("code", -1), chunk.context[row]
+        code, context = event.code, chunk.context[row]
         function = self.machine.m_functions.get(code)
         if function is not None and function.seconds > 0.0:
             if function.timing == "with":

@@ -12,6 +12,7 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from polycnc.geometry.units import INCH_MM
+from polycnc.toolpath.events import Raised
 from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
 from polycnc.toolpath.modes import FeedMode
 from polycnc.transformation.rows import machine_rows
@@ -58,14 +59,14 @@ class Display:
     Args:
         toolpath: The toolpath that the rows belong to.
         layout: Geometry and rotary axes of the channel.
-        alarm_text: Gives the text of an alarm event from its data.
+        alarm_text: Gives the text of an alarm.
     """
 
     def __init__(
         self,
         toolpath: Toolpath,
         layout: AxisLayout,
-        alarm_text: Callable[[Mapping[str, Any]], str] | None = None,
+        alarm_text: Callable[[Raised], str] | None = None,
     ) -> None:
         self.axes = toolpath.axes
         self.toolpath = toolpath
@@ -159,9 +160,9 @@ class Display:
         return record
 
     def _event(self, row: Row, event: Event) -> dict[str, Any]:
-        record = {"type": event.type, "program": row.program, "line": row.line, **event.data}
-        if event.type == "alarm" and self._alarm_text is not None:
-            record["text"] = self._alarm_text(event.data)
+        record: dict[str, Any] = {"type": event.type, "program": row.program, "line": row.line, **event.data}
+        if isinstance(event, Raised) and self._alarm_text is not None:
+            record["text"] = self._alarm_text(event)
         return record
 
     def work(self, end: Sequence[float], context: Context) -> dict[str, float]:

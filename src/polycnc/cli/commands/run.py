@@ -15,6 +15,7 @@ from polycnc.cli import options
 from polycnc.cli.console import fail, show
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
+from polycnc.toolpath.events import Print
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -155,8 +156,8 @@ class _Prints:
 
     def take(self, chunk: Chunk) -> None:
         for event in chunk.events:
-            if event.type == "print":
-                self._stream.write(f"{event.data['text']}\n")
+            if isinstance(event, Print):
+                self._stream.write(f"{event.text}\n")
 
 
 class _Progress:

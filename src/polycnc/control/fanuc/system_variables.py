@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.macro_b.subprograms import sequences_of
 from polycnc.control.word_address.macro_b.variables import Read, SystemRange, Write
+from polycnc.toolpath.events import Message
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -47,7 +48,7 @@ def _raise_user_alarm(m: MacroMemory, _i: int, value: float | None, text: str) -
 
 def _show_and_stop(m: MacroMemory, _i: int, _value: float | None, text: str) -> None:
     """#3006 = 1 (TEXT): message, then stop as M00."""
-    m.channel.event("message", text=text)
+    m.channel.event(Message(text))
     m.channel.stop("M00")
 
 

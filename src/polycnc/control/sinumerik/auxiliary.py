@@ -11,6 +11,7 @@ from polycnc.control.sinumerik.feed import tooth_feed
 from polycnc.control.sinumerik.frames import memory as frames
 from polycnc.control.sinumerik.tools import stages
 from polycnc.control.tool_change import check_change_points
+from polycnc.toolpath.events import Auxiliary
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
@@ -37,9 +38,9 @@ def before_motion(channel: SinumerikChannel, code: int, spindle_number: int | No
         spindle.controlled = code in (ORIENT, AXIS_MODE)
         channel.context_changed()
     if spindle_number is None:
-        channel.event("m", code=code)
+        channel.event(Auxiliary(code))
     else:
-        channel.event("m", code=code, spindle=spindle_number)
+        channel.event(Auxiliary(code, spindle=spindle_number))
     data = memory.data
     if code == data.integer("$MC_TOOL_CHANGE_M_CODE") and data.integer("$MC_TOOL_CHANGE_MODE"):
         load_tool(channel)
@@ -53,7 +54,7 @@ def after_motion(channel: SinumerikChannel, code: int) -> None:
         if channel.optional_stop:
             channel.stop("M1")
         else:
-            channel.event("m", code=code)
+            channel.event(Auxiliary(code))
 
 
 def load_tool(channel: SinumerikChannel) -> None:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.language.bulk import Note, declare
+from polycnc.toolpath.events import SpindleSpeed
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -88,7 +89,7 @@ def _report(channel: Channel, spindle: int) -> None:
     if pair_speed and memory.reported.get(spindle) == speed:
         return
     memory.reported[spindle] = speed
-    channel.event("s", speed=int(speed) if speed == int(speed) else speed, spindle=spindle)
+    channel.event(SpindleSpeed(speed=int(speed) if speed == int(speed) else speed, spindle=spindle))
 
 
 # ---- pairs ----------------------------------------------------------------------------------------------------

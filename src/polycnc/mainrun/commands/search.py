@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.mainrun.preparation.items import Block, Happening, Move
 from polycnc.toolpath import Context
+from polycnc.toolpath.events import Auxiliary, Raised, SignalWrite, SpindleSpeed, ToolSelection
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -67,7 +68,7 @@ def search(preprocessing: Preprocessing, program: str, line: int) -> Found | Non
         preprocessing.items.popleft()
         if isinstance(item, Happening):
             found.context = item.context
-            if item.event.type == "alarm":
+            if isinstance(item.event, Raised):
                 return None
             key = _what_it_switches(item)
             if key is not None:
@@ -79,8 +80,12 @@ def search(preprocessing: Preprocessing, program: str, line: int) -> Found | Non
 def _what_it_switches(happening: Happening) -> object:
     """What a later event of the same kind makes meaningless; None for what is not put out later."""
     event = happening.event
-    if event.type in ("s", "t", "signal"):
-        return event.type, event.data.get("spindle"), event.data.get("name")
-    if event.type == "m":
-        return next((group for group in LASTING if event.data.get("code") in group), None)
+    if isinstance(event, SpindleSpeed):
+        return SpindleSpeed, event.spindle
+    if isinstance(event, ToolSelection):
+        return ToolSelection
+    if isinstance(event, SignalWrite):
+        return SignalWrite, event.name
+    if isinstance(event, Auxiliary):
+        return next((group for group in LASTING if event.code in group), None)
     return None

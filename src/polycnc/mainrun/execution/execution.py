@@ -10,7 +10,7 @@ from math import inf
 from typing import TYPE_CHECKING, Protocol
 
 from polycnc.channel.intervention import NOTHING_BACK
-from polycnc.channel.waits import TYPED_BLOCKS_DONE
+from polycnc.channel.waits import TYPED_BLOCKS_DONE, Why
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.mainrun.motion.follower import Follower
 from polycnc.mainrun.motion.geometry import Line
@@ -315,7 +315,7 @@ class Execution:
             self._by_hand = ()
         if waiting is TYPED_BLOCKS_DONE:
             return self._end(waiting.reason)
-        if waiting.reason == "preprocessing":
+        if waiting.reason is Why.PREPROCESSING:
             self._machinery.synchronise()
             self._until = self.clock.time + self.clock.cycle_s
         self.preprocessing.proceed()

@@ -7,6 +7,16 @@ from typing import TYPE_CHECKING, Protocol
 
 from polycnc.mainrun.signals.interlocks import word_of
 from polycnc.motion.waits import ORIENT
+from polycnc.toolpath.events import (
+    Auxiliary,
+    InterlockQuery,
+    Message,
+    Print,
+    Raised,
+    SignalWrite,
+    Stop,
+    ToolSelection,
+)
 
 if TYPE_CHECKING:
     from polycnc.machine.model import Machine
@@ -20,7 +30,6 @@ if TYPE_CHECKING:
 OPTIONAL_STOPS = frozenset({"M01", "M1"})
 #: The input that ends a skip move.
 SKIP_SIGNAL = "SKIP"
-MESSAGES = frozenset({"message", "print"})
 PROGRAM_ENDS = frozenset({"M2", "M30"})
 
 
@@ -123,34 +132,30 @@ class Machinery:
     def perform(self, happening: Happening) -> None:
         """Carry out an event."""
         event = happening.event
-        if event.type == "ask":
-            self._interlocks.refuses(str(event.data["word"]))
+        if isinstance(event, InterlockQuery):
+            self._interlocks.refuses(event.word)
             return
         self._observer.performs(self._number, event)
-        if event.type == "t":
-            self.next_tool = event.data.get("tool") or 0
+        if isinstance(event, ToolSelection):
+            self.next_tool = event.tool if isinstance(event.tool, str) else int(event.tool)
         word = word_of(event)
         if word and ((self.mst_lock and word not in PROGRAM_ENDS) or self._interlocks.refuses(word)):
             return
-        if event.type == "m":
-            self._begin(event.data.get("code"), happening.context)
+        if isinstance(event, Auxiliary):
+            self._begin(event.code, happening.context)
         elif word:
             self._interlocks.answer(word)
-        elif event.type == "signal":
-            self._signals[str(event.data["name"])] = float(event.data["value"])
-        elif event.type in MESSAGES:
-            self.messages.append(str(event.data.get("text", "")))
-        elif event.type == "alarm":
+        elif isinstance(event, SignalWrite):
+            self._signals[event.name] = event.value
+        elif isinstance(event, Message | Print):
+            self.messages.append(event.text)
+        elif isinstance(event, Raised):
             self._observer.stops(self._number, "alarm")
-        elif event.type == "stop":
-            code = str(event.data.get("code", ""))
-            if code not in OPTIONAL_STOPS or self.optional_stop:
-                self._observer.stops(self._number, code)
+        elif isinstance(event, Stop) and (event.code not in OPTIONAL_STOPS or self.optional_stop):
+            self._observer.stops(self._number, event.code)
 
-    def _begin(self, code: object, context: Context) -> None:
+    def _begin(self, code: int, context: Context) -> None:
         """An M function goes out to the machine."""
-        if not isinstance(code, int):
-            return
         function = self._machine.m_functions.get(code)
         seconds = function.seconds if function is not None else 0.0
         if code == ORIENT:

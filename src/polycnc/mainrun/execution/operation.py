@@ -14,6 +14,7 @@ from polycnc.mainrun.execution.machinery import SKIP_SIGNAL
 from polycnc.mainrun.signals.machine_states import axis_states, machine_states, turn_magazine
 from polycnc.mainrun.signals.program_signals import give
 from polycnc.messages import Alarm, AlarmError
+from polycnc.toolpath.events import Auxiliary
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -272,7 +273,7 @@ class Operation:
     def performs(self, number: int, event: Event) -> None:
         """An event of a program is carried out."""
         self.status.report("event", number, type=event.type, **event.data)
-        code = event.data.get("code") if event.type == "m" else None
+        code = event.code if isinstance(event, Auxiliary) else -1
         if code in PROGRAM_ENDS and self.control.stays_at_end(self.runs.first.channel, code):
             self.signals[AT_END] = 1.0
 

@@ -13,7 +13,7 @@ from math import inf
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.intervention import NOTHING_BACK, TYPED_IN, MovedByHand
-from polycnc.channel.waits import PREPROCESSING, TYPED_BLOCKS_DONE, Wait
+from polycnc.channel.waits import PREPROCESSING, TYPED_BLOCKS_DONE, Wait, Why
 from polycnc.mainrun.motion.geometry import row_arc, row_line, turn_arc
 from polycnc.mainrun.preparation.items import Block, BlockEnd, Happening, Item, Move, Piece, Rates, Standing
 from polycnc.mainrun.preparation.piece_buffer import PieceBuffer
@@ -35,6 +35,7 @@ from polycnc.motion.limits import averages, context_fields
 from polycnc.motion.transformed import Bounds, RealAxes
 from polycnc.motion.waits import ORIENT, Waits
 from polycnc.toolpath import Context, Kind, Toolpath
+from polycnc.toolpath.events import Auxiliary, Stop
 from polycnc.toolpath.kinds import ARC_KINDS
 from polycnc.toolpath.table import CURVE_WIDTH
 
@@ -58,14 +59,14 @@ MOST = 4096
 #: Blocks that the channel runs in one interpolation cycle while it makes no item.
 BLOCKS_A_CYCLE = 1000
 #: Waits of the channel behind a block that counts as one even without rows.
-BEHIND_A_BLOCK = frozenset({"single-block", "stop"})
+BEHIND_A_BLOCK = frozenset({Why.SINGLE_BLOCK, Why.STOP})
 #: Kinds of rows that may be arcs, and those that the spindle leads.
 ARC_WAYS = frozenset((*ARC_KINDS, Kind.THREAD))
 BOUND_TO_SPINDLE = frozenset((Kind.THREAD, Kind.TAP))
 #: Nothing among the moves themselves lets the axes stand.
 NO_STOPS = array("B")
 #: Waits of the channel that only let others look in.
-PASSING = frozenset({"chunk", "block", "single-block"})
+PASSING = frozenset({Why.CHUNK, Why.BLOCK, Why.SINGLE_BLOCK})
 
 
 class Preprocessing:
@@ -241,7 +242,7 @@ class Preprocessing:
         wait = next(self._run, None) if self._run is not None else None
         level = channel.stack[-1] if channel.stack else None
         if level is not None and (len(channel.toolpath.chunk) or (wait and wait.reason in BEHIND_A_BLOCK)):
-            halts = wait is not None and wait.reason == "single-block" and not channel.finished
+            halts = wait is not None and wait.reason is Why.SINGLE_BLOCK and not channel.finished
             self._note_block(level.program_number, level.line_of(level.current), wait if halts else None)
         self._stopped = self._skips = self.has_caught_up = False
         self.toolpath.block_boundary()
@@ -251,7 +252,7 @@ class Preprocessing:
             self.finished = True
         elif channel.path.head is None:
             self._close_blocks()
-        if wait is not None and wait.reason not in PASSING and (wait.reason != "stop" or self._stopped):
+        if wait is not None and wait.reason not in PASSING and (wait.reason is not Why.STOP or self._stopped):
             self.waiting = wait
         elif self._skips:
             self.waiting = PREPROCESSING
@@ -310,15 +311,15 @@ class Preprocessing:
             number, context, kind = chunk.first + row, contexts[chunk.context[row]], chunk.kind[row]
             delays = self._delays.get(number, [])
             event = chunk.events[chunk.curve[row]] if kind == Kind.EVENT else None
-            if event is not None and event.type == "m":
-                delays = _without_function(delays, event.data.get("code"))
+            if isinstance(event, Auxiliary):
+                delays = _without_function(delays, event.code)
             self.items.extend(Standing(why, seconds, context) for why, seconds in delays)
             if event is not None:
                 stands = self._waits.stands_for(event)
                 self.items.append(Happening(event, context, stands))
                 if stands:
                     self.end_in_rest()
-                self._stopped = self._stopped or event.type == "stop"
+                self._stopped = self._stopped or isinstance(event, Stop)
             elif kind == Kind.DWELL:
                 self.end_in_rest()
             else:
@@ -567,7 +568,7 @@ class Preprocessing:
         return self._axes
 
 
-def _without_function(delays: list[tuple[str, float]], code: object) -> list[tuple[str, float]]:
+def _without_function(delays: list[tuple[str, float]], code: int) -> list[tuple[str, float]]:
     """Delays of a row without what its M function takes: that is up to the machine's own controller."""
     kept = [delay for delay in delays if delay[0] != "auxiliary_s"]
     return kept[:-1] if code == ORIENT and kept else kept

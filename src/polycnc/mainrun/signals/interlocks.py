@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.toolpath.events import Auxiliary, SecondAuxiliary, SpindleSpeed, ToolSelection
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -12,12 +14,12 @@ if TYPE_CHECKING:
     from polycnc.toolpath import Event
 
 #: Words of a program's events that are not M codes.
-EVENT_WORDS = {"s": "S_CODE", "t": "T_CODE", "b": "B_CODE"}
+EVENT_WORDS = {SpindleSpeed: "S_CODE", ToolSelection: "T_CODE", SecondAuxiliary: "B_CODE"}
 
 
 def word_of(event: Event) -> str:
     """The word that an event asks the machine for; empty where it asks for none."""
-    return f"M{event.data.get('code')}" if event.type == "m" else EVENT_WORDS.get(event.type, "")
+    return f"M{event.code}" if isinstance(event, Auxiliary) else EVENT_WORDS.get(type(event), "")
 
 
 class Interlocks:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from polycnc.toolpath.events import SignalWrite
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -32,7 +34,7 @@ class ProgramSignals(dict[str, int]):
 
     def __setitem__(self, name: str, value: int) -> None:
         super().__setitem__(name, value)
-        self._channel.event("signal", name=name, value=value)
+        self._channel.event(SignalWrite(name=name, value=value))
 
 
 def connect(channel: Channel, image: SignalImage) -> None:

@@ -20,6 +20,7 @@ from polycnc.control.sinumerik.tools import d_numbers
 from polycnc.language.sinumerik.names.frame import NEUTRAL
 from polycnc.language.sinumerik.names.initialisation import NEW_CONFIGURATION, initialise
 from polycnc.messages import Alarm, AlarmError
+from polycnc.toolpath.events import Message, Raised
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -41,7 +42,7 @@ def run(channel: SinumerikChannel, name: str, args: Arguments) -> None:
 
 def message(channel: SinumerikChannel, args: Arguments) -> None:
     """MSG(text): shown until the next one; MSG() takes it away."""
-    channel.event("message", text=str(args[0]) if args and args[0] is not None else "")
+    channel.event(Message(str(args[0]) if args and args[0] is not None else ""))
 
 
 def preprocessing_stop(channel: SinumerikChannel, _args: Arguments) -> None:
@@ -69,7 +70,7 @@ def set_alarm(channel: SinumerikChannel, args: Arguments) -> None:
             file=str(program.path or ""),
         )
     )
-    channel.event("alarm", code=str(number), line=channel.line, column=0, program=program.name)
+    channel.event(Raised(code=str(number), line=channel.line, column=0, program=program.name))
 
 
 def set_master_spindle(channel: SinumerikChannel, args: Arguments) -> None:

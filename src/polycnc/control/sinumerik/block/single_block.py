@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.waits import Wait
+from polycnc.channel.waits import Wait, Why
 
 if TYPE_CHECKING:
     from polycnc.channel.stack import Level
@@ -33,7 +33,7 @@ def halt_behind_rest(channel: SinumerikChannel) -> None:
     """The rest of an interrupted block has been made behind its routine: the halt of that block."""
     level = channel.level
     if channel.single_block and (level.data.get("single_block", True) or _kind(channel) == "SBL3"):
-        channel.wait = channel.wait or Wait("single-block", channel.sequence_of(level))
+        channel.wait = channel.wait or Wait(Why.SINGLE_BLOCK, channel.sequence_of(level))
 
 
 def _kind(channel: SinumerikChannel) -> str:

@@ -24,6 +24,7 @@ from polycnc.language.bulk import Note, declare
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
+from polycnc.toolpath.events import HFunction, SpindleSpeed, ToolSelection
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
@@ -109,7 +110,7 @@ def speed(draft: Draft, position: int, shape: WordShape) -> Step:
         else:
             spindle.speed = value
         channel.context_changed()
-        channel.event("s", speed=value, spindle=spindle.number)
+        channel.event(SpindleSpeed(speed=value, spindle=spindle.number))
 
     return declare(run, Note(position, lowest=0.0, condition=_has_master)) if wanted is None else run
 
@@ -164,7 +165,7 @@ def tool(_draft: Draft, position: int, shape: WordShape) -> Step:
             if wanted != int(wanted) or wanted < 0:
                 raise WordAlarm("17190", position, tool=f"{wanted:g}")
         selected = 0 if wanted == 0 else memory.tools.find(wanted).number
-        channel.event("t", tool=wanted if isinstance(wanted, str) else int(wanted))
+        channel.event(ToolSelection(wanted if isinstance(wanted, str) else int(wanted)))
         memory.tools.selected = selected
         if memory.data.integer("$MC_TOOL_CHANGE_MODE") == 0:
             auxiliary.load_tool(channel)
@@ -358,7 +359,7 @@ def cutting_rate(_draft: Draft, position: int, _shape: WordShape) -> Step:
         spindle = memory.spindles.get()
         spindle.speed = number(values, position) * tables.MM_PER_M / (2.0 * pi * radius)
         channel.context_changed()
-        channel.event("s", speed=spindle.speed, spindle=spindle.number)
+        channel.event(SpindleSpeed(speed=spindle.speed, spindle=spindle.number))
 
     return run
 
@@ -392,7 +393,7 @@ def auxiliary_h(_draft: Draft, position: int, _shape: WordShape) -> Step:
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)
-        channel.event("h", code=int(value) if value == int(value) else value)
+        channel.event(HFunction(int(value) if value == int(value) else value))
 
     return run
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.waits import Wait
+from polycnc.channel.waits import Wait, Why
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.channels.coordination import group_of
@@ -68,7 +68,7 @@ def ready(channel: SinumerikChannel, columns: Iterable[int]) -> bool:
         take(channel, axes)
         return True
     channel.level.index = channel.level.current
-    channel.wait = Wait("channel", until=lambda: all(_is_free(channel, axis) for axis in axes))
+    channel.wait = Wait(Why.CHANNEL, until=lambda: all(_is_free(channel, axis) for axis in axes))
     return False
 
 
@@ -127,7 +127,7 @@ def get(channel: SinumerikChannel, args: Arguments) -> None:
         return free
 
     if not taken():
-        channel.wait = Wait("channel", until=taken)
+        channel.wait = Wait(Why.CHANNEL, until=taken)
 
 
 def get_directly(channel: SinumerikChannel, args: Arguments) -> None:

@@ -19,6 +19,7 @@ from polycnc.control.sinumerik.motion import moves as motion
 from polycnc.geometry.planes import PLANES
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.toolpath.events import Auxiliary, Message, SpindleSpeed
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
@@ -186,7 +187,7 @@ class Moves:
         spindle.direction = direction
         spindle.controlled = False
         self.channel.context_changed()
-        self.channel.event("m", code=M_OF_DIRECTION[direction])
+        self.channel.event(Auxiliary(M_OF_DIRECTION[direction]))
 
     def _orient(self, angle: float) -> None:
         spindle = self.spindle
@@ -199,10 +200,10 @@ class Moves:
         if spindle.speed != rpm:
             spindle.speed = rpm
             self.channel.context_changed()
-            self.channel.event("s", speed=rpm, spindle=spindle.number)
+            self.channel.event(SpindleSpeed(speed=rpm, spindle=spindle.number))
 
     def _note(self, key: str) -> None:
-        self.channel.event("message", text=self.channel.control.catalogue.text(key))
+        self.channel.event(Message(self.channel.control.catalogue.text(key)))
 
 
 def _raise(alarm: AlarmError) -> None:

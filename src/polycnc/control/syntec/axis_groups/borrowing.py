@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.channel.waits import Wait
+from polycnc.channel.waits import Wait, Why
 from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
 
 if TYPE_CHECKING:
@@ -137,7 +137,7 @@ def _answers(words: Words) -> tuple[int, int | None, bool]:
 def _try_again(channel: Channel, until: Callable[[], bool]) -> None:
     """Run the block once more after others have had their turn."""
     channel.level.index = channel.level.current
-    channel.wait = Wait("channel", until=until)
+    channel.wait = Wait(Why.CHANNEL, until=until)
 
 
 def _take_position(channel: Channel, axis: int) -> None:

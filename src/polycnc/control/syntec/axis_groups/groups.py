@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.channel.waits import Wait
+from polycnc.channel.waits import Wait, Why
 from polycnc.program.split import split_channels
 
 if TYPE_CHECKING:
@@ -85,4 +85,4 @@ def _wait_for(channel: Channel, words: Words, own: Meeting) -> None:
         for number in own.named:
             waiting.pop(number).over = True
         return
-    channel.wait = Wait("channel", until=lambda: own.over)
+    channel.wait = Wait(Why.CHANNEL, until=lambda: own.over)

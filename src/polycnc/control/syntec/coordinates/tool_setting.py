@@ -13,6 +13,7 @@ from polycnc.control.word_address.motion import skip
 from polycnc.control.word_address.tools import length
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
+from polycnc.toolpath.events import Auxiliary
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -93,9 +94,9 @@ def _measure_twice(channel: Channel, words: Words) -> float:
     distance, feed = _length(channel, words, "R", DISTANCE), _feed(channel, words)
     _to_machine(channel, safe)
     _go_to_reference(channel, words)
-    channel.event("m", code=BLOW_ON)
+    channel.event(Auxiliary(BLOW_ON))
     _to_machine(channel, place + distance)
-    channel.event("m", code=BLOW_OFF)
+    channel.event(Auxiliary(BLOW_OFF))
     down = place - c.machine[z] + c.position[z]
     found = _probe(channel, down, feed)
     if found is not None:

@@ -10,6 +10,7 @@ from polycnc.control.syntec.macros.system_variables import system_variable
 from polycnc.control.syntec.parameters import is_known
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, number, whole
 from polycnc.messages import AlarmError
+from polycnc.toolpath.events import Message, Print
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -171,7 +172,7 @@ def message(memory: SyntecMemory, first: Value, second: Value = VACANT) -> Value
         text = Text(identity)
     if not isinstance(text, Text) or not 0 <= identity <= LAST_ALARM:
         raise AlarmError(WRONG_TYPE)
-    memory.channel.event("message", text=str(text))
+    memory.channel.event(Message(str(text)))
     return VACANT
 
 
@@ -215,7 +216,7 @@ def print_line(memory: SyntecMemory, text: Value) -> Value:
         return _printed(memory, value, match[4])
 
     line = _ESCAPE.sub(replaced, text).removesuffix(";")
-    memory.channel.event("print", text=line)
+    memory.channel.event(Print(line))
     return VACANT
 
 

@@ -10,6 +10,7 @@ from polycnc.control.tool_change import check_change_points
 from polycnc.control.word_address.motion.path import FEED_MODES
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Conversion, Note, Scaling, SetFeed, Word, declare
+from polycnc.toolpath.events import SecondAuxiliary, SpindleSpeed, ToolSelection
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def plan_spindle_speed(builder: Builder) -> Step:
             memory.spindle_speed = speed
             channel.context_changed()
         spindle = 1 if chosen is None else int(values[chosen])
-        channel.event("s", speed=_number(speed), spindle=spindle)
+        channel.event(SpindleSpeed(speed=_number(speed), spindle=spindle))
 
     return set_speed if chosen is not None else declare(set_speed, Note(slot))
 
@@ -60,7 +61,7 @@ def plan_tool(builder: Builder) -> Step:
 
     def select(channel: WordAddressChannel, values: list[float]) -> None:
         channel.memory.next_tool = int(values[slot])
-        channel.event("t", tool=_number(values[slot]))
+        channel.event(ToolSelection(_number(values[slot])))
 
     return select
 
@@ -70,7 +71,7 @@ def plan_second_auxiliary(builder: Builder) -> Step:
     slot = builder.slots["B"][0]
 
     def send(channel: WordAddressChannel, values: list[float]) -> None:
-        channel.event("b", code=_number(values[slot]))
+        channel.event(SecondAuxiliary(_number(values[slot])))
 
     return send
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.control.tool_change import change_points, stands_at
 from polycnc.language.bulk import Note, declare, declared
 from polycnc.messages import AlarmError
+from polycnc.toolpath.events import InterlockQuery
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -60,7 +61,7 @@ def refuse(channel: WordAddressChannel, word: str, address: str = "") -> None:
     signals: dict[str, float] | None = channel.memory.machine_signals
     if signals is None:
         if word.startswith("MOVE_") or word == UNKNOWN_M:
-            channel.event("ask", word=word)  # asked when the axes are there
+            channel.event(InterlockQuery(word))  # asked when the axes are there
         return
 
     row = _refusal(channel, word, signals)

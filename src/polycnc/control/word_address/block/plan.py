@@ -19,6 +19,7 @@ from polycnc.control.word_address.motion.path_modes import end_of_exact_stop, ex
 from polycnc.language.bulk import Idle, Note, declare
 from polycnc.language.word_address.words import FORMS, is_fixed_code
 from polycnc.messages import AlarmError
+from polycnc.toolpath.events import Auxiliary
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -278,9 +279,9 @@ def _m_step(row: MCode, builder: Builder, plan: Plan) -> Step:
 
     def act(channel: Channel, values: list[float]) -> None:
         if spindle is None:
-            channel.event("m", code=code)
+            channel.event(Auxiliary(code))
         else:
-            channel.event("m", code=code, spindle=int(values[spindle]))
+            channel.event(Auxiliary(code, spindle=int(values[spindle])))
         channel.memory.last_m = code
         if handler is not None:
             handler(channel, values)

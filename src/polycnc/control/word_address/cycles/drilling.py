@@ -25,6 +25,7 @@ from polycnc.geometry.planes import PLANES
 from polycnc.language.word_address.functions import round_half_away
 from polycnc.toolpath import Kind
 from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS, STROKE, Overlap
+from polycnc.toolpath.events import Auxiliary
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
@@ -474,7 +475,7 @@ def _work(channel: WordAddressChannel, strokes: Iterator[Stroke], data: CycleDat
         elif stroke.action is Action.SPINDLE:
             rules.turn(channel, int(direction * stroke.value))
         elif stroke.action is Action.OUTPUT:
-            channel.event("m", code=int(stroke.value))
+            channel.event(Auxiliary(int(stroke.value)))
         elif stroke.action is Action.HALT:
             channel.stop("M00")
         else:

@@ -16,6 +16,7 @@ from polycnc.control.word_address.memory import Memory
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.word_address.functions import round_half_away
 from polycnc.memory.retained import VARIABLE_NAMES
+from polycnc.toolpath.events import Print
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -207,7 +208,7 @@ class MacroMemory(Memory):
         """DPRNT: one line of text; vacant variables print nothing (6001#1: without leading blanks)."""
         pads = not self.parameters.bit(6001, 1)
         text = "".join(part if isinstance(part, str) else format_number(*part, pads=pads) for part in parts)
-        self.channel.event("print", text=text)
+        self.channel.event(Print(text))
 
     # ---- by name, for reports and test cases --------------------------------------------------------------------
 

@@ -13,6 +13,7 @@ from polycnc.control.word_address.cycles.drilling import CycleState, DrillCycle,
 from polycnc.cycles.drilling import holes, lathe
 from polycnc.cycles.drilling.lathe import Joint
 from polycnc.geometry.planes import PLANES
+from polycnc.toolpath.events import Auxiliary
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -245,9 +246,9 @@ def _turn(channel: LatheChannel, direction: int) -> None:
     if tapping.is_rigid(channel):
         return
     if memory.parameters.M5T:
-        channel.event("m", code=5)
+        channel.event(Auxiliary(5))
     if direction:
-        channel.event("m", code=3 if direction > 0 else 4)
+        channel.event(Auxiliary(3 if direction > 0 else 4))
 
 
 # ---- what the machine adds ---------------------------------------------------------------------------------------

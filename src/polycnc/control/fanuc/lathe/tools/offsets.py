@@ -18,6 +18,7 @@ from polycnc.control.word_address.tools.radius import compensation_stage, side_o
 from polycnc.geometry.planes import PLANES
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.toolpath.events import ToolSelection
 
 if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.family import LatheChannel
@@ -70,7 +71,7 @@ def plan_tool(builder: Builder) -> Step | None:
         memory.tool = memory.next_tool = tool
         memory.tool_word = int(values[slot])
         channel.context_changed()
-        channel.event("t", tool=tool)
+        channel.event(ToolSelection(tool))
         if number is None:
             return
         if helix:
