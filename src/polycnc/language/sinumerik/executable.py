@@ -39,6 +39,8 @@ if TYPE_CHECKING:
 _DEFINITION = re.compile(r"[ \t]*(?:DEF|REDEF|DEFINE|PROC|EXTERN)\b", re.IGNORECASE)
 #: Type of comments and of the screens of own cycles (cov.com, uc.com, 1.25.4): texts, not programs.
 _COMMENT_FILE = "_COM"
+#: Texts of EXECSTRING whose steps are kept.
+_MOST_TEXTS = 1024
 #: A line that begins with none of these is a block.
 _BLANK = " \t;%\r\x00"
 _EMPTY = re.compile(r"[ \t\r\x00]*(?:;|%|$)")
@@ -209,6 +211,8 @@ class SinumerikProgram:
             except NcSyntaxError as error:
                 error.column = 0
                 raise
+            if len(self._texts) >= _MOST_TEXTS:
+                self._texts.clear()
             self._texts[text] = step
         step(channel)
 

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from tests.language.sinumerik.running import alarm, run, targets, value, values
@@ -228,3 +230,10 @@ def test_a_subprogram_number_has_seven_digits() -> None:
 @pytest.mark.parametrize("block", ["X1 SBLOF", "WAITM(1) X1", "SETM(1) M8"])
 def test_words_that_stand_alone_alarm_beside_others(block: str) -> None:
     assert alarm(f"G0\n{block}")[:2] == ("12120", 2)
+
+
+def test_a_loop_that_makes_a_new_text_each_time_keeps_a_bounded_number_of_them() -> None:
+    result = run('DEF INT COUNT\nFOR COUNT=1 TO 1500\nEXECSTRING("R1="<<COUNT)\nENDFOR')
+    assert result.variables["R1"] == 1500
+    code: Any = result.channel.stack[0].code
+    assert len(code._texts) <= 1024
