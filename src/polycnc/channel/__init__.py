@@ -6,6 +6,7 @@ features own of it, with its lifetime.
 `mode` is the modal state, `coordinates` where the channel is, `path` the stages between a handler's move and
 the toolpath, `way` the points on that move. `failure` says what an alarm does, `passes`
 when a main program that begins again does nothing new, `intervention` what an
-operator's hand does to a waiting program; `interface` is what the channel asks of those around it, `family` the
+operator's hand does to a waiting program; `view` is where its axes are: prepared or
+executed; `interface` is what the channel asks of those around it, `family` the
 kinds of control and memory by which a channel is typed.
 """

@@ -20,6 +20,7 @@ from polycnc.channel.path import Move, Path, PlacedEvent, is_way, points_of_arc
 from polycnc.channel.run import Run
 from polycnc.channel.stack import Executable, Level
 from polycnc.channel.state import Lifetime, State, end_of
+from polycnc.channel.view import Prepared
 from polycnc.channel.waits import (
     BLOCK,
     CHUNK,
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     from polycnc.channel.interface import Bulk, MainRun, Scanner, Zone
     from polycnc.channel.passes import Passes
     from polycnc.channel.steps import Step
+    from polycnc.channel.view import View
     from polycnc.geometry.frames import Vector
     from polycnc.machine.model import Axis, Machine
     from polycnc.machine.setup.values import Setup
@@ -75,6 +77,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         moved_by_hand: The last intervention in front of a block that was not prepared yet.
         block_by_block: With it, behind every other block too.
         main_run: What executes the rows while the channel runs; None where nobody waits for that.
+        actual: Where its axes are now.
         share_after: The share of a skip move to an end, at a feed, that is done after some seconds (None: all of it);
             None where a clock runs, which knows.
         group: The channels of the control, which the first one belongs to as well; None where it runs alone.
@@ -87,7 +90,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
 
     #: A snapshot of the channel does not go on to these: they are none of its state.
     UNFOLLOWED: ClassVar = frozenset(
-        {"axis_data", "bulk", "control", "machine", "main_run", "setup", "share_after"}
+        {"axis_data", "bulk", "control", "actual", "machine", "main_run", "setup", "share_after"}
     )
 
     def __init__(
@@ -142,6 +145,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         self.moved_by_hand: MovedByHand | None = None
         self.block_by_block = False
         self.main_run: MainRun | None = None
+        self.actual: View = Prepared(self.coordinates)
         self.share_after: Callable[[Channel, list[float], float, float], float | None] | None = None
         self.passes: Passes | None = None
         self.optional_stop = setup.switches.optional_stop

@@ -394,12 +394,14 @@ class VirtualControl:
         return self._operation.interlocks.messages
 
     def read_variable(self, name: str) -> object:
-        """A variable of the control as programs name it; None where it is vacant. It may be ahead of the axes.
+        """A variable of the control as programs name it; None where it is vacant.
+
+        What programs have computed may be ahead of the axes; actual positions are those of the axes.
 
         Raises:
             KeyError: There is no such variable.
         """
-        return self.control.read_variable(self.channel, name)
+        return self._operation.runs.first.read_variable(name)
 
     def alarm_text(self, alarm: Alarm, lang: str | None = None) -> str:
         """The control's own text of an alarm, with the hint on this very case if there is one."""

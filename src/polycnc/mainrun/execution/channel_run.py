@@ -87,6 +87,15 @@ class ChannelRun:
         """Commanded position of the real axes, mm (radius) and degrees: the sums of their sources."""
         return self.axes.setpoints(self.path)
 
+    @property
+    def work_position(self) -> list[float]:
+        """Position in the work coordinate system, internal units, as far as its coordinates know."""
+        execution = self.execution
+        here = self.axes.path_at(self.machine_position)
+        if not self.axes.by_hand and execution.place.transformation is not None:
+            here = self.axes.counted(execution.machine)
+        return self.display.work_of(here, execution.place)
+
     def positions(self, locked: Mapping[int, float] | None = None) -> Positions:
         """Positions as the displays show them; `locked` axes stand there, and the displays run on."""
         execution, context, display = self.execution, self.execution.context, self.display
@@ -141,6 +150,15 @@ class ChannelRun:
         self.execution.position, self.execution.place = path, Context()
         self.preprocessing.clear(self.execution.position)
         self.show_own_state()
+
+    def read_variable(self, name: str) -> object:
+        """A variable as programs name it; who reads from outside waits for no axis."""
+        channel = self.channel
+        main_run, channel.main_run = channel.main_run, None
+        try:
+            return channel.control.read_variable(channel, name)
+        finally:
+            channel.main_run = main_run
 
     @property
     def modal(self) -> Mapping[str, str]:

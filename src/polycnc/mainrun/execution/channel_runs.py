@@ -15,6 +15,7 @@ from polycnc.mainrun.execution.execution import Execution
 from polycnc.mainrun.execution.machinery import Machinery, Observer
 from polycnc.mainrun.preparation.preprocessing import Preprocessing
 from polycnc.mainrun.reading.display import MainRunDisplay
+from polycnc.mainrun.reading.view import Executed
 from polycnc.mainrun.signals.program_signals import connect
 from polycnc.messages import AlarmError
 from polycnc.messages.catalogue import listed
@@ -173,6 +174,7 @@ class ChannelRuns:
             MainRunDisplay(preprocessing.toolpath, machine, number),
             axes, self._rates, self.axes,
         )  # fmt: skip
+        channel.actual = Executed(run)
         return run
 
     def _further(self, number: int) -> Channel:

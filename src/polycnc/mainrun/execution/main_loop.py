@@ -50,7 +50,7 @@ class MainLoop:
         operation.follow_up()
         cycle = clock.cycle_s
         last = clock.cycles + ceil(limit_s / cycle)
-        while self.is_busy and clock.cycles < last and (due := operation.runs.due) < inf:
+        while self.is_busy and clock.cycles < last and (due := self._due) < inf:
             if operation.runs_freely:
                 until = min(max(due, (clock.cycles + FREE_CYCLES) * cycle), last * cycle)
                 operation.runs.first.execution.advance(until, freely=True)
@@ -84,12 +84,16 @@ class MainLoop:
         if operation.runs_freely:
             operation.runs.first.execution.advance(until, freely=True)
             self._move_to(self._clock.time)
-        while (due := operation.runs.due) < until:
+        while (due := self._due) < until:
             self._move_to(max(due, self._clock.time))
         self._move_to(until)
 
+    @property
+    def _due(self) -> float:
+        return min(self._operation.runs.due, self._clock.next_visit)
+
     def _move_to(self, time: float) -> None:
-        operation = self._operation
+        operation, since = self._operation, self._clock.time
         for run in operation.runs:
             run.execution.advance(time)
         while [run for run in operation.runs if run.execution.look_up()]:
@@ -98,4 +102,5 @@ class MainLoop:
         operation.look_for_deadlock()
         for run in operation.runs:
             run.axes.arrive(time)
+        self._clock.look(since)
         operation.follow_up()

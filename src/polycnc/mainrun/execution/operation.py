@@ -112,7 +112,7 @@ class Operation:
     def runs_freely(self) -> bool:
         """Whether one channel runs its program, and nothing else happens."""
         run, quiet = self.runs.first, not (self._giving_up or self._returning)
-        beside = run.axes.by_hand or run.axes.due < inf
+        beside = run.axes.by_hand or min(run.axes.due, self.clock.next_visit) < inf
         return quiet and len(self.runs) == 1 and not beside and run.execution.running
 
     # ---- from state to state -------------------------------------------------------------------------------

@@ -6,11 +6,12 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING
 
-from polycnc.control.tool_change import WINDOW, change_points
+from polycnc.control.tool_change import WINDOW, stands_at_reference, z_stands_at_change_point
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from polycnc.channel.channel import Channel
     from polycnc.machine.model import Machine
     from polycnc.mainrun.execution.operation import Operation
     from polycnc.mainrun.signals.image import SignalImage
@@ -28,29 +29,23 @@ TO_POCKET_1 = "MAGAZINE_TO_POCKET_1"
 
 
 def axis_states(operation: Operation) -> States:
-    """Whether each axis stands at its first reference point, or beyond it."""
-    channel = operation.machine.channels[0]
+    """Whether each axis of a channel that a control has in any case stands at its reference point, or beyond it."""
+    channel = operation.runs.first.channel
     states: dict[str, Callable[[], bool]] = {}
-    for index, name in enumerate(channel.axes):
-        states[f"{name}_AT_REFERENCE"] = partial(stands_at, operation, index, 1)
-        states[f"{name}_BEYOND_REFERENCE"] = partial(_stands_beyond, operation, index)
+    for axis, name in enumerate(channel.axes):
+        states[f"{name}_AT_REFERENCE"] = partial(stands_at_reference, channel, axis)
+        states[f"{name}_BEYOND_REFERENCE"] = partial(_stands_beyond, channel, axis)
     return states
 
 
 def machine_states(operation: Operation) -> States:
     """States that the tables of a machining centre ask for."""
-    names = operation.machine.channels[0].axes
-    z = names.index("Z") if "Z" in names else None
+    run = operation.runs.first
     return {
-        "Z_AT_CHANGE_POINT": lambda: (
-            z is None
-            or any(stands_at(operation, z, n) for n in change_points(operation.runs.first.channel, z))
-        ),
+        "Z_AT_CHANGE_POINT": partial(z_stands_at_change_point, run.channel),
         "SPINDLE_COMMANDED": lambda: operation.program_spindle != 0,
-        "T_NOT_IN_MAGAZINE": lambda: _is_not_in_magazine(
-            operation.machine, operation.runs.first.machinery.next_tool
-        ),
-        "HAS_AXIS_A": lambda: "A" in names,
+        "T_NOT_IN_MAGAZINE": lambda: _is_not_in_magazine(operation.machine, run.machinery.next_tool),
+        "HAS_AXIS_A": lambda: "A" in run.channel.axes,
         **{switch.upper(): partial(_is_switched, operation, switch) for switch in SWITCHES},
     }
 
@@ -59,19 +54,11 @@ def _is_switched(operation: Operation, switch: str) -> bool:
     return bool(getattr(operation.switches.panel, switch))
 
 
-def stands_at(operation: Operation, axis: int, number: int) -> bool:
-    """Whether an axis stands at one of its reference points."""
-    return abs(operation.runs.first.machine_position[axis] - _reference(operation, axis, number)) <= WINDOW
-
-
-def _stands_beyond(operation: Operation, axis: int) -> bool:
+def _stands_beyond(channel: Channel, axis: int) -> bool:
     """Past its reference point at the end of its travel; an axis without limits can return from anywhere."""
-    ends = operation.runs.first.channel.axis_data[axis].limit_plus < inf
-    return ends and operation.runs.first.machine_position[axis] > _reference(operation, axis, 1) + WINDOW
-
-
-def _reference(operation: Operation, axis: int, number: int) -> float:
-    return operation.control.reference_point(operation.runs.first.channel, axis, number)
+    ends = channel.axis_data[axis].limit_plus < inf
+    reference: float = channel.control.reference_point(channel, axis, 1)
+    return ends and channel.actual.machine[axis] > reference + WINDOW
 
 
 def _is_not_in_magazine(machine: Machine, tool: int | str) -> bool:

@@ -178,8 +178,9 @@ def _position(name: str, system: str, *, stop: bool = True) -> SystemVariable:
             return spindle.position
         column = channel.memory.column(axis)
         if system in ("machine", "basic"):
-            return shown(channel, column, channel.coordinates.machine[column], work=False)
-        return shown(channel, column, _work_frame(channel, system)[column])
+            return shown(channel, column, channel.actual.machine[column], work=False)
+        position = channel.actual.work if system == "actual" else _work_frame(channel, system)
+        return shown(channel, column, position[column])
 
     return SystemVariable(name, Type.REAL, read, stop=stop)
 
@@ -273,7 +274,7 @@ _STATES = (
     SystemVariable("$AC_STAT", Type.INT, _always(2), stop=True),
     SystemVariable("$AC_OVR", Type.REAL, _always(100.0), stop=True),
     SystemVariable("$PI", Type.REAL, _always(3.141592653589793)),
-    _position("$AA_IW", "work"),
+    _position("$AA_IW", "actual"),
     _position("$AA_IEN", "settable"),
     _position("$AA_IBN", "base"),
     _position("$AA_IB", "basic"),

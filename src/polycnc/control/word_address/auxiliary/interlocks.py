@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.tool_change import change_points, stands_at
+from polycnc.control.tool_change import stands_at_reference, z_stands_at_change_point
 from polycnc.language.bulk import Note, declare, declared
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import InterlockQuery
@@ -32,18 +32,13 @@ BRAKES = ("FOURTH_AXIS_CLAMPED", "FIFTH_AXIS_CLAMPED")
 
 def _z_is_referenced(channel: WordAddressChannel) -> bool:
     z = channel.coordinates.geometry[2]
-    return z < 0 or stands_at(channel, z, (1,))
-
-
-def _z_is_at_change_point(channel: WordAddressChannel) -> bool:
-    z = channel.coordinates.geometry[2]
-    return z < 0 or stands_at(channel, z, change_points(channel, z))
+    return z < 0 or stands_at_reference(channel, z)
 
 
 #: Signals that follow from the state of the program.
 STATES: Mapping[str, Callable[[WordAddressChannel], bool]] = {
     "Z_AT_REFERENCE": _z_is_referenced,
-    "Z_AT_CHANGE_POINT": _z_is_at_change_point,
+    "Z_AT_CHANGE_POINT": z_stands_at_change_point,
     "AUTO": lambda channel: channel.setup.switches.mode.lower() != "mdi",
     "MDI": lambda channel: channel.setup.switches.mode.lower() == "mdi",
 }

@@ -1,0 +1,31 @@
+"""The axes of a channel in the main run, for conditions and variables that ask where they are now."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from polycnc.mainrun.execution.channel_run import ChannelRun
+
+
+class Executed:
+    """Where the axes are now.
+
+    Args:
+        run: The channel in the main run.
+    """
+
+    __slots__ = ("_run",)
+
+    def __init__(self, run: ChannelRun) -> None:
+        self._run = run
+
+    @property
+    def machine(self) -> list[float]:
+        """Machine position, mm (radius) and degrees."""
+        return self._run.machine_position
+
+    @property
+    def work(self) -> list[float]:
+        """Position in the work coordinate system that holds in the block in execution."""
+        return self._run.work_position
