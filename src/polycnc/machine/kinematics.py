@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import TYPE_CHECKING
 
-from polycnc.geometry.frames import IDENTITY, Frame, cos_sin_deg, translation
+from polycnc.geometry.frames import IDENTITY, Frame, cos_sin_deg, rotation, translation
 from polycnc.geometry.vectors import dot
 
 if TYPE_CHECKING:
@@ -25,8 +25,11 @@ Angles = Mapping[str, float]
 
 
 def turn_about(axis: Vector, angle_deg: float) -> Frame:
-    """Right-handed rotation about a direction of any length through the origin."""
-    x, y, z = unit(axis)
+    """Right-handed rotation about a direction of any length through the origin; exact about X, Y and Z (Rodrigues)."""
+    x, y, z = direction = unit(axis)
+    for i in range(3):
+        if abs(direction[i]) == 1.0:
+            return rotation(i, angle_deg * direction[i])
     c, s = cos_sin_deg(angle_deg)
     d = 1.0 - c
     return Frame((

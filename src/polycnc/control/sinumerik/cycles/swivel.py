@@ -12,7 +12,7 @@ from __future__ import annotations
 from math import inf, nan
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.control.sinumerik import auxiliary, tables
+from polycnc.control.sinumerik import auxiliary
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frames import memory as frames
 from polycnc.control.sinumerik.frames.codes import crots
@@ -23,6 +23,7 @@ from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, NcFra
 from polycnc.machine.kinematics import Kinematics
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.transformation import choice, tilted
 from polycnc.transformation.orientation import solutions_for
 
 if TYPE_CHECKING:
@@ -43,7 +44,6 @@ AXIS_BY_AXIS, SOLID, PROJECTION, DIRECT = range(4)
 DEFAULT_ORDER = 57
 #: Plane whose third axis the tool stands on, by _DMODE; else that of the caller.
 PLANE_OF_DMODE = {1: "G17", 2: "G18", 3: "G19"}
-HALF_TURN = 180.0
 
 
 class Record(NamedTuple):
@@ -149,21 +149,15 @@ def _rotation(a: Arguments, record: Record) -> Frame:
     angles = [a["_A"], a["_B"], a["_C"]]
     match mode >> 6 & 3:
         case 1:  # solid angle
-            return rotation(2, angles[0]) @ rotation(1, angles[1])
+            return tilted.by_solid_angle(angles[0], angles[1])
         case 2:  # projection angles
             letters = [GEOMETRY_AXES[axis - 1] if axis else "XY"[i] for i, axis in enumerate(order[:2])]
             return crots(dict(zip(letters, angles, strict=False))).frame @ rotation(2, angles[2])
         case 3:  # rotary axes direct
-            direct = dict(zip(record.axes, angles, strict=False))
-            work, head = record.kinematics.work_turn(direct), record.kinematics.head_turn(direct)
-            return Frame(work.m).inverse() @ Frame(head.m)
-    turned = IDENTITY
-    for axis, angle in zip(order, angles, strict=True):
-        if axis:
-            turned = turned @ rotation(axis - 1, angle)
-        elif angle:
-            raise not_supported("CYCLE800 _MODE")
-    return turned
+            return tilted.by_rotary_axes(record.kinematics, dict(zip(record.axes, angles, strict=False)))
+    if any(angle and not axis for axis, angle in zip(order, angles, strict=True)):
+        raise not_supported("CYCLE800 _MODE")
+    return tilted.by_own_axes((axis - 1, angle) for axis, angle in zip(order, angles, strict=True) if axis)
 
 
 # ---- the rotary axes
@@ -188,20 +182,13 @@ def _angles(channel: SinumerikChannel, a: Arguments, record: Record, frame: NcFr
     if not allowed:
         raise AlarmError("61184")
     if a.integer("_DIR") == 0:
-        machine = channel.coordinates.machine
-        return min(
-            allowed,
-            key=lambda s: sum(
-                abs(s[n] - machine[c]) for n, c in zip(record.axes, record.columns, strict=True)
-            ),
-        )
+        near = {
+            name: channel.coordinates.machine[c] for name, c in zip(record.axes, record.columns, strict=True)
+        }
+        return min(allowed, key=lambda solution: choice.way(solution, near))
     choose = max if a.integer("_DIR") > 0 else min
-    return choose(allowed, key=lambda solution: signed(solution[record.tilting]))
-
-
-def signed(angle: float) -> float:
-    """An angle from -180 to below 180 degrees: also axes that count turns have a smaller and a greater solution."""
-    return (angle + HALF_TURN) % tables.TURN - HALF_TURN
+    # Axes that count turns have a smaller and a greater solution as well.
+    return choose(allowed, key=lambda solution: choice.signed(solution[record.tilting]))
 
 
 def _in_range(channel: SinumerikChannel, record: Record, angles: dict[str, float]) -> dict[str, float] | None:
@@ -209,19 +196,17 @@ def _in_range(channel: SinumerikChannel, record: Record, angles: dict[str, float
     placed = {}
     machine = channel.coordinates.machine
     for name, column in zip(record.axes, record.columns, strict=True):
-        axis = channel.axis_data[column]
-        turns = [angles[name] + turn for turn in (0.0, tables.TURN, -tables.TURN)]
-        if axis.modulo:
-            turns = [machine[column] + signed(angles[name] - machine[column])]
-        else:
-            turns.sort(key=abs)
         low, high = _range(channel, column)
         first, last = _record_range(channel, record.axes.index(name))
         low, high = max(low, first), min(high, last)
-        within = [angle for angle in turns if low - 1e-9 <= angle <= high + 1e-9]
-        if not within:
+        if channel.axis_data[column].modulo:
+            near = machine[column] + choice.signed(angles[name] - machine[column])
+            angle = near if choice.is_within(near, low, high) else None
+        else:
+            angle = choice.on_reachable_turn(angles[name], low, high)
+        if angle is None:
             return None
-        placed[name] = within[0]
+        placed[name] = angle
     return placed
 
 
@@ -240,9 +225,7 @@ def _carry(channel: SinumerikChannel, kinematics: Kinematics, angles: dict[str, 
     memory = channel.memory
     work = kinematics.work_turn(angles)
     memory.frames.system["$P_PARTFRAME"] = NcFrame(matrix=work.m, coarse=work.t)
-    head, rest = kinematics.head_turn(angles), kinematics.head_turn({})
-    x, y, z = (r - h for r, h in zip(rest.t, head.t, strict=True))
-    memory.tools.carrier = Frame(head.m, (x, y, z)) if kinematics.tool else None
+    memory.tools.carrier = tilted.tool_carrier(kinematics, angles) if kinematics.tool else None
     auxiliary.tool_changed(channel)
 
 

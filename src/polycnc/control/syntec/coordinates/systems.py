@@ -13,9 +13,10 @@ from polycnc.control.word_address.coordinates.systems import go_to_reference, re
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.data_input import TOOL_FIELDS
 from polycnc.control.word_address.tools.length import renew_length
-from polycnc.geometry.frames import IDENTITY, Frame, about, cos_sin_deg, rotation, scaling
+from polycnc.geometry.frames import IDENTITY, about, rotation, scaling
 from polycnc.geometry.planes import PLANES
 from polycnc.language.syntec.values import to_long
+from polycnc.machine.kinematics import turn_about
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -103,29 +104,10 @@ def forget_preset_turn(memory: SyntecMemory) -> None:
 def renew_preset_frame(memory: SyntecMemory) -> None:
     """The zero frame follows #1930 to #1933 and the tilted plane."""
     x, y, z = memory.preset_axis
-    length = (x * x + y * y + z * z) ** 0.5
-    turn = IDENTITY
-    if memory.preset_angle != 0.0 and length != 0.0:
-        turn = rotation_about((x / length, y / length, z / length), memory.preset_angle)
+    turns = memory.preset_angle != 0.0 and x * x + y * y + z * z != 0.0
+    turn = turn_about((x, y, z), memory.preset_angle) if turns else IDENTITY
     frame = turn @ memory.table_turn @ memory.tilt
     memory.zero_frame = IDENTITY if frame.is_identity else frame
-
-
-def rotation_about(axis: Vector, angle_deg: float) -> Frame:
-    """Right-handed rotation about a unit vector through the origin (Rodrigues)."""
-    for i in range(3):
-        if abs(axis[i]) == 1.0:
-            return rotation(i, angle_deg * axis[i])
-    c, s = cos_sin_deg(angle_deg)
-    x, y, z = axis
-    d = 1.0 - c
-    return Frame(
-        (
-            (c + x * x * d, x * y * d - z * s, x * z * d + y * s),
-            (y * x * d + z * s, c + y * y * d, y * z * d - x * s),
-            (z * x * d - y * s, z * y * d + x * s, c + z * z * d),
-        )
-    )
 
 
 # ---- reference points, stroke limits ---------------------------------------------------------------------

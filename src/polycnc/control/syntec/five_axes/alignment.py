@@ -13,20 +13,22 @@ from polycnc.control.syntec.coordinates.systems import renew_preset_frame
 from polycnc.control.syntec.parameters import decimals
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.tools import length
-from polycnc.geometry.frames import translation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
+from polycnc.transformation import choice
 from polycnc.transformation.orientation import solutions_for
+from polycnc.transformation.tilted import about_tip, table_turn
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
     from polycnc.geometry.frames import Vector
 
-SHORTEST, POSITIVE, NEGATIVE = 0, 1, 2
+SHORTEST = 0
+#: Sense of the first rotary axis by P: the shortest way, up, down.
+SENSES: dict[float | None, int] = {SHORTEST: 0, 1: 1, 2: -1}
 #: Pr3009, Pr3010: travel of the first rotary axis from and to; Pr3011, Pr3012 of the second one.
 TRAVEL = 3009
-FULL_TURN = 360.0
 Angles = dict[str, float]
 
 
@@ -71,13 +73,9 @@ def align_about_tip(channel: Channel, words: Words) -> None:
     arm = channel.control.length_value(channel, memory.h) - (words.length("R") or 0.0)
     end = _turned(channel, angles)
     here = [end[axis] if axis >= 0 else 0.0 for axis in c.geometry]
-    old, new = kinematics.tool_on_machine(before), kinematics.tool_on_machine(angles)
-    held = [value - arm * part for value, part in zip(here, old, strict=True)]
-    turn = kinematics.work_turn(angles) @ kinematics.work_turn(before).inverse()
-    held = list(turn.apply(held[0], held[1], held[2]))
-    for axis, value, part in zip(c.geometry, held, new, strict=True):
+    for axis, value in zip(c.geometry, about_tip(kinematics, before, angles, here, arm), strict=True):
         if axis >= 0:
-            end[axis] = value + arm * part
+            end[axis] = value
     channel.mode = channel.mode.with_code("length", "G43")
     _stand_on_plane(channel, angles)
     channel.straight(Kind.RAPID, c.from_machine(end), nan)
@@ -97,8 +95,7 @@ def _stand_on_plane(channel: Channel, angles: Angles) -> None:
     kinematics = Kinematics.of(channel.machine)
     c = channel.coordinates
     zero = [c.offsets[axis] - memory.length_offset[axis] if axis >= 0 else 0.0 for axis in c.geometry]
-    shift = translation(zero[0], zero[1], zero[2])
-    memory.table_turn = shift.inverse() @ kinematics.work_turn(angles) @ shift
+    memory.table_turn = table_turn(kinematics, angles, zero)
     renew_preset_frame(memory)
     memory.tool_direction = kinematics.tool_on_machine(angles)
     length.renew_direction(channel)
@@ -117,7 +114,7 @@ def _angles(channel: Channel, words: Words, code: str) -> Angles:
     if channel.mode["rotation"] not in ("G68.2", "G68.3") and not memory.rotates_work:
         raise words.fail("tilt_missing", code)
     way = words.typed("P") if "P" in words else SHORTEST
-    if way not in (SHORTEST, POSITIVE, NEGATIVE):
+    if way not in SENSES:
         raise words.fail("align_way", "P")
     channel.flush()
     near = dict(zip(channel.axes, c.machine, strict=True))
@@ -128,31 +125,17 @@ def _angles(channel: Channel, words: Words, code: str) -> Angles:
     joints = (*kinematics.work, *kinematics.tool) if kinematics.work else kinematics.tool
     names = [joint.axis for joint in joints if joint.axis in channel.axis_index]
     master = names[0]
-    found = sorted(
-        (_led(solution, near, master, way) for solution in solutions_for(kinematics, wanted, near)),
-        key=lambda s: (
-            round(abs(s[master] - near[master]), 6),
-            sum(abs(s[name] - near[name]) for name in names),
-        ),
-    )
+    led = [
+        choice.led(solution, near, master, SENSES[way])
+        for solution in solutions_for(kinematics, wanted, near)
+    ]
+    found = choice.by_way_of(led, near, master)
     chosen = next(
         (s for s in (found if way == SHORTEST else found[:1]) if _reachable(channel, names, near, s)), None
     )
     if chosen is None:
         raise words.fail("tilt_unreachable", code)
     return chosen
-
-
-def _led(solution: Angles, near: Angles, master: str, way: float | None) -> Angles:
-    """The solution with the first rotary axis on the turn that lies in the direction asked for."""
-    if way == SHORTEST:
-        return solution
-    delta = solution[master] - near[master]
-    if way == POSITIVE and delta < 0.0:
-        delta += FULL_TURN
-    elif way == NEGATIVE and delta > 0.0:
-        delta -= FULL_TURN
-    return {**solution, master: near[master] + delta}
 
 
 def _reachable(channel: Channel, names: list[str], near: Angles, solution: Angles) -> bool:
@@ -162,7 +145,7 @@ def _reachable(channel: Channel, names: list[str], near: Angles, solution: Angle
         low = channel.memory.parameter(TRAVEL + 2 * i) * unit
         high = channel.memory.parameter(TRAVEL + 2 * i + 1) * unit
         if low != high and not all(
-            low - 1e-9 <= angle <= high + 1e-9 for angle in (solution[name], near[name])
+            choice.is_within(angle, low, high) for angle in (solution[name], near[name])
         ):
             return False
     return True

@@ -8,14 +8,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec.coordinates.systems import renew_preset_frame, rotation_about
+from polycnc.control.syntec.coordinates.systems import renew_preset_frame
 from polycnc.control.syntec.parameters import has_option
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.transformations.tilted_plane import named_point
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
-from polycnc.geometry.vectors import cross
+from polycnc.machine.kinematics import Kinematics
+from polycnc.transformation.tilted import by_euler, by_rotary_axes, square_on
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -24,14 +25,13 @@ if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector
 
 OPTION_TOOL_PLANE = 13
-PARALLEL = 1e-9
 
 
 def tilt_by_angles(channel: Channel, words: Words) -> None:
     """G68.2 X Y Z I J K: origin from the work zero, turned by I about Z, J about X', K about Z''."""
     origin = named_point(channel, words, "argument")
     i, j, k = (words.angle(letter) or 0.0 for letter in "IJK")
-    set_tilt(channel, translation(*origin) @ rotation(2, i) @ rotation(0, j) @ rotation(2, k))
+    set_tilt(channel, translation(*origin) @ by_euler(i, j, k))
 
 
 def tilt_by_tool(channel: Channel, words: Words) -> None:
@@ -52,7 +52,7 @@ def tilt_by_tool(channel: Channel, words: Words) -> None:
         raise words.fail("tool_plane_format", "G68.3")
     turn = tool_turn(channel)
     if words.typed("P") != 1:
-        turn = _square_on(turn.direct(0.0, 0.0, 1.0)) @ rotation(2, words.angle("R") or 0.0)
+        turn = square_on(turn.direct(0.0, 0.0, 1.0)) @ rotation(2, words.angle("R") or 0.0)
     origin = named_point(channel, words, "argument") if given else _position_in_work_system(channel)
     set_tilt(channel, translation(*origin) @ turn)
 
@@ -95,22 +95,5 @@ def set_tilt(channel: Channel, tilt: Frame) -> None:
 
 def tool_turn(channel: Channel) -> Frame:
     """How the rotary axes turn the tool against the work: the table's turns undone, then the head's."""
-    machine, c = channel.machine, channel.coordinates
-    angles = dict(zip(channel.axes, c.machine, strict=True))
-    turn = IDENTITY
-    for joint in reversed(machine.work_chain):
-        if joint.rotary:
-            turn = turn @ rotation_about(joint.direction, -angles.get(joint.axis, 0.0))
-    for joint in machine.tool_chain:
-        if joint.rotary:
-            turn = turn @ rotation_about(joint.direction, angles.get(joint.axis, 0.0))
-    return turn
-
-
-def _square_on(tool: Vector) -> Frame:
-    """A right-handed frame whose Z axis is the tool; its X axis is square on the Z axes of work and tool."""
-    x = cross((0.0, 0.0, 1.0), tool)
-    length = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) ** 0.5
-    x = (1.0, 0.0, 0.0) if length < PARALLEL else (x[0] / length, x[1] / length, x[2] / length)
-    y = cross(tool, x)
-    return Frame(((x[0], y[0], tool[0]), (x[1], y[1], tool[1]), (x[2], y[2], tool[2])))
+    angles = dict(zip(channel.axes, channel.coordinates.machine, strict=True))
+    return by_rotary_axes(Kinematics.of(channel.machine), angles)

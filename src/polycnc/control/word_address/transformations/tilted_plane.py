@@ -7,19 +7,19 @@ with the table when the tool is aligned; on one with a swivel head the length of
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import hypot, nan
+from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.tools import length
-from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
-from polycnc.geometry.vectors import cross, minus
+from polycnc.geometry.frames import IDENTITY, Frame, translation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation import angles_for
+from polycnc.transformation.tilted import by_directions, by_euler, by_fixed_axes, by_points, table_turn
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
 EULER, ROLL_PITCH_YAW, POINTS, VECTORS, PROJECTION = 0, 1, 2, 3, 4
 #: Blocks of the ways that need several, by Q.
 BLOCKS = {POINTS: 3, VECTORS: 2}
-#: Vectors that are not longer have no direction.
-SHORTEST_MM = 1e-6
 ORDERS = {123, 132, 213, 231, 312, 321}
 
 
@@ -54,7 +52,7 @@ def tilt_plane(channel: WordAddressChannel, words: Words) -> None:
     if way not in (EULER, ROLL_PITCH_YAW):
         raise words.fail("tilt_format", "P")
     i, j, k = (words.angle(letter) or 0.0 for letter in "IJK")
-    turn = _euler(i, j, k) if way == EULER else _roll_pitch_yaw(words, (i, j, k))
+    turn = by_euler(i, j, k) if way == EULER else _roll_pitch_yaw(words, (i, j, k))
     plane = TiltState.of(channel).plane = translation(*named_point(channel, words, "tilt_format")) @ turn
     _renew(channel, plane, None)
 
@@ -70,31 +68,15 @@ def _tell(channel: WordAddressChannel, words: Words, way: int) -> None:
     state.told = [*told, (named_point(channel, words, "tilt_format"), (i, j, k))]
     if number < BLOCKS[way]:
         return
-    (origin, first), *others = state.told
+    (origin, first), (second, upright), *others = state.told
     state.told = []
-    if way == POINTS:
-        (second, _), (third, _) = others
-        along = _unit(words, minus(second, origin))
-        upright = _unit(words, cross(along, minus(third, origin)))
-    else:
-        along, wanted = _unit(words, first), others[0][1]
-        upright = _unit(words, cross(along, cross(wanted, along)))
-    across = cross(upright, along)
-    rows = tuple(zip(along, across, upright, strict=True))
-    state.plane = translation(*origin) @ Frame((rows[0], rows[1], rows[2]))
-    _renew(channel, state.plane, None)
-
-
-def _unit(words: Words, vector: Vector) -> Vector:
-    length = hypot(*vector)
-    if length < SHORTEST_MM:
+    plane = (
+        by_points(origin, second, others[0][0]) if way == POINTS else by_directions(origin, first, upright)
+    )
+    if plane is None:
         raise words.fail("tilt_format", "G68.2")
-    return (vector[0] / length, vector[1] / length, vector[2] / length)
-
-
-def _euler(i: float, j: float, k: float) -> Frame:
-    """I about Z, J about the new X, K about the new Z."""
-    return rotation(2, i) @ rotation(0, j) @ rotation(2, k)
+    state.plane = plane
+    _renew(channel, plane, None)
 
 
 def _roll_pitch_yaw(words: Words, angles: Vector) -> Frame:
@@ -102,11 +84,7 @@ def _roll_pitch_yaw(words: Words, angles: Vector) -> Frame:
     order = words.integer("Q") if "Q" in words else 123
     if order not in ORDERS:
         raise words.fail("tilt_format", "Q")
-    turn = IDENTITY
-    for digit in str(order):
-        axis = int(digit) - 1
-        turn = rotation(axis, angles[axis]) @ turn
-    return turn
+    return by_fixed_axes([int(digit) - 1 for digit in str(order)], angles)
 
 
 def named_point(channel: WordAddressChannel, words: Words, mistake: str) -> Vector:
@@ -143,12 +121,10 @@ def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: b
     if angles is None or not set(angles) <= set(channel.axes):
         raise words.fail("tilt_unreachable", code)
     zero = [c.offsets[axis] - memory.length_offset[axis] if axis >= 0 else 0.0 for axis in c.geometry]
-    shift = translation(zero[0], zero[1], zero[2])
-    turned = shift.inverse() @ kinematics.work_turn(angles) @ shift @ plane
     tip, end = c.position, c.machine
     for name, angle in angles.items():
         end[channel.axis_index[name]] = angle
-    _renew(channel, turned, kinematics.tool_on_machine(angles))
+    _renew(channel, table_turn(kinematics, angles, zero) @ plane, kinematics.tool_on_machine(angles))
     goal = c.from_machine(end)
     if holds_tip:
         for axis in c.geometry:
