@@ -1,9 +1,9 @@
 """Machines as data: axes with limits, spindles, magazine, kinematics; and the setup a run starts from.
 
-A machine file: `schema` says what may stand in it, `load` turns it into a `Machine` (`model`), `check` asks
-whether all of it fits together, `render` makes a file again; `places` and `errors` say where a mistake
-stands. `kinematics` leads from rotary axes to the tool, `layout` is what displays must know, `rules` and
-`plc` are the machine's own controller. `setup/` is what a run starts from.
+A machine file: `schema` says what may stand in it (`tables`: the same as types), `load` turns it into a
+`Machine` (`model`), `check` asks whether all of it fits together, `render` makes a file again; `places` and
+`errors` say where a mistake stands. `kinematics` leads from rotary axes to the tool, `layout` is what displays
+must know, `rules` and `plc` are the machine's own controller. `setup/` is what a run starts from.
 """
 
 from polycnc.machine.errors import FileError, MachineFileError, SetupError

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from polycnc.machine.rules import ConditionError
 from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     from polycnc.machine.model import Machine
     from polycnc.machine.schema import Mistake
+    from polycnc.machine.tables import MachineData
 
 _BOX_SIZES = 3
 #: What a solid may move with beside an axis.
 _CHAIN_ENDS = ("base", "tool", "work")
 
 
-def gaps(data: Mapping[str, Any]) -> Iterator[Mistake]:
+def gaps(data: MachineData) -> Iterator[Mistake]:
     """What keeps the merged data of a file from being a machine at all."""
     channels = data.get("channel", {})
     for number, channel in channels.items():
@@ -29,17 +31,17 @@ def gaps(data: Mapping[str, Any]) -> Iterator[Mistake]:
     for name in data.get("axis", {}):
         if name not in names:
             yield ("axis", name), "axis-unused", {"axis": name}
-    for number, joint in enumerate(data.get("joint", ())):
+    for index, joint in enumerate(data.get("joint", ())):
         if joint["axis"] not in names:
-            yield ("joint", number, "axis"), "axis-unused", {"axis": joint["axis"]}
+            yield ("joint", index, "axis"), "axis-unused", {"axis": joint["axis"]}
         if not any(joint["direction"]):
-            yield ("joint", number, "direction"), "no-direction", {"axis": joint["axis"]}
-    for number, solid in enumerate(data.get("solid", ())):
+            yield ("joint", index, "direction"), "no-direction", {"axis": joint["axis"]}
+    for index, solid in enumerate(data.get("solid", ())):
         if solid["shape"] == "box" and len(solid["size"]) != _BOX_SIZES:
             yield (
-                ("solid", number, "size"),
+                ("solid", index, "size"),
                 "wrong-length",
-                {"where": f"solid.{number}.size", "detail": _BOX_SIZES},
+                {"where": f"solid.{index}.size", "detail": _BOX_SIZES},
             )
 
 
@@ -132,6 +134,5 @@ def _rules(machine: Machine) -> Iterator[Mistake]:
     for number, rule in enumerate(machine.rules):
         try:
             rule.condition  # noqa: B018 - it is read when it is first asked for
-        except ValueError as error:
-            at = error.args[0] + 1
-            yield ("rule", number, "when"), "no-condition", {"when": rule.when, "character": at}
+        except ConditionError as error:
+            yield ("rule", number, "when"), "no-condition", {"when": rule.when, "character": error.at + 1}

@@ -9,7 +9,7 @@ from __future__ import annotations
 import tomllib
 from math import inf
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Literal, TypeVar, cast
 
 from polycnc.machine.errors import MachineFileError
 from polycnc.machine.model import (
@@ -33,7 +33,27 @@ if TYPE_CHECKING:
 
     from polycnc.geometry.frames import Vector
     from polycnc.machine.schema import Mistake
+    from polycnc.machine.tables import (
+        AxisData,
+        AxisKind,
+        ChannelData,
+        DefaultsData,
+        DynamicsData,
+        JointData,
+        MachineData,
+        MagazineData,
+        MFunctionData,
+        RuleData,
+        SolidData,
+        SpindleData,
+        TextData,
+    )
 
+    DynamicsKey = Literal[
+        "rapid", "max_feed", "acceleration", "jerk", "in_position_fine", "in_position_coarse"
+    ]
+
+T = TypeVar("T")
 BUILTIN = Path(__file__).with_name("builtin")
 _PER_MINUTE = 60.0
 #: Axis letters that turn (ISO 841); an axis with another letter is linear unless its table says otherwise.
@@ -45,13 +65,13 @@ _WHOLE = frozenset(("geometry", "change_at"))
 #: What a machine is called is its own.
 _NOT_INHERITED = frozenset(("name", "description"))
 #: What an axis can do that neither its table nor `[defaults]` tells, in file units.
-_DYNAMICS = {
-    "linear": {"rapid": 24000, "max_feed": 15000, "acceleration": 3000, "jerk": 50000},
-    "rotary": {"rapid": 7200, "max_feed": 7200, "acceleration": 400, "jerk": 8000},
+_WINDOWS: DynamicsData = {"in_position_fine": 0.01, "in_position_coarse": 0.04}
+_DYNAMICS: dict[AxisKind, DynamicsData] = {
+    "linear": {"rapid": 24000, "max_feed": 15000, "acceleration": 3000, "jerk": 50000, **_WINDOWS},
+    "rotary": {"rapid": 7200, "max_feed": 7200, "acceleration": 400, "jerk": 8000, **_WINDOWS},
 }
 #: How many reference points an axis has; those that its table does not tell lie on the last that it tells.
 _REFERENCE_POINTS = 4
-_IN_POSITION = {"in_position_fine": 0.01, "in_position_coarse": 0.04}
 _UNIT = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 _ORIGIN = (0.0, 0.0, 0.0)
 _TOOL_AXIS = (0.0, 0.0, 1.0)
@@ -70,11 +90,11 @@ def load_machine(id_or_path: str | Path) -> Machine:
     """
     path = _find(str(id_or_path))
     if path.parent == BUILTIN:
-        return build(path.stem, _builtin_data(path))
+        return build(path.stem, cast("MachineData", _builtin_data(path)))
     from polycnc.machine.check import contradictions, gaps
 
     text = _read(path)
-    data = _checked_data(path, text, ())
+    data = cast("MachineData", _checked_data(path, text, ()))
     _raise_first(path, text, gaps(data))
     machine = build(path.stem, data)
     _raise_first(path, text, contradictions(machine))
@@ -98,17 +118,17 @@ def _read(path: Path) -> str:
         raise MachineFileError(str(path), 0, 0, "unreadable", detail=reason_of(error)) from error
 
 
-def _builtin_data(path: Path) -> dict[str, Any]:
-    data = tomllib.loads(path.read_text(encoding="utf-8"))
+def _builtin_data(path: Path) -> dict[str, object]:
+    data: dict[str, object] = tomllib.loads(path.read_text(encoding="utf-8"))
     base = data.pop("base", None)
     return _built_on(_builtin_data(BUILTIN / f"{base}.toml"), data) if base else data
 
 
-def _checked_data(path: Path, text: str, below: tuple[Path, ...]) -> dict[str, Any]:
+def _checked_data(path: Path, text: str, below: tuple[Path, ...]) -> dict[str, object]:
     from polycnc.machine.schema import mistakes
 
     try:
-        data = tomllib.loads(text)
+        data: dict[str, object] = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         detail, (line, column) = toml_error_place(str(error), text)
         raise MachineFileError(str(path), line, column, "not-toml", detail=detail) from error
@@ -119,7 +139,7 @@ def _checked_data(path: Path, text: str, below: tuple[Path, ...]) -> dict[str, A
     return _built_on(_base_data(path, text, str(base), (*below, path.resolve())), data)
 
 
-def _base_data(path: Path, text: str, base: str, below: tuple[Path, ...]) -> dict[str, Any]:
+def _base_data(path: Path, text: str, base: str, below: tuple[Path, ...]) -> dict[str, object]:
     """The data of the machine that a file builds on: a built-in one, or a file beside it."""
     line, column = toml_place(text, ("base",))
     beside = path.parent / base
@@ -140,11 +160,11 @@ def _raise_first(path: Path, text: str, found: Iterable[Mistake]) -> None:
         raise MachineFileError(str(path), line, column, message, **args)
 
 
-def _built_on(base: Mapping[str, Any], data: Mapping[str, Any]) -> dict[str, Any]:
+def _built_on(base: Mapping[str, object], data: Mapping[str, object]) -> dict[str, object]:
     return _laid_over({key: value for key, value in base.items() if key not in _NOT_INHERITED}, data)
 
 
-def _laid_over(base: Mapping[str, Any], data: Mapping[str, Any]) -> dict[str, Any]:
+def _laid_over(base: Mapping[str, object], data: Mapping[str, object]) -> dict[str, object]:
     """What `data` says, else what `base` says; lists and the keys of `_WHOLE` are replaced."""
     merged = dict(base)
     for key, value in data.items():
@@ -155,10 +175,12 @@ def _laid_over(base: Mapping[str, Any], data: Mapping[str, Any]) -> dict[str, An
     return merged
 
 
-def build(machine_id: str, data: Mapping[str, Any]) -> Machine:
+def build(machine_id: str, data: MachineData) -> Machine:
     """A machine from the values of a file, complete with defaults, in internal units."""
-    spindles = tuple(_spindle(number, table) for number, table in _numbered(data, "spindle"))
-    channels = tuple(_channel(number, table, spindles) for number, table in _numbered(data, "channel"))
+    spindles = tuple(_spindle(number, table) for number, table in _numbered(data.get("spindle", {})))
+    channels = tuple(
+        _channel(number, table, spindles) for number, table in _numbered(data.get("channel", {}))
+    )
     names = tuple(dict.fromkeys(name for channel in channels for name in channel.axes))
     tables = data.get("axis", {})
     axes = tuple(_axis(name, tables.get(name, {}), data.get("defaults", {}), names) for name in names)
@@ -170,27 +192,27 @@ def build(machine_id: str, data: Mapping[str, Any]) -> Machine:
         channels=channels,
         spindles=spindles,
         magazine=_magazine(data.get("magazine", {})),
-        m_functions={code: _m_function(code, table) for code, table in _numbered(data, "m_function")},
+        m_functions={code: _m_function(code, table) for code, table in _numbered(data.get("m_function", {}))},
         joints=_joints(data.get("joint", ()), channels, {axis.name: axis.rotary for axis in axes}),
         solids=tuple(_solid(table) for table in data.get("solid", ())),
         interpolation_cycle_s=float(data.get("interpolation_cycle_s", 0.004)),
         settle_fine_s=float(data.get("settle_fine_s", 0.0)),
         settle_coarse_s=float(data.get("settle_coarse_s", 0.0)),
-        rules=tuple(
-            Rule(table["when"], table["output"], float(table.get("after_s", 0.0)), table.get("latch", ""))
-            for table in data.get("rule", ())
-        ),
+        rules=tuple(rule_of(table) for table in data.get("rule", ())),
     )
 
 
-def _numbered(data: Mapping[str, Any], kind: str) -> list[tuple[int, Mapping[str, Any]]]:
-    """The tables of a kind whose names are numbers, in order."""
-    return sorted(
-        ((int(number), table) for number, table in data.get(kind, {}).items()), key=lambda item: item[0]
-    )
+def rule_of(table: RuleData) -> Rule:
+    """A rule from its table."""
+    return Rule(table["when"], table["output"], float(table.get("after_s", 0.0)), table.get("latch", ""))
 
 
-def _text(value: str | Mapping[str, str]) -> Text:
+def _numbered(tables: Mapping[str, T]) -> list[tuple[int, T]]:
+    """Tables whose names are numbers, in order."""
+    return sorted(((int(number), table) for number, table in tables.items()), key=lambda item: item[0])
+
+
+def _text(value: TextData) -> Text:
     return Text(value) if isinstance(value, str) else Text(value["en"], value.get("zh-TW", ""))
 
 
@@ -199,9 +221,13 @@ def _vector(values: Iterable[float]) -> Vector:
     return (x, y, z)
 
 
-def _axis(name: str, table: Mapping[str, Any], defaults: Mapping[str, Any], names: tuple[str, ...]) -> Axis:
-    kind = table.get("kind") or ("rotary" if name[0] in _ROTARY_LETTERS else "linear")
-    values = {**_IN_POSITION, **_DYNAMICS[kind], **defaults.get(kind, {}), **table}
+def _axis(name: str, table: AxisData, defaults: DefaultsData, names: tuple[str, ...]) -> Axis:
+    kind: AxisKind = table.get("kind") or ("rotary" if name[0] in _ROTARY_LETTERS else "linear")
+    values: DynamicsData = {**_DYNAMICS[kind], **defaults.get(kind, {})}
+
+    def value(key: DynamicsKey) -> float:
+        return float(table.get(key, values[key]))
+
     points = [float(point) for point in table.get("reference_points", (0.0,))]
     points += points[-1:] * (_REFERENCE_POINTS - len(points))
     parallel = _PARALLEL.get(name, "") if kind == "linear" else ""
@@ -215,17 +241,17 @@ def _axis(name: str, table: Mapping[str, Any], defaults: Mapping[str, Any], name
         machine_name=table.get("machine_name", name if name[-1].isdigit() else f"{name}1"),
         limit_minus=float(table.get("limit_minus", -inf)),
         limit_plus=float(table.get("limit_plus", inf)),
-        rapid=values["rapid"] / _PER_MINUTE,
-        max_feed=values["max_feed"] / _PER_MINUTE,
-        acceleration=float(values["acceleration"]),
-        jerk=float(values["jerk"]),
+        rapid=value("rapid") / _PER_MINUTE,
+        max_feed=value("max_feed") / _PER_MINUTE,
+        acceleration=value("acceleration"),
+        jerk=value("jerk"),
         reference_points=cast("tuple[float, float, float, float]", tuple(points)),
-        in_position_fine=float(values["in_position_fine"]),
-        in_position_coarse=float(values["in_position_coarse"]),
+        in_position_fine=value("in_position_fine"),
+        in_position_coarse=value("in_position_coarse"),
     )
 
 
-def _channel(number: int, table: Mapping[str, Any], spindles: tuple[Spindle, ...]) -> Channel:
+def _channel(number: int, table: ChannelData, spindles: tuple[Spindle, ...]) -> Channel:
     axes = tuple(table.get("axes", ()))
     names = tuple(table.get("names", axes))
     virtual = tuple(table.get("virtual", ()))
@@ -235,7 +261,7 @@ def _channel(number: int, table: Mapping[str, Any], spindles: tuple[Spindle, ...
     return Channel(number, axes, names, dict(geometry), virtual, numbers)
 
 
-def _spindle(number: int, table: Mapping[str, Any]) -> Spindle:
+def _spindle(number: int, table: SpindleData) -> Spindle:
     return Spindle(
         number=number,
         name=table.get("name", f"S{number}"),
@@ -249,7 +275,7 @@ def _spindle(number: int, table: Mapping[str, Any]) -> Spindle:
     )
 
 
-def _magazine(table: Mapping[str, Any]) -> Magazine:
+def _magazine(table: MagazineData) -> Magazine:
     return Magazine(
         kind=table.get("kind", "magazine"),
         places=table.get("places", 24),
@@ -258,13 +284,13 @@ def _magazine(table: Mapping[str, Any]) -> Magazine:
     )
 
 
-def _m_function(code: int, table: Mapping[str, Any]) -> MFunction:
+def _m_function(code: int, table: MFunctionData) -> MFunction:
     name = _text(table.get("name", f"M{code}"))
     return MFunction(code, name, float(table.get("seconds", 0)), table.get("timing", "with"))
 
 
 def _joints(
-    tables: Iterable[Mapping[str, Any]], channels: tuple[Channel, ...], rotary: Mapping[str, bool]
+    tables: Iterable[JointData], channels: tuple[Channel, ...], rotary: Mapping[str, bool]
 ) -> tuple[Joint, ...]:
     """The chain of the file; geometry axes that it does not mention move the tool, nearest to the base."""
     told = [
@@ -287,7 +313,7 @@ def _joints(
     return (*untold, *told)
 
 
-def _solid(table: Mapping[str, Any]) -> Solid:
+def _solid(table: SolidData) -> Solid:
     return Solid(
         name=_text(table["name"]),
         role=table["role"],

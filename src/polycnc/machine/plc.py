@@ -12,16 +12,17 @@ import re
 import tomllib
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypedDict, cast
 
-from polycnc.machine.rules import Rule, condition_of, signals_in
+from polycnc.machine.load import rule_of
+from polycnc.machine.rules import condition_of, signals_in
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable
     from importlib.resources.abc import Traversable
-    from typing import Any
 
-    from polycnc.machine.rules import Condition, Latch, Values
+    from polycnc.machine.rules import Condition, Rule, Values
+    from polycnc.machine.tables import RuleData
 
 _WORD = re.compile(r"M\d+|[STB]_CODE|UNKNOWN_M|KEY_\w+|CYCLE_START|MODE_\w+|MOVE_\w+|HOME_\w+")
 
@@ -105,18 +106,24 @@ class Plc:
                 signals[rule.output] = rule.latched(signals.get(rule.output, 0.0))
 
 
+class _AlarmData(TypedDict):
+    code: str
+    when: str
+
+
+class _PlcData(TypedDict, total=False):
+    rule: list[RuleData]
+    alarm: list[_AlarmData]
+    message: list[_AlarmData]
+
+
 def read_plc(*sources: Traversable) -> Plc:
     """Read tables: `[[rule]]` as in machine files, `[[alarm]]` and `[[message]]` with `code` and `when`."""
     rules: list[Rule] = []
     alarms: list[PlcAlarm] = []
     for source in sources:
-        data = tomllib.loads(source.read_text(encoding="utf-8"))
-        rules += [_rule(table) for table in data.get("rule", ())]
+        data = cast("_PlcData", tomllib.loads(source.read_text(encoding="utf-8")))
+        rules += [rule_of(table) for table in data.get("rule", ())]
         alarms += [PlcAlarm(table["code"], table["when"]) for table in data.get("alarm", ())]
         alarms += [PlcAlarm(table["code"], table["when"], stops=False) for table in data.get("message", ())]
     return Plc(rules, alarms)
-
-
-def _rule(table: Mapping[str, Any]) -> Rule:
-    latch: Latch = table.get("latch", "")
-    return Rule(table["when"], table["output"], float(table.get("after_s", 0.0)), latch)

@@ -22,11 +22,19 @@ _TOKEN = re.compile(r"\s*(?:(?P<name>[A-Za-z_$][\w$.\[\]]*)|(?P<sign>[&|!()]))")
 _DEEPEST = 50
 
 
+class ConditionError(ValueError):
+    """A text is no condition: it goes wrong at the character `at`, from 0."""
+
+    def __init__(self, at: int) -> None:
+        super().__init__(at)
+        self.at = at
+
+
 def condition_of(text: str) -> Condition:
     """A condition, asked with a function that gives the value of a signal.
 
     Raises:
-        ValueError: The text is no condition; the argument is where it goes wrong, from 0.
+        ConditionError: The text is no condition.
     """
     return _Reader(text).read()
 
@@ -58,7 +66,7 @@ class Rule:
         """The condition, asked with a function that gives the value of a signal.
 
         Raises:
-            ValueError: The text is no condition; the argument is where it goes wrong, from 0.
+            ConditionError: The text is no condition.
         """
         return condition_of(self.when)
 
@@ -78,7 +86,7 @@ class _Reader:
     def read(self) -> Condition:
         condition = self._either()
         if self._text[self._at :].strip():
-            raise ValueError(self._at)
+            raise ConditionError(self._at)
         return condition
 
     def _next(self) -> re.Match[str] | None:
@@ -106,7 +114,7 @@ class _Reader:
     def _one(self) -> Condition:
         self._depth += 1
         if self._depth > _DEEPEST:
-            raise ValueError(self._at)
+            raise ConditionError(self._at)
         try:
             return self._signal()
         finally:
@@ -119,11 +127,11 @@ class _Reader:
         if self._takes("("):
             inner = self._either()
             if not self._takes(")"):
-                raise ValueError(self._at)
+                raise ConditionError(self._at)
             return inner
         match = self._next()
         if match is None or not match["name"]:
-            raise ValueError(self._at)
+            raise ConditionError(self._at)
         self._at = match.end()
         name = match["name"]
         return lambda value: value(name) != 0.0

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.machine.setup.file import load_setup, parse_setup
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from pathlib import Path
+
+#: The values of a setup file.
+Document: TypeAlias = "dict[object, object]"
 
 
 def is_writable(path: Path) -> bool:
@@ -15,7 +19,7 @@ def is_writable(path: Path) -> bool:
     return path.suffix.lower() != ".toml"
 
 
-def read_document(path: Path) -> dict[Any, Any]:
+def read_document(path: Path) -> Document:
     """The values of a setup file; none where there is no file yet.
 
     Raises:
@@ -30,7 +34,7 @@ def read_document(path: Path) -> dict[Any, Any]:
     return found if isinstance(found, dict) else {}
 
 
-def document_text(document: dict[Any, Any], source: str) -> str:
+def document_text(document: Document, source: str) -> str:
     """The text of a setup file with these values.
 
     Raises:
@@ -43,11 +47,12 @@ def document_text(document: dict[Any, Any], source: str) -> str:
     return content
 
 
-def merge(into: dict[Any, Any], values: dict[Any, Any]) -> None:
+def merge(into: Document, values: Mapping[str, object] | Document) -> None:
     """Put values into a document, table by table; a key counts by its text (`1` and `"1"` are one)."""
     for key, value in values.items():
         present = next((old for old in into if str(old) == str(key)), key)
-        if isinstance(value, dict) and isinstance(into.get(present), dict):
-            merge(into[present], value)
+        below = into.get(present)
+        if isinstance(value, dict) and isinstance(below, dict):
+            merge(below, value)
         else:
             into[present] = value

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 K = TypeVar("K")
 Where = tuple[Key, ...]
-Reader = Callable[[Where, Any], Any]
+Reader = Callable[[Where, object], Any]
 _LAST_SKIP_LEVEL = 9
 #: Names of work offsets on all controls: G54 to G59, G59.1 …, G54.1 P1 (G54 P1), G500, G505 …, and the external one.
 _WORK_OFFSET = re.compile(r"EXT|G5[4-9](\.\d)?( ?P\d+)?|G5\d\d")
@@ -201,12 +201,12 @@ def _items(where: Where, value: object) -> Iterable[tuple[Key, object]]:
 
 
 def _map_of(
-    read_key: Callable[[Where], K], read: Callable[[Where, Any], T], where: Where, value: object
+    read_key: Callable[[Where], K], read: Callable[[Where, object], T], where: Where, value: object
 ) -> dict[K, T]:
     return {read_key((*where, key)): read((*where, key), element) for key, element in _items(where, value)}
 
 
-def _list_of(read: Callable[[Where, Any], T], where: Where, value: object) -> tuple[T, ...]:
+def _list_of(read: Callable[[Where, object], T], where: Where, value: object) -> tuple[T, ...]:
     if not isinstance(value, list | tuple):
         _bad(where, "needs-list", value)
     return tuple(read((*where, number), element) for number, element in enumerate(value))

@@ -1,0 +1,145 @@
+"""The keys of a machine file as a type checker sees them, once `schema` has taken them and bases are laid under.
+
+For types only: `schema` holds the same keys with their ranges, and a test holds the two together.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, NotRequired, TypeAlias, TypedDict
+
+from polycnc.machine.model import Carries, Timing
+from polycnc.machine.rules import Latch
+
+AxisKind = Literal["linear", "rotary"]
+#: In one language, or a text for each.
+TextData: TypeAlias = "str | LanguagesData"
+LanguagesData = TypedDict("LanguagesData", {"en": str, "zh-TW": NotRequired[str]})
+
+
+class DynamicsData(TypedDict, total=False):
+    """Speeds and accelerations of an axis, or the defaults of a kind."""
+
+    rapid: float
+    max_feed: float
+    acceleration: float
+    jerk: float
+    in_position_fine: float
+    in_position_coarse: float
+
+
+class DefaultsData(TypedDict, total=False):
+    """`[defaults]`."""
+
+    linear: DynamicsData
+    rotary: DynamicsData
+
+
+class AxisData(DynamicsData, total=False):
+    """`[axis.NAME]`."""
+
+    kind: AxisKind
+    modulo: bool
+    diameter: bool
+    parallel_to: str
+    aliases: list[str]
+    machine_name: str
+    limit_minus: float
+    limit_plus: float
+    reference_points: list[float]
+
+
+class ChannelData(TypedDict, total=False):
+    """`[channel.NUMBER]`."""
+
+    axes: list[str]
+    names: list[str]
+    geometry: dict[str, str]
+    virtual: list[str]
+    spindles: list[int]
+
+
+class GearData(TypedDict):
+    """One entry of `gears`."""
+
+    min_rpm: float
+    max_rpm: float
+
+
+class SpindleData(TypedDict, total=False):
+    """`[spindle.NUMBER]`."""
+
+    name: str
+    min_rpm: float
+    max_rpm: float
+    acceleration: float
+    orient_s: float
+    carries: Carries
+    axis: str
+    gears: list[GearData]
+
+
+class MagazineData(TypedDict, total=False):
+    """`[magazine]`."""
+
+    kind: Literal["magazine", "turret"]
+    places: int
+    change_time_s: float
+    change_at: dict[str, list[int]]
+
+
+class MFunctionData(TypedDict, total=False):
+    """`[m_function.CODE]`."""
+
+    name: TextData
+    seconds: float
+    timing: Timing
+
+
+class JointData(TypedDict):
+    """`[[joint]]`."""
+
+    axis: str
+    carries: Carries
+    direction: list[float]
+    offset: NotRequired[list[float]]
+
+
+class SolidData(TypedDict):
+    """`[[solid]]`."""
+
+    name: TextData
+    role: Literal["table", "chuck", "tailstock", "fixture", "head", "guard"]
+    shape: Literal["box", "cylinder"]
+    position: list[float]
+    size: list[float]
+    direction: NotRequired[list[float]]
+    moves_with: str
+
+
+class RuleData(TypedDict):
+    """`[[rule]]`."""
+
+    when: str
+    output: str
+    after_s: NotRequired[float]
+    latch: NotRequired[Latch]
+
+
+class MachineData(TypedDict, total=False):
+    """A whole file."""
+
+    base: str
+    name: TextData
+    description: TextData
+    interpolation_cycle_s: float
+    settle_fine_s: float
+    settle_coarse_s: float
+    defaults: DefaultsData
+    channel: dict[str, ChannelData]
+    axis: dict[str, AxisData]
+    spindle: dict[str, SpindleData]
+    magazine: MagazineData
+    m_function: dict[str, MFunctionData]
+    joint: list[JointData]
+    solid: list[SolidData]
+    rule: list[RuleData]
