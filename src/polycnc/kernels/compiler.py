@@ -8,12 +8,15 @@ from __future__ import annotations
 
 import re
 from types import FunctionType, ModuleType
-from typing import TYPE_CHECKING, Any, get_type_hints
+from typing import TYPE_CHECKING, cast, get_type_hints
 
 from polycnc.kernels.layout import Argument, Kind, Places, arguments, flat
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+
+    from llvmlite.binding import ModuleRef, TargetMachine
+    from numba.types import Signature, Type
 
 #: Helpers of the wrappers that Numba lays round a function. None is called here: nothing raises, no array is owned.
 _HELPERS = re.compile(
@@ -56,7 +59,7 @@ def object_code(
     return _optimised(whole, {kernel.__name__ for kernel in kernels})
 
 
-def _optimised(module: Any, entries: set[str]) -> bytes:
+def _optimised(module: ModuleRef, entries: set[str]) -> bytes:
     """Object code of a whole module. Seen as a whole, no function raises: what would tell Python of it goes."""
     from llvmlite import binding
 
@@ -70,11 +73,10 @@ def _optimised(module: Any, entries: set[str]) -> bytes:
     if raising:
         msg = f"a kernel can raise: its code needs {', '.join(raising)}"
         raise TypeError(msg)
-    code: bytes = target.emit_object(module)
-    return code
+    return target.emit_object(module)
 
 
-def machine() -> Any:
+def machine() -> TargetMachine:
     """What llvmlite makes code for: this processor."""
     from llvmlite import binding
 
@@ -91,7 +93,7 @@ def _compiled(modules: Sequence[ModuleType], *, inline: bool) -> dict[str, Calla
     """Copies of the functions of modules, for Numba. They see each other, not the plain ones."""
     from numba import njit
 
-    scopes = [dict(vars(module)) for module in modules]
+    scopes: list[dict[str, object]] = [dict(vars(module)) for module in modules]
     functions: dict[str, Callable[..., object]] = {}
     for scope in scopes:
         for name, value in scope.items():
@@ -114,17 +116,17 @@ def _constants(places: type[Places]) -> ModuleType:
     return module
 
 
-def _signature(kernel: Callable[..., object]) -> Any:
+def _signature(kernel: Callable[..., object]) -> Signature:
     from numba import from_dtype, types
     from numpy import dtype
 
     items = {"B": types.uint8, "i": types.int32, "I": types.uint32, "q": types.int64, "d": types.float64}
-    taken: list[Any] = []
+    taken: list[Type] = []
     for argument in flat(arguments(kernel)):
         if argument.kind is Kind.ARRAY:
-            taken += [types.CPointer(items[argument.code]), types.int64]  # type: ignore[no-untyped-call]
+            taken += [types.CPointer(items[argument.code]), types.int64]
         elif argument.kind is Kind.RECORD:
-            taken.append(types.CPointer(from_dtype(dtype(argument.type))))  # type: ignore[no-untyped-call]
+            taken.append(types.CPointer(from_dtype(dtype(argument.type))))
         else:
             taken.append(types.int64 if argument.kind is Kind.INTEGER else types.float64)
     return types.int64(*taken)
@@ -132,9 +134,9 @@ def _signature(kernel: Callable[..., object]) -> Any:
 
 def _entry(compiled: Callable[..., object], kernel: Callable[..., object]) -> Callable[..., int]:
     """The function that takes addresses and lengths, and gives a whole number: 0 where the kernel gives nothing."""
-    from numba import carray  # type: ignore[attr-defined]
+    from numba import carray
 
-    scope: dict[str, Any] = {"carray": carray, "kernel": compiled}
+    scope: dict[str, object] = {"carray": carray, "kernel": compiled}
     names: list[str] = []
     given = ", ".join(_given(argument, names, scope) for argument in arguments(kernel))
     call = (
@@ -144,11 +146,10 @@ def _entry(compiled: Callable[..., object], kernel: Callable[..., object]) -> Ca
     )
     source = f"def entry({', '.join(names)}):\n    {call}\n"
     exec(source, scope)  # Numba compiles functions with a fixed number of arguments only
-    entry: Callable[..., int] = scope["entry"]
-    return entry
+    return cast("Callable[..., int]", scope["entry"])
 
 
-def _given(argument: Argument, names: list[str], scope: dict[str, Any]) -> str:
+def _given(argument: Argument, names: list[str], scope: dict[str, object]) -> str:
     """An expression for an argument of a kernel; adds the names of what it is made of."""
     if argument.kind is Kind.GROUP:
         assert argument.type is not None

@@ -16,8 +16,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from llvmlite.binding import ExecutionEngine
-
 _DIGEST_BYTES = 16
 
 
@@ -73,7 +71,7 @@ class Loaded:
         engine = binding.create_mcjit_compiler(binding.parse_assembly(""), machine())
         engine.add_object_file(binding.ObjectFileRef.from_data(code))
         engine.finalize_object()
-        self._engine: ExecutionEngine = engine  # owns the machine code
+        self._engine = engine  # owns the machine code
 
     def function(self, name: str, types: Sequence[type]) -> Callable[..., int]:
         """An entry that takes values of ctypes and gives a whole number."""
