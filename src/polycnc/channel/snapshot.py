@@ -72,15 +72,16 @@ class Snapshot:
 
     Args:
         root: What is followed: a channel, a group, or what runs them.
+        beside: Objects that it leaves alone, with all that only they refer to.
 
     Raises:
         SnapshotError: Something is running that cannot be noted.
     """
 
-    def __init__(self, root: object) -> None:
+    def __init__(self, root: object, beside: Iterable[object] = ()) -> None:
         self._undo: list[Undo] = []
         atoms, walkers, undo = _ATOMS, _WALKERS, self._undo
-        seen: dict[int, object] = {}
+        seen: dict[int, object] = {id(thing): thing for thing in beside}
         ahead: list[object] = [root]
         while ahead:
             thing = ahead.pop()

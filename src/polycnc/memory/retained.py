@@ -12,6 +12,8 @@ from typing import Any, Protocol
 #: Names of tables. Keys and values are the control's own; lengths are millimetres, angles degrees.
 WORK_OFFSETS = "work offsets"
 VARIABLE_NAMES = "variable names"
+TOOL_OFFSETS = "tool offsets"
+WORK_SHIFT = "work shift"
 
 
 class RetainedStore(Protocol):

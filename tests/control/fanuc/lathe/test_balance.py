@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from polycnc.control.fanuc.lathe.balance import BalanceState
 from polycnc.session import Result, open_session
 
 
@@ -42,4 +43,4 @@ def test_a_reset_ends_balance_cutting() -> None:
     assert result.channel.mode["turret_mirror"] == "G68"
     result.control.reset(result.channel)
     assert result.channel.mode["turret_mirror"] == "G69"
-    assert not result.channel.memory.balanced
+    assert not BalanceState.of(result.channel).paths

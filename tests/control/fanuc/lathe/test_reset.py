@@ -8,6 +8,7 @@ import pytest
 
 from polycnc.compensation import CutterCompensation
 from polycnc.control import registry
+from polycnc.control.fanuc.lathe.cycles.modal import SingleCycleState
 from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.program.program import Program
 from tests.control.fanuc.lathe.support import moves, run
@@ -48,7 +49,7 @@ def test_the_reset_state_keeps_modal_codes() -> None:
 def test_a_single_cycle_leaves_g01(parameters: dict[str, int], motion: str) -> None:
     result = after_reset("G0 X60. Z5.\nG90 X50. Z-20. F.2", parameters=parameters)
     assert codes(result, "motion") == [motion]
-    assert result.channel.memory.single_cycle == {}
+    assert not SingleCycleState.of(result.channel).has_words
 
 
 @pytest.mark.parametrize(("lvc", "tgc", "display"), [(0, 0, 40.0), (1, 0, 40.5), (0, 1, 50.0), (1, 1, 50.5)])

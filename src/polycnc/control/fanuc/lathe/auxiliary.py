@@ -6,6 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe.cycles import grinding
+from polycnc.control.fanuc.lathe.motion.drawing import DrawingState
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block.plan import NOT_YET
 from polycnc.language.bulk import Note, declare, declared
@@ -28,7 +29,7 @@ def dwell(channel: LatheChannel, words: Words) -> None:
 
     Behind a line whose end lies in the next block (II.4.9) it waits for that line.
     """
-    line = channel.memory.open_line
+    line = DrawingState.of(channel).open_line
     if line is None:
         _dwell(channel, words)
     else:

@@ -7,8 +7,10 @@ A path without a program is not waited for: so the program of one turret can be 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.fanuc.lathe.cycles.single import CYCLES
 
 if TYPE_CHECKING:
@@ -23,6 +25,13 @@ GROUP = "turret_mirror"
 #: Wait marks: where the paths switch balance cutting on and off, and where they cut.
 ON, OFF, CUT = 68, 69, 1
 RAPID, LINE = "G0", "G1"
+
+
+@dataclass(slots=True)
+class BalanceState(State, lifetime=Lifetime.RESET):
+    """The paths that cut together; none where this one cuts by itself."""
+
+    paths: frozenset[int] = frozenset()
 
 
 def is_available(channel: LatheChannel) -> bool:
@@ -48,18 +57,18 @@ def start_paths(channel: LatheChannel) -> None:
 def begin(channel: LatheChannel, words: Words) -> None:
     """G68 [P]: wait for G68 of the other paths; from here on they cut together. Without P: paths 1 and 2."""
     _check_alone(words, "P")
-    memory = channel.memory
-    if memory.balanced:
+    state = BalanceState.of(channel)
+    if state.paths:
         return
-    memory.balanced = _paths(channel, words)
-    _meet(channel, ON, memory.balanced)
+    state.paths = _paths(channel, words)
+    _meet(channel, ON, state.paths)
 
 
 def end(channel: LatheChannel, words: Words) -> None:
     """G69: wait for G69 of the other paths; every path cuts by itself again."""
     _check_alone(words, "")
-    memory = channel.memory
-    paths, memory.balanced = memory.balanced, frozenset()
+    state = BalanceState.of(channel)
+    paths, state.paths = state.paths, frozenset()
     if paths:
         _meet(channel, OFF, paths)
 
@@ -76,7 +85,7 @@ def together(builder: Builder, plan: Plan, move: Step | None) -> Step | None:
         before = list(channel.coordinates.position)
         move(channel, values)
         if motion != LINE or channel.coordinates.position != before:
-            _meet(channel, CUT, channel.memory.balanced)
+            _meet(channel, CUT, BalanceState.of(channel).paths)
 
     return cut
 

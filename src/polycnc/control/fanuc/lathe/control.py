@@ -18,7 +18,15 @@ from polycnc.control.fanuc.lathe.codes import (
     written_codes,
 )
 from polycnc.control.fanuc.lathe.coordinates import limits, systems
-from polycnc.control.fanuc.lathe.cycles import drilling, intervention, repetitive, shape, single, tapping
+from polycnc.control.fanuc.lathe.cycles import (
+    drilling,
+    intervention,
+    modal,
+    repetitive,
+    shape,
+    single,
+    tapping,
+)
 from polycnc.control.fanuc.lathe.memory import TurningMemory
 from polycnc.control.fanuc.lathe.motion import drawing, threads
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
@@ -151,7 +159,7 @@ class FanucTurning(CustomMacroControl):
         shown = [channel.memory.radius_of(i, value) for i, value in enumerate(machine)]
         channel.coordinates.arrive_machine(shown)
         limits.at_power_on(channel)
-        channel.memory.feed_code, channel.memory.plane = channel.mode["feed"], channel.mode["plane"]
+        systems.note_codes(channel)
         balance.start_paths(channel)
 
     def begin(self, channel: LatheChannel) -> None:
@@ -165,7 +173,10 @@ class FanucTurning(CustomMacroControl):
 
     def halts(self, channel: LatheChannel, level: Level, step: ProgramStep) -> bool:
         """Single block halts behind the first block that is no thread (II.3.1)."""
-        if channel.memory.thread_step == level.current and channel.mode["motion"] in offsets.THREADS:
+        if (
+            threads.ThreadState.of(channel).step == level.current
+            and channel.mode["motion"] in offsets.THREADS
+        ):
             return False
         return super().halts(channel, level, step)
 
@@ -243,7 +254,7 @@ class FanucTurning(CustomMacroControl):
 
     def check_nesting(self, channel: LatheChannel, kind: str) -> None:
         """As everywhere; the shape that G70 runs calls no program at all (II.4.2.8)."""
-        if channel.level.kind == nose_radius.SHAPE_KIND:
+        if channel.level.kind == modal.SHAPE_KIND:
             raise self.fail("shape_command", address="P")
         super().check_nesting(channel, kind)
 
@@ -296,7 +307,7 @@ class FanucTurning(CustomMacroControl):
 
     def end_of_program(self, channel: LatheChannel) -> None:
         """The shape of G70 ends with its last block; every other text as usual."""
-        if channel.level.kind == nose_radius.SHAPE_KIND:
+        if channel.level.kind == modal.SHAPE_KIND:
             repetitive.end_of_shape(channel)
         else:
             super().end_of_program(channel)
@@ -351,7 +362,7 @@ class FanucTurning(CustomMacroControl):
         called = code_calls.m_row(builder, number)
         if called is not None:
             return called
-        if builder.mode.codes.get(shape.GROUP) == shape.READING and number not in PROGRAM_M:
+        if builder.mode.codes.get(modal.GROUP) == modal.READING and number not in PROGRAM_M:
             return MCode(number, silent=True)
         return interruption.m_code(builder.channel, number) or self.m_code(number)
 

@@ -1,9 +1,8 @@
-"""The memory of the lathe control: tool offsets of turning tools, shifts, and what cycles keep."""
+"""The memory of the lathe control: its programming frames and what parameters say of its axes."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.macro_b.parameter_input import set_parameter
 from polycnc.control.word_address.macro_b.variables import MacroMemory
@@ -11,35 +10,11 @@ from polycnc.control.word_address.memory import ProgrammingFrames
 from polycnc.geometry.frames import IDENTITY, Frame, scaling, translation
 
 if TYPE_CHECKING:
-    from polycnc.channel.interface import Zone
-    from polycnc.control.fanuc.lathe.cycles.shape import Shape
-    from polycnc.control.fanuc.lathe.family import LatheChannel
-    from polycnc.control.fanuc.lathe.motion.drawing import OpenLine
+    from polycnc.channel.channel import Channel
     from polycnc.control.fanuc.lathe.parameters import LatheParameters
     from polycnc.control.parameters import Parameter
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.control.word_address.macro_b.variables import Registry
-    from polycnc.machine.setup.values import Offsets, Tool
-
-
-@dataclass(slots=True)
-class TurningOffset:
-    """One number of the offset memory; by axis name, mm, X as radius (0i-TF Plus II.5.1).
-
-    Attributes:
-        geometry: Geometry offset.
-        wear: Wear offset; the common offset where geometry and wear are not separate (8136#6).
-        second: Second geometry offset (II.5.1.4).
-        radius: Nose radius by geometry; `radius_wear` by wear.
-        tip: Imaginary tip number, one for geometry and wear.
-    """
-
-    geometry: dict[str, float] = field(default_factory=dict)
-    wear: dict[str, float] = field(default_factory=dict)
-    second: dict[str, float] = field(default_factory=dict)
-    radius: float = 0.0
-    radius_wear: float = 0.0
-    tip: int = 0
 
 
 class TurningFrames(ProgrammingFrames):
@@ -76,71 +51,13 @@ class TurningFrames(ProgrammingFrames):
 
 
 class TurningMemory(MacroMemory):
-    """State of a lathe control.
-
-    Attributes:
-        offsets: Tool offsets by number.
-        offset_number_active: Number of the active offset, 0 for none; `geometry_number` the same for geometry.
-        tool_shift: Part of the active offset that shifts the coordinate system, by axis; `geometry_shift` the
-            part of it that is geometry.
-        work_shift: Shift of all work coordinate systems (G10 P0, work shift screen).
-        tool_word: T as it was written last, turret position and offset number in one.
-        feed_code: G98 or G99 under which F was given.
-        single_cycle: Modal words of G90, G92, G94.
-        grinding: Modal words of grinding cycles.
-        thread_depths: P and Q of the last thread of G76, mm.
-        clamp: M code that clamps the C axis in drilling cycles, 0 for none.
-        thread_step: Step of the last block that cut a thread.
-        thread_lock: What a thread, or the way off it, keeps from the operator.
-        thread_held: The feed hold that a setup presses in a thread has come.
-        thread_retracts: A thread runs along an axis of G10.6.
-        retract_axes: Axes on which G10.6 wants the tool to retract.
-        plane: Plane code given last.
-        open_line: Line of drawing dimensions that waits for the next block.
-        rotation_angle: Angle of the last G68.1, degrees.
-        increment_limits: Largest increment of axes (G91.1).
-        balanced: Paths that cut together (G68 on a machine of several paths).
-        zone: Forbidden zone of G22, or the barrier.
-        programmed_zone: The zone that the words of the last G22 have stored.
-        reading_shape: Blocks are read for their shape only: T, S, M do nothing.
-        shape: What has been read of it.
-    """
+    """State of a lathe control that no single feature owns."""
 
     parameters: LatheParameters
 
-    def __init__(self, channel: LatheChannel, registry: Registry) -> None:
+    def __init__(self, channel: Channel, registry: Registry) -> None:
         super().__init__(channel, registry)
-        count = len(channel.axes)
-        self.frames: TurningFrames = TurningFrames(count, channel.coordinates.geometry)
-        self.tool_shift = [0.0] * count
-        self.geometry_shift = [0.0] * count
-        self.work_shift = [0.0] * count
-        self.common_offsets = self.parameters.NGW
-        self.offsets: dict[int, TurningOffset] = {}
-        for number, tool in channel.setup.tools.items():
-            if isinstance(number, int) or str(number).isdigit():
-                self.offsets[int(number)] = self._from_setup(channel, tool)
-        self.tool_word = 0
-        self.offset_active = 0
-        self.geometry_active = 0
-        self.feed_code = ""
-        self.grinding: dict[str, float] = {}
-        self.single_cycle: dict[Any, Any] = {}
-        self.thread_depths: dict[str, float] = {}
-        self.clamp = 0
-        self.rotation_angle = 0.0
-        self.open_line: OpenLine | None = None
-        self.thread_step = -1
-        self.thread_lock = ""
-        self.thread_held = self.thread_retracts = False
-        self.retract_axes: frozenset[int] = frozenset()
-        self.plane = ""
-        self.increment_limits: dict[int, float] = {}
-        self.balanced: frozenset[int] = frozenset()
-        self.zone: Zone | None = None
-        self.programmed_zone: Zone | None = None
-        self.reading_shape = False
-        self.shape: Shape | None = None
+        self.frames: TurningFrames = TurningFrames(len(channel.axes), channel.coordinates.geometry)
 
     def from_setup(self, channel: WordAddressChannel, shown: list[float]) -> list[float]:
         """Offsets as radii, where the setup says diameters."""
@@ -159,40 +76,7 @@ class TurningMemory(MacroMemory):
         internal: float = self.channel.control.from_display(self.channel, axis, shown)
         return internal
 
-    @property
-    def y_offset_axis(self) -> int:
-        """The axis that has the Y offset: Y, or any other by 5043 (II.5.1.6.1); -1 for none."""
-        number = self.parameters.y_offset_axis
-        return number - 1 if 1 <= number <= len(self.channel.axes) else self.channel.axis_index.get("Y", -1)
-
-    def offset_of(self, axis: int, shown: float) -> float:
-        """A tool offset of the screens, in mm: with 5004#1 ORC a radius value also where the axis has diameters."""
-        return shown if self.parameters.ORC else self.radius_of(axis, shown)
-
-    def _from_setup(self, channel: LatheChannel, tool: Tool) -> TurningOffset:
-        def vector(values: Offsets | Tool) -> dict[str, float]:
-            named = {"X": values.x, "Y": values.y, "Z": values.z, **values.axes}
-            index = dict(channel.axis_index)
-            if self.y_offset_axis >= 0:
-                index["Y"] = self.y_offset_axis
-            halved = (
-                set()
-                if self.parameters.ORC
-                else {k for k, i in index.items() if self.has_diameter(channel, i)}
-            )
-            return {k: v / 2.0 if k in halved else v for k, v in named.items() if v}
-
-        if self.common_offsets:
-            return TurningOffset(wear=vector(tool), radius_wear=tool.radius, tip=tool.tip)
-        return TurningOffset(
-            vector(tool), vector(tool.wear), vector(tool.geom2), tool.radius, tool.wear.radius, tool.tip
-        )
-
     def set_cycle_parameter(self, parameter: Parameter[float], value: float) -> None:
         """What the first block of a turning cycle says, a parameter from then on (II.4.2.1 to 4.2.7)."""
         if value != self.parameters.value(parameter):
             set_parameter(self.channel, parameter.key, value, keeps_plans=True)
-
-    def turning_offset(self, number: int) -> TurningOffset:
-        """An offset number; zero until it is set."""
-        return self.offsets.setdefault(number, TurningOffset())

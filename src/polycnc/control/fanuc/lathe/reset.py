@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, end_of
 from polycnc.control.fanuc.lathe import balance
-from polycnc.control.fanuc.lathe.coordinates import limits
+from polycnc.control.fanuc.lathe.balance import BalanceState
+from polycnc.control.fanuc.lathe.coordinates import limits, systems
 from polycnc.control.fanuc.lathe.cycles import single
+from polycnc.control.fanuc.lathe.cycles.tapping import ClampState
 from polycnc.control.fanuc.lathe.tools import offsets
+from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
 from polycnc.control.word_address.cycles.drilling import CycleState
-from polycnc.control.word_address.macro_b.macro_calls import ModalCallState
 from polycnc.control.word_address.macro_b.variables import LOCALS
 from polycnc.control.word_address.transformations import cylinder, normal_line, polar_interpolation
 from polycnc.geometry.frames import IDENTITY
@@ -45,9 +48,9 @@ def reset(channel: LatheChannel) -> None:
     if before["motion"] in single.CYCLES and (not clears or parameters.C01):
         codes["motion"] = "G1"
     channel.mode = channel.modes.mode(codes)
-    _clear_memory(channel, clears=clears)
+    _end_states(channel, clears=clears)
     _cancel_offsets(channel, wear=parameters.LVC, geometry=parameters.TGC)
-    memory.plane = codes["plane"]
+    systems.CodeState.of(channel).plane = codes["plane"]
     offsets.refresh(channel)
     c.set_programming(memory.frames.product(), memory.frames.shift)
     c.pending = [0.0] * len(channel.axes)
@@ -57,24 +60,18 @@ def reset(channel: LatheChannel) -> None:
     channel.context_changed()
 
 
-def _clear_memory(channel: LatheChannel, *, clears: bool) -> None:
+def _end_states(channel: LatheChannel, *, clears: bool) -> None:
+    """What a reset ends; a drilling cycle that stays modal stays with its words."""
     memory = channel.memory
+    if BalanceState.of(channel).paths:
+        # Balance cutting always ends (II.7.1), whatever becomes of other modal codes.
+        channel.mode = channel.mode.with_code(balance.GROUP, "G69")
+    drills = channel.mode["cycle"] != "G80"
+    end_of(channel, Lifetime.RESET, kept=(CycleState, ClampState) if drills else ())
     memory.locals = [None] * LOCALS
-    ModalCallState.of(channel).calls = []
-    memory.single_cycle, memory.grinding = {}, {}
-    memory.open_line = memory.shape = None
     # G41 or G42 that stays modal waits for the next offset number (II.5.4.1).
     memory.side = memory.engaged_side = {"G41": 1, "G42": -1}.get(channel.mode["compensation"], 0)
     memory.d = 0
-    memory.reading_shape = False
-    memory.thread_lock, memory.thread_held, memory.thread_retracts = "", False, False
-    memory.retract_axes = frozenset()
-    if memory.balanced:
-        # Balance cutting always ends (II.7.1), whatever becomes of other modal codes.
-        memory.balanced = frozenset()
-        channel.mode = channel.mode.with_code(balance.GROUP, "G69")
-    if channel.mode["cycle"] == "G80":
-        CycleState.of(channel).data, memory.clamp = None, 0
     if clears:
         memory.wcs = "G54"
         memory.frames.rotation = memory.frames.mirror = memory.frames.turret = IDENTITY
@@ -85,11 +82,11 @@ def _clear_memory(channel: LatheChannel, *, clears: bool) -> None:
 
 def _cancel_offsets(channel: LatheChannel, *, wear: bool, geometry: bool) -> None:
     """5006#3 LVC ends movement and wear, 5003#7 TGC geometry that shifts."""
-    memory = channel.memory
+    memory, active = channel.memory, OffsetState.of(channel)
     if wear:
         memory.frames.offset = [0.0] * len(channel.axes)
-        memory.tool_shift = list(memory.geometry_shift)
-        memory.offset_active = memory.d = 0
+        active.shift = list(active.geometry_shift)
+        active.number = memory.d = 0
     if geometry and not memory.parameters.LGT:
-        memory.tool_shift = [s - g for s, g in zip(memory.tool_shift, memory.geometry_shift, strict=True)]
-        memory.geometry_shift = [0.0] * len(channel.axes)
+        active.shift = [s - g for s, g in zip(active.shift, active.geometry_shift, strict=True)]
+        active.geometry_shift = [0.0] * len(channel.axes)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.fanuc.lathe.tools.offsets import offset_changed, refresh
+from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
+from polycnc.control.fanuc.lathe.tools.offsets import OffsetState, offset_changed, refresh
 from polycnc.control.fanuc.system_variables import (
     COMMON_VARIABLES,
     axis_at,
@@ -47,13 +48,13 @@ def _offset(memory: str, name: str) -> tuple[Read, Write]:
     """Offset along an axis, geometry or wear."""
 
     def read(m: TurningMemory, i: int) -> float:
-        values = getattr(m.turning_offset(i + 1), memory)
+        values = getattr(OffsetMemory.of(m.channel).at(i + 1), memory)
         value: float = values.get(name, 0.0)
         axis = m.channel.axis_index.get(name)
         return m.to_program_unit(value) if axis is None or m.parameters.ORC else _shown(m, axis, value)
 
     def write(m: TurningMemory, i: int, value: float | None, _text: str) -> None:
-        values = getattr(m.turning_offset(i + 1), memory)
+        values = getattr(OffsetMemory.of(m.channel).at(i + 1), memory)
         axis = m.channel.axis_index.get(name)
         if axis is None or m.parameters.ORC:
             values[name] = m.from_program_unit(value)
@@ -68,20 +69,20 @@ def _nose(field: str) -> tuple[Read, Write]:
     """Nose radius."""
 
     def read(m: TurningMemory, i: int) -> float:
-        return m.to_program_unit(getattr(m.turning_offset(i + 1), field))
+        return m.to_program_unit(getattr(OffsetMemory.of(m.channel).at(i + 1), field))
 
     def write(m: TurningMemory, i: int, value: float | None, _text: str) -> None:
-        setattr(m.turning_offset(i + 1), field, m.from_program_unit(value))
+        setattr(OffsetMemory.of(m.channel).at(i + 1), field, m.from_program_unit(value))
 
     return read, write
 
 
 def _tip() -> tuple[Read, Write]:
     def read(m: TurningMemory, i: int) -> float:
-        return float(m.turning_offset(i + 1).tip)
+        return float(OffsetMemory.of(m.channel).at(i + 1).tip)
 
     def write(m: TurningMemory, i: int, value: float | None, _text: str) -> None:
-        m.turning_offset(i + 1).tip = int(value or 0)
+        OffsetMemory.of(m.channel).at(i + 1).tip = int(value or 0)
 
     return read, write
 
@@ -115,11 +116,11 @@ def _rows_tools() -> list[SystemRange]:
 def _work_shift(name: str) -> tuple[Read, Write]:
     def read(m: TurningMemory, _i: int) -> float:
         axis = m.channel.axis_index[name]
-        return _shown(m, axis, m.work_shift[axis])
+        return _shown(m, axis, OffsetMemory.of(m.channel).work_shift[axis])
 
     def write(m: TurningMemory, _i: int, value: float | None, _text: str) -> None:
         axis = m.channel.axis_index[name]
-        m.work_shift[axis] = _taken(m, axis, value)
+        OffsetMemory.of(m.channel).work_shift[axis] = _taken(m, axis, value)
         refresh(m.channel)
 
     return read, write
@@ -167,8 +168,8 @@ def _skip(m: TurningMemory, i: int) -> float:
 
 
 def _offset_in_force(m: TurningMemory, i: int) -> float:
-    memory = m
-    return _shown(m, axis_at(m, i), memory.tool_shift[i] + memory.frames.offset[i])
+    shift = OffsetState.of(m.channel).shift
+    return _shown(m, axis_at(m, i), shift[i] + m.frames.offset[i])
 
 
 # ---- modal information -------------------------------------------------------------------------------------------
@@ -183,7 +184,7 @@ def _modal(group: str) -> Read:
 
 
 def _rows_modal(first: int) -> list[SystemRange]:
-    words: dict[int, Read] = {120: lambda m, _i: float(m.tool_word)}
+    words: dict[int, Read] = {120: lambda m, _i: float(OffsetState.of(m.channel).tool_word)}
     return modal_rows(first, {n: _modal(group) for n, group in GROUPS.items()}, words)
 
 

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from polycnc.control.data_files import DataFileError
 from polycnc.control.fanuc.lathe.tools import files
+from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from tests.control.fanuc.lathe.support import run
 
 FIVE_AXES = {"machine": "lathe-yab", "parameters": {"5044": 4, "5045": 5, "11400#1": 1, "5024": 2}}
@@ -65,7 +66,7 @@ def test_without_a_number_of_sets_there_are_the_standard_ones() -> None:
 def test_a_file_overwrites_what_it_names_and_nothing_else() -> None:
     lathe = channel(tools={1: TOOL})
     taken = files.read(lathe, "%\nG10 P01 Z2.5 ;\nG10 P10001 R1.2\nG10 P20001 X4.\n%\n")
-    offset = lathe.memory.turning_offset(1)
+    offset = OffsetMemory.of(lathe).at(1)
     assert (offset.wear["X"], offset.wear["Z"]) == (0.625, 2.5)
     assert (offset.geometry["X"], offset.radius, offset.tip, offset.second["X"]) == (4.84, 1.2, 3, 2.0)
     assert (taken.blocks, sorted(taken.numbers), sorted(taken.systems)) == (3, [1], [])
@@ -84,10 +85,10 @@ def test_work_offsets_come_back_from_their_file() -> None:
 def test_least_increments_and_inches_are_understood() -> None:
     lathe = channel()
     files.read(lathe, "%\nG10 P1 Z1500\n%")
-    assert lathe.memory.turning_offset(1).wear["Z"] == 1.5
+    assert OffsetMemory.of(lathe).at(1).wear["Z"] == 1.5
     inch = run("G20\nM30").channel
     files.read(inch, "%\nG10 P1 Z1. X2.\n%")
-    assert inch.memory.turning_offset(1).wear == {"Z": 25.4, "X": 25.4}
+    assert OffsetMemory.of(inch).at(1).wear == {"Z": 25.4, "X": 25.4}
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from polycnc.control.fanuc.lathe.tools import screens
+from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.screens import Page, ScreenRefusal
 from polycnc.control.fanuc.lathe.tools.sensor import MeasuredInputB
 from tests.control.fanuc.lathe.support import run
@@ -24,7 +25,7 @@ def test_input_sets_and_plus_input_adds() -> None:
     screens.set_offset(lathe, Page.WEAR, 3, "X", 0.2)
     screens.add_offset(lathe, Page.WEAR, 3, "X", -0.05)
     assert screens.offset(lathe, Page.WEAR, 3, "X") == pytest.approx(0.15)
-    assert lathe.memory.turning_offset(3).wear["X"] == pytest.approx(0.075)
+    assert OffsetMemory.of(lathe).at(3).wear["X"] == pytest.approx(0.075)
 
 
 def test_the_tip_is_one_for_both_pages_and_the_radius_is_not() -> None:
@@ -43,7 +44,7 @@ def test_there_is_no_geometry_page_where_offsets_are_not_separate() -> None:
 def test_values_are_inches_while_the_control_reads_inches() -> None:
     lathe = channel("G20")
     screens.set_offset(lathe, Page.GEOMETRY, 1, "Z", 1.0)
-    assert lathe.memory.turning_offset(1).geometry["Z"] == 25.4
+    assert OffsetMemory.of(lathe).at(1).geometry["Z"] == 25.4
     assert screens.offset(lathe, Page.GEOMETRY, 1, "Z") == 1.0
 
 
@@ -87,7 +88,7 @@ def test_second_geometry_needs_go2() -> None:
     lathe = channel(parameters={"3290#5": 1}, machine="lathe-y")
     screens.set_offset(lathe, Page.SECOND, 1, "Y", 1.5)
     screens.add_offset(lathe, Page.SECOND, 1, "Y", 0.25)
-    assert lathe.memory.turning_offset(1).second == {"Y": 1.75}
+    assert OffsetMemory.of(lathe).at(1).second == {"Y": 1.75}
 
 
 # ---- measuring ----

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.fanuc.lathe.coordinates.barrier import barrier, is_described
 from polycnc.control.word_address.coordinates.stroke_check import StrokeZone
 
@@ -16,13 +17,26 @@ if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.words import Words
 
-#: Parameters of stored stroke checks 1, 2 and 3: upper and lower limits.
+
+@dataclass(slots=True)
+class LimitState(State, lifetime=Lifetime.POWER):
+    """What programs have forbidden.
+
+    Attributes:
+        zone: Forbidden zone of G22, or the barrier; None for none.
+        programmed_zone: The zone that the words of the last G22 have stored.
+        increments: Largest increment of axes by column, mm (G91.1).
+    """
+
+    zone: Zone | None = None
+    programmed_zone: Zone | None = None
+    increments: dict[int, float] = field(default_factory=dict)
 
 
 def at_power_on(channel: LatheChannel) -> None:
     """What parameters forbid before any program speaks."""
     if channel.mode["stroke"] == "G22":
-        channel.memory.zone = barrier(channel) or _zone_of_parameters(channel)
+        LimitState.of(channel).zone = barrier(channel) or _zone_of_parameters(channel)
     renew_zones(channel)
 
 
@@ -31,22 +45,22 @@ def stroke_check_on(channel: LatheChannel, words: Words) -> None:
 
     The zone stays stored: a G22 without words brings back the one of the last words.
     """
-    memory = channel.memory
-    memory.programmed_zone = _zone_of_words(channel, words) or memory.programmed_zone
+    state = LimitState.of(channel)
+    state.programmed_zone = _zone_of_words(channel, words) or state.programmed_zone
     # The barrier takes the place of stored stroke checks 2 and 3 (III.2.2).
-    memory.zone = barrier(channel) or memory.programmed_zone or _zone_of_parameters(channel)
+    state.zone = barrier(channel) or state.programmed_zone or _zone_of_parameters(channel)
     renew_zones(channel)
 
 
 def stroke_check_off(channel: LatheChannel, _words: Words) -> None:
     """G23: no forbidden zone."""
-    channel.memory.zone = None
+    LimitState.of(channel).zone = None
     renew_zones(channel)
 
 
 def limit_increment(channel: LatheChannel, words: Words) -> None:
     """G91.1: largest increment of each named axis in one block; 0 ends the check."""
-    limits = channel.memory.increment_limits
+    limits = LimitState.of(channel).increments
     for axis, value, _ in words.axes():
         limits[axis] = abs(value)
     for axis in [axis for axis, limit in limits.items() if not limit]:
@@ -56,15 +70,15 @@ def limit_increment(channel: LatheChannel, words: Words) -> None:
 
 def renew_zones(channel: LatheChannel) -> None:
     """Let the channel check every move against what is forbidden now."""
-    memory = channel.memory
+    state = LimitState.of(channel)
     travel = _travel(channel)
     zones: list[Zone] = []
-    if memory.increment_limits:
-        zones.append(IncrementCheck(dict(memory.increment_limits)))
+    if state.increments:
+        zones.append(IncrementCheck(dict(state.increments)))
     if travel:
         zones.append(TravelCheck(travel))
-    if memory.zone is not None:
-        zones.append(memory.zone)
+    if state.zone is not None:
+        zones.append(state.zone)
     inner = None if is_described(channel) else _zone_3(channel)
     if inner is not None:
         zones.append(inner)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import wraps
 from math import nan
 from typing import TYPE_CHECKING, TypeVar
 
+from polycnc.channel.state import Lifetime, State
+from polycnc.control.fanuc.lathe.cycles.modal import SingleCycleState
 from polycnc.control.fanuc.lathe.motion.corners import corner_waits
 from polycnc.control.fanuc.lathe.tools.offsets import refresh
 from polycnc.control.word_address.block import settled
@@ -24,6 +27,27 @@ if TYPE_CHECKING:
     from polycnc.geometry.frames import Frame
 
 T = TypeVar("T")
+
+
+@dataclass(slots=True)
+class CodeState(State, lifetime=Lifetime.POWER):
+    """The codes G98 or G99 and G17 to G19 that were given last, before the one that runs."""
+
+    feed: str = ""
+    plane: str = ""
+
+
+@dataclass(slots=True)
+class RotationState(State, lifetime=Lifetime.POWER):
+    """The angle of the last G68.1, degrees."""
+
+    angle: float = 0.0
+
+
+def note_codes(channel: LatheChannel) -> None:
+    """The codes of power-on count as given."""
+    state = CodeState.of(channel)
+    state.feed, state.plane = channel.mode["feed"], channel.mode["plane"]
 
 
 def set_position(channel: LatheChannel, words: Words) -> None:
@@ -151,9 +175,9 @@ def drop_vector(channel: LatheChannel) -> None:
 
 def keep_feed_number(channel: LatheChannel, words: Words) -> None:
     """G98, G99: the number of F stays as it is when its unit changes."""
-    memory = channel.memory
+    state = CodeState.of(channel)
     code = channel.mode["feed"]
-    before, memory.feed_code = memory.feed_code or code, code
+    before, state.feed = state.feed or code, code
     if "F" not in words and before != code:
         channel.feed = channel.feed * 60.0 if code == "G99" else channel.feed / 60.0
     channel.context_changed()
@@ -161,13 +185,13 @@ def keep_feed_number(channel: LatheChannel, words: Words) -> None:
 
 def _feed_is_settled(channel: LatheChannel) -> bool:
     """G98, G99: F has been typed under this code."""
-    return bool(channel.memory.feed_code == channel.mode["feed"])
+    return CodeState.of(channel).feed == channel.mode["feed"]
 
 
 def _plane_is_settled(channel: LatheChannel) -> bool:
     """G17 to G19: as on every control; no corner waits for its next block, and no single cycle has words."""
-    memory = channel.memory
-    unchanged = memory.plane == channel.mode["plane"] and not memory.single_cycle
+    same_plane = CodeState.of(channel).plane == channel.mode["plane"]
+    unchanged = same_plane and not SingleCycleState.of(channel).has_words
     return channel.path.head is None and unchanged and settled.plane(channel)
 
 
@@ -194,12 +218,12 @@ def feed_number(channel: LatheChannel) -> float:
 
 def select_plane(channel: LatheChannel, words: Words) -> None:
     """G17 to G19: the plane; an axis word names a parallel axis (1022) in place of the basic one."""
-    memory, code = channel.memory, channel.mode["plane"]
-    if memory.side and memory.plane != code:
+    state, code = CodeState.of(channel), channel.mode["plane"]
+    if channel.memory.side and state.plane != code:
         raise words.fail("comp_plane", code)
     _refuse_corner(channel, words, code)
-    memory.single_cycle.clear()  # also where the code changes nothing (II.4.1.6)
-    memory.plane = code
+    SingleCycleState.of(channel).forget()  # also where the code changes nothing (II.4.1.6)
+    state.plane = code
     planes.lay_axes(channel, words)
 
 
@@ -233,8 +257,8 @@ def rotate(channel: LatheChannel, words: Words) -> None:
         # FRD: without a decimal point R counts 0.00001 degrees.
         angle /= 100.0
     if "R" in words and channel.mode["distance"] == "G91" and memory.parameters.RIN:
-        angle += memory.rotation_angle
-    memory.rotation_angle = angle
+        angle += RotationState.of(channel).angle
+    RotationState.of(channel).angle = angle
     x, y, z = (center[i] if i >= 0 else 0.0 for i in c.geometry)
     parts.rotation = about((x, y, z), rotation(PLANES[channel.mode["plane"]][2], angle))
     # 11600#5 AX1 = 0: an axis that the next block does not name keeps the value that it had before the rotation.

@@ -261,7 +261,7 @@ def _dress(channel: LatheChannel, code: str, hole: Hole, strokes: Iterator[Strok
         strokes = lathe.with_extraction(strokes, hole, tapping.extraction(channel))
     else:
         strokes = lathe.overlapping(strokes, hole, _apart(channel))
-    clamp = channel.memory.clamp
+    clamp = tapping.ClampState.of(channel).code
     if clamp:
         seconds = channel.memory.parameters.unclamp_dwell / 1000.0
         strokes = lathe.clamped(strokes, clamp, _unclamp(channel, clamp), seconds)
@@ -307,6 +307,6 @@ def note_clamp(number: int) -> Handler:
     """The handler of a clamp code: it holds until the cycle ends."""
 
     def note(channel: LatheChannel, _words: Words) -> None:
-        channel.memory.clamp = number
+        tapping.ClampState.of(channel).code = number
 
     return note

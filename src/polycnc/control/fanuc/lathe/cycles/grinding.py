@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.code_calls import PROGRAM_M
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
+from polycnc.control.fanuc.lathe.cycles.modal import GrindingState
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.motion.skip import signal_position
@@ -64,7 +65,7 @@ def plan_grinding(builder: Builder, plan: Plan) -> Step | None:
         words = {
             a: _value(builder, a, form, values[slot], infeed, along) for a, (slot, form) in slots.items()
         }
-        data: dict[str, float] = channel.memory.grinding
+        data = GrindingState.of(channel).words
         data.update({a: v for a, v in words.items() if a not in once})
         if not data.get("W"):
             raise control.fail("grinding_axis", address="W")

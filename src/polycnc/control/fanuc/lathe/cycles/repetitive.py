@@ -14,9 +14,8 @@ from polycnc.channel.intervention import TYPED_IN
 from polycnc.channel.stack import Level
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes, set_rotation, without_rotation
 from polycnc.control.fanuc.lathe.cycles.drilling import is_series_15
+from polycnc.control.fanuc.lathe.cycles.modal import FINISHING, GROUP, SHAPE_KIND, ThreadDepthState
 from polycnc.control.fanuc.lathe.cycles.shape import (
-    FINISHING,
-    GROUP,
     Section,
     contour_of,
     end_finishing,
@@ -34,7 +33,6 @@ from polycnc.control.fanuc.lathe.cycles.strokes import (
 )
 from polycnc.control.fanuc.lathe.motion.threads import CHAMFERS, lead_in_force, refuse_corners, start_angle
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
-from polycnc.control.fanuc.lathe.tools.nose_radius import SHAPE_KIND
 from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.cycles.turning.contour import points, reversal, swapped, swapped_stroke
 from polycnc.cycles.turning.pattern import repeat_pattern as pattern_strokes
@@ -523,7 +521,7 @@ def _increments(words: Words, address: str) -> float:
 
 def _modal_depth(channel: LatheChannel, words: Words, address: str) -> float:
     """P or Q of G76; without the word that of the thread before (II.4.2.7 note 3)."""
-    kept: dict[str, float] = channel.memory.thread_depths
+    kept = ThreadDepthState.of(channel).depths
     if address in words:
         kept[address] = _increments(words, address)
     return kept.get(address, 0.0)

@@ -7,16 +7,19 @@ they reach the toolpath. Then everything is put back, and the cycle cuts along t
 
 from __future__ import annotations
 
-from copy import copy
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.path import Recorder
+from polycnc.channel.snapshot import Snapshot
+from polycnc.channel.state import Lifetime, State
 from polycnc.compensation import CutterCompensation, Plane
 from polycnc.control.fanuc.code_calls import PROGRAM_M
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
+from polycnc.control.fanuc.lathe.cycles.modal import FINISHING, GROUP, READING, SHAPE_KIND
 from polycnc.control.fanuc.lathe.motion.corners import corner_waits
-from polycnc.control.fanuc.lathe.tools.nose_radius import SHAPE_KIND
+from polycnc.control.fanuc.lathe.motion.drawing import DrawingState
+from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.offsets import nose_radius, nose_tip
 from polycnc.control.word_address.macro_b import interruption
 from polycnc.control.word_address.tools.radius import violation_codes
@@ -33,8 +36,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
 
-#: Group and codes of the modal state in which the blocks of a shape are read for a cycle, or run by G70.
-GROUP, READING, FINISHING = "shape", "reading", "finishing"
 MAX_SHAPE_BLOCKS = 10_000
 _INFEED_CODES = ("G0", "G1")
 _ALLOWED = frozenset({"G0", "G1", "G2", "G3"})
@@ -60,6 +61,13 @@ class Shape:
     first_ways: frozenset[int] = frozenset()
     first_code: str = ""
     end: int = 0
+
+
+@dataclass(slots=True)
+class ShapeState(State, lifetime=Lifetime.RESET):
+    """The shape that is being read; None for none."""
+
+    shape: Shape | None = None
 
 
 def is_within(builder: Builder) -> bool:
@@ -88,7 +96,7 @@ def plan_note(builder: Builder, plan: Plan) -> Step | None:
     code = codes[-1] if codes and codes[-1] in _INFEED_CODES else ""
 
     def note(channel: LatheChannel, _values: list[float]) -> None:
-        shape: Shape | None = channel.memory.shape
+        shape = ShapeState.of(channel).shape
         if shape is not None and shape.first_axes is None:
             shape.first_axes, shape.first_code = axes, code
             ends = channel.coordinates.programmed
@@ -120,16 +128,23 @@ def read_shape(channel: LatheChannel, first: int, last: int) -> Shape:
     code: Any = level.code
     begin, end = section_steps(channel, code, first, last)
     shape, recorder = Shape(start=channel.coordinates.programmed[:], end=end), Recorder()
-    kept = _Kept(channel)
-    channel.mode = channel.mode.with_code(GROUP, READING)
-    channel.memory.shape, channel.memory.reading_shape = shape, True
+    state = ShapeState.of(channel)
+    before = Snapshot(channel, beside=_not_put_back(channel))
+    channel.mode, state.shape = channel.mode.with_code(GROUP, READING), shape
     try:
         with channel.path.diverted(recorder):
             _run_blocks(channel, level, begin, end)
     finally:
-        kept.put_back(channel)
+        before.restore()
     shape.moves = [m for m in recorder.moves if m.kind is not Kind.DWELL and (m.center or m.start != m.end)]
     return shape
+
+
+def _not_put_back(channel: LatheChannel) -> tuple[object, ...]:
+    """What macro statements of a shape write stays: variables, offsets, outputs. No move reaches the toolpath."""
+    memory = channel.memory
+    variables = (memory.locals, memory.common, memory.more, memory.signals)
+    return (channel.toolpath, *variables, memory.work_offsets, OffsetMemory.of(channel))
 
 
 def _run_blocks(channel: LatheChannel, level: Level, begin: int, end: int) -> None:
@@ -154,51 +169,12 @@ def _run_blocks(channel: LatheChannel, level: Level, begin: int, end: int) -> No
 
 def refuse_open_end(channel: LatheChannel) -> None:
     """The last block of a shape may not need the next one for its corner or its end (II.4.7, 4.9)."""
-    line = channel.memory.open_line
-    channel.memory.open_line = None
+    state = DrawingState.of(channel)
+    line, state.open_line = state.open_line, None
     if line is not None:
         raise channel.control.fail("drawing_increment", address="Q")
     if corner_waits(channel):
         raise channel.control.fail("shape_ends_in_corner", address="Q")
-
-
-class _Kept:
-    """What reading must not change."""
-
-    def __init__(self, channel: LatheChannel) -> None:
-        c, memory, level = channel.coordinates, channel.memory, channel.level
-        self.mode, self.feed = channel.mode, channel.feed
-        self.position, self.programmed, self.pending = c.position, c.programmed, list(c.pending)
-        self.level, self.current, self.index, self.data = level, level.current, level.index, dict(level.data)
-        self.stack, self.finished, self.wait = list(channel.stack), channel.finished, channel.wait
-        self.memory = {name: copy(getattr(memory, name)) for name in _MEMORY_FIELDS}
-
-    def put_back(self, channel: LatheChannel) -> None:
-        c, level = channel.coordinates, self.level
-        channel.mode, channel.feed = self.mode, self.feed
-        c.position, c.programmed, c.pending = self.position, self.programmed, self.pending
-        channel.stack[:] = self.stack
-        channel.level = level
-        level.current, level.index = self.current, self.index
-        level.data.clear()
-        level.data.update(self.data)
-        channel.finished, channel.wait = self.finished, self.wait
-        for name, value in self.memory.items():
-            setattr(channel.memory, name, value)
-        channel.memory.reading_shape, channel.memory.shape = False, None
-        channel.context_changed()
-
-
-_MEMORY_FIELDS = (
-    "spindle_speed",
-    "spindle_direction",
-    "tool",
-    "next_tool",
-    "feed_code",
-    "side",
-    "d",
-    "single_cycle",
-)
 
 
 def contour_of(channel: LatheChannel, shape: Shape, *, as_written: bool = False) -> Contour:

@@ -8,9 +8,11 @@ from polycnc.control.fanuc.code_calls import PROGRAM_M
 from polycnc.control.fanuc.lathe.coordinates.systems import feed_number, plane_axes
 from polycnc.control.fanuc.lathe.cycles import grinding
 from polycnc.control.fanuc.lathe.cycles.drilling import is_series_15
+from polycnc.control.fanuc.lathe.cycles.modal import GrindingState, SingleCycleState
 from polycnc.control.fanuc.lathe.cycles.strokes import compensated_cycle, uncompensated_cycle
 from polycnc.control.fanuc.lathe.motion.threads import (
     CORNER_WORDS,
+    ThreadState,
     lead_in_force,
     plan_start_angle,
     refuse_corners,
@@ -56,18 +58,18 @@ def plan_single_cycle(builder: Builder, plan: Plan) -> Step | None:
     words = plan.axis_words
 
     def run(channel: LatheChannel, values: list[float]) -> None:
-        data = channel.memory.single_cycle
+        data = SingleCycleState.of(channel)
         axes = plane_axes(channel)
         for word in words:
             if word.axis not in axes:
                 raise channel.control.fail("cycle_axis", address=word.address)
             value = values[word.slot]
-            data[word.axis] = (word.convert(value) if word.convert else value, word.incremental)
+            data.ends[word.axis] = (word.convert(value) if word.convert else value, word.incremental)
         if taper_slot is not None:
-            data["taper"] = taper_of(values[taper_slot]) if taper_of else values[taper_slot]
+            data.taper = taper_of(values[taper_slot]) if taper_of else values[taper_slot]
         if inch_thread is not None:
             inch_thread(channel, values)
-        if not data:
+        if not data.has_words:
             return
         _run(channel, code, axes, 0.0 if angle_of is None else angle_of(channel, values))
 
@@ -75,20 +77,20 @@ def plan_single_cycle(builder: Builder, plan: Plan) -> Step | None:
 
 
 def _run(channel: LatheChannel, code: str, axes: tuple[int, int], angle: float) -> None:
-    data, c = channel.memory.single_cycle, channel.coordinates
-    if not channel.feed > 0.0 and "lead" not in data:
+    data, c = SingleCycleState.of(channel), channel.coordinates
+    if not channel.feed > 0.0 and data.lead is None:
         raise channel.control.fail("no_feed")
     corner_point = c.programmed[:]
     for axis in axes:
-        if axis in data:
-            value, incremental = data[axis]
+        if axis in data.ends:
+            value, incremental = data.ends[axis]
             corner_point[axis] = corner_point[axis] + value if incremental else value
     target = c.to_position(corner_point)
     start: Point = (c.position[axes[0]], c.position[axes[1]])
     corner: Point = (target[axes[0]], target[axes[1]])
-    taper = data.get("taper", 0.0)
+    taper = data.taper or 0.0
     if code == "G92":
-        lead = data.get("lead") or lead_in_force(channel)
+        lead = data.lead or lead_in_force(channel)
         begin = (start[0], corner[1] + taper)
         cut_pass(channel, (start, begin, corner), runout(channel, lead), lead, angle)
         return
@@ -105,9 +107,9 @@ def cut_pass(
     halts; the next start cuts the pass again.
     """
     start, begin, end = way
-    held = None if channel.memory.thread_held else _held_end(channel, begin, end, out)
+    held = None if ThreadState.of(channel).held else _held_end(channel, begin, end, out)
     if held is not None:
-        channel.memory.thread_held = True
+        ThreadState.of(channel).held = True
         uncompensated_cycle(channel, thread_pass(start, begin, held, out, angle), lead=lead)
         channel.stop(FEED_HOLD)
     uncompensated_cycle(channel, thread_pass(start, begin, end, out, angle), lead=lead)
@@ -139,14 +141,14 @@ def _plan_inch_thread(builder: Builder) -> Step | None:
     slot, names_lead = builder.slot("E"), builder.has("F")
 
     def choose(channel: LatheChannel, values: list[float]) -> None:
-        data = channel.memory.single_cycle
+        data = SingleCycleState.of(channel)
         if slot is None:
             if names_lead:
-                data.pop("lead", None)
+                data.lead = None
             return
         if not values[slot] > 0.0:
             raise channel.control.fail("thread_lead", address="E")
-        data["lead"] = INCH_MM / values[slot]
+        data.lead = INCH_MM / values[slot]
 
     return choose
 
@@ -178,10 +180,14 @@ def _taper_letters(builder: Builder, code: str) -> tuple[str, ...]:
 
 def plan_clearing(builder: Builder) -> Step | None:
     """A one-shot code, but for G04, or another motion code, makes the control forget the cycle's words."""
-    for codes, field in ((CYCLES, "single_cycle"), (grinding.CODES, "grinding")):
+    forgets: tuple[tuple[frozenset[str], Step], ...] = (
+        (CYCLES, lambda channel, _values: SingleCycleState.of(channel).forget()),
+        (grinding.CODES, lambda channel, _values: GrindingState.of(channel).words.clear()),
+    )
+    for codes, forget in forgets:
         if builder.before["motion"] not in codes:
             continue
         leaves = builder.mode["motion"] not in codes
         if leaves or any(not row.group and row.code not in _KEEPING for row in builder.codes):
-            return lambda channel, _values: getattr(channel.memory, field).clear()
+            return forget
     return None

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.motion.path import FEED_MODES
@@ -29,6 +31,13 @@ _GEAR_LIMITS = (
     LatheParameters.tap_speed_gear_3,
     LatheParameters.tap_speed_gear_4,
 )
+
+
+@dataclass(slots=True)
+class ClampState(State, lifetime=Lifetime.RESET):
+    """The M code that clamps the C axis in the active drilling cycle, 0 for none."""
+
+    code: int = 0
 
 
 def is_rigid(channel: LatheChannel) -> bool:
@@ -143,7 +152,7 @@ def plan_leaving(builder: Builder) -> Step | None:
     forgets_speed = was_rigid(builder) and not builder.has("S")
 
     def leave(channel: LatheChannel, _values: list[float]) -> None:
-        channel.memory.clamp = 0
+        ClampState.of(channel).code = 0
         channel.mode = channel.mode.with_code(RIGID, RIGID_OFF)
         if forgets_speed:
             channel.memory.spindle_speed = 0.0

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from math import nan, radians, sin, tan
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.compensation.corner import Shape
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
 from polycnc.control.fanuc.lathe.motion.corners import LEAST_ANGLE_DEG, corner_stage, corner_waits
@@ -55,6 +56,13 @@ class OpenLine:
     behind: list[tuple[int, Callable[[], None]]] = field(default_factory=list)
 
 
+@dataclass(slots=True)
+class DrawingState(State, lifetime=Lifetime.RESET):
+    """The line that waits for the next block; None for none."""
+
+    open_line: OpenLine | None = None
+
+
 def is_on(builder: Builder) -> bool:
     """Whether drawing dimensions are chosen (3453#0 CRD); they need memory operation (II.4.9, note 1)."""
     channel = builder.channel
@@ -86,7 +94,7 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
         return vector
 
     def run(channel: LatheChannel, values: list[float]) -> None:
-        line: OpenLine | None = channel.memory.open_line
+        line = DrawingState.of(channel).open_line
         angle, corner = words.angle(values), words.corner(values)
         if vector is not None:
             vector(channel, values)
@@ -95,7 +103,7 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
         elif line is not None:
             _close(channel, words, line, angle, corner, values)
         elif not plan.axis_words:
-            channel.memory.open_line = OpenLine(angle or 0.0, channel.level.current, corner)
+            DrawingState.of(channel).open_line = OpenLine(angle or 0.0, channel.level.current, corner)
         else:
             _move(channel, words.completed(channel, angle or 0.0, values), corner)
 
@@ -179,7 +187,7 @@ def _close(
 ) -> None:
     """The block behind a line with an angle only: both lines meet where the first one ends."""
     control, c = words.control, channel.coordinates
-    channel.memory.open_line = None
+    DrawingState.of(channel).open_line = None
     axes = plane_axes(channel)
     plane_words = [word for word in words.plan.axis_words if word.axis in axes]
     if angle is None or len({word.axis for word in plane_words}) < 2:
@@ -238,14 +246,14 @@ def plan_check(builder: Builder, plan: Plan) -> Step | None:
         mistake = "drawing_next"
 
     def check(channel: LatheChannel, _values: list[float]) -> None:
-        line: OpenLine | None = channel.memory.open_line
+        line = DrawingState.of(channel).open_line
         if line is None or line.step == channel.level.current:
             if mistake == "drawing_increment" and not idle and corner_waits(channel):
                 raise builder.control.fail(mistake)
             return
         line.idle += 1
         if not idle or line.idle > _MAX_IDLE_BLOCKS:
-            channel.memory.open_line = None
+            DrawingState.of(channel).open_line = None
             raise builder.control.fail(mistake)
 
     return check

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import hypot
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.fanuc.lathe.coordinates.systems import feed_number, plane_axes
 from polycnc.control.fanuc.lathe.motion import drawing
 from polycnc.control.fanuc.lathe.tools.offsets import THREADS
@@ -44,6 +45,25 @@ CORNER_WORDS = (*CHAMFERS, "R", "C", "I", "J", "K")
 # ---- straight ----------------------------------------------------------------------------------------------------
 
 
+@dataclass(slots=True)
+class ThreadState(State, lifetime=Lifetime.RESET):
+    """What threads keep from block to block.
+
+    Attributes:
+        step: Step of the last block that cut a thread.
+        lock: What a thread, or the way off it, keeps from the operator.
+        held: The feed hold that a setup presses in a thread has come.
+        retract_axes: Axes on which G10.6 wants the tool to retract.
+        retracts: A thread runs along one of them.
+    """
+
+    step: int = -1
+    lock: str = ""
+    held: bool = False
+    retract_axes: frozenset[int] = frozenset()
+    retracts: bool = False
+
+
 def plan_thread(builder: Builder, plan: Plan) -> Step | None:
     """G32 (B, C: G33): straight at the lead F, locked to the spindle; Q is the start angle of this block only."""
     return _plan_straight(builder, plan, grows=False)
@@ -76,7 +96,7 @@ def _plan_straight(builder: Builder, plan: Plan, *, grows: bool) -> Step | None:
         end = channel.coordinates.to_position(programmed)
         note_retract(channel, end)
         thread_move(channel, end, (lead, angle_of(channel, values), growth), programmed)
-        channel.memory.thread_step = channel.level.current
+        ThreadState.of(channel).step = channel.level.current
 
     return cut
 
@@ -139,7 +159,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
         channel.curve(
             Kind.THREAD, c.to_position(programmed), lead, parameters=parameters, programmed=programmed
         )
-        channel.memory.thread_step = channel.level.current
+        ThreadState.of(channel).step = channel.level.current
 
     return cut
 
@@ -228,14 +248,15 @@ def thread_move(
 
 def lock(channel: LatheChannel, kind: str) -> None:
     """From now on moves are locked against the operator as on a thread, or off it; empty: no more."""
-    if channel.memory.thread_lock != kind:
-        channel.memory.thread_lock = kind
+    state = ThreadState.of(channel)
+    if state.lock != kind:
+        state.lock = kind
         channel.context_changed()
 
 
 def locked(channel: LatheChannel, context: Context) -> Context:
     """A context with what threads keep from the operator (II.3.1: feed hold acts behind the first other block)."""
-    kind = channel.memory.thread_lock
+    kind = ThreadState.of(channel).lock
     if not kind:
         return context
     if kind in (ON_CYCLE_THREAD, RETRACT):
@@ -287,14 +308,14 @@ def retract_speed(channel: LatheChannel) -> float:
 
 def prepare_retract(channel: LatheChannel, words: Words) -> None:
     """G10.6: axes and ways of a retract that the operator asks for; without words none is prepared."""
-    channel.memory.retract_axes = frozenset(axis for axis, _, _ in words.axes())
+    ThreadState.of(channel).retract_axes = frozenset(axis for axis, _, _ in words.axes())
 
 
 def note_retract(channel: LatheChannel, end: list[float]) -> None:
     """A retract along the long axis of a thread is not made: an alarm follows behind the thread (II.3.1)."""
     ways = [abs(e - p) for e, p in zip(end, channel.coordinates.position, strict=True)]
-    if ways.index(max(ways)) in channel.memory.retract_axes:
-        channel.memory.thread_retracts = True
+    if ways.index(max(ways)) in ThreadState.of(channel).retract_axes:
+        ThreadState.of(channel).retracts = True
 
 
 def plan_way_off(builder: Builder, step: Step | None) -> Step | None:
@@ -307,8 +328,8 @@ def plan_way_off(builder: Builder, step: Step | None) -> Step | None:
         if step is not None:
             step(channel, values)
         lock(channel, "")
-        if channel.memory.thread_retracts:
-            channel.memory.thread_retracts = False
+        if ThreadState.of(channel).retracts:
+            ThreadState.of(channel).retracts = False
             # The block itself is executed, so its rows stay.
             channel.fail(channel.control.fail("thread_retract"))
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe.coordinates import limits
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
+from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory, y_offset_axis
 from polycnc.control.fanuc.lathe.tools.offsets import MAX_OFFSETS, offset_changed, refresh
 from polycnc.control.word_address.macro_b import parameter_input
 from polycnc.control.word_address.tools.data_input import WORK_SYSTEMS
@@ -47,7 +48,7 @@ def input_data(channel: LatheChannel, words: Words) -> None:
     elif kind is not None:
         raise words.fail("g10_number", "L")
     elif number == 0:
-        _set_work_offset(channel, words, channel.memory.work_shift)
+        _set_work_offset(channel, words, OffsetMemory.of(channel).work_shift)
     else:
         _set_tool_offset(channel, words, number)
 
@@ -80,9 +81,9 @@ def _set_tool_offset(channel: LatheChannel, words: Words, number: int) -> None:
     memory = channel.memory
     base = next((base for base in (GEOMETRY, PRINTED_GEOMETRY) if number > base), 0)
     is_geometry, number = base > 0, number - base
-    if not 1 <= number <= MAX_OFFSETS or (is_geometry and memory.common_offsets):
+    if not 1 <= number <= MAX_OFFSETS or (is_geometry and memory.parameters.NGW):
         raise words.fail("g10_number", "P")
-    offset = memory.turning_offset(number)
+    offset = OffsetMemory.of(channel).at(number)
     values = offset.geometry if is_geometry else offset.wear
     radius_word = words.length("R")
     by_increment = words.length("C")
@@ -147,5 +148,5 @@ def _is_in_use(channel: LatheChannel, name: str) -> bool:
     axis = channel.axis_index[name]
     if axis == memory.parameters.axis_of_offset_5 - 1 and not memory.parameters.NO5:
         return False
-    has_y_offset = memory.parameters.YOF and axis == memory.y_offset_axis
+    has_y_offset = memory.parameters.YOF and axis == y_offset_axis(channel)
     return not has_y_offset

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.control.data_files import DataFileError
 from polycnc.control.fanuc.lathe.tools.data_input import BASIC, GEOMETRY, MAX_OFFSET_MM, further_words
+from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.offsets import MAX_OFFSETS, offset_changed, refresh
 from polycnc.control.word_address.tools.data_input import WORK_SYSTEMS
 
@@ -20,7 +21,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
     from polycnc.control.fanuc.lathe.family import LatheChannel
-    from polycnc.control.fanuc.lathe.memory import TurningMemory, TurningOffset
+    from polycnc.control.fanuc.lathe.memory import TurningMemory
+    from polycnc.control.fanuc.lathe.tools.offset_memory import TurningOffset
 
 #: Second geometry offsets are numbered from here.
 SECOND = 20_000
@@ -52,14 +54,14 @@ def _offset_lines(channel: LatheChannel) -> Iterator[str]:
     nose = not memory.parameters.NCR
     axes = {**{name: name for name in "XZ" if name in channel.axes}, "": "", **_y_and_further(channel)}
     for number in range(1, sets(channel) + 1):
-        offset = memory.turning_offset(number)
+        offset = OffsetMemory.of(channel).at(number)
         yield _line(
             channel, f"P{number:02d}", offset.wear, axes, (offset.radius_wear, offset.tip) if nose else None
         )
-    if memory.common_offsets:
+    if memory.parameters.NGW:
         return
     for number in range(1, sets(channel) + 1):
-        offset = memory.turning_offset(number)
+        offset = OffsetMemory.of(channel).at(number)
         nose_words = (offset.radius, offset.tip) if nose else None
         yield _line(channel, f"P{GEOMETRY + number}", offset.geometry, axes, nose_words)
 
@@ -67,18 +69,22 @@ def _offset_lines(channel: LatheChannel) -> Iterator[str]:
 def _y_lines(channel: LatheChannel) -> Iterator[str]:
     memory: TurningMemory = channel.memory
     for number in range(1, sets(channel) + 1):
-        yield _line(channel, f"P{number:02d}", memory.turning_offset(number).wear, {"Y": "Y"}, None)
-    if not memory.common_offsets:
+        yield _line(channel, f"P{number:02d}", OffsetMemory.of(channel).at(number).wear, {"Y": "Y"}, None)
+    if not memory.parameters.NGW:
         for number in range(1, sets(channel) + 1):
             yield _line(
-                channel, f"P{GEOMETRY + number}", memory.turning_offset(number).geometry, {"Y": "Y"}, None
+                channel,
+                f"P{GEOMETRY + number}",
+                OffsetMemory.of(channel).at(number).geometry,
+                {"Y": "Y"},
+                None,
             )
 
 
 def _second_lines(channel: LatheChannel) -> Iterator[str]:
     axes = {name: name for name in "XZY" if name in channel.axes}
     for number in range(1, sets(channel) + 1):
-        yield _line(channel, f"P{SECOND + number}", channel.memory.turning_offset(number).second, axes, None)
+        yield _line(channel, f"P{SECOND + number}", OffsetMemory.of(channel).at(number).second, axes, None)
 
 
 def _work_lines(channel: LatheChannel) -> Iterator[str]:
@@ -102,7 +108,7 @@ _WRITERS: Mapping[str, Callable[[LatheChannel], Iterator[str]]] = {
 def sets(channel: LatheChannel) -> int:
     """Number of offset sets (5024; 0: the standard 32, or as many as are in use)."""
     number = channel.memory.parameters.offset_sets
-    return number if number > 0 else max(STANDARD_SETS, *channel.memory.offsets, 0)
+    return number if number > 0 else max(STANDARD_SETS, *OffsetMemory.of(channel).numbers, 0)
 
 
 def _y_and_further(channel: LatheChannel) -> dict[str, str]:
@@ -263,7 +269,7 @@ def _addresses(channel: LatheChannel, entry: _Entry) -> set[str] | None:
     axes = BASIC & set(channel.axes)
     if group * GEOMETRY == SECOND:
         return set(axes)
-    if group and channel.memory.common_offsets:
+    if group and channel.memory.parameters.NGW:
         return None
     return {*axes, *further_words(channel), "R", "Q"}
 
@@ -281,7 +287,7 @@ def _take_over(channel: LatheChannel, entry: _Entry) -> None:
             memory.work_offset(_system(entry))[channel.axis_index[address]] = length
         return
     group, number = divmod(entry.number, GEOMETRY)
-    offset = memory.turning_offset(number)
+    offset = OffsetMemory.of(channel).at(number)
     values = (offset.wear, offset.geometry, offset.second)[group]
     further = further_words(channel)
     for address, value in entry.words.items():
@@ -308,7 +314,8 @@ def as_setup(channel: LatheChannel, taken: Taken) -> dict[str, dict[Any, Any]]:
     """What a file has written, as a setup writes it: mm, X as diameter."""
     memory: TurningMemory = channel.memory
     tools = {
-        number: _tool_of_setup(channel, memory.turning_offset(number)) for number in sorted(taken.numbers)
+        number: _tool_of_setup(channel, OffsetMemory.of(channel).at(number))
+        for number in sorted(taken.numbers)
     }
     systems = {
         name: _axes_of_setup(
@@ -321,7 +328,7 @@ def as_setup(channel: LatheChannel, taken: Taken) -> dict[str, dict[Any, Any]]:
 
 
 def _tool_of_setup(channel: LatheChannel, offset: TurningOffset) -> dict[str, Any]:
-    common = channel.memory.common_offsets
+    common = channel.memory.parameters.NGW
     main = offset.wear if common else offset.geometry
     radius = offset.radius_wear if common else offset.radius
     found = {**_offsets_of_setup(channel, main), "radius": radius, "tip": offset.tip}

@@ -6,7 +6,8 @@ from math import copysign, nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
-from polycnc.control.fanuc.lathe.tools.offsets import nose_radius, nose_tip, offset_changed
+from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
+from polycnc.control.fanuc.lathe.tools.offsets import OffsetState, nose_radius, nose_tip, offset_changed
 from polycnc.control.word_address.motion import skip
 from polycnc.toolpath import Kind
 
@@ -46,7 +47,7 @@ def _measure(channel: LatheChannel, words: Words, name: str) -> None:
     named = words.axes()
     if len(named) != 1 or channel.axes[named[0][0]] != name or named[0][2]:
         raise words.fail("measure_axis", name)
-    if not memory.offset_active:
+    if not OffsetState.of(channel).number:
         raise words.fail("measure_no_offset", name)
     if channel.mode["compensation"] != "G40":
         raise words.fail("comp_skip", name)
@@ -67,7 +68,7 @@ def _measure(channel: LatheChannel, words: Words, name: str) -> None:
     if not comes or abs(measured - target_position) > window + 1e-9:
         channel.keep_rows()
         raise words.fail("measure_signal", name)
-    values = memory.turning_offset(memory.offset_active).wear
+    values = OffsetMemory.of(channel).at(OffsetState.of(channel).number).wear
     values[name] = values.get(name, 0.0) + measured + towards * _nose_reach(channel, axis) - target_position
     offset_changed(channel)
 

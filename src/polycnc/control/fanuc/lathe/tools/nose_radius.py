@@ -6,7 +6,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.compensation.policy import Approach, Policy
+from polycnc.control.fanuc.lathe.cycles.modal import SHAPE_KIND, is_reading
 from polycnc.control.fanuc.lathe.motion import corners
+from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
 from polycnc.control.word_address.tools import radius
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.geometry.planes import PLANES
@@ -23,7 +25,6 @@ if TYPE_CHECKING:
 TYPE_A = Policy(recommand_is_square=True)
 LINES = frozenset({"G0", "G1"})
 #: Kind of the program level in which G70 runs a shape.
-SHAPE_KIND = "shape"
 
 
 def policy(channel: LatheChannel) -> Policy:
@@ -59,7 +60,7 @@ def _engage(channel: LatheChannel, words: Words, engage: Callable[[LatheChannel,
         return
     if channel.setup.switches.mode == "mdi" and memory.parameters.MCR:
         raise words.fail("comp_in_mdi", channel.mode["compensation"])
-    memory.d = memory.offset_active
+    memory.d = OffsetState.of(channel).number
     engage(channel, words)
     stage = radius.active_compensation(channel)
     if stage is not None and not memory.d:
@@ -82,7 +83,7 @@ def _takes(channel: LatheChannel, words: Words, *, starts: bool) -> bool:
     it, if G41 or G42 stands in the first block and compensation was off before.
     """
     parameters, level = channel.memory.parameters, channel.level
-    finishing = not channel.memory.reading_shape
+    finishing = not is_reading(channel)
     if finishing and level.kind != SHAPE_KIND:
         return True
     if finishing and parameters.NT2:

@@ -6,10 +6,14 @@ programmed point (the display then holds it), or it *shifts* the coordinate syst
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from math import nan
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.compensation.tips import tip_direction
+from polycnc.control.fanuc.lathe.cycles.modal import is_reading
+from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory, y_offset_axis
 from polycnc.control.tool_change import check_change_points
 from polycnc.control.word_address.block.plan import NOT_YET
 from polycnc.control.word_address.coordinates.systems import refresh_zero
@@ -32,6 +36,29 @@ _ARCS = frozenset({"G2", "G3"})
 _BESIDE_T = frozenset({"G50", "G71", "G72", "G73"})
 _MEASURING = frozenset({"G36", "G37", "G37.1", "G37.2"})
 MAX_OFFSETS = 999
+
+
+@dataclass(slots=True)
+class OffsetState(State, lifetime=Lifetime.POWER):
+    """The offset that is active.
+
+    Attributes:
+        number: Its number, 0 for none; `geometry_number` the same for geometry.
+        shift: The part of it that shifts the coordinate system, all axes; `geometry_shift` what of that is geometry.
+        tool_word: T as it was written last, turret position and offset number in one.
+    """
+
+    number: int = 0
+    geometry_number: int = 0
+    shift: list[float] = field(default_factory=list)
+    geometry_shift: list[float] = field(default_factory=list)
+    tool_word: int = 0
+
+    @classmethod
+    def first(cls, channel: LatheChannel) -> OffsetState:
+        """No offset."""
+        count = len(channel.axes)
+        return cls(shift=[0.0] * count, geometry_shift=[0.0] * count)
 
 
 def plan_tool(builder: Builder) -> Step | None:
@@ -62,21 +89,21 @@ def plan_tool(builder: Builder) -> Step | None:
     helix = arc and any(word.axis == third for word in builder.axis_words())
 
     def select(channel: LatheChannel, values: list[float]) -> None:
-        memory = channel.memory
-        if memory.reading_shape:
+        if is_reading(channel):
             return
+        memory, active = channel.memory, OffsetState.of(channel)
         tool, number = split_tool_word(channel, values[slot])
         if tool != memory.tool:
             check_change_points(channel)
         memory.tool = memory.next_tool = tool
-        memory.tool_word = int(values[slot])
+        active.tool_word = int(values[slot])
         channel.context_changed()
         channel.event(ToolSelection(tool))
         if number is None:
             return
         if helix:
             raise control.fail("offset_in_thread", address="T")
-        if starts_or_ends and (number == 0) != (memory.offset_active == 0):
+        if starts_or_ends and (number == 0) != (active.number == 0):
             raise control.fail("comp_arc_start", address="T")
         select_offset(channel, number, tool)
         if not moves and not one_shot:
@@ -117,10 +144,10 @@ def select_offset(channel: LatheChannel, number: int, tool: int) -> None:
     if not 0 <= number <= (channel.memory.parameters.offset_sets or MAX_OFFSETS):
         raise channel.control.fail("offset_number", address="T")
     _refuse_rotation(channel)
-    memory = channel.memory
-    memory.offset_active = number
-    by_tool = memory.parameters.LGN and not memory.common_offsets
-    memory.geometry_active = 0 if not number else tool if by_tool else number
+    memory, active = channel.memory, OffsetState.of(channel)
+    active.number = number
+    by_tool = memory.parameters.LGN and not memory.parameters.NGW
+    active.geometry_number = 0 if not number else tool if by_tool else number
     apply_offset(channel, cancels=number == 0)
     renew_nose(channel)
 
@@ -131,7 +158,7 @@ def _refuse_rotation(channel: LatheChannel) -> None:
     if not memory.frames.rotates:
         return
     parameters = memory.parameters
-    shifts = not memory.common_offsets and (parameters.LWT or not parameters.LGT)
+    shifts = not memory.parameters.NGW and (parameters.LWT or not parameters.LGT)
     if shifts:
         raise channel.control.fail("offset_in_thread", address="T")
     if not memory.frames.rotation.is_identity:
@@ -140,9 +167,9 @@ def _refuse_rotation(channel: LatheChannel) -> None:
 
 def apply_offset(channel: LatheChannel, *, cancels: bool = False) -> None:
     """Let the active offset act: a shift at once, a movement with the next motion."""
-    memory = channel.memory
+    memory, active = channel.memory, OffsetState.of(channel)
     moves, shifts = offset_parts(channel, cancels=cancels)
-    memory.tool_shift = shifts
+    active.shift = shifts
     refresh(channel)
     memory.frames.offset = moves
     c = channel.coordinates
@@ -161,10 +188,10 @@ def apply_offset(channel: LatheChannel, *, cancels: bool = False) -> None:
 
 def offset_parts(channel: LatheChannel, *, cancels: bool = False) -> tuple[list[float], list[float]]:
     """The active offset as movement and as shift of each axis, by 5002#2 (wear) and #4 (geometry)."""
-    memory = channel.memory
+    memory, active = channel.memory, OffsetState.of(channel)
     parameters = memory.parameters
-    wear = memory.turning_offset(memory.offset_active).wear if memory.offset_active else {}
-    geometry = geometry_values(channel) if memory.geometry_active else {}
+    wear = OffsetMemory.of(channel).at(active.number).wear if active.number else {}
+    geometry = geometry_values(channel) if active.geometry_number else {}
     wear_part = _by_axis(channel, wear)
     geometry_part = _by_axis(channel, geometry)
     nothing = [0.0] * len(channel.axes)
@@ -172,9 +199,9 @@ def offset_parts(channel: LatheChannel, *, cancels: bool = False) -> tuple[list[
     if not geometry_moves:
         if cancels and not parameters.LGC:
             # LGC = 0: offset number 0 leaves a shift by geometry as it is.
-            geometry_part = memory.geometry_shift
-        memory.geometry_shift = geometry_part
-    wear_moves = memory.common_offsets or not parameters.LWT
+            geometry_part = active.geometry_shift
+        active.geometry_shift = geometry_part
+    wear_moves = memory.parameters.NGW or not parameters.LWT
     moves = _sum(wear_part if wear_moves else nothing, geometry_part if geometry_moves else nothing)
     shifts = _sum(nothing if wear_moves else wear_part, nothing if geometry_moves else geometry_part)
     return moves, shifts
@@ -184,7 +211,7 @@ def _by_axis(channel: LatheChannel, values: dict[str, float]) -> list[float]:
     """The offsets of all axes; that of Y where the function is there (8132#1 YOF), on the axis that 5043 names."""
     parameters = channel.memory.parameters
     offsets = [0.0 if axis == "Y" else values.get(axis, 0.0) for axis in channel.axes]
-    named = channel.memory.y_offset_axis
+    named = y_offset_axis(channel)
     if named >= 0:
         offsets[named] = values.get("Y", 0.0) if parameters.YOF else 0.0
     return offsets
@@ -196,8 +223,8 @@ def _sum(a: list[float], b: list[float]) -> list[float]:
 
 def geometry_values(channel: LatheChannel) -> dict[str, float]:
     """Geometry of the active number, with the second geometry where the machine's signals ask for it (II.5.1.4)."""
-    memory = channel.memory
-    offset = memory.turning_offset(memory.geometry_active)
+    memory, active = channel.memory, OffsetState.of(channel)
+    offset = OffsetMemory.of(channel).at(active.geometry_number)
     values = dict(offset.geometry)
     if memory.signals.get("G2SLC"):
         for axis, value in offset.second.items():
@@ -223,15 +250,15 @@ def move_by_offset(channel: LatheChannel) -> None:
 
 def refresh(channel: LatheChannel) -> None:
     """Work out the zero of the display anew: work offsets, shifts, tool."""
-    memory = channel.memory
-    memory.length_offset = _sum(memory.tool_shift, memory.work_shift)
+    memory, active = channel.memory, OffsetState.of(channel)
+    memory.length_offset = _sum(active.shift, OffsetMemory.of(channel).work_shift)
     refresh_zero(channel)
 
 
 def renew_nose(channel: LatheChannel) -> None:
     """Another offset number under G41 or G42: the next block has its radius and tip; 0 cancels (II.5.3, 5.4.1)."""
-    memory = channel.memory
-    before, memory.d = memory.d, memory.offset_active
+    memory, active = channel.memory, OffsetState.of(channel)
+    before, memory.d = memory.d, active.number
     if not memory.side:
         return
     stage = compensation_stage(channel)
@@ -246,27 +273,29 @@ def renew_nose(channel: LatheChannel) -> None:
 
 def nose_radius(channel: LatheChannel) -> float:
     """Nose radius of the active offset: geometry and wear, mm."""
-    memory = channel.memory
-    if not memory.offset_active:
+    active = OffsetState.of(channel)
+    if not active.number:
         return 0.0
-    wear: float = memory.turning_offset(memory.offset_active).radius_wear
-    geometry: float = memory.turning_offset(memory.geometry_active).radius if memory.geometry_active else 0.0
+    wear: float = OffsetMemory.of(channel).at(active.number).radius_wear
+    geometry: float = (
+        OffsetMemory.of(channel).at(active.geometry_number).radius if active.geometry_number else 0.0
+    )
     return wear + geometry
 
 
 def nose_tip(channel: LatheChannel) -> tuple[float, float]:
     """Way from the nose centre to the imaginary tip in units of the radius (5002#7: whose tip number)."""
-    memory = channel.memory
-    by_wear = memory.common_offsets or memory.parameters.WNP
-    number = memory.offset_active if by_wear else memory.geometry_active
-    return tip_direction(memory.turning_offset(number).tip if number else 0)
+    memory, active = channel.memory, OffsetState.of(channel)
+    by_wear = memory.parameters.NGW or memory.parameters.WNP
+    number = active.number if by_wear else active.geometry_number
+    return tip_direction(OffsetMemory.of(channel).at(number).tip if number else 0)
 
 
 def offset_changed(channel: LatheChannel) -> None:
     """A written offset acts from the next T, or from the next move (5002#4, #6; III.2.1.1), or now (5001#6)."""
     memory = channel.memory
     parameters = memory.parameters
-    at_next_move = parameters.LWM and (memory.common_offsets or parameters.LGT)
+    at_next_move = parameters.LWM and (memory.parameters.NGW or parameters.LGT)
     if parameters.EVO or at_next_move:
         _refuse_rotation(channel)
         apply_offset(channel)

@@ -13,6 +13,7 @@ from polycnc.control.fanuc.lathe.coordinates.limits import renew_zones
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools.data_input import MAX_OFFSET_MM
 from polycnc.control.fanuc.lathe.tools.files import MAX_TIP, shown, taken
+from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.offsets import MAX_OFFSETS, offset_changed, refresh
 from polycnc.control.word_address.macro_b.parameter_input import set_parameter
 from polycnc.messages import UserError
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from polycnc.control.fanuc.lathe.family import LatheChannel
-    from polycnc.control.fanuc.lathe.memory import TurningMemory, TurningOffset
+    from polycnc.control.fanuc.lathe.tools.offset_memory import TurningOffset
     from polycnc.control.parameters import Parameter
 
 RADIUS, TIP = "R", "T"
@@ -78,13 +79,13 @@ class ScreenRefusal(UserError):  # noqa: N818 - the screen shows a warning, noth
 
 def pages(channel: LatheChannel) -> tuple[Page, ...]:
     """The lists that the control has; where geometry and wear are one, that one is `WEAR`."""
-    separate = not channel.memory.common_offsets
+    separate = not channel.memory.parameters.NGW
     return (Page.GEOMETRY, Page.WEAR, Page.SECOND) if separate else (Page.WEAR, Page.SECOND)
 
 
 def offset(channel: LatheChannel, page: Page, number: int, field: str) -> float:
     """A value of a list, as it is shown."""
-    entry: TurningOffset = channel.memory.turning_offset(_checked(number))
+    entry: TurningOffset = OffsetMemory.of(channel).at(_checked(number))
     if field == TIP:
         return entry.tip
     if field == RADIUS:
@@ -123,8 +124,7 @@ def set_offsets(channel: LatheChannel, page: Page, first: int, field: str, value
 
 def clear_offsets(channel: LatheChannel, chosen: Sequence[Page], fields: Sequence[str]) -> None:
     """[CLEAR] with [ALL], [WEAR] or [GEOM]: zero in all numbers (4th and 5th axis offsets, III.2.1.8)."""
-    memory: TurningMemory = channel.memory
-    for entry in memory.offsets.values():
+    for entry in OffsetMemory.of(channel).numbers.values():
         for page in chosen:
             for field in fields:
                 _values(entry, page).pop(field, None)
@@ -165,7 +165,7 @@ def _values(entry: TurningOffset, page: Page) -> dict[str, float]:
 
 
 def _write(channel: LatheChannel, page: Page, number: int, field: str, value: float) -> None:
-    entry: TurningOffset = channel.memory.turning_offset(number)
+    entry: TurningOffset = OffsetMemory.of(channel).at(number)
     if field == TIP:
         if value not in range(MAX_TIP + 1):
             raise ScreenRefusal("value")
@@ -201,7 +201,7 @@ def measure(
     if page is Page.GEOMETRY:
         _write(channel, page, number, axis, amount)
         _write(channel, Page.WEAR, number, axis, 0.0)
-    elif channel.memory.common_offsets:
+    elif channel.memory.parameters.NGW:
         _write(channel, page, number, axis, amount)
     else:
         _write(channel, page, number, axis, amount - offset(channel, page, number, axis))
@@ -224,14 +224,14 @@ def _coordinate(channel: LatheChannel, axis: str, latched: float | None) -> floa
 
 def work_shift(channel: LatheChannel, axis: str) -> float:
     """The shift of all work coordinate systems along an axis, as it is shown."""
-    return shown(channel, axis, channel.memory.work_shift[channel.axis_index[axis]], work=True)
+    return shown(channel, axis, OffsetMemory.of(channel).work_shift[channel.axis_index[axis]], work=True)
 
 
 def set_work_shift(channel: LatheChannel, axis: str, value: float) -> None:
     """[INPUT] on the screen of the work shift: the display is the old one less the shift, at once (III.2.1.5)."""
     if not abs(value) <= MAX_OFFSET_MM:
         raise ScreenRefusal("value")
-    channel.memory.work_shift[channel.axis_index[axis]] = taken(channel, axis, value, work=True)
+    OffsetMemory.of(channel).work_shift[channel.axis_index[axis]] = taken(channel, axis, value, work=True)
     refresh(channel)
 
 

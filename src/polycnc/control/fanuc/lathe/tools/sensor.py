@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools import screens
 from polycnc.control.fanuc.lathe.tools.files import shown
+from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
+from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
 from polycnc.control.fanuc.lathe.tools.screens import Page, ScreenRefusal
 
 if TYPE_CHECKING:
@@ -103,8 +105,8 @@ class MeasuredInputB:
         """WOSET: the face that the tool touches becomes Z 0 of the work coordinates."""
         if self.status != SHIFT:
             raise ScreenRefusal("no-measuring")
-        channel, memory = self._channel, self._channel.memory
+        channel = self._channel
         z = channel.axis_index["Z"]
-        without_tool = channel.coordinates.position[z] + memory.tool_shift[z]
-        geometry = memory.turning_offset(self.number).geometry.get("Z", 0.0)
+        without_tool = channel.coordinates.position[z] + OffsetState.of(channel).shift[z]
+        geometry = OffsetMemory.of(channel).at(self.number).geometry.get("Z", 0.0)
         screens.add_work_shift(channel, "Z", shown(channel, "Z", without_tool - geometry, work=True))
