@@ -11,12 +11,13 @@ from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.sinumerik import gcodes, tables
 from polycnc.control.sinumerik.block import positions, procedures, single_block
 from polycnc.control.sinumerik.block.plain import SinumerikPlainBlocks
-from polycnc.control.sinumerik.block.plan import make_plan
+from polycnc.control.sinumerik.block.plan import ExactStop, make_plan
 from polycnc.control.sinumerik.channels import axis_exchange, coordination
 from polycnc.control.sinumerik.data import access, init_programs
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.feed import pace, spindle_speed, tolerances
 from polycnc.control.sinumerik.feed.dry_run import dry_run
+from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.feed.spindles import Spindle, Spindles
 from polycnc.control.sinumerik.frames import memory as frames
 from polycnc.control.sinumerik.frames.memory import Frames, chain, stored_frames
@@ -108,7 +109,7 @@ class Sinumerik:
         memory = self._memory(channel)
         channel.memory = memory
         channel.mode = channel.modes.mode(start_codes(channel, memory.data))
-        memory.feed_mode = tables.feed_type(channel.mode).mode
+        PathFeed.of(channel).mode = tables.feed_type(channel.mode).mode
         memory.frames.select(gcodes.number_of(channel.mode["zero_offset"]) - 1)
         if channel.number == 1:
             memory.tools.stand_in(channel.setup.spindle_tool)
@@ -195,7 +196,6 @@ class Sinumerik:
             columns=_columns(channel),
             machine_columns=_machine_columns(channel),
             shares_axes=axis_exchange.shares_axes(channel),
-            nck=shared.setdefault("system variables", {}),
             transverse=next((i for i, axis in enumerate(channel.axis_data) if axis.diameter), -1),
         )
 
@@ -226,7 +226,7 @@ class Sinumerik:
         if channel.attention:  # as wherever moves pass stages, and in single block operation
             channel.path.relax()
             if channel.single_block:
-                channel.memory.acted = acts
+                single_block.RunningBlock.of(channel).acted = acts
         for position in ends:
             if values[position] in (2, 30, 17):
                 self.end_of_program(channel)
@@ -309,7 +309,7 @@ class Sinumerik:
         if "zero_offset" in changed:
             memory.frames.select(gcodes.number_of(mode["zero_offset"]) - 1)
         if "feed" in changed:
-            memory.feed_mode = tables.feed_type(mode).mode
+            PathFeed.of(channel).mode = tables.feed_type(mode).mode
         memory.tools.assign_lengths(mode["plane"], memory.data)
         frames.changed(channel)
         channel.context_changed()
@@ -322,8 +322,8 @@ class Sinumerik:
         memory = channel.memory
         feed = tables.feed_type(mode)
         leading = (
-            memory.feed_source
-            if feed.mode is FeedMode.PER_REVOLUTION and memory.feed_source
+            PathFeed.of(channel).spindle
+            if feed.mode is FeedMode.PER_REVOLUTION and PathFeed.of(channel).spindle
             else memory.spindles.master
         )
         spindle = memory.spindles.all.get(leading)
@@ -338,16 +338,16 @@ class Sinumerik:
             offsets=tuple(coordinates.offsets),
             tool=memory.tools.active,
             tool_name=memory.tools.name,
-            radius_mm=stages.radius(memory) if side else 0.0,
+            radius_mm=stages.radius(channel) if side else 0.0,
             side=side,
             spindle=leading,
             spindle_rpm=_speed(memory, spindle, mode["feed"]),
             spindle_direction=spindle.direction if spindle else 0,
             surface_speed=feed.surface_speed,
             spindle_limit_rpm=_limit(memory, spindle, mode["feed"]),
-            corner_mode=_corner_mode(memory, mode),
+            corner_mode=_corner_mode(channel, mode),
             stop_window=tables.STOP_WINDOWS[mode["exact_stop"]],
-            tolerance_mm=_tolerance(memory, mode["path_mode"]),
+            tolerance_mm=_tolerance(channel, mode["path_mode"]),
             acceleration=tables.ACCELERATION_MODES[mode["acceleration"]],
             rapid_by_axis=mode["rapid"] == "RTLIOF",
             diameter_axes=diameters,
@@ -410,16 +410,16 @@ def _machine_data(channel: SinumerikChannel) -> MachineData:
     return MachineData(channel.setup.parameters, names)
 
 
-def _corner_mode(memory: Memory, mode: Mode) -> CornerMode:
+def _corner_mode(channel: SinumerikChannel, mode: Mode) -> CornerMode:
     """G9 holds for its block, else group 10."""
-    return CornerMode.EXACT_STOP if memory.exact_stop_block else tables.CORNER_MODES[mode["path_mode"]]
+    return CornerMode.EXACT_STOP if ExactStop.of(channel).block else tables.CORNER_MODES[mode["path_mode"]]
 
 
-def _tolerance(memory: Memory, path_mode: str) -> float:
+def _tolerance(channel: SinumerikChannel, path_mode: str) -> float:
     """ADIS for G641, CTOL for the kinds of rounding that keep a tolerance."""
     if path_mode in ("G642", "G643", "G645"):
-        return tolerances.contour_tolerance(memory)
-    return memory.rounding_mm if path_mode == "G641" else 0.0
+        return tolerances.contour_tolerance(channel)
+    return tolerances.Smoothing.of(channel).distance_mm.get("ADIS", 0.0) if path_mode == "G641" else 0.0
 
 
 def _speed(memory: Memory, spindle: Spindle | None, feed: str) -> float:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, end_of
 from polycnc.control.sinumerik import gcodes, tables
-from polycnc.control.sinumerik.feed import pace
+from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.frames import memory as frames
 from polycnc.control.sinumerik.limits import protection, working_area
-from polycnc.control.sinumerik.memory import Polar
 from polycnc.language.sinumerik.names.frame import NEUTRAL
 
 if TYPE_CHECKING:
@@ -82,15 +82,10 @@ def reset(channel: SinumerikChannel) -> None:
     channel.mode = channel.modes.mode(start_codes(channel, memory.data) | _kept_codes(channel, memory.data))
     stop_spindles(memory)
     _reset_edge(channel, memory.data)
-    memory.previous = None
     channel.path.clear()
-    memory.polar = Polar()
-    memory.sections.clear()
-    memory.open_corners.clear()
-    pace.forget(memory)
+    end_of(channel, Lifetime.RESET)
     memory.language.modal_call = None
-    memory.tooth_feed, memory.feed_source = None, 0
-    memory.feed_mode = tables.feed_type(channel.mode).mode
+    PathFeed.of(channel).mode = tables.feed_type(channel.mode).mode
     memory.frames.programmable = NEUTRAL
     memory.frames.select(gcodes.number_of(channel.mode["zero_offset"]) - 1)
     frames.apply(channel)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from polycnc.control.sinumerik.signals.interrupts import Interrupts
 from polycnc.session import Result, open_session
 
 MAIN = "G0 X0 Y0\nSETINT(1) PRIO=2 AWAY\nSETINT(2) PRIO=1 MARK LIFTFAST\nG1 X100 F500\nY50\nM30\n"
@@ -52,4 +53,4 @@ def test_reset_keeps_the_watch_for_inputs() -> None:
     session.run()
     channel = session.channel
     channel.control.reset(channel)
-    assert channel.path.head is channel.memory.watch
+    assert channel.path.head is Interrupts.of(channel).watch

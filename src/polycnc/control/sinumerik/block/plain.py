@@ -10,7 +10,8 @@ from math import inf
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.block.positions import AxisTerm, Way
-from polycnc.control.sinumerik.limits.working_area import MACHINE
+from polycnc.control.sinumerik.limits.working_area import MACHINE, Ranges
+from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
 from polycnc.language.bulk import (
     Conditions,
     Conversion,
@@ -128,11 +129,11 @@ class SinumerikPlainBlocks:
 
     def limits(self, channel: SinumerikChannel) -> Sequence[tuple[float, float]]:
         """The machine's travel, software limit switches and the working area, whichever is narrower."""
-        memory = channel.memory
-        if not memory.limits:
+        limits = Ranges.of(channel).limits
+        if not limits:
             return channel.limits
         ranges = list(channel.limits) or [(float("-inf"), float("inf"))] * len(channel.axes)
-        for limit in memory.limits:
+        for limit in limits:
             if limit.system != MACHINE:
                 return [(inf, -inf)] * len(ranges)  # in another system only the interpreter can look
             low, high = ranges[limit.column]
@@ -145,14 +146,14 @@ class SinumerikPlainBlocks:
 
     def moved(self, channel: SinumerikChannel, last: LastMoves) -> None:
         """Where the last move came from, for CT."""
-        memory = channel.memory
+        move = LastMove.of(channel)
         kind = Kind(last.kind)
         if kind in (Kind.RAPID, Kind.FEED):
-            memory.previous = (last.came_from, None, 0.0)
+            move.start, move.arc = last.came_from, None
         else:
             x, y, z, i, j, k, *_ = last.curve
             sense = 1.0 if kind in CCW_KINDS else -1.0
-            memory.previous = (last.came_from, ((x, y, z), (i, j, k)), sense)
+            move.start, move.arc = last.came_from, ArcOfMove((x, y, z), (i, j, k), sense)
 
     def recipe(self, channel: SinumerikChannel, keys: Sequence[int], _line: str) -> Recipe | None:
         """What the plan of a shape does, if all of it can be told."""

@@ -6,16 +6,19 @@ corners; motion, or what a function of group 2 or 3 does; stops. A program end c
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import partial
 from math import nan
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik import auxiliary, gcodes, tables
 from polycnc.control.sinumerik.block import words
 from polycnc.control.sinumerik.block.draft import Draft, Step
 from polycnc.control.sinumerik.block.positions import axis_diameters
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import spindle_speed
+from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.frames import codes as frame_codes
 from polycnc.control.sinumerik.frames import memory as frames
 from polycnc.control.sinumerik.limits import working_area
@@ -64,6 +67,13 @@ BLOCK_MOTIONS: dict[str, Callable[[Draft], Step | None]] = {
     **dict.fromkeys(smooth_approach.RETRACTIONS, smooth_approach.retract),
 }
 LINEAR = frozenset(("G0", "G1"))
+
+
+@dataclass(slots=True)
+class ExactStop(State, lifetime=Lifetime.BLOCK):
+    """G9 holds for the running block."""
+
+    block: bool = False
 
 
 class Plan(NamedTuple):
@@ -300,7 +310,7 @@ def _suppress(code: str) -> Step:
 
 def _exact_stop(on: bool) -> Step:
     def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
-        channel.memory.exact_stop_block = on
+        ExactStop.of(channel).block = on
         channel.context_changed()
 
     return run
@@ -327,12 +337,12 @@ def _plane(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 -
 
 def _feed_type(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """Group 15: another kind of feed needs a new F; G97 keeps the speed that G96 had."""
-    memory = channel.memory
     feed = tables.feed_type(channel.mode)
     spindle_speed.change_of_feed_type(channel, feed.surface_speed, channel.mode["feed"])
-    if feed.mode != memory.feed_mode:
+    path_feed = PathFeed.of(channel)
+    if feed.mode != path_feed.mode:
         channel.feed = nan
-        memory.feed_mode = feed.mode
+        path_feed.mode = feed.mode
 
 
 def _diameter(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
@@ -372,9 +382,9 @@ def _lengths_are_settled(channel: SinumerikChannel) -> bool:
 
 def _feed_is_settled(channel: SinumerikChannel) -> bool:
     """The kind of feed is the one in force, its spindle has what it needs and no speed to keep from G96."""
-    memory, code = channel.memory, channel.mode["feed"]
+    code = channel.mode["feed"]
     feed = tables.feed_type(channel.mode)
-    in_force = bool(feed.mode == memory.feed_mode)
+    in_force = feed.mode is PathFeed.of(channel).mode
     return in_force and spindle_speed.is_settled(channel, feed.surface_speed, code)
 
 

@@ -12,11 +12,12 @@ from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.channels import axis_exchange, coordination
 from polycnc.control.sinumerik.data import archive
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.feed import axis_settings, spindle_speed
+from polycnc.control.sinumerik.feed import axis_settings, pace, spindle_speed
 from polycnc.control.sinumerik.limits import protection, working_area
 from polycnc.control.sinumerik.motion import splines
 from polycnc.control.sinumerik.signals import interrupts, retraction, sections
 from polycnc.control.sinumerik.tools import d_numbers
+from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.frame import NEUTRAL
 from polycnc.language.sinumerik.names.initialisation import NEW_CONFIGURATION, initialise
 from polycnc.messages import Alarm, AlarmError
@@ -120,18 +121,15 @@ def dynamics(name: str) -> Callable[[SinumerikChannel, Arguments], None]:
     """BRISKA, SOFTA, DRIVEA, JERKA: acceleration of single axes, kept for the motion planner."""
 
     def keep(channel: SinumerikChannel, args: Arguments) -> None:
-        memory = channel.memory
         for axis in args:
-            column = arguments.column(channel, axis)
-            memory.values["acceleration", (channel.axes[column],)] = name
+            axis_settings.AxisSettings.of(channel).acceleration[arguments.column(channel, axis)] = name
 
     return keep
 
 
 def path_group(channel: SinumerikChannel, args: Arguments) -> None:
     """FGROUP(axis, …): the axes whose way the path feed is for; none for those of the machine data."""
-    memory = channel.memory
-    memory.values["FGROUP", ()] = tuple(arguments.column(channel, axis) for axis in args)
+    pace.Overrides.of(channel).group = tuple(arguments.column(channel, axis) for axis in args)
     channel.context_changed()
 
 
@@ -157,7 +155,7 @@ def transformation_off(channel: SinumerikChannel, _args: Arguments) -> None:
 
 def workpiece(channel: SinumerikChannel, args: Arguments) -> None:
     """WORKPIECE(…): the blank that pictures show; WORKPIECE() takes it away. No motion."""
-    channel.memory.values["WORKPIECE", ()] = args or None
+    Stored.of(channel).values["WORKPIECE", ()] = args or None
 
 
 def channel_data(channel: SinumerikChannel, args: Arguments) -> None:
@@ -171,7 +169,7 @@ def section_of_program(channel: SinumerikChannel, args: Arguments) -> None:
     if len(args) != 3 or not isinstance(args[0], str) or not isinstance(args[2], str):
         raise AlarmError("14020", text="SEFORM")
     arguments.whole(args[1])
-    channel.memory.values["SEFORM", ()] = args[0]
+    Stored.of(channel).values["SEFORM", ()] = args[0]
 
 
 def editor_mark(_channel: SinumerikChannel, _args: Arguments) -> None:

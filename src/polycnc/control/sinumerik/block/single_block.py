@@ -8,8 +8,10 @@ or MD20117 say so; SBLON brings the halts back only in the first case. Source: j
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.channel.waits import Wait, Why
 
 if TYPE_CHECKING:
@@ -21,6 +23,13 @@ IGNORE_ROUTINES = 1 << 1
 #: MD10702 bit 12: no halt in the block of SBLON under SBL2.
 IGNORE_SBLON = 1 << 12
 _SBLON = re.compile(r"\bSBLON\b", re.IGNORECASE)
+
+
+@dataclass(slots=True)
+class RunningBlock(State, lifetime=Lifetime.BLOCK):
+    """The running block has done something on the machine."""
+
+    acted: bool = False
 
 
 def begin_routine(channel: SinumerikChannel, level: Level) -> None:
@@ -42,16 +51,15 @@ def _kind(channel: SinumerikChannel) -> str:
 
 def _runs_through(channel: SinumerikChannel) -> bool:
     """MD20117, while an interrupt routine runs."""
-    memory = channel.memory
-    if memory.watch is None or not memory.data.integer("$MC_IGNORE_SINGLEBLOCK_ASUP"):
+    if not channel.memory.data.integer("$MC_IGNORE_SINGLEBLOCK_ASUP"):
         return False
     return any(level.kind == "interrupt" for level in channel.stack)
 
 
 def halts(channel: SinumerikChannel, level: Level) -> bool:
     """Whether single block halts behind the block that a level has just run."""
-    memory = channel.memory
-    acted, memory.acted = memory.acted, False
+    block = RunningBlock.of(channel)
+    acted, block.acted = block.acted, False
     kind = channel.setup.switches.single_block
     if _runs_through(channel):
         return False
@@ -63,5 +71,5 @@ def halts(channel: SinumerikChannel, level: Level) -> bool:
     if kind not in ("SBL2", "SBL3"):
         return acted
     code: Any = getattr(level.code, "whole", level.code)
-    ignores = memory.data.integer("$MN_IGNORE_SINGLEBLOCK_MASK") & IGNORE_SBLON
+    ignores = channel.memory.data.integer("$MN_IGNORE_SINGLEBLOCK_MASK") & IGNORE_SBLON
     return not (ignores and _SBLON.search(code.text(level.current)))

@@ -6,6 +6,7 @@ A maker takes one word of a draft and gives the step that it is. `WORDS` says wh
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from math import nan, pi
 from typing import TYPE_CHECKING
 
@@ -16,9 +17,12 @@ from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import length_factor, number
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import axis_settings, spindle_speed, tolerances, tooth_feed
+from polycnc.control.sinumerik.feed.pace import Overrides
+from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.signals import retraction
 from polycnc.control.sinumerik.tools import stages
+from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Note, declare
 from polycnc.language.sinumerik.names.values import Axis
@@ -75,7 +79,7 @@ def axis_feed(draft: Draft, position: int, shape: WordShape) -> Step:
         value = number(values, position) * factor
         if value <= 0.0:
             raise WordAlarm("14810" if value < 0.0 else "10861", position, axis=channel.axes[column])
-        channel.memory.feeds[column] = value
+        PathFeed.of(channel).of_axes[column] = value
 
     return run
 
@@ -250,7 +254,7 @@ def allowance(draft: Draft, position: int, _shape: WordShape) -> Step:
     factor = length_factor(draft.mode)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        channel.memory.allowance_mm = number(values, position) * factor
+        stages.Contour.of(channel).allowance_mm = number(values, position) * factor
         stages.changed_radius(channel)
 
     return run
@@ -260,9 +264,8 @@ def disc(_draft: Draft, position: int, _shape: WordShape) -> Step:
     """DISC: how far the transition arc of G450 is raised, 0 to 100 (at most MD20220)."""
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        memory = channel.memory
-        highest = memory.data.number("$MC_CUTCOM_MAX_DISC")
-        memory.disc = min(max(number(values, position), 0.0), highest)
+        highest = channel.memory.data.number("$MC_CUTCOM_MAX_DISC")
+        stages.Contour.of(channel).disc = min(max(number(values, position), 0.0), highest)
         stages.changed_rules(channel)
 
     return run
@@ -281,13 +284,15 @@ def corner(shape_of_corner: Shape) -> Maker:
         feed_factor = moves.feed_factor(draft)
 
         def run(channel: SinumerikChannel, values: Values) -> None:
-            memory = channel.memory
             inserted = (
-                memory.modal_corner_feed if own_feed is None else number(values, own_feed) * feed_factor
+                PathFeed.of(channel).of_corners
+                if own_feed is None
+                else number(values, own_feed) * feed_factor
             )
             size = number(values, position) * factor
             if opens_line:
-                memory.open_corners.append(lambda: stages.insert(channel, shape_of_corner, size, inserted))
+                insert = partial(stages.insert, channel, shape_of_corner, size, inserted)
+                moves.OpenLine.of(channel).corners.append(insert)
             else:
                 stages.insert(channel, shape_of_corner, size, inserted)
 
@@ -301,7 +306,7 @@ def modal_rounding(draft: Draft, position: int, _shape: WordShape) -> Step:
     factor = length_factor(draft.mode)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        stages.round_all(channel, number(values, position) * factor, channel.memory.modal_corner_feed)
+        stages.round_all(channel, number(values, position) * factor, PathFeed.of(channel).of_corners)
 
     return run
 
@@ -311,7 +316,7 @@ def modal_corner_feed(draft: Draft, position: int, _shape: WordShape) -> Step:
     factor = moves.feed_factor(draft)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        channel.memory.modal_corner_feed = number(values, position) * factor or nan
+        PathFeed.of(channel).of_corners = number(values, position) * factor or nan
 
     return run
 
@@ -322,13 +327,12 @@ def modal_corner_feed(draft: Draft, position: int, _shape: WordShape) -> Step:
 def rounding_distance(draft: Draft, position: int, shape: WordShape) -> Step:
     """ADIS, ADISPOS: distance before and after a corner in which G641 rounds."""
     factor = length_factor(draft.mode)
-    attribute = "rounding_mm" if shape.address == "ADIS" else "rapid_rounding_mm"
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position) * factor
         if value < 0.0:
             raise WordAlarm("12560", position, text=shape.address)
-        setattr(channel.memory, attribute, value)
+        tolerances.Smoothing.of(channel).distance_mm[shape.address] = value
         channel.context_changed()
 
     return run
@@ -342,7 +346,7 @@ def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
         value = number(values, position)
         if not 0.0 < value <= 200.0:
             raise WordAlarm("12560", position, text=shape.address)
-        channel.memory.percent[shape.address, name] = value
+        Overrides.of(channel).percent[shape.address, name] = value
         channel.context_changed()
 
     return run
@@ -365,10 +369,10 @@ def cutting_rate(_draft: Draft, position: int, _shape: WordShape) -> Step:
 
 
 def kept(_draft: Draft, position: int, shape: WordShape) -> Step:
-    """DITS, DITE, DILF: paths of acceleration and of retraction on an interruption; no effect on the path."""
+    """DITS, DITE: paths of acceleration; no effect on the path."""
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        channel.memory.values[shape.address, ()] = number(values, position)
+        Stored.of(channel).values[shape.address, ()] = number(values, position)
 
     return run
 
@@ -382,7 +386,8 @@ def path_feed_of_axis(draft: Draft, position: int, shape: WordShape) -> Step:
         value = number(values, position) * factor
         if value <= 0.0:
             raise WordAlarm("12560", position, text=shape.address)
-        channel.memory.values[shape.address, (column,)] = value
+        overrides = Overrides.of(channel)
+        (overrides.radii if shape.address == "FGREF" else overrides.tops)[column] = value
         channel.context_changed()
 
     return run
@@ -462,8 +467,9 @@ WORDS: dict[str, Maker] = {
     "OTOL": tolerances.tolerance,
     "ATOL": tolerances.tolerance,
     "ALF": retraction.direction_code,
+    "DILF": retraction.length,
     "POLF": retraction.retraction_position,
-    **dict.fromkeys(("DITS", "DITE", "DILF"), kept),
+    **dict.fromkeys(("DITS", "DITE"), kept),
     **dict.fromkeys(_PERCENT, percentage),
 }
 #: Addresses that take an extension or an index, and those that take something round their value.

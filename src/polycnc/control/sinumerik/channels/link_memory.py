@@ -9,6 +9,7 @@ from __future__ import annotations
 import struct
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 
@@ -36,7 +37,7 @@ _KEY = ("$A_DL", ())
 
 
 def _bytes(channel: SinumerikChannel) -> bytearray:
-    values = channel.memory.nck
+    values = Stored.of(channel).nck
     if _KEY not in values:
         values[_KEY] = bytearray(channel.memory.data.integer("$MN_MM_SIZEOF_LINKVAR_DATA"))
     memory: bytearray = values[_KEY]

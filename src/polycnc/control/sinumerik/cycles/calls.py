@@ -12,10 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import Level
 from polycnc.control.sinumerik import auxiliary
+from polycnc.control.sinumerik.block.single_block import RunningBlock
 from polycnc.control.sinumerik.cycles.arguments import Arguments
 from polycnc.control.sinumerik.cycles.moves import Moves
 from polycnc.control.sinumerik.cycles.table import CYCLES
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.motion.last_move import LastMove
 from polycnc.control.sinumerik.tools import stages
 from polycnc.language.sinumerik.statements.sections import count_levels, end_of_subprogram
 from polycnc.messages import AlarmError
@@ -70,7 +72,7 @@ class CycleProgram:
 
     def _run(self, index: int, channel: SinumerikChannel) -> None:
         """One block; for single block operation the last one acts if any block of the cycle did."""
-        memory = channel.memory
+        block = RunningBlock.of(channel)
         mark = channel.toolpath.mark()
         try:
             moves = self._moves
@@ -81,11 +83,11 @@ class CycleProgram:
         except AlarmError as alarm:
             alarm.column = alarm.column or self._column
             raise
-        memory.acted = channel.toolpath.mark() != mark
+        block.acted = channel.toolpath.mark() != mark
         if index < len(moves.blocks) - 1:
-            self._acted = self._acted or memory.acted
+            self._acted = self._acted or block.acted
         else:
-            memory.acted = self._acted or memory.acted
+            block.acted = self._acted or block.acted
             end_of_subprogram(channel)
 
 
@@ -110,7 +112,6 @@ def start(channel: SinumerikChannel, name: str, values: tuple[Any, ...], column:
 
 def _planned(channel: SinumerikChannel, cycle: Cycle, arguments: Arguments) -> Moves:
     """The blocks of a cycle in the plane that _DMODE asks for."""
-    memory = channel.memory
     plane = PLANE_OF_DMODE.get(arguments.digit("_DMODE", 0))
     if plane is not None and plane != channel.mode["plane"] and cycle.saves:
         channel.mode = channel.mode.with_code("plane", plane)
@@ -118,7 +119,7 @@ def _planned(channel: SinumerikChannel, cycle: Cycle, arguments: Arguments) -> M
         auxiliary.tool_changed(channel)
     if cycle.saves and channel.mode["side"] != "G40":
         raise AlarmError("61815", text=arguments.cycle)
-    memory.previous = None
+    LastMove.of(channel).forget()
     moves = Moves(channel, arguments.integer("_AXN"))
     moves.plan(partial(cycle.plan, moves, arguments))
     return moves

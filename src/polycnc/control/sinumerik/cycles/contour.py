@@ -6,13 +6,16 @@ G functions, feed and frames are put back.
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
 from functools import partial
 from math import nan
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.channel.path import Recorder
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.motion.last_move import LastMove
 from polycnc.cycles.turning.contour import Contour, Piece
 from polycnc.geometry import offset
 from polycnc.language.sinumerik.statements.calls import call_section, call_without_arguments, named_program
@@ -27,7 +30,6 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
     from polycnc.control.sinumerik.family import SinumerikChannel
-    from polycnc.control.sinumerik.memory import Memory
     from polycnc.geometry.arcs import Point
 
 #: Before a contour is read the tool is thought this far away, mm: so the first block always is a move, and an axis
@@ -53,9 +55,15 @@ class Place(NamedTuple):
     last: str = ""
 
 
+@dataclass(slots=True)
+class ChosenContour(State, lifetime=Lifetime.POWER):
+    """What CYCLE62 has chosen for the next cycle."""
+
+    place: Place | None = None
+
+
 #: Types of CYCLE62 that name labels: of the calling program, and of another one.
 LABELS_HERE, LABELS_IN_PROGRAM = 2, 3
-_CHOSEN = ("CYCLE62", ())
 
 
 def choose(moves: Moves, a: Arguments) -> None:
@@ -68,20 +76,21 @@ def choose(moves: Moves, a: Arguments) -> None:
     if kind not in (0, 1, LABELS_HERE, LABELS_IN_PROGRAM):
         raise AlarmError("61002")
     labels = (a.text("_LAB1").upper(), a.text("_LAB2").upper()) if kind >= LABELS_HERE else ("", "")
-    moves.act(_choose, moves.memory, Place("" if kind == LABELS_HERE else a.text("_KNAME"), *labels))
+    moves.act(_choose, moves.channel, Place("" if kind == LABELS_HERE else a.text("_KNAME"), *labels))
     moves.end_block()
 
 
-def _choose(memory: Memory, place: Place) -> None:
-    if memory.values.get(_CHOSEN) is not None:
+def _choose(channel: SinumerikChannel, place: Place) -> None:
+    if ChosenContour.of(channel).place is not None:
         raise not_supported("CYCLE62: two contours")
-    memory.values[_CHOSEN] = place
+    ChosenContour.of(channel).place = place
 
 
 def _place(channel: SinumerikChannel, name: str) -> Place:
     """What "NAME" and "LABEL1:LABEL2" mean; an empty name is what CYCLE62 has chosen, once."""
     if not name.strip():
-        chosen: Place | None = channel.memory.values.pop(_CHOSEN, None)
+        state = ChosenContour.of(channel)
+        chosen, state.place = state.place, None
         return chosen if chosen is not None else Place("")
     first, _, last = (part.strip() for part in name.partition(":"))
     return Place("", first.upper(), last.upper()) if last else Place(first)
@@ -123,20 +132,21 @@ class _State:
     position: list[float]
     feed: float
     saved: object
-    previous: Any
+    last: LastMove
 
     @classmethod
     def of(cls, channel: SinumerikChannel) -> _State:
         """As it is now."""
         position = channel.coordinates.position.copy()
-        return cls(position, channel.feed, channel.control.save(channel), channel.memory.previous)
+        return cls(position, channel.feed, channel.control.save(channel), copy(LastMove.of(channel)))
 
     def restore(self, channel: SinumerikChannel) -> None:
         """Put everything back."""
         channel.control.restore(channel, self.saved)
         channel.coordinates.arrive(self.position)
         channel.feed = self.feed
-        channel.memory.previous = self.previous
+        last = LastMove.of(channel)
+        last.start, last.arc = self.last.start, self.last.arc
 
 
 class _Reading:

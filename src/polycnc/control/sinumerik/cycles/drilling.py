@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.cycles.levels import Levels, levels, sign
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.cycles.drilling import deep_hole as deep
 from polycnc.cycles.drilling import holes
 from polycnc.cycles.drilling.holes import Action, Stroke
@@ -391,7 +392,7 @@ def _chuck_feed(moves: Moves, lead: float) -> float:
         return moves.channel.feed
     return (
         lead
-        if moves.memory.feed_mode is FeedMode.PER_REVOLUTION
+        if PathFeed.of(moves.channel).mode is FeedMode.PER_REVOLUTION
         else lead * moves.spindle.speed / tables.MINUTE
     )
 
@@ -402,7 +403,7 @@ def _lead_of(moves: Moves, feed: float) -> float:
     speed = moves.spindle.speed
     return (
         feed
-        if moves.memory.feed_mode is FeedMode.PER_REVOLUTION
+        if PathFeed.of(moves.channel).mode is FeedMode.PER_REVOLUTION
         else feed * tables.MINUTE / speed
         if speed
         else 0.0

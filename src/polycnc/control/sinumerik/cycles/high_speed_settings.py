@@ -59,12 +59,10 @@ def _set(channel: SinumerikChannel, a: Arguments) -> None:
 
 
 def _switch(channel: SinumerikChannel, codes: dict[str, str], tolerance: float, orientation: float) -> None:
-    memory = channel.memory
     if tolerance < 0.0 and tolerance != tolerances.NO_TOLERANCE:
         raise AlarmError("12560", text="S_TOL")
     channel.mode = channel.mode.with_codes(list(codes.items()))
-    memory.values["CTOL", ()] = tolerance
-    memory.values["OTOL", ()] = orientation
+    tolerances.Smoothing.of(channel).tolerance.update(CTOL=tolerance, OTOL=orientation)
     channel.context_changed()
 
 

@@ -17,6 +17,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frames import memory as frames
 from polycnc.control.sinumerik.frames.codes import crots
 from polycnc.control.sinumerik.motion import moves as motion
+from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.geometry.frames import IDENTITY, Frame, rotation
 from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, NcFrame
@@ -73,7 +74,7 @@ def record_of(channel: SinumerikChannel, name: str) -> Record:
     names = [axis.name for axis in channel.axis_data]
     if len(axes) != 2 or any(axis not in names for axis in axes):
         raise AlarmError("61180")
-    own = str(channel.memory.values.get(("$TC_CARR34", (1,)), ""))
+    own = str(Stored.of(channel).values.get(("$TC_CARR34", (1,)), ""))
     if name and name.upper() not in (machine.id.upper(), own.upper()):
         raise AlarmError("61182", name=name)
     first, second = axes
@@ -253,14 +254,13 @@ def _retract(moves: Moves, a: Arguments, kinematics: Kinematics) -> None:
 
 def _to_limits(channel: SinumerikChannel, axes: tuple[int, ...]) -> None:
     """Machine axes to the positions of the record ($TC_CARR38 to 40 of record 1), else to their upper limits."""
-    memory = channel.memory
     coordinates = channel.coordinates
     machine = coordinates.machine
     for axis in axes:
         column = coordinates.geometry[axis]
         if column < 0:
             continue
-        stored = memory.values.get((f"$TC_CARR{38 + axis}", (1,)))
+        stored = Stored.of(channel).values.get((f"$TC_CARR{38 + axis}", (1,)))
         limit = _range(channel, column)[1] if stored is None else float(stored)
         if limit < inf:
             machine[column] = limit
@@ -281,7 +281,7 @@ def _range(channel: SinumerikChannel, column: int) -> tuple[float, float]:
 
 def _record_range(channel: SinumerikChannel, number: int) -> tuple[float, float]:
     """Angle range of a rotary axis in the record ($TC_CARR30 to 33); two zeros are none."""
-    values = channel.memory.values
+    values = Stored.of(channel).values
     low, high = (float(values.get((f"$TC_CARR{n + number}", (1,)), 0.0)) for n in (30, 32))
     return (low, high) if low or high else (-inf, inf)
 

@@ -119,7 +119,7 @@ class Work:
             AlarmError: 61606 where the nose does not fit the contour.
         """
         channel = self.moves.channel
-        radius: float = stages.radius(channel.memory)
+        radius = stages.radius(channel)
         first, second = stages.tip(channel)
         try:
             path = parallel(contour, -self.towards * onwards(contour) * (radius + allowance))

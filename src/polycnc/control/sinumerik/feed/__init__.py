@@ -1,4 +1,7 @@
-"""Feeds and speeds: `tooth_feed` (FZ), `pace` (OVR, FGROUP, CFC …), `dry_run`, `spindle_speed` (G96), `spindles`.
+"""Feeds and speeds of path, axes and spindles.
+
+`path_feed` has what goes with F, `tooth_feed` FZ, `pace` OVR, FGROUP, CFC and the like, `dry_run`, `spindles` and
+`spindle_speed` (G96).
 
 `axis_settings` (when an axis has arrived) and `tolerances` (CTOL) say how exactly the axes follow.
 """

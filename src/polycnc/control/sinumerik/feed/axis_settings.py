@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.block.draft import axis_column
@@ -27,6 +28,23 @@ WINDOW_MODES = (0, 1, 2)
 PARAMETER_SETS = range(1, 7)
 
 
+@dataclass(slots=True)
+class AxisSettings(State, lifetime=Lifetime.POWER):
+    """What a program has set for single axes, by column.
+
+    Attributes:
+        motion_end: When it counts as arrived, as `MOTION_ENDS`.
+        window: Mode of ADISPOSA.
+        parameter_set: SCPARA.
+        acceleration: BRISKA, SOFTA, DRIVEA or JERKA.
+    """
+
+    motion_end: dict[int, int] = field(default_factory=dict)
+    window: dict[int, int] = field(default_factory=dict)
+    parameter_set: dict[int, int] = field(default_factory=dict)
+    acceleration: dict[int, str] = field(default_factory=dict)
+
+
 def motion_end(name: str) -> Procedure:
     """FINEA, COARSEA, IPOENDA, IPOBRKA: when a positioning axis counts as arrived."""
 
@@ -36,7 +54,7 @@ def motion_end(name: str) -> Procedure:
         if not axes:
             raise AlarmError("12040", text=name)
         for axis in axes:
-            channel.memory.values["MOTEND", (arguments.column(channel, axis),)] = MOTION_ENDS[name]
+            AxisSettings.of(channel).motion_end[arguments.column(channel, axis)] = MOTION_ENDS[name]
         if name == "IPOBRKA" and len(args) > 1:
             _set_braking_share(channel, axes[0], args[1])
 
@@ -59,7 +77,7 @@ def end_window(draft: Draft, position: int, shape: WordShape) -> Step:
         listed = values[position]
         if not isinstance(listed, tuple) or not 1 <= len(listed) <= 2 or listed[0] not in WINDOW_MODES:
             raise WordAlarm("12560", position, text="ADISPOSA")
-        channel.memory.values["ADISPOSA", (column,)] = int(listed[0])
+        AxisSettings.of(channel).window[column] = int(listed[0])
         if len(listed) > 1:
             channel.memory.data.write("$SA_ADISPOSA_VALUE", (channel.axes[column],), float(listed[1]))
 
@@ -68,10 +86,14 @@ def end_window(draft: Draft, position: int, shape: WordShape) -> Step:
 
 def _motion_end(channel: SinumerikChannel, indices: Arguments) -> int:
     """$AA_MOTEND: 5 and 6 where IPOBRKA has a window as well."""
-    end: int = of_axis("$AA_MOTEND", "MOTEND", MOTION_ENDS["FINEA"])(channel, indices)
-    if end == MOTION_ENDS["IPOBRKA"]:
-        end += of_axis("$AA_MOTEND", "ADISPOSA", 0)(channel, indices)
-    return end
+    settings, column = AxisSettings.of(channel), axis_of(channel, "$AA_MOTEND", indices)
+    end = settings.motion_end.get(column, MOTION_ENDS["FINEA"])
+    return end + settings.window.get(column, 0) if end == MOTION_ENDS["IPOBRKA"] else end
+
+
+def _parameter_set(channel: SinumerikChannel, indices: Arguments) -> int:
+    """$AA_SCPAR."""
+    return AxisSettings.of(channel).parameter_set.get(axis_of(channel, "$AA_SCPAR", indices), 1)
 
 
 def parameter_set(draft: Draft, position: int, shape: WordShape) -> Step:
@@ -82,24 +104,19 @@ def parameter_set(draft: Draft, position: int, shape: WordShape) -> Step:
         value = number(values, position)
         if value not in PARAMETER_SETS:
             raise WordAlarm("12560", position, text="SCPARA")
-        channel.memory.values["SCPARA", (column,)] = int(value)
+        AxisSettings.of(channel).parameter_set[column] = int(value)
 
     return run
 
 
-def of_axis(name: str, key: str, default: int) -> Callable[[SinumerikChannel, Arguments], Any]:
-    """How a variable with an axis as its index is read: what is kept under a key, else the default."""
-
-    def read(channel: SinumerikChannel, indices: Arguments) -> Any:
-        if len(indices) != 1 or not isinstance(indices[0], Axis):
-            raise AlarmError("12400", text=name)
-        memory = channel.memory
-        return memory.values.get((key, (memory.column(indices[0].name),)), default)
-
-    return read
+def axis_of(channel: SinumerikChannel, name: str, indices: Arguments) -> int:
+    """The column of the axis that is the index of a variable; 12400 where there is none."""
+    if len(indices) != 1 or not isinstance(indices[0], Axis):
+        raise AlarmError("12400", text=name)
+    return channel.memory.column(indices[0].name)
 
 
 AXIS_VARIABLES: dict[str, RowWithStop] = {
     "$AA_MOTEND": (Type.INT, _motion_end, None, True),
-    "$AA_SCPAR": (Type.INT, of_axis("$AA_SCPAR", "SCPARA", 1), None, True),
+    "$AA_SCPAR": (Type.INT, _parameter_set, None, True),
 }

@@ -5,15 +5,16 @@ Source: Fundamentals; job planning 16.1 (statement list).
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from math import inf, pi
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik import gcodes, tables
 from polycnc.toolpath.context import Pace
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
-    from polycnc.control.sinumerik.memory import Memory
 
 #: What F is the speed of on arcs under radius compensation.
 EDGES = {"CFC": "always", "CFIN": "inside", "CFTCP": "never"}
@@ -22,12 +23,29 @@ DEGREE_MM = 180.0 / pi
 NOTHING = Pace()
 
 
+@dataclass(slots=True)
+class Overrides(State, lifetime=Lifetime.RESET):
+    """Overrides, limits and what the path feed is for; with a reset 100 % and the axes of the machine data again.
+
+    Attributes:
+        percent: OVR, ACC[X] and the like, by address and axis.
+        group: Columns of the axes that FGROUP names; none for those of the machine data.
+        radii: FGREF by column, mm.
+        tops: FL by column, mm/s or degrees/s.
+    """
+
+    percent: dict[tuple[str, str], float] = field(default_factory=dict)
+    group: tuple[int, ...] = ()
+    radii: dict[int, float] = field(default_factory=dict)
+    tops: dict[int, float] = field(default_factory=dict)
+
+
 def pace(channel: SinumerikChannel, side: int) -> Pace | None:
     """The pace that holds now; `side` is that of the radius compensation. None where F says everything."""
-    memory = channel.memory
+    overrides = Overrides.of(channel)
     own = Pace(
-        feed=memory.percent.get(("OVR", ""), 100.0) / 100.0,
-        rapid=memory.percent.get(("OVRRAP", ""), 100.0) / 100.0,
+        feed=overrides.percent.get(("OVR", ""), 100.0) / 100.0,
+        rapid=overrides.percent.get(("OVRRAP", ""), 100.0) / 100.0,
         edge=EDGES[channel.mode["curve_feed"]] if side else "never",
         weights=_weights(channel),
         top=_tops(channel),
@@ -38,38 +56,25 @@ def pace(channel: SinumerikChannel, side: int) -> Pace | None:
     return own if own != NOTHING else None
 
 
-def group(memory: Memory) -> tuple[int, ...]:
-    """Columns of the axes that FGROUP names; none for those of the machine data."""
-    found: tuple[int, ...] = memory.values.get(("FGROUP", ()), ())
-    return found
-
-
-def forget(memory: Memory) -> None:
-    """A reset: overrides and limits are 100 %, the path feed is that of the axes of the machine data."""
-    memory.percent.clear()
-    for key in [key for key in memory.values if key[0] in ("FGROUP", "FGREF", "FL")]:
-        del memory.values[key]
-
-
 def _weights(channel: SinumerikChannel) -> tuple[float, ...]:
     """FGROUP: what a millimetre or degree of each axis counts; a degree of a rotary axis an arc of FGREF, else 1 mm."""
-    memory = channel.memory
-    named = group(memory)
+    overrides = Overrides.of(channel)
+    named = overrides.group
     if not named:
         return ()
     weights = [0.0] * len(channel.axes)
     for column in named:
-        radius = memory.values.get(("FGREF", (column,)), DEGREE_MM)
+        radius = overrides.radii.get(column, DEGREE_MM)
         weights[column] = radius * pi / 180.0 if channel.axis_data[column].rotary else 1.0
     return tuple(weights)
 
 
 def _tops(channel: SinumerikChannel) -> tuple[float, ...]:
     """FL: limits of synchronous axes, those outside FGROUP."""
-    memory = channel.memory
-    named = group(memory)
+    overrides = Overrides.of(channel)
+    named = overrides.group
     tops = [
-        memory.values.get(("FL", (column,)), inf) if named and column not in named else inf
+        overrides.tops.get(column, inf) if named and column not in named else inf
         for column in range(len(channel.axes))
     ]
     return tuple(tops) if min(tops, default=inf) < inf else ()
@@ -78,7 +83,7 @@ def _tops(channel: SinumerikChannel) -> tuple[float, ...]:
 def _factors(channel: SinumerikChannel, address: str) -> tuple[float, ...]:
     memory = channel.memory
     factors = [1.0] * len(channel.axes)
-    for (name, axis), percent in memory.percent.items():
+    for (name, axis), percent in Overrides.of(channel).percent.items():
         if name == address and (axis in memory.columns or axis in memory.machine_columns):
             factors[memory.column(axis)] = percent / 100.0
     return tuple(factors) if any(factor != 1.0 for factor in factors) else ()

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.tables import MINUTE, MM_PER_M
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
@@ -121,10 +122,10 @@ def feed_source(channel: SinumerikChannel, args: Arguments) -> None:
 
     PC0001 for an axis.
     """
-    memory = channel.memory
-    memory.feed_source = 0
+    feed = PathFeed.of(channel)
+    feed.spindle = 0
     if args:
-        memory.feed_source = memory.spindles.get(_source(args[0])).number
+        feed.spindle = channel.memory.spindles.get(_source(args[0])).number
     channel.context_changed()
 
 

@@ -3,71 +3,87 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from math import hypot
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import number
-from polycnc.control.sinumerik.feed.axis_settings import of_axis
+from polycnc.control.sinumerik.feed.axis_settings import axis_of
 from polycnc.control.sinumerik.variables.row import RowWithStop
-from polycnc.language.sinumerik.names.values import Axis, Type
-from polycnc.messages import AlarmError
+from polycnc.language.sinumerik.names.values import Type
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
-    from polycnc.control.sinumerik.memory import Memory
     from polycnc.language.sinumerik.words import WordShape
 
 
 NO_TOLERANCE = -1.0
 
 
+@dataclass(slots=True)
+class Smoothing(State, lifetime=Lifetime.POWER):
+    """How far smoothing may leave the programmed path.
+
+    Attributes:
+        distance_mm: ADIS and ADISPOS by address.
+        tolerance: CTOL and OTOL by address; `NO_TOLERANCE` for none.
+        of_axes: ATOL by column.
+    """
+
+    distance_mm: dict[str, float] = field(default_factory=dict)
+    tolerance: dict[str, float] = field(default_factory=dict)
+    of_axes: dict[int, float] = field(default_factory=dict)
+
+
 def tolerance(draft: Draft, position: int, shape: WordShape) -> Step:
     """CTOL, OTOL, ATOL[axis]: tolerance of smoothing; a negative value takes it back."""
-    key = () if shape.index is None else (axis_column(draft, position, shape),)
+    column = None if shape.index is None else axis_column(draft, position, shape)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)
-        channel.memory.values[shape.address, key] = value if value >= 0.0 else NO_TOLERANCE
+        smoothing, given = Smoothing.of(channel), value if value >= 0.0 else NO_TOLERANCE
+        if column is None:
+            smoothing.tolerance[shape.address] = given
+        else:
+            smoothing.of_axes[column] = given
         channel.context_changed()
 
     return run
 
 
-def contour_tolerance(memory: Memory) -> float:
+def contour_tolerance(channel: SinumerikChannel) -> float:
     """CTOL, mm; 0 where none is programmed."""
-    return max(float(memory.values.get(("CTOL", ()), NO_TOLERANCE)), 0.0)
+    return max(Smoothing.of(channel).tolerance.get("CTOL", NO_TOLERANCE), 0.0)
 
 
 def _programmed(address: str) -> Callable[[SinumerikChannel, Arguments], float]:
-    return lambda channel, _indices: float(channel.memory.values.get((address, ()), NO_TOLERANCE))
+    return lambda channel, _indices: Smoothing.of(channel).tolerance.get(address, NO_TOLERANCE)
 
 
 def _programmed_of_axis(channel: SinumerikChannel, indices: Arguments) -> float:
-    return float(of_axis("$PA_ATOL", "ATOL", -1)(channel, indices))
+    return Smoothing.of(channel).of_axes.get(axis_of(channel, "$PA_ATOL", indices), NO_TOLERANCE)
 
 
 def _axis_tolerance(channel: SinumerikChannel, column: int) -> float:
-    memory = channel.memory
     geometry = [i for i in channel.coordinates.geometry if i >= 0]
-    contour = contour_tolerance(memory)
+    contour = contour_tolerance(channel)
     if contour and column in geometry:
         return float(contour / len(geometry) ** 0.5)
-    own = float(memory.values.get(("ATOL", (column,)), NO_TOLERANCE))
-    return own if own >= 0.0 else memory.data.number("$MA_COMPRESS_POS_TOL", channel.axes[column])
+    own = Smoothing.of(channel).of_axes.get(column, NO_TOLERANCE)
+    return own if own >= 0.0 else channel.memory.data.number("$MA_COMPRESS_POS_TOL", channel.axes[column])
 
 
 def _active_of_axis(channel: SinumerikChannel, indices: Arguments) -> float:
-    if len(indices) != 1 or not isinstance(indices[0], Axis):
-        raise AlarmError("12400", text="$AA_ATOL")
-    return _axis_tolerance(channel, channel.memory.column(indices[0].name))
+    return _axis_tolerance(channel, axis_of(channel, "$AA_ATOL", indices))
 
 
 def _active_contour(channel: SinumerikChannel, _indices: Arguments) -> float:
     geometry = [i for i in channel.coordinates.geometry if i >= 0]
-    return contour_tolerance(channel.memory) or hypot(*(_axis_tolerance(channel, i) for i in geometry))
+    return contour_tolerance(channel) or hypot(*(_axis_tolerance(channel, i) for i in geometry))
 
 
 TOLERANCE_VARIABLES: dict[str, RowWithStop] = {

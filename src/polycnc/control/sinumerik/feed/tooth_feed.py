@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block.positions import number
+from polycnc.control.sinumerik.feed.path_feed import PathFeed, ToothFeed
 from polycnc.control.sinumerik.motion import moves
 from polycnc.language.sinumerik.words import WordAlarm
 
@@ -37,14 +38,13 @@ def tooth_feed(draft: Draft, position: int, _shape: WordShape) -> Step:
 
 def follow(channel: SinumerikChannel) -> None:
     """Another edge or number of teeth: the feed follows, unless F or another feed type has taken its place."""
-    kept = channel.memory.tooth_feed
-    if kept is not None and channel.feed == kept[1]:
-        set_feed(channel, kept[0])
+    kept = PathFeed.of(channel).tooth
+    if kept is not None and channel.feed == kept.per_revolution:
+        set_feed(channel, kept.per_tooth)
 
 
 def set_feed(channel: SinumerikChannel, tooth_feed: float) -> None:
     """The path feed that a feed per tooth gives with the active edge; none without teeth (then 0, alarm 10860)."""
-    memory = channel.memory
-    edge = memory.tools.edge
+    edge = channel.memory.tools.edge
     channel.feed = tooth_feed * (edge.teeth if edge is not None else 0.0)
-    memory.tooth_feed = tooth_feed, channel.feed
+    PathFeed.of(channel).tooth = ToothFeed(tooth_feed, channel.feed)

@@ -13,6 +13,7 @@ from polycnc.control.sinumerik.block.positions import AxisTerm, length_factor, n
 from polycnc.control.sinumerik.feed import spindle_speed
 from polycnc.control.sinumerik.frames import memory as frames
 from polycnc.control.sinumerik.limits import working_area
+from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.geometry.frames import Frame, Vector
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import cross
@@ -176,7 +177,7 @@ def pole(draft: Draft) -> Step:
     plane = PLANES[draft.mode["plane"]]
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        polar = channel.memory.polar
+        polar = Polar.of(channel)
         geometry = channel.coordinates.geometry
         position = channel.coordinates.position
         if code == "G110":

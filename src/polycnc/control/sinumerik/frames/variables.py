@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.frames import memory as frames
 from polycnc.control.sinumerik.variables.row import Indices, Row
+from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NcFrame
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
@@ -100,13 +101,13 @@ def _external(channel: SinumerikChannel, indices: Indices) -> tuple[str, int]:
 
 def _external_shift(channel: SinumerikChannel, indices: Indices) -> float:
     _, column = _external(channel, indices)
-    return float(channel.memory.values.get(("$AA_ETRANS", (column,)), 0.0))
+    return float(Stored.of(channel).values.get(("$AA_ETRANS", (column,)), 0.0))
 
 
 def _set_external_shift(channel: SinumerikChannel, indices: Indices, value: float) -> None:
     """$AA_ETRANS: kept; it acts when the PLC takes it over (DB31 ff., DBX3.0), as part of $P_EXTFRAME (5.4)."""
     axis, column = _external(channel, indices)
-    channel.memory.values["$AA_ETRANS", (column,)] = float(value)
+    Stored.of(channel).values["$AA_ETRANS", (column,)] = float(value)
     number = 31 + channel.machine.axes.index(channel.axis_data[column])
     if channel.setup.switches.plc.get(f"DB{number}.DBX3.0"):
         system = channel.memory.frames.system

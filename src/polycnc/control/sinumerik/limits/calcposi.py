@@ -86,10 +86,9 @@ def _of_limits(
     channel: SinumerikChannel, first: list[float], last: list[float], margins: list[float], tested: int
 ) -> Iterator[Violation]:
     """Software limit switches by machine axis, working area by geometry axis."""
-    memory = channel.memory
     geometry = channel.coordinates.geometry
     plane = PLANES[channel.mode["plane"]]
-    for limit in memory.limits:
+    for limit in working_area.Ranges.of(channel).limits:
         unit = OF_SWITCH if limit.alarm == working_area.SWITCH else OF_AREA
         if limit.column not in geometry or not tested & unit:
             continue
@@ -121,7 +120,7 @@ def _of_zones(
     channel: SinumerikChannel, first: list[float], last: list[float], margin: float, tested: int
 ) -> Iterator[Violation]:
     """The first zone on the way; the clearance shortens the way in front of it."""
-    found = protection.protection(channel)
+    found = protection.Protection.of(channel)
     placed = list(found.placed(channel)) if tested & ACTIVE_ZONES else []
     tools = [each for each in found.placed(channel) if each[0].of_tool]
     if tested & PREACTIVE_ZONES:

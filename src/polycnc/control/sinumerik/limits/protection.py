@@ -7,12 +7,13 @@ zones of the machine, 10701 for those of the channel). Without a zone of the too
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 from math import inf, isnan, nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.path import Rank, Recorder, Stage
+from polycnc.channel.state import Lifetime, State
 from polycnc.channel.way import Way
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
@@ -27,6 +28,7 @@ from polycnc.toolpath.kinds import CCW_KINDS
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from polycnc.channel.channel import Channel
     from polycnc.channel.path import Move
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.arcs import Point
@@ -79,7 +81,7 @@ class Definition:
 
 
 @dataclass(slots=True)
-class Protection:
+class Protection(State, lifetime=Lifetime.POWER):
     """The zones of a channel.
 
     Attributes:
@@ -88,9 +90,15 @@ class Protection:
         open: The zone that is being defined.
     """
 
-    zones: dict[tuple[str, int], Zone]
-    states: dict[tuple[str, int], tuple[int, tuple[float, float, float]]]
+    zones: dict[tuple[str, int], Zone] = field(default_factory=dict)
+    states: dict[tuple[str, int], tuple[int, tuple[float, float, float]]] = field(default_factory=dict)
     open: Definition | None = None
+
+    @classmethod
+    def first(cls, channel: Channel) -> Protection:
+        """The zones of the machine, which all channels share; none is on."""
+        shared = channel.group.shared if channel.group is not None else {}
+        return cls(shared.setdefault("protection zones", {}))
 
     def placed(
         self, channel: SinumerikChannel, *, preactive: bool = False
@@ -109,15 +117,6 @@ def _plc_signal(channel: SinumerikChannel, kind: str, number: int) -> bool:
     return bool(channel.setup.switches.plc.get(name))
 
 
-def protection(channel: SinumerikChannel) -> Protection:
-    """The zones of a channel."""
-    memory = channel.memory
-    if memory.protection is None:
-        shared = channel.group.shared if channel.group is not None else {}
-        memory.protection = Protection(shared.setdefault("protection zones", {}), {})
-    return memory.protection
-
-
 # ---- definition
 
 
@@ -128,7 +127,7 @@ def begin(kind: str) -> Callable[[SinumerikChannel, Arguments], None]:
         if not 2 <= len(args) <= 5 or any(arg is None for arg in args[:2]):
             raise AlarmError("14020", text=f"{kind}PROTDEF")
         arguments.whole(args[0])
-        state = protection(channel)
+        state = Protection.of(channel)
         memory = channel.memory
         if state.open is not None:
             raise AlarmError("PC0009", text=f"{kind}PROTDEF")
@@ -139,7 +138,7 @@ def begin(kind: str) -> Callable[[SinumerikChannel, Arguments], None]:
         channel.flush()
         recorder, position = Recorder(), channel.coordinates.position
         state.open = Definition(kind, args, recorder, position, channel.feed)
-        memory.limits = ()
+        working_area.Ranges.of(channel).limits = ()
         channel.path.divert(recorder)
         channel.coordinates.arrive(sent_away(position, channel.coordinates.geometry))
         channel.feed = channel.feed if channel.feed > 0.0 else 1.0
@@ -153,7 +152,7 @@ def _is_shifted(frame: NcFrame) -> bool:
 
 def execute(channel: SinumerikChannel, _args: Arguments) -> None:
     """EXECUTE: the zone is defined; position, path and feed are as before."""
-    state = protection(channel)
+    state = Protection.of(channel)
     definition = state.open
     if definition is None:
         raise AlarmError("14020", text="EXECUTE")
@@ -164,12 +163,12 @@ def execute(channel: SinumerikChannel, _args: Arguments) -> None:
 
 def leave(channel: SinumerikChannel) -> None:
     """A definition ends, or is abandoned: position, path and feed are as before it."""
-    memory = channel.memory
-    definition = memory.protection.open if memory.protection is not None else None
-    if memory.protection is None or definition is None:
+    state = Protection.of(channel)
+    definition = state.open
+    if definition is None:
         return
     channel.flush()
-    memory.protection.open = None
+    state.open = None
     channel.path.resume(definition.recorder)
     channel.coordinates.arrive(definition.position)
     if isnan(definition.feed) and channel.feed == 1.0:
@@ -179,8 +178,7 @@ def leave(channel: SinumerikChannel) -> None:
 
 def check_end(channel: SinumerikChannel) -> None:
     """PC0009: the program ends while a zone is being defined."""
-    memory = channel.memory
-    if memory.protection is not None and memory.protection.open is not None:
+    if Protection.of(channel).open is not None:
         leave(channel)
         raise AlarmError("PC0009", text="M30")
 
@@ -249,7 +247,7 @@ def switch(kind: str) -> Callable[[SinumerikChannel, Arguments], None]:
         if not 2 <= len(args) <= 5:
             raise AlarmError("14020", text=f"{kind}PROT")
         number, state = arguments.whole(args[0]), arguments.whole(args[1])
-        found = protection(channel)
+        found = Protection.of(channel)
         key = kind, number
         if state not in range(4) or key not in found.zones:
             raise AlarmError("14020", text=f"{kind}PROT({number},{state})")
@@ -286,7 +284,7 @@ class Guard(Stage):
         way = Way(move, channel.coordinates.geometry)
         parts = [k / PIECES for k in range(PIECES + 1)] if move.is_arc else [0.0, 1.0]
         points = [channel.coordinates.to_machine(way.at(part)) for part in parts]
-        placed = list(protection(channel).placed(channel))
+        placed = list(Protection.of(channel).placed(channel))
         for start, end in pairwise(points):
             found = contact(channel, placed, start, end)
             if found is not None and found[0] < 1.0:

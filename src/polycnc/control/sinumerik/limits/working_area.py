@@ -6,13 +6,16 @@ to 43430, `$P_WORKAREA_CS_…`.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik import gcodes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.frames.memory import chain
 from polycnc.control.sinumerik.variables.row import Indices, Row
+from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 
@@ -48,10 +51,16 @@ class Limit(NamedTuple):
     system: int = MACHINE
 
 
+@dataclass(slots=True)
+class Ranges(State, lifetime=Lifetime.POWER):
+    """The ranges that targets must stay in."""
+
+    limits: tuple[Limit, ...] = ()
+
+
 def refresh(channel: SinumerikChannel) -> None:
     """Work out the limits that hold now; only those that setup or program gave a value."""
-    memory = channel.memory
-    data = memory.data
+    data = channel.memory.data
     limits = []
     for column, name in enumerate(channel.axes):
         minus, plus = (f"$MA_POS_LIMIT_{side}{_pair(channel, column, side)}" for side in ("MINUS", "PLUS"))
@@ -66,12 +75,12 @@ def refresh(channel: SinumerikChannel) -> None:
             high = data.number("$SA_WORKAREA_LIMIT_PLUS", name) if above else inf
             limits.append(Limit(column, low, high, WORKING_AREA))
     limits += _of_work_system(channel)
-    memory.limits = tuple(limit for limit in limits if limit.low > -inf or limit.high < inf)
+    Ranges.of(channel).limits = tuple(limit for limit in limits if limit.low > -inf or limit.high < inf)
 
 
 def _of_work_system(channel: SinumerikChannel) -> list[Limit]:
     """WALCS1 to WALCS10: the ranges of a group, in the system that the group names."""
-    values = channel.memory.values
+    values = Stored.of(channel).values
     group = gcodes.number_of(channel.mode["working_area_wcs"]) - 1
     if group == 0:
         return []
@@ -101,12 +110,12 @@ def _area(name: str, type_: Type, *, of_axis: bool) -> Row:
 
     def read(channel: SinumerikChannel, indices: Indices) -> Any:
         empty = {Type.BOOL: False, Type.INT: WORK}.get(type_, 0.0)
-        return channel.memory.values.get((name, place(channel, indices)), empty)
+        return Stored.of(channel).values.get((name, place(channel, indices)), empty)
 
     def write(channel: SinumerikChannel, indices: Indices, value: Any) -> None:
         if name.endswith("COORD_SYSTEM") and value not in (WORK, SETTABLE):
             raise AlarmError("12560", text=name)
-        channel.memory.values[name, place(channel, indices)] = value
+        Stored.of(channel).values[name, place(channel, indices)] = value
         refresh(channel)
 
     return type_, read, write
@@ -130,11 +139,11 @@ def _pair(channel: SinumerikChannel, column: int, side: str) -> str:
 
 def check(channel: SinumerikChannel, end: list[float]) -> None:
     """Refuse a target beyond a limit: 10720 for a software limit switch, 10730 and 10735 for working areas."""
-    memory = channel.memory
+    limits = Ranges.of(channel).limits
     systems = {MACHINE: channel.coordinates.to_machine(end), WORK: end}
-    if any(limit.system == SETTABLE for limit in memory.limits):
-        systems[SETTABLE] = channel.coordinates.image(chain(memory.frames.inner()).frame, end)
-    for limit in memory.limits:
+    if any(limit.system == SETTABLE for limit in limits):
+        systems[SETTABLE] = channel.coordinates.image(chain(channel.memory.frames.inner()).frame, end)
+    for limit in limits:
         value = systems[limit.system][limit.column]
         if value < limit.low - _SLACK or value > limit.high + _SLACK:
             side = "-" if value < limit.low else "+"

@@ -1,1 +1,5 @@
-"""Motion: `moves` (G0, G1, G33, G4 …), `circles`, `splines` with `spline_stage`, `indexing`, `repositioning`."""
+"""Motion of a block.
+
+`moves` (G0, G1, G33, G4 …), `polar` words, `circles`, `splines` with `spline_stage`, `indexing`, `repositioning`;
+`last_move` is where a move came from, for CT.
+"""

@@ -13,7 +13,10 @@ from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import plain
 from polycnc.control.sinumerik.block.positions import Way, is_diameter, length_factor, number, target
 from polycnc.control.sinumerik.limits import working_area
+from polycnc.control.sinumerik.limits.working_area import Ranges
 from polycnc.control.sinumerik.motion import moves
+from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
+from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
@@ -149,7 +152,7 @@ class Arc:
         return 0.5 * (begin[0] + end[u]) - height * dv, 0.5 * (begin[1] + end[v]) + height * du
 
     def _pole(self, channel: SinumerikChannel) -> arcs.Point:
-        pole = channel.memory.polar.pole
+        pole = Polar.of(channel).pole
         return pole[self.axes[0]], pole[self.axes[1]]
 
     def _polar_end(
@@ -157,7 +160,7 @@ class Arc:
     ) -> tuple[float, float]:
         """The end point at angle AP; without RP the radius is the distance from the pole."""
         if self.polar[1] is None:
-            channel.memory.polar.radius = arcs.radius_of(center, begin)
+            Polar.of(channel).radius = arcs.radius_of(center, begin)
         return moves.polar_point(self.draft, channel, values, *self.polar)
 
 
@@ -235,11 +238,11 @@ def curve(
     turns: float = 0.0,
 ) -> None:
     """Move along an arc in space and remember it for CT."""
-    memory = channel.memory
-    if memory.limits:
+    if Ranges.of(channel).limits:
         working_area.check(channel, end)
     sense = 1.0 if kind in CCW_KINDS else -1.0
-    memory.previous = (channel.coordinates.position, (center, normal), sense)
+    last = LastMove.of(channel)
+    last.start, last.arc = channel.coordinates.position, ArcOfMove(center, normal, sense)
     channel.curve(kind, end, feed, center=center, normal=normal, turns=turns)
 
 
@@ -328,14 +331,14 @@ def last_direction(
     channel: SinumerikChannel, columns: tuple[int, int, int], axes: tuple[int, int, int]
 ) -> arcs.Point:
     """Direction in the plane in which the previous move ended; alarm 14045 if there was none."""
-    memory = channel.memory
-    if memory.previous is None:
+    last = LastMove.of(channel)
+    start = last.start
+    if start is None:
         raise AlarmError("14045")
-    start, circle_data, sense = memory.previous
     end = channel.coordinates.position
     u, v = columns[:2]
-    if circle_data is not None:
-        center, normal = circle_data
+    if last.arc is not None:
+        center, normal, sense = last.arc
         ccw = sense * normal[axes[2]] > 0.0
         return arcs.tangent_at((center[axes[0]], center[axes[1]]), (end[u], end[v]), ccw)
     du, dv = end[u] - start[u], end[v] - start[v]

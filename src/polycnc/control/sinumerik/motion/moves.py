@@ -5,13 +5,20 @@ Source: Fundamentals (G0, G1, G4, G33 to G35, G331/G332, G63, G74, G75, POS, POS
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from math import cos, isnan, nan, radians, sin, tan
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import plain
 from polycnc.control.sinumerik.block.positions import AxisTerm, Way, axis_term, length_factor, number, target
+from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.limits import working_area
+from polycnc.control.sinumerik.limits.working_area import Ranges
+from polycnc.control.sinumerik.motion.last_move import LastMove
+from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM
@@ -25,6 +32,19 @@ from polycnc.toolpath.modes import FeedMode
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
+
+
+@dataclass(slots=True)
+class OpenLine(State, lifetime=Lifetime.RESET):
+    """A line whose end the next block tells (ANG).
+
+    Attributes:
+        angle: Of the line to the first axis of the plane, degrees.
+        corners: Inserts the chamfers and roundings at its end.
+    """
+
+    angle: float = 0.0
+    corners: list[Callable[[], None]] = field(default_factory=list)
 
 
 # ---- straight lines
@@ -70,6 +90,7 @@ def _plain_linear(draft: Draft) -> Step | None:
         return _incremental_linear(terms)
     places = [(term.position, term.column, term.factor) for term in terms]
     own_feed = draft.take_plain("F") if draft.mode["feed"] != "G931" else None
+    ranges, last = Ranges.of(draft.channel), LastMove.of(draft.channel)
     feed_place, feed_to_internal = -1 if own_feed is None else own_feed, feed_factor(draft)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
@@ -99,10 +120,9 @@ def _plain_linear(draft: Draft) -> Step | None:
         if not feed > 0.0:
             raise AlarmError("10860")
         if moves:
-            memory = channel.memory
-            if memory.limits:
+            if ranges.limits:
                 working_area.check(channel, end)
-            memory.previous = (start, None, 0.0)
+            last.start, last.arc = start, None
             channel.straight(Kind.FEED, end, feed)
 
     own = () if own_feed is None else (plain.feed(own_feed, feed_to_internal),)
@@ -134,11 +154,16 @@ def line(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -
     """Move straight to a point; remembers where the move came from, for CT."""
     start = channel.coordinates.position
     if any(abs(a - b) > NO_WAY for a, b in zip(end, start, strict=True)):
-        memory = channel.memory
-        if memory.limits:
-            working_area.check(channel, end)
-        memory.previous = (start, None, 0.0)
+        _begin(channel, start, end)
         channel.straight(kind, end, feed)
+
+
+def _begin(channel: SinumerikChannel, start: list[float], end: list[float]) -> None:
+    """A straight path move: its target must be allowed, and CT knows where it came from."""
+    if Ranges.of(channel).limits:
+        working_area.check(channel, end)
+    last = LastMove.of(channel)
+    last.start, last.arc = start, None
 
 
 Goal = Any
@@ -209,8 +234,7 @@ def polar_point(
         AlarmError: 14200 for a negative radius, 14210 for an angle beyond 360 degrees, 14280 without any
             radius.
     """
-    memory = channel.memory
-    polar = memory.polar
+    polar = Polar.of(channel)
     incremental = draft.mode["dimensions"] == "G91"
     if angle is not None:
         value = number(values, angle[0])
@@ -280,7 +304,7 @@ def _open_line(draft: Draft, position: int) -> Goal:
     draft.opens_line = True
 
     def goal(channel: SinumerikChannel, values: Values) -> list[float]:
-        channel.memory.open_line = number(values, position)
+        OpenLine.of(channel).angle = number(values, position)
         channel.mode = channel.mode.with_code("open_line", "ANG")
         return channel.coordinates.position
 
@@ -293,10 +317,10 @@ def _meeting_lines(draft: Draft, terms: list[AxisTerm], position: int, columns: 
     u, v = columns[:2]
 
     def first_line(channel: SinumerikChannel, values: Values) -> None:
-        memory = channel.memory
+        first = OpenLine.of(channel)
         start = channel.coordinates.position
         end = target(channel, terms, values)
-        a, b = radians(memory.open_line), radians(number(values, position))
+        a, b = radians(first.angle), radians(number(values, position))
         across = sin(b - a)
         if abs(across) < NO_WAY:
             raise WordAlarm("14040", position)
@@ -305,9 +329,9 @@ def _meeting_lines(draft: Draft, terms: list[AxisTerm], position: int, columns: 
         corner = start.copy()
         corner[u], corner[v] = start[u] + way * cos(a), start[v] + way * sin(a)
         channel.mode = channel.mode.with_code("open_line", "")
-        for insert in memory.open_corners:
+        for insert in first.corners:
             insert()
-        memory.open_corners = []
+        first.corners = []
         feed = channel.feed if kind is Kind.RAPID else checked_feed(channel.feed)
         line(channel, kind, corner, nan if kind is Kind.RAPID else feed)
 
@@ -392,7 +416,7 @@ def tap_with_chuck(draft: Draft) -> Step | None:
         speed = memory.spindles.get().speed
         lead = (
             feed
-            if memory.feed_mode is FeedMode.PER_REVOLUTION
+            if PathFeed.of(channel).mode is FeedMode.PER_REVOLUTION
             else feed * tables.MINUTE / speed
             if speed
             else 0.0
@@ -407,11 +431,8 @@ def special(
 ) -> None:
     """A straight move with curve parameters."""
     start = channel.coordinates.position
-    memory = channel.memory
     if any(abs(a - b) > NO_WAY for a, b in zip(end, start, strict=True)):
-        if memory.limits:
-            working_area.check(channel, end)
-        memory.previous = (start, None, 0.0)
+        _begin(channel, start, end)
         channel.curve(kind, end, feed, parameters=parameters)
 
 
@@ -506,7 +527,7 @@ def _in_parts(term: AxisTerm) -> Step:
 def _position_axis(term: AxisTerm) -> Step:
     def run(channel: SinumerikChannel, values: Values) -> None:
         end = target(channel, (term,), values)
-        if channel.memory.limits:
+        if Ranges.of(channel).limits:
             working_area.check(channel, end)
         channel.coordinates.arrive(end)
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from math import hypot, isnan, nan
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik.block.positions import length_factor, number
 from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.signals import interrupts
@@ -49,6 +50,13 @@ class Arc:
     ccw: bool
 
 
+@dataclass(slots=True)
+class Repositioning(State, lifetime=Lifetime.POWER):
+    """Point of the last REPOS (`$AC_REPOS_PATH_MODE`), 0 before."""
+
+    point: int = 0
+
+
 def reposition(draft: Draft) -> Step:
     """A block with REPOS: the approach, then the end of the routine. Axes are only named: their values do not count."""
     code = draft.codes["block_motion"]
@@ -78,7 +86,7 @@ def reposition(draft: Draft) -> Step:
         arc = _touching_arc(channel, way, part, plane, radius, half=code in HALVES)
         _approach(channel, way.at(part), named, feed, arc)
         interrupted.resume_at = part
-        channel.memory.repos_mode = POINTS.index(point) + 1
+        Repositioning.of(channel).point = POINTS.index(point) + 1
         end_of_subprogram(channel)
 
     return run
@@ -159,7 +167,7 @@ def _is_possible(channel: SinumerikChannel, _indices: tuple[Any, ...]) -> int:
 
 
 REPOS_VARIABLES: dict[str, RowWithStop] = {
-    "$AC_REPOS_PATH_MODE": (Type.INT, lambda channel, _indices: channel.memory.repos_mode, None, True),
+    "$AC_REPOS_PATH_MODE": (Type.INT, lambda channel, _indices: Repositioning.of(channel).point, None, True),
     "$AC_RETPOINT": (Type.REAL, _return_point, None, True),
     "$P_REPINF": (Type.INT, _is_possible, None, False),
 }

@@ -7,8 +7,10 @@ into chords.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Procedure
 from polycnc.control.sinumerik.block.positions import AxisTerm, axis_term, length_factor, number, target
@@ -34,8 +36,21 @@ LEAST_GROUP = 3
 MAX_COEFFICIENTS = 5
 #: Chords of a polynomial at most, and the points at which its denominator is looked at.
 MAX_CHORDS, SAMPLES = 4096, 1000
-#: Keys of `memory.values`.
-GROUP, INTERPOLATED = "SPLINEPATH", "POLYPATH"
+
+
+@dataclass(slots=True)
+class Splines(State, lifetime=Lifetime.POWER):
+    """What splines and polynomials are for.
+
+    Attributes:
+        group: Columns of SPLINEPATH; None for the first axes.
+        interpolated: Groups of POLYPATH.
+        window: Which of the last blocks were points of the active spline.
+    """
+
+    group: frozenset[int] | None = None
+    interpolated: tuple[str, ...] = ("AXES",)
+    window: list[bool] = field(default_factory=list)
 
 
 # ---- splines
@@ -43,7 +58,6 @@ GROUP, INTERPOLATED = "SPLINEPATH", "POLYPATH"
 SPLINES = ("ASPLINE", "BSPLINE", "CSPLINE")
 #: Points of the spline that 10 blocks need at least; C splines: MD20160 and one more (4.2).
 WINDOW, LEAST_POINTS = 10, {"ASPLINE": 4, "BSPLINE": 6}
-_WINDOW = "spline blocks", ()
 
 
 def count_blocks(draft: Draft, *, is_point: bool) -> Step:
@@ -54,9 +68,8 @@ def count_blocks(draft: Draft, *, is_point: bool) -> Step:
     least = LEAST_POINTS.get(code, datum + 1)
 
     def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
-        before = [] if begins else channel.memory.values.get(_WINDOW, [])
-        last = [*before, is_point][-WINDOW:]
-        channel.memory.values[_WINDOW] = last
+        state = Splines.of(channel)
+        state.window = last = [*([] if begins else state.window), is_point][-WINDOW:]
         if len(last) == WINDOW and sum(last) < least:
             raise AlarmError("PC0007", code=code, count=sum(last), least=least)
 
@@ -71,7 +84,8 @@ def positioned(draft: Draft) -> Step | None:
         return None
 
     def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
-        group = channel.memory.values.get((GROUP, ()), range(LEAST_GROUP))
+        bent = Splines.of(channel).group
+        group = range(LEAST_GROUP) if bent is None else bent
         for column in columns:
             if column in group:
                 raise AlarmError("PC0008", axis=channel.axes[column])
@@ -106,7 +120,7 @@ def control_points(draft: Draft) -> Step | None:
         if degree is not None and order not in DEGREES:
             raise WordAlarm("12560", degree, text="SD")
         end, feed = goal(channel, values), moves.checked_feed(channel.feed)
-        stages.spline(channel).columns = channel.memory.values.get((GROUP, ()))
+        stages.spline(channel).columns = Splines.of(channel).group
         moves.special(channel, Kind.SPLINE, end, feed, [pull, order, _parameter(values, distance)])
 
     return run
@@ -127,7 +141,7 @@ def spline_group(channel: SinumerikChannel, args: tuple[Any, ...]) -> None:
     if len(args) < 2 or args[0] != 1 or len(args) - 1 > LARGEST_GROUP:
         raise AlarmError("14020", text="SPLINEPATH")
     columns = frozenset(arguments.column(channel, axis) for axis in args[1:])
-    channel.memory.values[GROUP, ()] = columns
+    Splines.of(channel).group = columns
 
 
 # ---- polynomials
@@ -166,7 +180,7 @@ def polynomial(draft: Draft) -> Step | None:
         feed = moves.checked_feed(channel.feed)
         end = _end(channel, terms, polynomials, values)
         interval = _parameter(values, length)
-        if "AXES" not in channel.memory.values.get((INTERPOLATED, ()), ("AXES",)):
+        if "AXES" not in Splines.of(channel).interpolated:
             moves.line(channel, Kind.FEED, end, feed)
             return
         below = _denominator(values, denominator, interval)
@@ -306,7 +320,7 @@ def polynomial_groups(channel: SinumerikChannel, args: tuple[Any, ...]) -> None:
     """POLYPATH("AXES", "VECT"): which axes coefficients are for; none without arguments."""
     if any(group not in ("AXES", "VECT") for group in args):
         raise AlarmError("14020", text="POLYPATH")
-    channel.memory.values[INTERPOLATED, ()] = args
+    Splines.of(channel).interpolated = args
 
 
 PROCEDURES: dict[str, Procedure] = {"SPLINEPATH": spline_group, "POLYPATH": polynomial_groups}

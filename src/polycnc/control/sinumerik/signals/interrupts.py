@@ -8,10 +8,11 @@ still made; a routine that ends without REPOS leaves it, and the next block goes
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.path import Rank, Stage
+from polycnc.channel.state import Lifetime, State
 from polycnc.channel.way import Way
 from polycnc.control.sinumerik.block import arguments, single_block
 from polycnc.control.sinumerik.signals import retraction
@@ -143,8 +144,7 @@ class Watch(Stage):
 
     def _is_called(self, interrupt: Interrupt) -> bool:
         """Note the routine of an input; false where it has none, or none of higher priority than what runs."""
-        memory = self._channel.memory
-        assignment = memory.interrupts.get(interrupt.input)
+        assignment = Interrupts.of(self._channel).assignments.get(interrupt.input)
         if assignment is None or not assignment.enabled:
             return False
         self._pending.append((interrupt, assignment))
@@ -252,20 +252,32 @@ class Watch(Stage):
         return replace(move, context=channel.toolpath.context_number(renewed))
 
 
+@dataclass(slots=True)
+class Interrupts(State, lifetime=Lifetime.POWER):
+    """What inputs do.
+
+    Attributes:
+        assignments: What SETINT has given each input.
+        watch: The stage that routines begin from; None where the setup has no inputs.
+    """
+
+    assignments: dict[int, Assignment] = field(default_factory=dict)
+    watch: Watch | None = None
+
+
 # ---- procedures
 
 
 def watch(channel: SinumerikChannel) -> None:
     """Let inputs interrupt from now on, if the setup has any."""
-    memory = channel.memory
     if channel.setup.switches.interrupts:
-        memory.watch = channel.path.put(Watch(channel))
+        Interrupts.of(channel).watch = channel.path.put(Watch(channel))
 
 
 def running(channel: SinumerikChannel) -> Interrupted | None:
     """The block that the running routine has interrupted."""
-    memory = channel.memory
-    return memory.watch.running[-1] if memory.watch is not None and memory.watch.running else None
+    watch = Interrupts.of(channel).watch
+    return watch.running[-1] if watch is not None and watch.running else None
 
 
 def set_interrupt(channel: SinumerikChannel, args: tuple[Any, ...]) -> None:
@@ -274,8 +286,7 @@ def set_interrupt(channel: SinumerikChannel, args: tuple[Any, ...]) -> None:
     if number not in INPUTS or priority not in PRIORITIES or not (name or lifts):
         raise AlarmError("14020", text="SETINT")
     program = named_program(channel, name) if name else None
-    memory = channel.memory
-    memory.interrupts[number] = Assignment(program, priority, lifts, waits_for_block)
+    Interrupts.of(channel).assignments[number] = Assignment(program, priority, lifts, waits_for_block)
 
 
 def switch(on: bool) -> Any:
@@ -283,7 +294,7 @@ def switch(on: bool) -> Any:
 
     def run(channel: SinumerikChannel, args: tuple[Any, ...]) -> None:
         for number in _inputs(args, "ENABLE" if on else "DISABLE"):
-            assignment = channel.memory.interrupts.get(number)
+            assignment = Interrupts.of(channel).assignments.get(number)
             if assignment is not None:
                 assignment.enabled = on
 
@@ -293,7 +304,7 @@ def switch(on: bool) -> Any:
 def clear(channel: SinumerikChannel, args: tuple[Any, ...]) -> None:
     """CLRINT(n): delete the assignment of an input."""
     for number in _inputs(args, "CLRINT"):
-        channel.memory.interrupts.pop(number, None)
+        Interrupts.of(channel).assignments.pop(number, None)
 
 
 def _inputs(args: tuple[Any, ...], name: str) -> list[int]:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.path import Move, Rank, Stage
+from polycnc.channel.state import Lifetime, State
 from polycnc.channel.way import Way
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
 
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
-    from polycnc.control.sinumerik.memory import Memory
     from polycnc.language.sinumerik.words import WordShape
     from polycnc.machine.setup.values import ProbeEdge
 
@@ -136,7 +136,7 @@ class Prober(Stage):
 
     def _record(self, event: int, point: list[float]) -> None:
         machine = self._channel.coordinates.to_machine(point)
-        memory = self._channel.memory
+        found = Measuring.of(self._channel)
         for job in (*self.jobs, *self.continuous.values()):
             place = job.place(event)
             if place is None:
@@ -148,7 +148,7 @@ class Prober(Stage):
             for column in job.columns:
                 for system in range(job.systems):
                     slot = place * job.systems + system + 1
-                    memory.measured[slot, column] = point[column], machine[column]
+                    found.measured[slot, column] = point[column], machine[column]
         self._tell()
 
     def _tell(self) -> None:
@@ -162,14 +162,32 @@ class Prober(Stage):
                     for place, e in enumerate(job.events)
                     if abs(e) == probe
                 )
-                self._channel.memory.triggered[probe] = came
+                Measuring.of(self._channel).triggered[probe] = came
+
+
+@dataclass(slots=True)
+class Measuring(State, lifetime=Lifetime.POWER):
+    """What probes do and have found.
+
+    Attributes:
+        prober: The stage that follows them; None where the setup has none.
+        measured: Work and machine position of an axis by number of the value and column.
+        started_at: Where the running measuring block began.
+        triggered: $AC_MEA by probe.
+        fifos: $AC_FIFOn by number.
+    """
+
+    prober: Prober | None = None
+    measured: dict[tuple[int, int], tuple[float, float]] = field(default_factory=dict)
+    started_at: list[float] | None = None
+    triggered: dict[int, bool] = field(default_factory=dict)
+    fifos: dict[int, deque[float]] = field(default_factory=dict)
 
 
 def watch(channel: SinumerikChannel) -> None:
     """Follow the probes from now on, if the setup has any."""
-    memory = channel.memory
     if channel.setup.switches.probe:
-        memory.prober = channel.path.put(Prober(channel))
+        Measuring.of(channel).prober = channel.path.put(Prober(channel))
 
 
 # ---- words
@@ -217,7 +235,7 @@ def _job(
         raise WordAlarm("12040", position, text=word.address)
     column = channel.memory.column(word.index.name)
     mode, fifo, events = _listed(word.address, values[position], position)
-    prober: Prober | None = channel.memory.prober
+    prober = Measuring.of(channel).prober
     if mode % 10 == ABORT:
         if prober is not None:
             prober.continuous.pop(column, None)
@@ -283,15 +301,15 @@ def _check_geometry(
 
 
 def _start(channel: SinumerikChannel, jobs: list[Job]) -> None:
-    memory = channel.memory
-    prober = memory.prober
+    state = Measuring.of(channel)
+    prober = state.prober
     for job in jobs:
         for probe in {abs(event) for event in job.events}:
             deflected = prober is not None and prober.deflected.get(probe, False)
-            memory.triggered[probe] = deflected and not job.axial
+            state.triggered[probe] = deflected and not job.axial
         if job.fifo:
-            memory.fifos.setdefault(job.fifo, deque())
-    memory.measured_from = channel.coordinates.position
+            state.fifos.setdefault(job.fifo, deque())
+    state.started_at = channel.coordinates.position
     if prober is not None:
         prober.jobs = [job for job in jobs if not job.fifo]
         prober.continuous.update({job.columns[0]: job for job in jobs if job.fifo})
@@ -299,8 +317,8 @@ def _start(channel: SinumerikChannel, jobs: list[Job]) -> None:
 
 def _positioned(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """Positioning axes have moved without a row: probes switch on their way as well."""
-    memory = channel.memory
-    prober, start, end = memory.prober, memory.measured_from, channel.coordinates.position
+    state = Measuring.of(channel)
+    prober, start, end = state.prober, state.started_at, channel.coordinates.position
     if prober is None or start is None or start == end:
         return
     move = Move(Kind.FEED, start, end)
@@ -312,7 +330,7 @@ def _positioned(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG
 
 def _end(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """The block has moved: nothing of it is held back, and it stands where its distance to go was deleted."""
-    prober: Prober | None = channel.memory.prober
+    prober = Measuring.of(channel).prober
     if prober is None:
         return
     channel.flush()
@@ -327,11 +345,10 @@ def _end(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - s
 
 def _append(channel: SinumerikChannel, job: Job, event: int, value: float) -> None:
     """A value of a continuous job: each probe has its own memory; a full one ends the job."""
-    memory = channel.memory
     others = sorted({abs(each) for each in job.events})
     number = job.fifo + others.index(abs(event))
-    fifo = memory.fifos.setdefault(number, deque())
-    length = memory.data.integer("$MC_LEN_AC_FIFO")
+    fifo = Measuring.of(channel).fifos.setdefault(number, deque())
+    length = channel.memory.data.integer("$MC_LEN_AC_FIFO")
     if not length or len(fifo) < length:
         fifo.append(value)
 
@@ -343,19 +360,19 @@ def _measured(slot: int, *, work: bool) -> Callable[[SinumerikChannel, Indices],
         if len(indices) != 1 or not isinstance(indices[0], Axis):
             raise AlarmError("12400", text=name)
         column = channel.memory.column(indices[0].name)
-        of_work, of_machine = channel.memory.measured.get((max(slot, 1), column), (0.0, 0.0))
+        of_work, of_machine = Measuring.of(channel).measured.get((max(slot, 1), column), (0.0, 0.0))
         return shown(channel, column, of_work if work else of_machine, work=work)
 
     return read
 
 
 def _of_probe(
-    name: str, state: Callable[[Memory], dict[int, bool]]
+    name: str, state: Callable[[Measuring], dict[int, bool]]
 ) -> Callable[[SinumerikChannel, Indices], int]:
     def read(channel: SinumerikChannel, indices: Indices) -> int:
         if len(indices) != 1 or indices[0] not in (1, 2):
             raise AlarmError("17020", text=name, index=", ".join(map(str, indices)))
-        return int(state(channel.memory).get(indices[0], False))
+        return int(state(Measuring.of(channel)).get(indices[0], False))
 
     return read
 
@@ -363,7 +380,7 @@ def _of_probe(
 def _is_active(channel: SinumerikChannel, indices: Indices) -> bool:
     if len(indices) != 1 or not isinstance(indices[0], Axis):
         raise AlarmError("12400", text="$AA_MEAACT")
-    prober: Prober | None = channel.memory.prober
+    prober = Measuring.of(channel).prober
     return prober is not None and channel.memory.column(indices[0].name) in prober.continuous
 
 
@@ -372,7 +389,7 @@ def _fifo(number: int) -> RowWithStop:
     name = f"$AC_FIFO{number}"
 
     def read(channel: SinumerikChannel, indices: Indices) -> float:
-        fifo: deque[float] = channel.memory.fifos.setdefault(number, deque())
+        fifo = Measuring.of(channel).fifos.setdefault(number, deque())
         index = indices[0] if len(indices) == 1 and isinstance(indices[0], int) else -1
         if index == 0:
             return fifo.popleft() if fifo else 0.0
@@ -389,7 +406,7 @@ def _fifo(number: int) -> RowWithStop:
         raise AlarmError("17020", text=name, index=index)
 
     def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
-        fifo: deque[float] = channel.memory.fifos.setdefault(number, deque())
+        fifo = Measuring.of(channel).fifos.setdefault(number, deque())
         if indices == (0,):
             fifo.append(float(value))
         elif indices == (4,) and value == 0:
@@ -403,10 +420,10 @@ def _fifo(number: int) -> RowWithStop:
 MEASURE_VARIABLES: dict[str, RowWithStop] = {
     **{f"$AA_MM{slot or ''}": (Type.REAL, _measured(slot, work=False), None, False) for slot in range(5)},
     **{f"$AA_MW{slot or ''}": (Type.REAL, _measured(slot, work=True), None, False) for slot in range(5)},
-    "$AC_MEA": (Type.INT, _of_probe("$AC_MEA", lambda memory: memory.triggered), None, True),
+    "$AC_MEA": (Type.INT, _of_probe("$AC_MEA", lambda state: state.triggered), None, True),
     "$A_PROBE": (
         Type.INT,
-        _of_probe("$A_PROBE", lambda memory: memory.prober.deflected if memory.prober else {}),
+        _of_probe("$A_PROBE", lambda state: state.prober.deflected if state.prober else {}),
         None,
         True,
     ),

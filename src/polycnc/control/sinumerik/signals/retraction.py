@@ -10,9 +10,11 @@ side. The part along the tool is never mirrored.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from math import cos, nan, radians, sin
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import axis_term, number
@@ -32,8 +34,23 @@ DIRECTIONS = range(9)
 STEP_DEG = 45.0
 #: Directions of LFTXT that would lead into the contour beside which the tool runs.
 INTO_CONTOUR = {"G41": range(2, 5), "G42": range(6, 9)}
-#: Keys of `memory.values`.
-POSITIONS, ENABLED = "POLF", "POLFMASK"
+
+
+@dataclass(slots=True)
+class Retraction(State, lifetime=Lifetime.POWER):
+    """How a fast retraction goes.
+
+    Attributes:
+        direction: ALF.
+        length_mm: DILF, 0 for that of the machine data.
+        positions: POLF by column, and whether it is a way.
+        enabled: Columns of the axes that POLFMASK or POLFMLIN names.
+    """
+
+    direction: int = 1
+    length_mm: float = 0.0
+    positions: dict[int, tuple[float, bool]] = field(default_factory=dict)
+    enabled: tuple[int, ...] = ()
 
 
 def lift(channel: SinumerikChannel, tangent: Vector) -> None:
@@ -45,17 +62,18 @@ def lift(channel: SinumerikChannel, tangent: Vector) -> None:
 
 def _positions(channel: SinumerikChannel) -> list[float]:
     """LFPOS: the positions of POLF for the axes that are enabled."""
-    memory = channel.memory
+    state = Retraction.of(channel)
     end = channel.coordinates.position.copy()
-    for column in memory.values.get((ENABLED, ()), ()):
-        value, relative = memory.values.get((POSITIONS, (column,)), (end[column], False))
+    for column in state.enabled:
+        value, relative = state.positions.get(column, (end[column], False))
         end[column] = end[column] + value if relative else value
     return end
 
 
 def _along(channel: SinumerikChannel, tangent: Vector) -> list[float] | None:
     memory = channel.memory
-    direction = int(memory.values.get(("ALF", ()), 1.0))
+    state = Retraction.of(channel)
+    direction = state.direction
     if direction == 0:
         return None
     if (
@@ -73,7 +91,7 @@ def _along(channel: SinumerikChannel, tangent: Vector) -> list[float] | None:
         along, across = _signed(axis_vector(third), signs), _signed(right, signs)
         if signs[first] * signs[second] < 0.0 and memory.data.integer("$MC_LIFTFAST_WITH_MIRROR"):
             across = _signed(across, [-1.0, -1.0, -1.0])
-    distance = memory.values.get(("DILF", ())) or memory.data.number("$MC_LIFTFAST_DIST")
+    distance = state.length_mm or memory.data.number("$MC_LIFTFAST_DIST")
     end = channel.coordinates.position.copy()
     for k, column in enumerate(channel.coordinates.geometry):
         if column >= 0:
@@ -95,7 +113,16 @@ def direction_code(_draft: Draft, position: int, _shape: WordShape) -> Step:
         value = number(values, position)
         if value not in DIRECTIONS:
             raise WordAlarm("12560", position, text="ALF")
-        channel.memory.values["ALF", ()] = value
+        Retraction.of(channel).direction = int(value)
+
+    return run
+
+
+def length(_draft: Draft, position: int, _shape: WordShape) -> Step:
+    """DILF: length of the retraction."""
+
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        Retraction.of(channel).length_mm = number(values, position)
 
     return run
 
@@ -108,7 +135,7 @@ def retraction_position(draft: Draft, position: int, shape: WordShape) -> Step:
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position) * term.factor
-        channel.memory.values[POSITIONS, (column,)] = (value, modifier == "IC")
+        Retraction.of(channel).positions[column] = (value, modifier == "IC")
 
     return run
 
@@ -119,11 +146,11 @@ def enable(channel: SinumerikChannel, args: tuple[Any, ...]) -> None:
     missing = [axis for axis, column in zip(args, columns, strict=True) if not _has_position(channel, column)]
     if missing:
         raise AlarmError("14020", text="POLFMASK")
-    channel.memory.values[ENABLED, ()] = columns
+    Retraction.of(channel).enabled = columns
 
 
 def _has_position(channel: SinumerikChannel, column: int) -> bool:
-    return (POSITIONS, (column,)) in channel.memory.values
+    return column in Retraction.of(channel).positions
 
 
 PROCEDURES = {"POLFMASK": enable, "POLFMLIN": enable}

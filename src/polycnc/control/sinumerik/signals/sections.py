@@ -6,16 +6,26 @@ effect.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.variables.row import RowWithStop
 from polycnc.language.sinumerik.names.values import Type
 
 if TYPE_CHECKING:
+    from polycnc.channel.stack import Level
     from polycnc.control.sinumerik.family import SinumerikChannel
 
 STOP_DELAY, POINTER_LOCK = "DELAYFST", "IPTRLOCK"
+
+
+@dataclass(slots=True)
+class Sections(State, lifetime=Lifetime.RESET):
+    """The program level that began each open section."""
+
+    open: dict[str, Level] = field(default_factory=dict)
 
 
 def begin(section: str) -> Procedure:
@@ -23,7 +33,7 @@ def begin(section: str) -> Procedure:
 
     def run(channel: SinumerikChannel, _args: Arguments) -> None:
         if not is_open(channel, section):
-            channel.memory.sections[section] = channel.level
+            Sections.of(channel).open[section] = channel.level
 
     return run
 
@@ -32,15 +42,15 @@ def end(section: str) -> Procedure:
     """DELAYFSTOF, IPTRUNLOCK: the section ends, on the level that began it."""
 
     def run(channel: SinumerikChannel, _args: Arguments) -> None:
-        if channel.memory.sections.get(section) is channel.level:
-            del channel.memory.sections[section]
+        if Sections.of(channel).open.get(section) is channel.level:
+            del Sections.of(channel).open[section]
 
     return run
 
 
 def is_open(channel: SinumerikChannel, section: str) -> bool:
     """Whether a section is open: its level has not ended."""
-    level = channel.memory.sections.get(section)
+    level = Sections.of(channel).open.get(section)
     return any(level is each for each in channel.stack)
 
 

@@ -19,10 +19,12 @@ from math import isnan, nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.path import Move
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block.positions import length_factor, number, target
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion import circles, moves
+from polycnc.control.sinumerik.motion.last_move import LastMove
 from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.tools.smooth_stage import (
     APPROACHES,
@@ -88,7 +90,7 @@ class Words:
             draft.mode["smooth_approach_side"], compensation
         )
         side = side or 1
-        radius = stages.radius(channel.memory)
+        radius = stages.radius(channel)
         code = draft.codes["block_motion"]
         if code in LINES:
             size += radius if compensation and radius > 0.0 else 0.0
@@ -123,7 +125,6 @@ def approach(draft: Draft) -> Step | None:
     draft.steps.append(_remember_feed)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        memory = channel.memory
         start = channel.coordinates.position
         end = target(channel, terms, values)
         compensation = stages.SIDES.get(draft.mode["side"], 0)
@@ -133,12 +134,12 @@ def approach(draft: Draft) -> Step | None:
         third = columns[2]
         height = words.height(draft, values, start[third], end[third]) if third >= 0 else 0.0
         is_rapid = draft.mode["motion"] == "G0"
-        before = channel.feed if isnan(memory.feed_before) else memory.feed_before
+        before = _feed_before(channel)
         place = _place(channel, Kind.RAPID if is_rapid else Kind.FEED, nan if is_rapid else before)
         feed = moves.checked_feed(channel.feed)
         touch = end if names_point else None
         waiting = Approach(shape, place, start, touch, height, feed, words.infeed_speed(draft, values))
-        memory.previous = None
+        LastMove.of(channel).forget()
         channel.coordinates.arrive(end)
         stages.approach(channel).waiting = waiting
 
@@ -158,7 +159,6 @@ def retract(draft: Draft) -> Step | None:
     draft.steps.append(_remember_feed)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        memory = channel.memory
         cutter = stages.active_cutter(channel)
         compensation = cutter.side if cutter is not None else 0
         direction = circles.last_direction(channel, columns, axes)
@@ -169,7 +169,7 @@ def retract(draft: Draft) -> Step | None:
         end = target(channel, terms, values)
         u, v, third = columns
         touch = (start[u], start[v])
-        old = channel.feed if isnan(memory.feed_before) else memory.feed_before
+        old = _feed_before(channel)
         far = shape.far_end(touch, direction)
         height = words.height(draft, values, end[third], start[third]) if third >= 0 else 0.0
         point = start.copy()
@@ -215,9 +215,21 @@ def _away(
 # ---- helpers
 
 
+@dataclass(slots=True)
+class BeforeBlock(State, lifetime=Lifetime.BLOCK):
+    """What held before the words of the running block."""
+
+    feed: float = nan
+
+
+def _feed_before(channel: SinumerikChannel) -> float:
+    before = BeforeBlock.of(channel).feed
+    return channel.feed if isnan(before) else before
+
+
 def _remember_feed(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """The feed before the block's own F: it holds for the part of the way that belongs to the block before."""
-    channel.memory.feed_before = channel.feed
+    BeforeBlock.of(channel).feed = channel.feed
 
 
 def _place(channel: SinumerikChannel, kind: Kind, feed: float) -> Move:

@@ -7,10 +7,11 @@ RNDM, G40 to G42, NORM, KONT, G450, G451).
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane
@@ -25,7 +26,6 @@ from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
-    from polycnc.control.sinumerik.memory import Memory
     from polycnc.geometry.arcs import Point
 
 #: MD20250 = 5 blocks without motion are bridged, by compensation and between the two moves of a corner.
@@ -53,6 +53,19 @@ SIDES = {"G41": 1, "G42": -1}
 #: Stages that work in one plane.
 PlaneStage = SplineStage | SmoothApproach | CornerStage | CutterCompensation
 OF_PLANE: tuple[type[PlaneStage], ...] = (SplineStage, SmoothApproach, CornerStage, CutterCompensation)
+
+
+@dataclass(slots=True)
+class Contour(State, lifetime=Lifetime.POWER):
+    """What words say of the compensated contour.
+
+    Attributes:
+        allowance_mm: OFFN.
+        disc: DISC, 0 to 100.
+    """
+
+    allowance_mm: float = 0.0
+    disc: float = 0.0
 
 
 def cutter(channel: SinumerikChannel) -> CutterCompensation:
@@ -128,13 +141,12 @@ def round_all(channel: SinumerikChannel, radius: float, feed: float = nan) -> No
 
 def policy(channel: SinumerikChannel) -> Policy:
     """The rules that hold now: approach, corner, and the limits of the machine data."""
-    memory = channel.memory
-    mode = channel.mode
+    mode, data = channel.mode, channel.memory.data
     rules = POLICIES[mode["approach"], mode["corner"]]
-    outer = replace(rules.outer, disc_percent=memory.disc)
+    outer = replace(rules.outer, disc_percent=Contour.of(channel).disc)
     if mode["corner"] == "G451":
-        outer = replace(outer, intersection_limit_deg=memory.data.number("$MC_CUTCOM_CORNER_LIMIT"))
-    idle = memory.data.integer("$MC_CUTCOM_MAXNUM_DUMMY_BLOCKS")
+        outer = replace(outer, intersection_limit_deg=data.number("$MC_CUTCOM_CORNER_LIMIT"))
+    idle = data.integer("$MC_CUTCOM_MAXNUM_DUMMY_BLOCKS")
     return replace(rules, outer=outer, read_blocks=idle + 2)
 
 
@@ -145,7 +157,7 @@ def select_side(channel: SinumerikChannel) -> None:
         raise AlarmError("10750")
     stage = cutter(channel)
     stage.policy = policy(channel)
-    stage.engage(SIDES[channel.mode["side"]], radius(memory), tip(channel))
+    stage.engage(SIDES[channel.mode["side"]], radius(channel), tip(channel))
 
 
 def leave_contour(channel: SinumerikChannel) -> None:
@@ -159,7 +171,7 @@ def changed_radius(channel: SinumerikChannel) -> None:
     """Another edge, TOFFR or OFFN while compensation is active."""
     stage = active_cutter(channel)
     if stage is not None and channel.mode["side"] != "G40":
-        stage.change_radius(radius(channel.memory), tip(channel))
+        stage.change_radius(radius(channel), tip(channel))
 
 
 def changed_rules(channel: SinumerikChannel) -> None:
@@ -176,9 +188,9 @@ def suspend(channel: SinumerikChannel) -> None:
         stage.suspended = channel.mode["constant_side"] == "CUTCONON"
 
 
-def radius(memory: Memory) -> float:
+def radius(channel: SinumerikChannel) -> float:
     """Distance of the tool centre from the contour, mm."""
-    return memory.tools.radius + memory.allowance_mm
+    return channel.memory.tools.radius + Contour.of(channel).allowance_mm
 
 
 def tip(channel: SinumerikChannel) -> Point:

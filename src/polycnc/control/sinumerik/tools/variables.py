@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.control.sinumerik.feed import tooth_feed
 from polycnc.control.sinumerik.tools.memory import DP_TYPE, PARAMETERS
 from polycnc.control.sinumerik.variables.row import Indices, Row
+from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 
@@ -100,10 +101,10 @@ def _carrier(number: int) -> Row:
     empty: Any = {Type.AXIS: Axis("X"), Type.STRING: ""}.get(type_, 0.0)
 
     def read(channel: SinumerikChannel, indices: Indices) -> Any:
-        return channel.memory.values.get((name, tuple(_numbers(indices, name, 1))), empty)
+        return Stored.of(channel).values.get((name, tuple(_numbers(indices, name, 1))), empty)
 
     def write(channel: SinumerikChannel, indices: Indices, value: Any) -> None:
-        channel.memory.values[name, tuple(_numbers(indices, name, 1))] = value
+        Stored.of(channel).values[name, tuple(_numbers(indices, name, 1))] = value
 
     return type_, read, write
 
@@ -113,11 +114,11 @@ def _oem(kind: str, number: int) -> Row:
     name, count = f"$TC_{kind}{number}", 2 if kind == "DPC" else 1
 
     def read(channel: SinumerikChannel, indices: Indices) -> float:
-        value: float = channel.memory.values.get((name, tuple(_numbers(indices, name, count))), 0.0)
+        value: float = Stored.of(channel).values.get((name, tuple(_numbers(indices, name, count))), 0.0)
         return value
 
     def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
-        channel.memory.values[name, tuple(_numbers(indices, name, count))] = float(value)
+        Stored.of(channel).values[name, tuple(_numbers(indices, name, count))] = float(value)
 
     return Type.REAL, read, write
 

@@ -1,1 +1,1 @@
-"""System variables: `registry`, `row` of its tables, `known` (names that exist), `by_name` (reports), `functions`."""
+"""System variables: `registry`, `row`, `stored` values, `known` names that exist, `by_name` (reports), `functions`."""

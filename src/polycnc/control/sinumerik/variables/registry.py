@@ -21,6 +21,7 @@ from polycnc.control.sinumerik.data.machine_data import DELIVERED, MachineData
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import spindle_speed
 from polycnc.control.sinumerik.feed.axis_settings import AXIS_VARIABLES
+from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.feed.tolerances import TOLERANCE_VARIABLES
 from polycnc.control.sinumerik.frames.variables import FRAME_VARIABLES
 from polycnc.control.sinumerik.limits import working_area
@@ -28,9 +29,11 @@ from polycnc.control.sinumerik.motion.repositioning import REPOS_VARIABLES
 from polycnc.control.sinumerik.signals.measuring import MEASURE_VARIABLES
 from polycnc.control.sinumerik.signals.sections import SECTION_VARIABLES
 from polycnc.control.sinumerik.tables import MINUTE
+from polycnc.control.sinumerik.tools.stages import Contour
 from polycnc.control.sinumerik.tools.variables import TOOL_VARIABLES
 from polycnc.control.sinumerik.variables.known import is_known
 from polycnc.control.sinumerik.variables.row import Indices, Reader, Writer
+from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.frame import NcFrame
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
@@ -204,7 +207,7 @@ def _geometry_axis(position: int) -> Reader:
 
 def _programmed_feed(channel: SinumerikChannel, _indices: Indices) -> float:
     feed: float = 0.0 if isnan(channel.feed) else channel.feed
-    return feed * MINUTE if channel.memory.feed_mode is not FeedMode.PER_REVOLUTION else feed
+    return feed * MINUTE if PathFeed.of(channel).mode is not FeedMode.PER_REVOLUTION else feed
 
 
 def _spindle_value(attribute: str) -> Reader:
@@ -228,8 +231,8 @@ def _direction(channel: SinumerikChannel, indices: Indices) -> int:
     return {1: 3, -1: 4}.get(direction, 5)
 
 
-def _polar_mode(channel: SinumerikChannel, _indices: Indices) -> float:
-    return float(channel.memory.allowance_mm)
+def _allowance(channel: SinumerikChannel, _indices: Indices) -> float:
+    return Contour.of(channel).allowance_mm
 
 
 def _program_name(channel: SinumerikChannel, indices: Indices) -> str:
@@ -256,7 +259,7 @@ _STATES = (
     SystemVariable("$P_SDIR", Type.INT, _direction),
     SystemVariable("$P_MSNUM", Type.INT, lambda channel, _indices: channel.memory.spindles.master),
     SystemVariable("$P_GWPS", Type.BOOL, _spindle_value("has_wheel_speed")),
-    SystemVariable("$P_OFFN", Type.REAL, _polar_mode),
+    SystemVariable("$P_OFFN", Type.REAL, _allowance),
     SystemVariable("$P_PROG", Type.STRING, _program_name),
     SystemVariable("$P_LINENO", Type.INT, _line_number),
     SystemVariable("$P_CHANNO", Type.INT, lambda channel, _indices: channel.number),
@@ -298,15 +301,10 @@ def _store(
         return index_of(indices, name, size + first, first)
 
     def read(channel: SinumerikChannel, indices: Indices) -> Any:
-        return kept(channel).get((name, (place(channel, indices),)), empty)
+        return Stored.of(channel).of_name(name).get((name, (place(channel, indices),)), empty)
 
     def write(channel: SinumerikChannel, indices: Indices, value: Any) -> None:
-        kept(channel)[name, (place(channel, indices),)] = value
-
-    def kept(channel: SinumerikChannel) -> dict[tuple[str, Indices], Any]:
-        values: dict[tuple[str, Indices], Any]
-        values = channel.memory.nck if name.startswith("$A_") else channel.memory.values
-        return values
+        Stored.of(channel).of_name(name)[name, (place(channel, indices),)] = value
 
     return SystemVariable(name, type_, read, write, stop)
 

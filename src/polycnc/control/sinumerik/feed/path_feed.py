@@ -1,0 +1,36 @@
+"""How the path feed is meant, and what it follows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import nan
+from typing import NamedTuple
+
+from polycnc.channel.state import Lifetime, State, lasting
+from polycnc.toolpath.modes import FeedMode
+
+
+class ToothFeed(NamedTuple):
+    """FZ, mm, and the feed per revolution that it gave."""
+
+    per_tooth: float
+    per_revolution: float
+
+
+@dataclass(slots=True)
+class PathFeed(State, lifetime=Lifetime.RESET):
+    """What goes with F.
+
+    Attributes:
+        mode: How F is meant.
+        spindle: The one that a feed per revolution follows (FPR); 0 for the master spindle.
+        tooth: What FZ has set; None before the first.
+        of_corners: FRCM in internal units, NaN for the path feed.
+        of_axes: Feeds of positioning axes (FA), mm/s or degrees/s, by column.
+    """
+
+    mode: FeedMode = FeedMode.PER_MINUTE
+    spindle: int = 0
+    tooth: ToothFeed | None = None
+    of_corners: float = lasting(Lifetime.POWER, nan)
+    of_axes: dict[int, float] = lasting(Lifetime.POWER, factory=dict)
