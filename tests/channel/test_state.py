@@ -10,11 +10,27 @@ import pytest
 
 import polycnc.control
 from polycnc.channel.channel import Channel
-from polycnc.channel.state import Lifetime, State, end_of, lasting, lifetimes, plain_states
+from polycnc.channel.state import (
+    Lifetime,
+    State,
+    end_of,
+    lasting,
+    lifetimes,
+    plain_states,
+    retained,
+    tables,
+)
 from polycnc.control.registry import control
 from polycnc.machine import load_machine
 from polycnc.machine.setup.values import Setup
 from polycnc.program import ProgramStore
+
+
+@dataclass(slots=True)
+class Kept(State, lifetime=Lifetime.RETAINED):
+    """A state whose field is a table."""
+
+    values: dict[str, int] = retained("probe")
 
 
 @dataclass(slots=True)
@@ -25,7 +41,6 @@ class Probe(State, lifetime=Lifetime.RESET):
     block: int = lasting(Lifetime.BLOCK, 1)
     program: int = lasting(Lifetime.PROGRAM, 2)
     power: list[int] = lasting(Lifetime.POWER, factory=list)
-    retained: int = lasting(Lifetime.RETAINED, 5)
 
 
 @pytest.fixture
@@ -36,10 +51,10 @@ def channel() -> Channel:
 @pytest.mark.parametrize(
     ("event", "left"),
     [
-        (Lifetime.BLOCK, {"plain", "program", "power", "retained"}),
-        (Lifetime.PROGRAM, {"plain", "power", "retained"}),
-        (Lifetime.RESET, {"power", "retained"}),
-        (Lifetime.POWER, {"retained"}),
+        (Lifetime.BLOCK, {"plain", "program", "power"}),
+        (Lifetime.PROGRAM, {"plain", "power"}),
+        (Lifetime.RESET, {"power"}),
+        (Lifetime.POWER, set()),
     ],
 )
 def test_an_event_ends_every_lifetime_up_to_its_own(
@@ -47,7 +62,7 @@ def test_an_event_ends_every_lifetime_up_to_its_own(
 ) -> None:
     state = Probe.of(channel)
     first = Probe()
-    for name in ("block", "program", "retained"):
+    for name in ("block", "program"):
         setattr(state, name, 77)
     state.plain.append(77)
     state.power.append(77)
@@ -77,8 +92,23 @@ def test_a_state_that_is_as_it_began_does_not_count_in_a_comparison(channel: Cha
     assert plain_states(channel) != before
 
 
+def test_no_event_ends_what_is_retained(channel: Channel) -> None:
+    Kept.of(channel).values["a"] = 1
+    end_of(channel, Lifetime.POWER)
+    end_of(channel, Lifetime.RETAINED)
+    assert Kept.of(channel).values == {"a": 1}
+    assert Kept.of(channel).values is channel.retained.table("probe", channel.number)
+
+
+def test_a_retained_field_can_only_be_a_table() -> None:
+    with pytest.raises(ValueError, match="table"):
+        lasting(Lifetime.RETAINED, 5)
+
+
 def test_every_field_of_every_state_has_a_lifetime() -> None:
     for module in pkgutil.walk_packages(polycnc.control.__path__, "polycnc.control."):
         importlib.import_module(module.name)
     for cls in State.CLASSES.values():
-        assert all(isinstance(lives, Lifetime) for lives in lifetimes(cls).values()), cls
+        lives = lifetimes(cls)
+        assert all(isinstance(each, Lifetime) for each in lives.values()), cls
+        assert {name for name, each in lives.items() if each is Lifetime.RETAINED} == set(tables(cls)), cls

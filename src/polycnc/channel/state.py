@@ -9,6 +9,10 @@ A feature declares its state beside its handlers, and says how long it lives:
 
     PolarState.of(channel).plane = ...
 
+A field that is to last beyond power-off is a table of the channel's retained memory:
+
+    offsets: dict[int, ToolOffset] = retained(TOOL_OFFSETS)
+
 A channel has one object of every class, made when somebody first asks for it and never replaced: `end_of` puts first
 values back into it. So a handler that runs for every block may keep the object at hand. First values that depend on
 the channel (one number for each axis) come from `first`.
@@ -17,7 +21,7 @@ the channel (one number for each axis) come from `first`.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import MISSING, field, fields, is_dataclass
+from dataclasses import MISSING, dataclass, field, fields, is_dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, overload
 
@@ -30,7 +34,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
 
 _T = TypeVar("_T")
-_LIFETIME = "lifetime"
+_LIFETIME, _TABLE = "lifetime", "table"
 
 
 class Lifetime(IntEnum):
@@ -45,7 +49,7 @@ class Lifetime(IntEnum):
     POWER = 4
     """As long as the power is on."""
     RETAINED = 5
-    """For ever."""
+    """For ever. Such fields are tables of the channel's retained memory; see `retained`."""
 
 
 @overload
@@ -53,11 +57,30 @@ def lasting(lifetime: Lifetime, default: _T) -> _T: ...
 @overload
 def lasting(lifetime: Lifetime, *, factory: Callable[[], _T]) -> _T: ...
 def lasting(lifetime: Lifetime, default: Any = MISSING, *, factory: Any = MISSING) -> Any:
-    """A field of a `State` whose lifetime is not that of the class."""
+    """A field of a `State` whose lifetime is not that of the class. What outlives the power is `retained`."""
+    if lifetime is Lifetime.RETAINED:
+        raise ValueError("a field that is retained is a table")
     metadata = {_LIFETIME: lifetime}
     if factory is not MISSING:
         return field(default_factory=factory, metadata=metadata)
     return field(default=default, metadata=metadata)
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Which table of retained memory a field is: by name, of the channel or of the whole control."""
+
+    name: str
+    of_control: bool = False
+
+    def of(self, channel: Channel) -> dict[Any, Any]:
+        """The table, for a channel."""
+        return channel.retained.table(self.name, 0 if self.of_control else channel.number)
+
+
+def retained(table: str, *, of_control: bool = False) -> Any:
+    """A field of a `State` that is a table of retained memory: of the channel, or of the whole control."""
+    return field(metadata={_LIFETIME: Lifetime.RETAINED, _TABLE: Table(table, of_control)})
 
 
 class State:
@@ -87,14 +110,20 @@ class State:
         return state  # type: ignore[return-value]  # the key says the class
 
     @classmethod
-    def first(cls, channel: Channel) -> Self:  # noqa: ARG003 - most states begin alike in every channel
+    def first(cls, channel: Channel) -> Self:
         """One with the values that it begins with."""
-        return cls()
+        return cls(**{name: table.of(channel) for name, table in tables(cls).items()})
 
 
 def lifetimes(cls: type[State]) -> dict[str, Lifetime]:
     """The lifetime of every field of a class."""
     return {each.name: each.metadata.get(_LIFETIME, cls.lifetime) for each in fields(cls)}  # type: ignore[arg-type]
+
+
+def tables(cls: type[State]) -> dict[str, Table]:
+    """Which table every retained field of a class is."""
+    named = {each.name: each.metadata.get(_TABLE) for each in fields(cls)}  # type: ignore[arg-type]
+    return {name: table for name, table in named.items() if table is not None}
 
 
 def end_of(channel: Channel, lifetime: Lifetime, kept: Collection[type[State]] = ()) -> None:

@@ -11,9 +11,12 @@ from typing import Any, Protocol
 
 #: Names of tables. Keys and values are the control's own; lengths are millimetres, angles degrees.
 WORK_OFFSETS = "work offsets"
-VARIABLE_NAMES = "variable names"
 TOOL_OFFSETS = "tool offsets"
+VARIABLES = "variables"
+VARIABLE_NAMES = "variable names"
 WORK_SHIFT = "work shift"
+REGISTERS = "registers"
+PARAMETERS = "parameters"
 
 
 class RetainedStore(Protocol):

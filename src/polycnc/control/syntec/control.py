@@ -14,10 +14,14 @@ from polycnc.control.syntec.axis_groups import borrowing, groups
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.coordinates import systems
+from polycnc.control.syntec.coordinates.systems import TurnState
 from polycnc.control.syntec.five_axes import normal_direction, spatial, tilted, tip_control
 from polycnc.control.syntec.macros import calls, interrupts
+from polycnc.control.syntec.macros.variables import SpaceState
 from polycnc.control.syntec.memory import SyntecMemory
 from polycnc.control.syntec.motion import arcs, moves, oscillation, polar, quiet
+from polycnc.control.syntec.motion.arcs import ArcState
+from polycnc.control.syntec.motion.moves import FeedState
 from polycnc.control.syntec.parameters import decimals, parameter
 from polycnc.control.syntec.plain import SyntecPlainBlocks
 from polycnc.control.word_address.auxiliary.overrides import in_tapping_mode
@@ -125,9 +129,8 @@ class SyntecMill(WordAddressControl):
         """Power-on state."""
         super().start(channel)
         memory = channel.memory
-        groups.share(channel)
-        memory.feed_mode = channel.mode["feed"]
-        if memory.feed_mode == "G95":
+        feed = FeedState.of(channel).mode = channel.mode["feed"]
+        if feed == "G95":
             channel.feed = moves.DEFAULT_FEED["G95"]
         for number in range(3601, 3611):
             if memory.parameter(number) in calls.NEVER_REGISTERED - {0}:
@@ -161,9 +164,8 @@ class SyntecMill(WordAddressControl):
         polar.leave_plane(channel)
         if not parameter(channel.setup.parameters, 413):
             systems.forget_preset_turn(channel.memory)
-        kept = channel.memory.tilt if parameter(channel.setup.parameters, 3014) else IDENTITY
+        kept = TurnState.of(channel).tilt if parameter(channel.setup.parameters, 3014) else IDENTITY
         super().reset(channel)
-        channel.memory.posture_frame = parameter(channel.setup.parameters, 3057) == 1
         tilted.set_tilt(channel, kept)
 
     def end_of_program(self, channel: Channel) -> None:
@@ -193,8 +195,7 @@ class SyntecMill(WordAddressControl):
 
     def halts(self, channel: Channel, level: Level, step: ProgramStep) -> bool:
         """Single block halts behind a block of words, but not at the mid point of an arc nor while #1502 forbids it."""
-        memory = channel.memory
-        if memory.words.get(1502, 0) & 1 or memory.mid_point is not None:
+        if SpaceState.of(channel).words.get(1502, 0) & 1 or ArcState.of(channel).mid_point is not None:
             return False
         if isinstance(step, TypedBlock):
             return channel.level is level and not channel.finished
@@ -351,14 +352,15 @@ class SyntecMill(WordAddressControl):
         context = in_tapping_mode(channel, super().context(channel))
         by_time = context.feed_mode is FeedMode.INVERSE_TIME
         mode = FeedMode.PER_MINUTE if by_time else context.feed_mode
-        return replace(context, feed_mode=mode, rapid_speed=channel.memory.rapid_speed)
+        return replace(context, feed_mode=mode, rapid_speed=FeedState.of(channel).rapid_speed)
 
     def variable_names(self, channel: Channel) -> list[str]:
         """Names of all variables that hold something."""
         memory = channel.memory
         names = [f"#{index}" for index in sorted(memory.locals)]
-        names += [f"#{401 + offset}" for offset in sorted(memory.user)]
-        names += [f"#{2001 + offset}" for offset in sorted(memory.modal_doubles)]
+        spaces = SpaceState.of(channel)
+        names += [f"#{401 + offset}" for offset in sorted(spaces.user)]
+        names += [f"#{2001 + offset}" for offset in sorted(spaces.modal_doubles)]
         names += [f"@{index}" for index in sorted(memory.globals.values)]
         return names + [f"R{index}" for index in sorted(memory.globals.registers)]
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.syntec.five_axes import spatial
 from polycnc.control.syntec.parameters import decimals, parameter
 from polycnc.control.word_address.cycles.drilling import (
@@ -16,6 +18,7 @@ from polycnc.control.word_address.cycles.drilling import (
 )
 from polycnc.control.word_address.cycles.hole_patterns import drill_points, plane_point
 from polycnc.control.word_address.tools import radius
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.cycles.drilling import holes, patterns
 from polycnc.cycles.drilling.holes import Action, Hole, Stroke
 from polycnc.geometry.units import INCH_MM
@@ -53,6 +56,13 @@ SHIFT_DIRECTIONS = {0: (0, 1.0), 1: (0, -1.0), 2: (1, 1.0), 3: (1, -1.0), 4: (2,
 MAX_HOLES = 9999
 
 
+@dataclass(slots=True)
+class RetractState(State, lifetime=Lifetime.POWER):
+    """F2 of G81, in the unit of the feed; 0 for a rapid."""
+
+    feed: float = 0.0
+
+
 def relief(channel: Channel, code: str) -> float:
     """Pr4002 between drilling pecks; between tapping pecks Pr4004, or out to R where Pr4001 is 0."""
     parameters = channel.setup.parameters
@@ -80,7 +90,7 @@ def dwell_seconds(value: float, form: str, rules: NumberRules) -> float:
 
 def out_at_feed(channel: Channel, code: str, hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
     """Fast drilling (Pr4008 = 1): the tool leaves a hole of G81 at the speed F2 (2.52)."""
-    speed: float = channel.memory.retract_feed
+    speed: float = RetractState.of(channel).feed
     if code != "G81" or not speed > 0.0 or not channel.feed > 0.0:
         yield from strokes
         return
@@ -115,13 +125,14 @@ def with_cycle_words(builder: Builder, step: Step) -> Step:
     control = builder.control
 
     def drill(channel: Channel, values: list[float]) -> None:
+        state = RetractState.of(channel)
         if entering:
-            channel.memory.retract_feed = 0.0
+            state.feed = 0.0
         if retract is not None and code == "G81":
             if values[retract] != int(values[retract]):
                 raise control.fail("retract_feed", address="F2")
             fast = parameter(channel.setup.parameters, 4008) == 1
-            channel.memory.retract_feed = values[retract] * unit if fast else 0.0
+            state.feed = values[retract] * unit if fast else 0.0
         if threads is not None and code in TAPPING and not builder.has("F"):
             _feed_by_threads(channel, values[threads])
         step(channel, values)
@@ -146,7 +157,7 @@ def _unless_drilling(handler: Handler, channel: Channel, words: Words) -> None:
     if channel.mode["cycle"] == "G80":
         handler(channel, words)
         return
-    side = {1: "G41", -1: "G42"}.get(channel.memory.side, "G40")
+    side = {1: "G41", -1: "G42"}.get(RadiusState.of(channel).side, "G40")
     channel.mode = channel.mode.with_code("compensation", side)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.syntec.motion.arcs import ArcState
 from polycnc.control.word_address.block.plain import PlainBlocks
 from polycnc.language.bulk import Spelling
 from polycnc.language.syntec.blocks import MAX_DIGITS
@@ -26,4 +27,4 @@ class SyntecPlainBlocks(PlainBlocks):
     def moved(self, channel: Channel, last: LastMoves) -> None:
         """The centre of the last arc can be read as a system variable."""
         if last.center is not None:
-            channel.memory.last_center = last.center
+            ArcState.of(channel).last_center = last.center

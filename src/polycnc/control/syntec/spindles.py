@@ -6,9 +6,10 @@ Sources: manual 2.66, 2.84 to 2.86, chapter 6. A pair of spindles is in step as 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.language.bulk import Note, declare
 from polycnc.toolpath.events import SpindleSpeed
 
@@ -28,6 +29,22 @@ SPINDLES = range(1, 7)
 #: Pr of base and sync spindle of each group K.
 PAIR_PARAMETERS = {1: (4021, 4022), 2: (4023, 4024), 3: (4025, 4026)}
 LARGEST_RATIO = 999
+
+
+@dataclass(slots=True)
+class SpindleState(State, lifetime=Lifetime.POWER):
+    """The spindles.
+
+    Attributes:
+        speeds: Own S of each spindle; `reported` the speed last recorded.
+        pairs: Spindles in step, by group K.
+        surface_axis: Reference axis of G96.
+    """
+
+    speeds: dict[int, float] = field(default_factory=dict)
+    reported: dict[int, float] = field(default_factory=dict)
+    pairs: dict[int, SpindlePair] = field(default_factory=dict)
+    surface_axis: int = 0
 
 
 # ---- S --------------------------------------------------------------------------------------------------------
@@ -61,21 +78,23 @@ def plan_named_speed(spindle: int) -> Planner:
 
 def command_speed(channel: Channel, spindle: int, speed: float, *, active: bool) -> None:
     """A spindle's own S, and what follows from it for spindles in step with it."""
+    state = SpindleState.of(channel)
     memory: SyntecMemory = channel.memory
-    memory.speeds[spindle] = speed
+    state.speeds[spindle] = speed
     if active:
         memory.spindle_speed = speed
         channel.context_changed()
     _report(channel, spindle)
-    for pair in memory.pairs.values():
+    for pair in state.pairs.values():
         if pair.base == spindle:
             _report(channel, pair.sync)
 
 
 def speed_of(memory: SyntecMemory, spindle: int) -> float:
     """The speed at which a spindle turns: its own, or what its pair makes of the base spindle's."""
-    own = memory.speeds.get(spindle, 0.0)
-    for pair in memory.pairs.values():
+    state = SpindleState.of(memory.channel)
+    own = state.speeds.get(spindle, 0.0)
+    for pair in state.pairs.values():
         if pair.sync == spindle:
             return speed_of(memory, pair.base) * pair.ratio + (own if pair.adds else 0.0)
     return own
@@ -83,12 +102,13 @@ def speed_of(memory: SyntecMemory, spindle: int) -> float:
 
 def _report(channel: Channel, spindle: int) -> None:
     """Record a spindle's speed if it is another than before."""
+    state = SpindleState.of(channel)
     memory: SyntecMemory = channel.memory
     speed = speed_of(memory, spindle)
-    pair_speed = any(pair.sync == spindle for pair in memory.pairs.values())
-    if pair_speed and memory.reported.get(spindle) == speed:
+    pair_speed = any(pair.sync == spindle for pair in state.pairs.values())
+    if pair_speed and state.reported.get(spindle) == speed:
         return
-    memory.reported[spindle] = speed
+    state.reported[spindle] = speed
     channel.event(SpindleSpeed(speed=int(speed) if speed == int(speed) else speed, spindle=spindle))
 
 
@@ -123,10 +143,10 @@ def superimpose(channel: Channel, words: Words) -> None:
 
 def release(channel: Channel, words: Words) -> None:
     """G50.2, G113 [K]: a pair, or without K every pair, is no longer in step."""
-    memory: SyntecMemory = channel.memory
-    groups = [_group(words)] if "K" in words else list(memory.pairs)
+    state = SpindleState.of(channel)
+    groups = [_group(words)] if "K" in words else list(state.pairs)
     for group in groups:
-        memory.pairs.pop(group, None)
+        state.pairs.pop(group, None)
 
 
 def _ratio_part(words: Words, address: str) -> int:
@@ -146,6 +166,7 @@ def _group(words: Words) -> int:
 
 
 def _couple(channel: Channel, words: Words, ratio: float, *, adds: bool = False) -> None:
+    state = SpindleState.of(channel)
     memory: SyntecMemory = channel.memory
     group = _group(words)
     base, sync = (memory.parameter(number) for number in PAIR_PARAMETERS[group])
@@ -153,12 +174,12 @@ def _couple(channel: Channel, words: Words, ratio: float, *, adds: bool = False)
         raise words.fail("base_spindle")
     if sync not in SPINDLES or sync == base:
         raise words.fail("sync_spindle")
-    used_as_sync = {pair.sync for pair in memory.pairs.values()}
-    used_as_base = {pair.base for pair in memory.pairs.values()}
-    if group in memory.pairs or sync in used_as_sync | used_as_base or base in used_as_sync:
+    used_as_sync = {pair.sync for pair in state.pairs.values()}
+    used_as_base = {pair.base for pair in state.pairs.values()}
+    if group in state.pairs or sync in used_as_sync | used_as_base or base in used_as_sync:
         raise words.fail("spindle_repeated")
-    memory.pairs[group] = SpindlePair(base, sync, ratio, adds)
-    if memory.speeds.get(base):
+    state.pairs[group] = SpindlePair(base, sync, ratio, adds)
+    if state.speeds.get(base):
         _report(channel, sync)
 
 
@@ -175,10 +196,11 @@ def axis_name(code: int) -> str:
 
 def constant_surface_speed(channel: Channel, words: Words) -> None:
     """G96 S P: surface speed in m/min or feet/min; P names the axis whose position is the diameter."""
+    state = SpindleState.of(channel)
     reference = words.typed("P")
     if reference is not None:
-        channel.memory.surface_axis = _reference_axis(channel, words, reference)
-    axis = channel.memory.surface_axis
+        state.surface_axis = _reference_axis(channel, words, reference)
+    axis = state.surface_axis
     if channel.axis_data[axis].rotary:
         raise words.fail("surface_axis", "P")
     channel.context_changed()

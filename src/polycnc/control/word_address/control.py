@@ -15,6 +15,7 @@ from polycnc.control.word_address.block.numbers import Convert, NumberRules, ang
 from polycnc.control.word_address.block.plain import PlainBlocks
 from polycnc.control.word_address.block.plan import Builder, Plan
 from polycnc.control.word_address.coordinates import frames, systems
+from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.cycles.drilling import Drilling, give_way, plan_drilling
 from polycnc.control.word_address.memory import Memory
 from polycnc.control.word_address.motion import path
@@ -213,7 +214,7 @@ class WordAddressControl:
         """A reset in the midst of a program: blocks that were only prepared have changed no state that stays."""
         memory = channel.memory
         channel.mode = channel.modes.mode(modal)
-        memory.wcs, memory.spindle_speed = context.wcs, context.spindle_rpm
+        ZeroState.of(channel).system, memory.spindle_speed = context.wcs, context.spindle_rpm
         memory.spindle_direction = context.spindle_direction
         self.reset(channel)
 
@@ -408,7 +409,7 @@ class WordAddressControl:
             spindle_limit_rpm=memory.spindle_limit_rpm,
             corner_mode=corner_mode(channel),
             diameter_axes=diameters,
-            wcs=memory.wcs,
+            wcs=ZeroState.of(channel).system,
             transformation=transformation,
             machine_diameters=diameters | polar.diameter << polar.plane.linear if polar.plane else None,
             unrolled=(unrolled.axis, 1.0 / unrolled.mm_per_degree) if unrolled else None,

@@ -13,7 +13,7 @@ from polycnc.control.word_address.macro_b.parameter_input import plan_parameter_
 from polycnc.control.word_address.motion import corners, nurbs
 from polycnc.control.word_address.motion.line_by_angle import plan_line_by_angle
 from polycnc.control.word_address.tools.length import renew_length
-from polycnc.control.word_address.transformations import normal_line, tilted_plane
+from polycnc.control.word_address.transformations import normal_line
 from polycnc.control.word_address.transformations.normal_line import NormalLineParameters
 from polycnc.control.word_address.transformations.tool_center_point import plan_with_direction
 
@@ -51,11 +51,6 @@ class MillingControl(CustomMacroControl):
     REFUSED_ON_CYLINDER: ClassVar[frozenset[str]] = CustomMacroControl.REFUSED_ON_CYLINDER | {
         "G51", "G51.1", "G68", "G68.2", "G43.4", "G43.5",
     }  # fmt: skip
-
-    def reset(self, channel: Channel) -> None:
-        """The state after reset: the work system stands straight again."""
-        tilted_plane.forget(channel)
-        super().reset(channel)
 
     # ---- motion --------------------------------------------------------------------------------------
 

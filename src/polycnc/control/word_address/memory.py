@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State, retained
 from polycnc.geometry.frames import IDENTITY, Frame
-from polycnc.memory.retained import WORK_OFFSETS
+from polycnc.memory.retained import TOOL_OFFSETS, WORK_OFFSETS
 
 if TYPE_CHECKING:
+    from typing import Self
+
+    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.family import WordAddressChannel
-    from polycnc.geometry.frames import Vector
     from polycnc.machine.setup.values import Tool
     from polycnc.transformation.parallel import ParallelAxes
 
@@ -44,6 +47,33 @@ class ToolOffset:
         return self.radius + self.radius_wear
 
 
+@dataclass(slots=True)
+class WorkOffsets(State, lifetime=Lifetime.RETAINED):
+    """Zero of each work coordinate system in machine coordinates, by name (`EXT`, `G54` …)."""
+
+    by_name: dict[str, list[float]] = retained(WORK_OFFSETS)
+
+
+@dataclass(slots=True)
+class ToolOffsets(State, lifetime=Lifetime.RETAINED):
+    """Tool offsets by number, where length and radius are what a tool has."""
+
+    numbers: dict[int, ToolOffset] = retained(TOOL_OFFSETS)
+
+    @classmethod
+    def first(cls, channel: Channel) -> Self:
+        """What is retained, else what the setup says."""
+        offsets = super(ToolOffsets, cls).first(channel)
+        if not offsets.numbers:
+            tools = channel.setup.tools.items()
+            offsets.numbers.update((int(number), ToolOffset.of(tool)) for number, tool in tools)
+        return offsets
+
+    def at(self, number: int) -> ToolOffset:
+        """An offset number; zero until it is set."""
+        return self.numbers.setdefault(number, ToolOffset())
+
+
 class ProgrammingFrames:
     """The parts of a channel's programming frame: scaling or mirror, then rotation."""
 
@@ -52,6 +82,11 @@ class ProgrammingFrames:
         self.mirror = IDENTITY
         self.mirrored: dict[int, float] = {}
         self.rotation = IDENTITY
+
+    def clear(self) -> None:
+        """Nothing is scaled, mirrored or turned."""
+        self.scale = self.mirror = self.rotation = IDENTITY
+        self.mirrored = {}
 
     @property
     def shift(self) -> list[float] | None:
@@ -65,46 +100,29 @@ class ProgrammingFrames:
 
 
 class Memory:
-    """State of the control beside modal codes and positions.
+    """What features share of a control's state, beside modal codes and positions.
 
     Attributes:
+        channel: The channel.
         work_offsets: Zero of each work coordinate system in machine coordinates, by name (`EXT`, `G54` …).
-        wcs: Name of the active one.
-        local_shift: G52.
-        preset_shift: G92.
-        zero_frame: Turn of the work coordinate system (SYNTEC G92.1); identity on most controls.
-        tool_direction: Direction in which the tool's length counts, where it is not Z.
-        length_offset: Shift of each axis by the active tool length.
         tool: Tool in the spindle; `next_tool` is selected.
         last_m: The last M code sent to the machine.
         machine_signals: What the program and the setup have told the machine; None where the main run asks it.
-        h: Number of the active length offset; `d` of the radius offset.
-        side: Side that G41/G42 ask for: 1, -1, 0 off.
         waited: Seconds that the clocks which a program reads (#3001) have counted.
         basic_geometry: Axes X, Y, Z, whatever parallel ones a plane has chosen; `parallel` holds those.
     """
-
-    #: Fields that a reset brings back to their state at power-on; states of features say so themselves. Offsets,
-    #: common variables, shifts of work coordinate systems, the tool, S and the direction of the spindle stay.
-    CLEARED: ClassVar[tuple[str, ...]] = ("wcs", "length_offset", "h", "d", "side", "engaged_side")
 
     def __init__(self, channel: WordAddressChannel) -> None:
         setup = channel.setup
         count = len(channel.axes)
         self.parameters = setup.parameters
-        self.work_offsets: dict[str, list[float]] = channel.retained.table(WORK_OFFSETS, channel.number)
+        self.channel: WordAddressChannel = channel
+        self.work_offsets = WorkOffsets.of(channel).by_name
         if not self.work_offsets:
             self.work_offsets[EXTERNAL] = [0.0] * count
             for name, values in setup.work_offsets.items():
                 shown = [values.get(axis, 0.0) for axis in channel.axes]
                 self.work_offsets[name] = self.from_setup(channel, shown)
-        self.tools = {int(number): ToolOffset.of(tool) for number, tool in setup.tools.items()}
-        self.wcs = "G54"
-        self.local_shift = [0.0] * count
-        self.preset_shift = [0.0] * count
-        self.zero_frame = IDENTITY
-        self.length_offset = [0.0] * count
-        self.tool_direction: Vector | None = None
         self.tool = 0
         self.next_tool = 0
         self.last_m = 0
@@ -112,10 +130,6 @@ class Memory:
         self.machine_signals: dict[str, float] | None = {
             name: float(value) for name, value in given if isinstance(value, int | float)
         }
-        self.h = 0
-        self.d = 0
-        self.side = 0
-        self.engaged_side = 0
         self.waited = 0.0
         self.spindle_speed = 0.0
         self.spindle_direction = 0
@@ -129,6 +143,9 @@ class Memory:
     def from_setup(self, _channel: WordAddressChannel, shown: list[float]) -> list[float]:
         """Offsets of all axes as the control keeps them, from what its displays show."""
         return shown
+
+    def forget_locals(self) -> None:
+        """A reset: the local variables are those of the main program, as they begin, where there are any."""
 
     def work_offset(self, name: str) -> list[float]:
         """The offset of a work coordinate system; zero until it is set."""
@@ -144,4 +161,4 @@ class Memory:
 
     def offset_number(self, number: int) -> ToolOffset:
         """An offset number; zero until it is set."""
-        return self.tools.setdefault(number, ToolOffset())
+        return ToolOffsets.of(self.channel).at(number)

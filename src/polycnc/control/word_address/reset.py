@@ -12,7 +12,6 @@ from polycnc.control.word_address.transformations import (
     normal_line,
     polar_interpolation,
 )
-from polycnc.geometry.frames import IDENTITY
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.family import WordAddressChannel
@@ -26,14 +25,11 @@ def reset(channel: WordAddressChannel) -> None:
     normal_line.end(channel)
     end_of(channel, Lifetime.RESET)
     memory = channel.memory
-    fresh = channel.control.make_memory(channel)
-    for name in memory.CLEARED:
-        setattr(memory, name, getattr(fresh, name))
+    memory.forget_locals()
     machine = channel.coordinates.machine
     channel.coordinates.transformation = None
     frames = memory.frames
-    frames.scale = frames.mirror = frames.rotation = IDENTITY
-    frames.mirrored = {}
+    frames.clear()
     channel.path.clear()
     channel.mode = channel.modes.mode(channel.control.start_codes(channel))
     channel.coordinates.set_programming(frames.product(), frames.shift)

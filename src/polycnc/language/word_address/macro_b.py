@@ -2,8 +2,8 @@
 
 The reader turns the text into code in which every number is a parameter, so that all expressions of one shape share
 one compiled function (FANUC macro B; priorities: functions, `* / AND MOD`, `+ - OR XOR`, comparisons). The code reads
-variables through the channel's memory `m`: `m.locals[n]` for #1-#33, `m.common` for #100-#999, `m.read(n)` for the
-rest. A vacant variable is None; in arithmetic it counts as zero.
+variables through the channel's memory `m`: `m.locals[n]` for #1-#33, `m.common` for #100-#199, `m.kept` for #500-#999,
+`m.read(n)` for the rest. A vacant variable is None; in arithmetic it counts as zero.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ _LOGIC = re.compile(r"AND|OR|XOR")
 _NAMED = re.compile(r"\[#(_?[A-Z][A-Z0-9_]*)")
 
 MEMORY = name("m")
-_LOCALS, _COMMON = attribute(MEMORY, "locals"), attribute(MEMORY, "common")
+_LOCALS, _COMMON, _KEPT = (attribute(MEMORY, each) for each in ("locals", "common", "kept"))
 _NONE, _ZERO = constant(None), constant(0.0)
 
 
@@ -258,8 +258,10 @@ class Reader(OperatorReader[int, Code]):
         """Where a local or a common variable lies; None for all others."""
         if 1 <= number <= 33:
             return item(_LOCALS, self.lift(number))
-        if 100 <= number <= 199 or 500 <= number <= 999:
+        if 100 <= number <= 199:
             return item(_COMMON, self.lift(number))
+        if 500 <= number <= 999:
+            return item(_KEPT, self.lift(number))
         return None
 
     def named_variable(self, match: re.Match[str]) -> Code:

@@ -260,14 +260,18 @@ def _loop_number(reader: Reader) -> int:
 # ---- printing -------------------------------------------------------------------------------------------------------
 
 
+def _open_or_close(_channel: Channel) -> None:
+    """Lines that are printed are events: nothing has to be opened for them."""
+
+
 def parse_open(_reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
     """`POPEN`."""
-    return lambda channel: channel.memory.print_open(True)
+    return _open_or_close
 
 
 def parse_close(_reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
     """`PCLOS`."""
-    return lambda channel: channel.memory.print_open(False)
+    return _open_or_close
 
 
 def parse_print(reader: Reader, _program: WordAddressProgram, _index: int) -> Step:

@@ -12,8 +12,9 @@ from polycnc.control.fanuc.lathe.cycles import single
 from polycnc.control.fanuc.lathe.cycles.tapping import ClampState
 from polycnc.control.fanuc.lathe.tools import offsets
 from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
+from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.cycles.drilling import CycleState
-from polycnc.control.word_address.macro_b.variables import LOCALS
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations import cylinder, normal_line, polar_interpolation
 from polycnc.geometry.frames import IDENTITY
 
@@ -61,23 +62,23 @@ def reset(channel: LatheChannel) -> None:
 
 
 def _end_states(channel: LatheChannel, *, clears: bool) -> None:
-    """What a reset ends; a drilling cycle that stays modal stays with its words."""
+    """What a reset ends; a drilling cycle that stays modal stays with its words, modal G54 to G59 with its system."""
     memory = channel.memory
     if BalanceState.of(channel).paths:
         # Balance cutting always ends (II.7.1), whatever becomes of other modal codes.
         channel.mode = channel.mode.with_code(balance.GROUP, "G69")
     drills = channel.mode["cycle"] != "G80"
-    end_of(channel, Lifetime.RESET, kept=(CycleState, ClampState) if drills else ())
-    memory.locals = [None] * LOCALS
+    kept = ((CycleState, ClampState) if drills else ()) + (() if clears else (ZeroState,))
+    end_of(channel, Lifetime.RESET, kept)
+    memory.forget_locals()
     # G41 or G42 that stays modal waits for the next offset number (II.5.4.1).
-    memory.side = memory.engaged_side = {"G41": 1, "G42": -1}.get(channel.mode["compensation"], 0)
-    memory.d = 0
+    radius = RadiusState.of(channel)
+    radius.side = radius.engaged_side = {"G41": 1, "G42": -1}.get(channel.mode["compensation"], 0)
     if clears:
-        memory.wcs = "G54"
         memory.frames.rotation = memory.frames.mirror = memory.frames.turret = IDENTITY
         memory.frames.mirrored = {}
     if memory.parameters.RLC:
-        memory.local_shift = [0.0] * len(channel.axes)
+        ZeroState.of(channel).local = [0.0] * len(channel.axes)
 
 
 def _cancel_offsets(channel: LatheChannel, *, wear: bool, geometry: bool) -> None:
@@ -86,7 +87,7 @@ def _cancel_offsets(channel: LatheChannel, *, wear: bool, geometry: bool) -> Non
     if wear:
         memory.frames.offset = [0.0] * len(channel.axes)
         active.shift = list(active.geometry_shift)
-        active.number = memory.d = 0
+        active.number = RadiusState.of(channel).number = 0
     if geometry and not memory.parameters.LGT:
         active.shift = [s - g for s, g in zip(active.shift, active.geometry_shift, strict=True)]
         active.geometry_shift = [0.0] * len(channel.axes)

@@ -11,11 +11,12 @@ from polycnc.control.fanuc.system_variables import (
     nothing,
     position_rows,
 )
-from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.macro_b.interruption import InterruptionState
 from polycnc.control.word_address.macro_b.variables import Read, Registry, SystemRange, Write
 from polycnc.control.word_address.memory import EXTERNAL
-from polycnc.control.word_address.tools.length import renew_length
+from polycnc.control.word_address.tools.length import LengthState, renew_length
+from polycnc.control.word_address.tools.radius import RadiusState
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.macro_b.variables import MacroMemory
@@ -112,15 +113,16 @@ def _interrupted(group: str) -> Read:
 
 
 def _extended(m: MacroMemory, _i: int) -> float:
-    return float(m.wcs[7:]) if m.wcs.startswith("G54.1 P") else 0.0
+    state = ZeroState.of(m.channel)
+    return float(state.system[7:]) if state.system.startswith("G54.1 P") else 0.0
 
 
 def _rows_modal(first: int) -> list[SystemRange]:
     words: dict[int, Read] = {
         102: nothing,
-        107: lambda m, _i: float(m.d),
+        107: lambda m, _i: float(RadiusState.of(m.channel).number),
         108: nothing,
-        111: lambda m, _i: float(m.h),
+        111: lambda m, _i: float(LengthState.of(m.channel).number),
         120: lambda m, _i: float(m.next_tool),
         130: _extended,
     }
@@ -151,18 +153,18 @@ def _machine(m: MacroMemory, i: int) -> float:
 def _work_with_length(m: MacroMemory, i: int) -> float:
     """Work position now: machine position less work zero, the tool length not taken off."""
     axis = axis_at(m, i)
-    return m.to_program_unit(m.channel.coordinates.position[axis] + m.length_offset[axis])
+    return m.to_program_unit(m.channel.coordinates.position[axis] + ZeroState.of(m.channel).length[axis])
 
 
 def _skip(m: MacroMemory, i: int) -> float:
     """Where the last G31 ended; as the work position, with the tool length in it."""
     axis = axis_at(m, i)
     position = m.skip_position or m.channel.coordinates.position
-    return m.to_program_unit(position[axis] + m.length_offset[axis])
+    return m.to_program_unit(position[axis] + ZeroState.of(m.channel).length[axis])
 
 
 def _length(m: MacroMemory, i: int) -> float:
-    return m.to_program_unit(m.length_offset[axis_at(m, i)])
+    return m.to_program_unit(ZeroState.of(m.channel).length[axis_at(m, i)])
 
 
 MILLING_VARIABLES = Registry(

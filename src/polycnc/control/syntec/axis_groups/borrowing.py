@@ -5,10 +5,13 @@ An axis roams where Pr742 is 1 and Pr701 on names more than one group for it. No
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.channel.waits import Wait, Why
 from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
+from polycnc.control.syntec.coordinates.systems import TurnState
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,6 +26,13 @@ ROAMING, GROUPS = 742, 701
 WAITS, ALARMS, GOES_ON = 0, 1, 2
 RESULTS = range(27, 401)
 LONGEST_WAIT_S = 9999.999
+
+
+@dataclass(slots=True)
+class BorrowingState(State, lifetime=Lifetime.POWER):
+    """How often the running G52.2 has waited."""
+
+    tries: int = 0
 
 
 def roams(channel: Channel, axis: int) -> bool:
@@ -48,6 +58,7 @@ def release(channel: Channel, words: Words) -> None:
 
 def borrow(channel: Channel, words: Words) -> None:
     """G52.2 P Q R [I] [J] [K]: borrow all of the axes or none; I says what happens where one is not free."""
+    state = BorrowingState.of(channel)
     holders = _holders(channel)
     axes = _axes(channel, words)
     reaction, result, patient = _answers(words)
@@ -64,12 +75,12 @@ def borrow(channel: Channel, words: Words) -> None:
     elif reaction == WAITS:
         _try_again(channel, lambda: not any(name in holders for name in names))
         return
-    elif patient and channel.memory.borrow_tries < len(channel.machine.channels):
+    elif patient and state.tries < len(channel.machine.channels):
         # What the others can still do they do now; then they hold the axes for longer than K.
-        channel.memory.borrow_tries += 1
+        state.tries += 1
         _try_again(channel, lambda: True)
         return
-    channel.memory.borrow_tries = 0
+    state.tries = 0
     if reaction != WAITS and result is not None:
         channel.memory.set_variable(result, int(free))
     if not free and reaction == ALARMS:
@@ -108,8 +119,7 @@ def _axes(channel: Channel, words: Words) -> list[int]:
     codes = [words.typed(letter) for letter in "PQR" if letter in words]
     if any(code is not None and code != int(code) for code in codes):
         raise words.fail("axis_borrowing_type", "P")
-    memory = channel.memory
-    bound = channel.coordinates.transformation is not None or not memory.tilt.is_identity
+    bound = channel.coordinates.transformation is not None or not TurnState.of(channel).tilt.is_identity
     axes = [axis_of_code(channel, code) for code in codes if code is not None and code in CODES]
     if not axes or len(axes) != len(codes) or bound or any(a < 0 or not roams(channel, a) for a in axes):
         raise words.fail("axis_borrowing", "P")

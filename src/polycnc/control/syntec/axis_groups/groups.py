@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.program import Program
 
-MEETINGS, GLOBALS = "meetings", "globals"
+MEETINGS = "meetings"
 CNC_GROUPS = 731
 
 
@@ -30,13 +30,6 @@ class Meeting:
     mark: int
     named: frozenset[int]
     over: bool = False
-
-
-def share(channel: Channel) -> None:
-    """All axis groups have the same `@` variables and R registers."""
-    if channel.group is not None:
-        memory = channel.memory
-        memory.globals = channel.group.shared.setdefault(GLOBALS, memory.globals)
 
 
 def start_others(channel: Channel, program: Program) -> None:

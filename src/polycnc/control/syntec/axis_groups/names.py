@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.block.plan import AxisWord
 
 if TYPE_CHECKING:
@@ -14,6 +16,13 @@ if TYPE_CHECKING:
 AXIS_NAMES, CODES = 321, range(100, 1000)
 #: Hundreds of a name code.
 LETTERS = {letter: 100 * (i + 1) for i, letter in enumerate("XYZABCUVW")}
+
+
+@dataclass(slots=True)
+class VirtualAxisState(State, lifetime=Lifetime.POWER):
+    """Axes that move with a name that is none of theirs."""
+
+    axes: dict[str, list[int]] = field(default_factory=dict)
 
 
 def name_code(channel: Channel, axis: int) -> int:
@@ -34,7 +43,7 @@ def map_virtual_axis(channel: Channel, words: Words) -> None:
     letter = next((each for each, hundreds in LETTERS.items() if virtual == hundreds), "")
     if not letter or letter in channel.axis_index:
         raise words.fail("argument", "P")
-    mapped = channel.memory.virtual_axes.setdefault(letter, [])
+    mapped = VirtualAxisState.of(channel).axes.setdefault(letter, [])
     if real == 0:
         mapped.clear()
     else:
@@ -49,7 +58,7 @@ def virtual_words(builder: Builder) -> tuple[AxisWord, ...]:
     """What the words of virtual axes mean: one word for each axis that moves with them."""
     found: list[AxisWord] = []
     incremental = builder.mode["distance"] == "G91"
-    for address, axes in builder.channel.memory.virtual_axes.items():
+    for address, axes in VirtualAxisState.of(builder.channel).axes.items():
         if axes and builder.has(address):
             position, form = builder.slots[address]
             builder.take(address)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State, lasting
 from polycnc.control.syntec.axis_groups.names import map_virtual_axis
 from polycnc.control.syntec.five_axes.spatial import choose_corners
 from polycnc.control.syntec.parameters import WORK_SYSTEMS, decimals
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.stroke_check import StrokeZone
-from polycnc.control.word_address.coordinates.systems import go_to_reference, refresh_zero
+from polycnc.control.word_address.coordinates.systems import ZeroState, go_to_reference, refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.data_input import TOOL_FIELDS
 from polycnc.control.word_address.tools.length import renew_length
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.syntec.memory import SyntecMemory
     from polycnc.control.word_address.block.words import Words
-    from polycnc.geometry.frames import Vector
+    from polycnc.geometry.frames import Frame, Vector
 
 REFERENCE_POINTS = (1, 2, 3, 4)
 MACHINING_CONDITIONS = frozenset({*range(10), 21, 22, 23})
@@ -30,22 +32,54 @@ WORK_OFFSET, SPATIAL_CORNERS, VIRTUAL_AXIS, REGISTER_INPUT = 2, 450, 801, 1000
 LAST_REGISTER = 65535
 
 
+@dataclass(slots=True)
+class TurnState(State, lifetime=Lifetime.RESET):
+    """How the work system is turned.
+
+    Attributes:
+        angle: Of G92.1 (#1930), degrees, about `axis` (#1931 to #1933).
+        tilt: Frame of the tilted plane in the work system; `table` is how the table has turned it since.
+        by_table: G54.4 P1 is active (#1849).
+    """
+
+    angle: float = lasting(Lifetime.POWER, 0.0)
+    axis: list[float] = lasting(Lifetime.POWER, factory=lambda: [0.0, 0.0, 1.0])
+    tilt: Frame = IDENTITY
+    table: Frame = IDENTITY
+    by_table: bool = False
+
+
+@dataclass(slots=True)
+class ScaleState(State, lifetime=Lifetime.RESET):
+    """Factors of the active G51."""
+
+    factors: Vector = (1.0, 1.0, 1.0)
+
+
+@dataclass(slots=True)
+class DiameterState(State, lifetime=Lifetime.POWER):
+    """Axes switched by G10.9: programmed in diameter or not."""
+
+    switched: dict[int, bool] = field(default_factory=dict)
+
+
 # ---- work systems ----------------------------------------------------------------------------------------
 
 
 def select_work_system(channel: Channel, words: Words) -> None:
     """G54 to G59, G59.1 to G59.9, G54 P1 to P100 (2.38); Pr3229 = 1 switches work systems off."""
+    state = ZeroState.of(channel)
     code = channel.mode["wcs"]
     number = words.typed("P") if "P" in words else None
     memory = channel.memory
     if number is None:
-        memory.wcs = code
+        state.system = code
     elif number != int(number) or not 1 <= number <= len(WORK_SYSTEMS):
         raise words.fail("number", "P")
     else:
-        memory.wcs = WORK_SYSTEMS[int(number) - 1]
+        state.system = WORK_SYSTEMS[int(number) - 1]
     if memory.parameter(3229) == 1:
-        memory.wcs = NO_WORK_SYSTEM
+        state.system = NO_WORK_SYSTEM
     refresh_zero(channel)
 
 
@@ -55,6 +89,7 @@ NO_WORK_SYSTEM = "G53"
 
 def set_position(channel: Channel, words: Words) -> None:
     """G92 X Y Z: the present position gets these coordinates; G92 S: highest speed under G96 (2.63, 2.66)."""
+    state = ZeroState.of(channel)
     axes = words.axes()
     memory = channel.memory
     if axes:
@@ -64,11 +99,11 @@ def set_position(channel: Channel, words: Words) -> None:
             wanted[axis] = value
         inside, outside = c.to_machine(wanted), c.machine
         for axis, _, _ in axes:
-            memory.preset_shift[axis] += outside[axis] - inside[axis]
-        if memory.zero_frame is not IDENTITY:
+            state.preset[axis] += outside[axis] - inside[axis]
+        if state.frame is not IDENTITY:
             for axis in c.geometry:
                 if axis >= 0 and axis not in {a for a, _, _ in axes}:
-                    memory.preset_shift[axis] += outside[axis] - inside[axis]
+                    state.preset[axis] += outside[axis] - inside[axis]
         refresh_zero(channel)
     limit = words.typed("S")
     if limit is not None:
@@ -78,17 +113,18 @@ def set_position(channel: Channel, words: Words) -> None:
 
 def preset_system(channel: Channel, words: Words) -> None:
     """G92.1 X Y Z I J K R: this point becomes the origin, the axes turn by R about (I, J, K) (2.62)."""
+    state = TurnState.of(channel)
     c, memory = channel.coordinates, channel.memory
     origin = [0.0] * len(channel.axes)
     for axis, value, _ in words.axes():
         origin[axis] = value
     zero, target = c.to_machine([0.0] * len(channel.axes)), c.to_machine(origin)
     for axis in range(len(channel.axes)):
-        memory.preset_shift[axis] += target[axis] - zero[axis]
+        ZeroState.of(channel).preset[axis] += target[axis] - zero[axis]
     angle = words.angle("R")
     vector = [words.typed(letter) or 0.0 for letter in "IJK"]
-    memory.preset_angle = angle or 0.0
-    memory.preset_axis = vector if any(vector) else [0.0, 0.0, 1.0]
+    state.angle = angle or 0.0
+    state.axis = vector if any(vector) else [0.0, 0.0, 1.0]
     if angle and any(data.rotary for data in channel.axis_data[:3]):
         raise words.fail("preset_rotary", "R")
     renew_preset_frame(memory)
@@ -97,17 +133,19 @@ def preset_system(channel: Channel, words: Words) -> None:
 
 def forget_preset_turn(memory: SyntecMemory) -> None:
     """The turn of G92.1 is the default again: #1930 is 0, #1931 to #1933 the Z axis."""
-    memory.preset_angle, memory.preset_axis = 0.0, [0.0, 0.0, 1.0]
+    state = TurnState.of(memory.channel)
+    state.angle, state.axis = 0.0, [0.0, 0.0, 1.0]
     renew_preset_frame(memory)
 
 
 def renew_preset_frame(memory: SyntecMemory) -> None:
     """The zero frame follows #1930 to #1933 and the tilted plane."""
-    x, y, z = memory.preset_axis
-    turns = memory.preset_angle != 0.0 and x * x + y * y + z * z != 0.0
-    turn = turn_about((x, y, z), memory.preset_angle) if turns else IDENTITY
-    frame = turn @ memory.table_turn @ memory.tilt
-    memory.zero_frame = IDENTITY if frame.is_identity else frame
+    state = TurnState.of(memory.channel)
+    x, y, z = state.axis
+    turns = state.angle != 0.0 and x * x + y * y + z * z != 0.0
+    turn = turn_about((x, y, z), state.angle) if turns else IDENTITY
+    frame = turn @ state.table @ state.tilt
+    ZeroState.of(memory.channel).frame = IDENTITY if frame.is_identity else frame
 
 
 # ---- reference points, stroke limits ---------------------------------------------------------------------
@@ -171,7 +209,7 @@ def scale_factors(channel: Channel, words: Words) -> tuple[float, float, float]:
         if factors[axis] == 0.0:
             raise words.fail("argument", "P" if common is not None else "IJK"[axis])
     result = (factors[0], factors[1], factors[2])
-    channel.memory.scale_factors = result
+    ScaleState.of(channel).factors = result
     return result
 
 
@@ -214,7 +252,7 @@ def switch_diameter(channel: Channel, words: Words) -> None:
         value = words.values[word.slot]
         if value not in (0, 1) or channel.axis_data[word.axis].rotary:
             raise words.fail("diameter_switch", word.address)
-        channel.memory.diameters[word.axis] = value == 1
+        DiameterState.of(channel).switched[word.axis] = value == 1
     channel.modes.forget_plans()
     channel.context_changed()
 

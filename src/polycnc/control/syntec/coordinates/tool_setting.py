@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.parameters import WORK_SYSTEMS, decimals
 from polycnc.control.word_address.auxiliary import functions
-from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.motion import skip
 from polycnc.control.word_address.tools import length
+from polycnc.control.word_address.tools.length import LengthState
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 from polycnc.toolpath.events import Auxiliary
@@ -28,6 +29,7 @@ BACK_MM, SECOND_FEED_MM_S = 3.0, 50.0 / 60.0
 
 def measure_length(channel: Channel, words: Words) -> None:
     """G37 Z [R] [D] [F] [P]: the signal must come within Z ± D; the length of H gets what lies between it and Z."""
+    state = LengthState.of(channel)
     memory, c = channel.memory, channel.coordinates
     z = c.geometry[2]
     place = next((value for axis, value, _ in words.axes() if axis == z), None)
@@ -35,7 +37,7 @@ def measure_length(channel: Channel, words: Words) -> None:
         raise words.fail("setting_place", "G37")
     if c.programmed[z] <= place:
         raise words.fail("setting_start", "Z")
-    if not memory.h:
+    if not state.number:
         raise words.fail("setting_without_length", "G37")
     distance, tolerance = _length(channel, words, "R", DISTANCE), _length(channel, words, "D", TOLERANCE)
     feed = _feed(channel, words)
@@ -46,8 +48,8 @@ def measure_length(channel: Channel, words: Words) -> None:
     found = _probe(channel, place - tolerance, feed)
     if found is None:
         raise words.fail("setting_no_signal", "G37")
-    tool = memory.offset_number(memory.h)
-    tool.length = found - place + memory.length_offset[z]
+    tool = memory.offset_number(state.number)
+    tool.length = found - place + ZeroState.of(channel).length[z]
     length.renew_length(channel)
 
 
@@ -67,14 +69,15 @@ def measure_into_work_system(channel: Channel, words: Words) -> None:
 
 def measure_into_length(channel: Channel, words: Words) -> None:
     """G37.3 [Z] [H] [R] [F] [P] [Q] [T]: the machine position of the signal becomes the length of H."""
+    state = LengthState.of(channel)
     memory = channel.memory
     if "T" in words:
         functions.change_tool(channel, words)
     if not memory.tool:
         raise words.fail("setting_place", "G37.3")
     number = words.integer("H")
-    memory.h = memory.h if number is None else number
-    number = memory.h or memory.tool
+    state.number = state.number if number is None else number
+    number = state.number or memory.tool
     if not number:
         raise words.fail("setting_without_length", "G37.3")
     found = _measure_twice(channel, words)

@@ -9,10 +9,12 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec.coordinates.systems import renew_preset_frame
+from polycnc.control.syntec.coordinates.systems import TurnState, renew_preset_frame
 from polycnc.control.syntec.parameters import decimals
-from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.tools import length
+from polycnc.control.word_address.tools.length import LengthState
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
 from polycnc.transformation import choice
@@ -45,7 +47,7 @@ def align_and_position(channel: Channel, words: Words) -> None:
     number = words.integer("H")
     angles = _angles(channel, words, "G53.3")
     if number is not None:
-        channel.memory.h = number
+        LengthState.of(channel).number = number
     end = _turned(channel, angles)
     channel.mode = channel.mode.with_code("length", "G43")
     _stand_on_plane(channel, angles)
@@ -60,17 +62,18 @@ def align_and_position(channel: Channel, words: Words) -> None:
 
 def align_about_tip(channel: Channel, words: Words) -> None:
     """G53.6 [H] [P] [R]: the tip, or the point R above it, stays where it is on the work while the tool turns."""
-    memory, c = channel.memory, channel.coordinates
-    if memory.side:
+    state = LengthState.of(channel)
+    c = channel.coordinates
+    if RadiusState.of(channel).side:
         raise words.fail("tip_in_compensation", "G53.6")
     number = words.integer("H")
-    memory.h = memory.h if number is None else number
-    if not memory.h:
+    state.number = state.number if number is None else number
+    if not state.number:
         raise words.fail("tip_without_length", "G53.6")
     angles = _angles(channel, words, "G53.6")
     kinematics = Kinematics.of(channel.machine)
     before = dict(zip(channel.axes, c.machine, strict=True))
-    arm = channel.control.length_value(channel, memory.h) - (words.length("R") or 0.0)
+    arm = channel.control.length_value(channel, state.number) - (words.length("R") or 0.0)
     end = _turned(channel, angles)
     here = [end[axis] if axis >= 0 else 0.0 for axis in c.geometry]
     for axis, value in zip(c.geometry, about_tip(kinematics, before, angles, here, arm), strict=True):
@@ -94,10 +97,10 @@ def _stand_on_plane(channel: Channel, angles: Angles) -> None:
     memory = channel.memory
     kinematics = Kinematics.of(channel.machine)
     c = channel.coordinates
-    zero = [c.offsets[axis] - memory.length_offset[axis] if axis >= 0 else 0.0 for axis in c.geometry]
-    memory.table_turn = table_turn(kinematics, angles, zero)
+    zero = [c.offsets[axis] - ZeroState.of(channel).length[axis] if axis >= 0 else 0.0 for axis in c.geometry]
+    TurnState.of(channel).table = table_turn(kinematics, angles, zero)
     renew_preset_frame(memory)
-    memory.tool_direction = kinematics.tool_on_machine(angles)
+    LengthState.of(channel).direction = kinematics.tool_on_machine(angles)
     length.renew_direction(channel)
     refresh_zero(channel)
     # The length is named with the plane: no later word travels it.
@@ -110,15 +113,16 @@ def _stand_on_plane(channel: Channel, angles: Angles) -> None:
 
 def _angles(channel: Channel, words: Words, code: str) -> Angles:
     """Angles of the rotary axes that P chooses: with P0 the other solution where the first one is out of reach."""
-    memory, c = channel.memory, channel.coordinates
-    if channel.mode["rotation"] not in ("G68.2", "G68.3") and not memory.rotates_work:
+    state = TurnState.of(channel)
+    c = channel.coordinates
+    if channel.mode["rotation"] not in ("G68.2", "G68.3") and not state.by_table:
         raise words.fail("tilt_missing", code)
     way = words.typed("P") if "P" in words else SHORTEST
     if way not in SENSES:
         raise words.fail("align_way", "P")
     channel.flush()
     near = dict(zip(channel.axes, c.machine, strict=True))
-    wanted: Vector = memory.tilt.direct(0.0, 0.0, 1.0)
+    wanted: Vector = state.tilt.direct(0.0, 0.0, 1.0)
     kinematics = Kinematics.of(channel.machine)
     if not kinematics.axes and wanted[2] > 1.0 - 1e-9:
         return {}

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.syntec.five_axes.spatial_stage import (
     ARC_FIRST,
     INTERSECTION,
     Corners,
     SpatialStage,
 )
+from polycnc.control.syntec.five_axes.tip_control import PostureState
+from polycnc.control.word_address.tools.length import LengthState
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.machine.kinematics import Kinematics
@@ -39,6 +44,13 @@ FORBIDDEN = {
 }  # fmt: skip
 
 
+@dataclass(slots=True)
+class SpatialState(State, lifetime=Lifetime.POWER):
+    """P of G10 L450: how corners are led round."""
+
+    corner_way: int = 0
+
+
 def is_on(channel: Channel) -> bool:
     """Whether the compensation is active."""
     return channel.path.find(SpatialStage) is not None
@@ -46,15 +58,16 @@ def is_on(channel: Channel) -> bool:
 
 def start(channel: Channel, words: Words) -> None:
     """G41.2, G42.2, G41.6, G42.6 [D]: left or right of the path, across the tool; also changes sides."""
-    memory, code = channel.memory, channel.mode["compensation"]
+    state = RadiusState.of(channel)
+    code = channel.mode["compensation"]
     number = words.integer("D")
-    memory.d = memory.d if number is None else number
-    radius: float = channel.control.radius_value(channel, memory.d)
+    state.number = state.number if number is None else number
+    radius: float = channel.control.radius_value(channel, state.number)
     stage = channel.path.find(SpatialStage)
     if stage is not None:
         stage.change(SIDES[code], radius)
         return
-    if memory.side:
+    if state.side:
         raise words.fail("spatial_mixed", code)
     _check_start(channel, words, code)
     c = channel.coordinates
@@ -64,14 +77,16 @@ def start(channel: Channel, words: Words) -> None:
 
 
 def _check_start(channel: Channel, words: Words, code: str) -> None:
-    memory, mode = channel.memory, channel.mode
+    mode = channel.mode
     if channel.path.find(NormalStage) is not None:
         raise words.fail("normal_spatial", code)
     if mode["length"] not in TIP_CODES:
         raise words.fail("spatial_without_tip", code)
-    frames = mode["rotation"] != "G69" or mode["polar"] == "G16" or memory.tool_direction is not None
+    frames = (
+        mode["rotation"] != "G69" or mode["polar"] == "G16" or LengthState.of(channel).direction is not None
+    )
     speeds = mode["path"] == "G63" or mode["feed"] == "G95" or mode["surface_speed"] == "G96"
-    if frames or speeds or PolarState.of(channel).plane is not None or memory.posture_frame:
+    if frames or speeds or PolarState.of(channel).plane is not None or PostureState.of(channel).in_work:
         raise words.fail("spatial_mode", code)
 
 
@@ -79,7 +94,7 @@ def _corners(channel: Channel) -> Corners:
     memory = channel.memory
     unit: float = memory.least_angle
     least, most = memory.parameter(LEAST_INTERSECTION), memory.parameter(MOST_ARC)
-    return Corners(memory.corner_way, least * unit, most * unit if most else 180.0)
+    return Corners(SpatialState.of(channel).corner_way, least * unit, most * unit if most else 180.0)
 
 
 def choose_corners(channel: Channel, words: Words) -> None:
@@ -87,7 +102,7 @@ def choose_corners(channel: Channel, words: Words) -> None:
     way = words.typed("P")
     if way is None or not INTERSECTION <= way <= ARC_FIRST or way != int(way):
         raise words.fail("argument", "P" if way is not None else "G10")
-    channel.memory.corner_way = int(way)
+    SpatialState.of(channel).corner_way = int(way)
 
 
 def end(channel: Channel) -> None:

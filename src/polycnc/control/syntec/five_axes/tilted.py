@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec.coordinates.systems import renew_preset_frame
+from polycnc.control.syntec.coordinates.systems import TurnState, renew_preset_frame
 from polycnc.control.syntec.parameters import has_option
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.tools import length
+from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.transformations.tilted_plane import named_point
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.machine.kinematics import Kinematics
@@ -20,7 +21,6 @@ from polycnc.transformation.tilted import by_euler, by_rotary_axes, square_on
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.control.syntec.memory import SyntecMemory
     from polycnc.control.word_address.block.words import Words
     from polycnc.geometry.frames import Vector
 
@@ -40,10 +40,9 @@ def tilt_by_tool(channel: Channel, words: Words) -> None:
     P1 turns the plane with the rotary axes; otherwise its X axis is square on the Z axes of work and tool, and R
     turns it about the tool.
     """
-    memory: SyntecMemory = channel.memory
     if not has_option(channel.setup.parameters, OPTION_TOOL_PLANE):
         raise channel.control.fail("option", address="G68.3", code="G68.3")
-    if memory.rotates_work:
+    if TurnState.of(channel).by_table:
         raise words.fail("tool_plane", "G68.3")
     given = {axis for axis, _, _ in words.axes()} & {
         axis for axis in channel.coordinates.geometry if axis >= 0
@@ -60,7 +59,7 @@ def tilt_by_tool(channel: Channel, words: Words) -> None:
 def end_tilt(channel: Channel, words: Words) -> None:
     """G69: ends the rotation of G68 and the tilted plane."""
     base_frames.end_rotation(channel, words)
-    if channel.memory.tilt is not IDENTITY:
+    if TurnState.of(channel).tilt is not IDENTITY:
         set_tilt(channel, IDENTITY)
 
 
@@ -71,24 +70,28 @@ def switch_work_rotation(channel: Channel, words: Words) -> None:
         raise words.fail("argument", "G54.4")
     if switch not in (0, 1):
         raise words.fail("number", "P")
-    channel.memory.rotates_work = switch == 1
+    TurnState.of(channel).by_table = switch == 1
 
 
 def _position_in_work_system(channel: Channel) -> Vector:
     c = channel.coordinates
-    here: Vector = channel.memory.tilt.apply(*(c.position[axis] if axis >= 0 else 0.0 for axis in c.geometry))
+    here: Vector = TurnState.of(channel).tilt.apply(
+        *(c.position[axis] if axis >= 0 else 0.0 for axis in c.geometry)
+    )
     return here
 
 
 def set_tilt(channel: Channel, tilt: Frame) -> None:
     """Another tilted plane, the tool not yet aligned with it; the machine stays."""
+    length_state = LengthState.of(channel)
+    turn_state = TurnState.of(channel)
     memory = channel.memory
     if channel.coordinates.transformation is not None and not tilt.is_identity:
         raise channel.control.not_yet("G68.2 G43.4")
-    memory.tilt, memory.table_turn = tilt, IDENTITY
+    turn_state.tilt, turn_state.table = tilt, IDENTITY
     renew_preset_frame(memory)
-    if memory.tool_direction is not None:
-        memory.tool_direction = None
+    if length_state.direction is not None:
+        length_state.direction = None
         length.renew_direction(channel)
     refresh_zero(channel)
 

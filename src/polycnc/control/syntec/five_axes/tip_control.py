@@ -2,19 +2,36 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.syntec.coordinates import length as tool_length
+from polycnc.control.syntec.parameters import parameter
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.transformations import normal_line, tool_center_point
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 
 if TYPE_CHECKING:
+    from typing import Self
+
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
 
 TIP_CODES = ("G43.4", "G43.5")
+
+
+@dataclass(slots=True)
+class PostureState(State, lifetime=Lifetime.RESET):
+    """Whether directions of the tool refer to the work system under G43.4 (#1848)."""
+
+    in_work: bool = False
+
+    @classmethod
+    def first(cls, channel: Channel) -> Self:
+        """As Pr3057 has it."""
+        return cls(parameter(channel.setup.parameters, 3057) == 1)
 
 
 def is_on(channel: Channel) -> bool:
@@ -27,7 +44,7 @@ def start(channel: Channel, words: Words) -> None:
 
     Q chooses the frame of directions; L1 and I (smoothness, speed of the compensating axes) leave the path as it is.
     """
-    memory = channel.memory
+    state = PostureState.of(channel)
     frame = words.typed("Q")
     if frame is not None and frame not in (0, 1):
         raise words.fail("argument", "Q")
@@ -35,7 +52,7 @@ def start(channel: Channel, words: Words) -> None:
         raise words.fail("tip_on_tool_plane", channel.mode["length"])
     if PolarState.of(channel).plane is not None or not channel.coordinates.zero.is_identity:
         raise words.fail("tip_mode", channel.mode["length"])
-    memory.posture_frame = memory.posture_frame if frame is None else bool(frame)
+    state.in_work = state.in_work if frame is None else bool(frame)
     channel.flush()
     tool_center_point.start_following(channel, words)
 

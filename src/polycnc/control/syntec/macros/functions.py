@@ -7,6 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.macros.system_variables import system_variable
+from polycnc.control.syntec.macros.variables import BitState, FunctionState
 from polycnc.control.syntec.parameters import is_known
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, number, whole
 from polycnc.messages import AlarmError
@@ -82,7 +83,7 @@ def machine_parameter(memory: SyntecMemory, index: Value, _group: Value = VACANT
 
 def random_number(memory: SyntecMemory) -> Value:
     """RANDOM(): 0 to 32767, the same sequence in every run."""
-    return memory.random.randrange(32768)
+    return FunctionState.of(memory.channel).random.randrange(32768)
 
 
 # ---- stack -----------------------------------------------------------------------------------------------
@@ -90,23 +91,25 @@ def random_number(memory: SyntecMemory) -> Value:
 
 def push(memory: SyntecMemory, value: Value) -> Value:
     """PUSH(v)."""
-    memory.stack.append(value)
+    FunctionState.of(memory.channel).stack.append(value)
     return VACANT
 
 
 def pop(memory: SyntecMemory) -> Value:
     """POP(): the top, removed."""
-    if not memory.stack:
+    state = FunctionState.of(memory.channel)
+    if not state.stack:
         raise AlarmError(NO_SUCH_VARIABLE, hint="hint.syntec.stack")
-    return memory.stack.pop()
+    return state.stack.pop()
 
 
 def stack_top(memory: SyntecMemory, depth: Value) -> Value:
     """STKTOP[i]: copied from the top down, i = 0 the top itself."""
+    state = FunctionState.of(memory.channel)
     at = whole(depth, NO_SUCH_VARIABLE)
-    if not 0 <= at < len(memory.stack):
+    if not 0 <= at < len(state.stack):
         raise AlarmError(NO_SUCH_VARIABLE, hint="hint.syntec.stack")
-    return memory.stack[-1 - at]
+    return state.stack[-1 - at]
 
 
 # ---- bits ------------------------------------------------------------------------------------------------
@@ -121,12 +124,12 @@ def _bit_name(family: str, index: Value) -> str:
 
 def read_bit(family: str, memory: SyntecMemory, index: Value) -> Value:
     """READDI, READDO, READABIT."""
-    return memory.bits.get(_bit_name(family, index), 0)
+    return BitState.of(memory.channel).bits.get(_bit_name(family, index), 0)
 
 
 def write_bit(family: str, memory: SyntecMemory, index: Value, value: Value) -> Value:
     """SETDO, SETABIT."""
-    memory.bits[_bit_name(family, index)] = int(whole(value, WRONG_BIT) != 0)
+    BitState.of(memory.channel).bits[_bit_name(family, index)] = int(whole(value, WRONG_BIT) != 0)
     return VACANT
 
 
@@ -193,13 +196,12 @@ _ESCAPE = re.compile(r'\\([\\@#p"*])|([#@])(\d+)(?:\[(\d)\])?')
 _ESCAPED = {"p": "%"}
 
 
-def open_file(memory: SyntecMemory, name: Value, mode: Value = VACANT) -> Value:
+def open_file(_memory: SyntecMemory, name: Value, mode: Value = VACANT) -> Value:
     """OPEN("name", "a" | "w")."""
     if not isinstance(name, Text):
         raise AlarmError(WRONG_TYPE)
     if not isinstance(mode, Vacant) and str(mode) not in ("a", "w"):
         raise AlarmError(WRONG_MODE)
-    memory.print_file = str(name)
     return VACANT
 
 
@@ -229,9 +231,8 @@ def _printed(memory: SyntecMemory, value: Value, decimals: str | None) -> str:
     return str(value)
 
 
-def close_file(memory: SyntecMemory) -> Value:
+def close_file(_memory: SyntecMemory) -> Value:
     """CLOSE()."""
-    memory.print_file = ""
     return VACANT
 
 
@@ -245,7 +246,8 @@ def stored_text(memory: SyntecMemory, index: Value) -> Value:
 
 def set_colour(memory: SyntecMemory, colour: Value, _fill: Value = 0, _radius: Value = 0) -> Value:
     """SETDRAW(c): colour of the simulated path, which has no part in the motion; gives the previous one."""
-    previous, memory.colour = memory.colour, whole(colour, WRONG_TYPE)
+    state = FunctionState.of(memory.channel)
+    previous, state.colour = state.colour, whole(colour, WRONG_TYPE)
     return previous
 
 

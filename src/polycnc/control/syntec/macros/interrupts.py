@@ -10,13 +10,14 @@ from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
+from polycnc.control.syntec.spindles import SpindleState
 from polycnc.control.word_address.motion import path, skip
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Level
-    from polycnc.control.syntec.memory import SyntecMemory
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
@@ -38,6 +39,13 @@ class Interrupt:
     armed: bool = True
 
 
+@dataclass(slots=True)
+class InterruptState(State, lifetime=Lifetime.RESET):
+    """What M96 has prepared."""
+
+    prepared: Interrupt | None = None
+
+
 def interrupts_on(channel: Channel, words: Words) -> None:
     """M96 P [I Q] [R] [L]: from now on the signal calls program P."""
     number = _whole(words, "P", 1, LAST_PROGRAM)
@@ -48,14 +56,14 @@ def interrupts_on(channel: Channel, words: Words) -> None:
     if _whole(words, "L", 0, 2**31 - 1):
         raise channel.control.not_yet("M96 L", "L")
     channel.flush()
-    channel.memory.interrupt = Interrupt(channel.control.find_program(channel, number), signal)
+    InterruptState.of(channel).prepared = Interrupt(channel.control.find_program(channel, number), signal)
     channel.mode = channel.mode.with_code(GROUP, ON)
 
 
 def interrupts_off(channel: Channel, _words: Words) -> None:
     """M97."""
     channel.flush()
-    channel.memory.interrupt = None
+    InterruptState.of(channel).prepared = None
     channel.mode = channel.mode.with_code(GROUP, OFF)
 
 
@@ -90,10 +98,9 @@ def with_interrupt(builder: Builder, plan: Plan, step: Step) -> Step:
     kind = STRAIGHT.get(builder.mode["motion"])
 
     def move(channel: Channel, values: list[float]) -> None:
-        memory: SyntecMemory = channel.memory
-        interrupt = memory.interrupt
+        interrupt = InterruptState.of(channel).prepared
         at = channel.setup.switches.signals_at.get(interrupt.signal) if interrupt else None
-        if interrupt is None or not interrupt.armed or not at or memory.pairs:
+        if interrupt is None or not interrupt.armed or not at or SpindleState.of(channel).pairs:
             step(channel, values)
             return
         if kind is None:

@@ -5,13 +5,25 @@ from __future__ import annotations
 from math import isnan
 from typing import TYPE_CHECKING, cast
 
-from polycnc.control.syntec.coordinates.systems import renew_preset_frame
-from polycnc.control.syntec.macros.variables import Read, Registry, Space, Write, stored
+from polycnc.control.syntec.coordinates.systems import TurnState, renew_preset_frame
+from polycnc.control.syntec.five_axes.tip_control import PostureState
+from polycnc.control.syntec.macros.variables import (
+    BitState,
+    FunctionState,
+    Read,
+    Registry,
+    Space,
+    SpaceState,
+    Write,
+    stored,
+)
+from polycnc.control.syntec.motion.arcs import ArcState
+from polycnc.control.syntec.motion.moves import SkipState
 from polycnc.control.syntec.motion.oscillation import check_frame
 from polycnc.control.syntec.motion.quiet import is_quiet, switch_quiet
 from polycnc.control.syntec.parameters import WORK_SYSTEMS
-from polycnc.control.word_address.coordinates.systems import refresh_zero
-from polycnc.control.word_address.memory import EXTERNAL
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
+from polycnc.control.word_address.memory import EXTERNAL, ToolOffsets
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.syntec.values import VACANT, Value, number, to_long, whole
 from polycnc.messages import AlarmError
@@ -57,7 +69,8 @@ def _set_interpolation(memory: SyntecMemory, _offset: int, value: Value) -> None
 
 
 def _work_system(memory: SyntecMemory, _offset: int) -> Value:
-    return WORK_SYSTEMS.index(memory.wcs) + 1 if memory.wcs in WORK_SYSTEMS else 0
+    state = ZeroState.of(memory.channel)
+    return WORK_SYSTEMS.index(state.system) + 1 if state.system in WORK_SYSTEMS else 0
 
 
 def _sequence(memory: SyntecMemory, _offset: int) -> Value:
@@ -125,15 +138,17 @@ def _skip(memory: SyntecMemory) -> list[float]:
 
 
 def _machine_skip(memory: SyntecMemory) -> list[float]:
-    return memory.skip_machine or memory.channel.coordinates.machine
+    return SkipState.of(memory.channel).machine or memory.channel.coordinates.machine
 
 
 def _length(memory: SyntecMemory) -> list[float]:
-    return memory.length_offset
+    return ZeroState.of(memory.channel).length
 
 
 def _center(memory: SyntecMemory, offset: int) -> Value:
-    return shown(memory, memory.channel.coordinates.geometry[offset], memory.last_center[offset])
+    return shown(
+        memory, memory.channel.coordinates.geometry[offset], ArcState.of(memory.channel).last_center[offset]
+    )
 
 
 # ---- control words and status ----------------------------------------------------------------------------
@@ -143,10 +158,10 @@ def _word(index: int) -> tuple[Read, Write]:
     """A word that is kept and has no effect on the path (overrides, reload marks, colours)."""
 
     def read(memory: SyntecMemory, _offset: int) -> Value:
-        return memory.words.get(index, 0)
+        return SpaceState.of(memory.channel).words.get(index, 0)
 
     def write(memory: SyntecMemory, _offset: int, value: Value) -> None:
-        memory.words[index] = to_long(value)
+        SpaceState.of(memory.channel).words[index] = to_long(value)
 
     return read, write
 
@@ -178,40 +193,41 @@ def _diameter_mask(memory: SyntecMemory, _offset: int) -> Value:
 
 
 def _read_shift(memory: SyntecMemory, offset: int) -> Value:
-    shifts = memory.preset_shift
+    shifts = ZeroState.of(memory.channel).preset
     return shown(memory, offset, shifts[offset]) if offset < len(shifts) else 0.0
 
 
 def _write_shift(memory: SyntecMemory, offset: int, value: Value) -> None:
-    if offset >= len(memory.preset_shift):
+    state = ZeroState.of(memory.channel)
+    if offset >= len(state.preset):
         raise AlarmError("COR-016", variable=f"#{1901 + offset}")
     check_frame(memory)
-    memory.preset_shift[offset] = meant(memory, offset, value)
+    state.preset[offset] = meant(memory, offset, value)
     refresh_zero(memory.channel)
 
 
 def _read_preset_axis(memory: SyntecMemory, offset: int) -> Value:
-    return memory.preset_axis[offset]
+    return TurnState.of(memory.channel).axis[offset]
 
 
 def _write_preset_axis(memory: SyntecMemory, offset: int, value: Value) -> None:
-    memory.preset_axis[offset] = float(number(value))
+    TurnState.of(memory.channel).axis[offset] = float(number(value))
     renew_preset_frame(memory)
     refresh_zero(memory.channel)
 
 
 def _read_preset_angle(memory: SyntecMemory, _offset: int) -> Value:
-    return memory.preset_angle
+    return TurnState.of(memory.channel).angle
 
 
 def _write_preset_angle(memory: SyntecMemory, _offset: int, value: Value) -> None:
-    memory.preset_angle = float(number(value))
+    TurnState.of(memory.channel).angle = float(number(value))
     renew_preset_frame(memory)
     refresh_zero(memory.channel)
 
 
 def _read_length(memory: SyntecMemory, offset: int) -> Value:
-    tool = memory.tools.get(offset + 1)
+    tool = ToolOffsets.of(memory.channel).numbers.get(offset + 1)
     value = tool.length if tool else 0.0
     return value / INCH_MM if memory.is_inch else value
 
@@ -247,15 +263,15 @@ def _write_work_offset(memory: SyntecMemory, offset: int, value: Value) -> None:
 
 
 def _read_user(memory: SyntecMemory, offset: int) -> Value:
-    return memory.user.get(offset, 0.0)
+    return SpaceState.of(memory.channel).user.get(offset, 0.0)
 
 
 def _write_user(memory: SyntecMemory, offset: int, value: Value) -> None:
-    memory.user[offset] = float(number(value))
+    SpaceState.of(memory.channel).user[offset] = float(number(value))
 
 
 def _write_modal_long(memory: SyntecMemory, offset: int, value: Value) -> None:
-    memory.modal_longs[offset] = to_long(value)
+    SpaceState.of(memory.channel).modal_longs[offset] = to_long(value)
 
 
 def _parameter(first: int) -> Read:
@@ -264,7 +280,7 @@ def _parameter(first: int) -> Read:
 
 def _skip_input(memory: SyntecMemory, offset: int) -> Value:
     """#6001 on: C101 on."""
-    return memory.bits.get(f"C{101 + offset}", 0)
+    return BitState.of(memory.channel).bits.get(f"C{101 + offset}", 0)
 
 
 def system_variable(memory: SyntecMemory, group: Value, index: Value) -> Value:
@@ -278,7 +294,7 @@ def system_variable(memory: SyntecMemory, group: Value, index: Value) -> Value:
     return VACANT if other is None else cast("Value", other.variable(index))
 
 
-_DOUBLES = stored("modal_doubles")
+_DOUBLES = stored(lambda state: state.modal_doubles)
 SYSTEM_VARIABLES = Registry(
     [
         Space(401, 999, _read_user, _write_user),
@@ -288,7 +304,7 @@ SYSTEM_VARIABLES = Registry(
         Space(1042, 1042, _sequence),
         Space(1046, 1046, _feed),
         Space(1048, 1048, _line),
-        Space(1080, 1099, stored("modal_longs")[0], _write_modal_long),
+        Space(1080, 1099, stored(lambda state: state.modal_longs)[0], _write_modal_long),
         _by_axis(1301, _position),
         _by_axis(1321, _machine),
         _by_axis(1341, _position),
@@ -304,16 +320,16 @@ SYSTEM_VARIABLES = Registry(
         Space(1600, 1600, lambda memory, _offset: memory.least_unit),
         Space(1602, 1602, lambda memory, _offset: memory.least_angle),
         Space(1604, 1604, lambda memory, _offset: memory.parameter(3809)),
-        Space(1606, 1606, lambda memory, _offset: len(memory.stack)),
-        Space(1608, 1608, lambda memory, _offset: memory.skip_flags),
+        Space(1606, 1606, lambda memory, _offset: len(FunctionState.of(memory.channel).stack)),
+        Space(1608, 1608, lambda memory, _offset: SkipState.of(memory.channel).flags),
         Space(1616, 1616, _constant(0)),
         Space(1618, 1618, _constant(0)),
         Space(1620, 1620, _sequence),
         Space(1622, 1622, _line),
         Space(1624, 1624, _constant(1)),
         Space(1814, 1814, _diameter_mask),
-        Space(1848, 1848, lambda memory, _offset: int(memory.posture_frame)),
-        Space(1849, 1849, lambda memory, _offset: int(memory.rotates_work)),
+        Space(1848, 1848, lambda memory, _offset: int(PostureState.of(memory.channel).in_work)),
+        Space(1849, 1849, lambda memory, _offset: int(TurnState.of(memory.channel).by_table)),
         Space(1880, 1896, _read_work_offset, _write_work_offset),
         Space(1901, 1918, _read_shift, _write_shift),
         Space(1930, 1930, _read_preset_angle, _write_preset_angle),

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from random import Random
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.state import Lifetime, State, lasting, retained
 from polycnc.language.syntec.expressions import LAST_LOCAL, NO_SUCH_VARIABLE
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, number, storable, to_long, whole
+from polycnc.memory.retained import REGISTERS, VARIABLES
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
+    from typing import Self
 
+    from polycnc.channel.channel import Channel
     from polycnc.control.syntec.memory import SyntecMemory
 
 Read = Callable[["SyntecMemory", int], Value]
@@ -30,6 +35,8 @@ AXIS_LETTERS = frozenset("XYZABCIJKUVW")
 #: Letters whose words may carry an index (`X1=`).
 INDEXED_LETTERS = frozenset("ABCFSUVWXYZ")
 
+#: Names of single bits of the PLC interface that setups may give, and the functions that read them.
+BIT_FAMILIES = "IOAC"
 #: R registers that a macro may write; the others belong to the control and the PLC.
 WRITABLE_REGISTERS = (
     (50, 80), (101, 511), (1024, 4095), (5800, 7999), (10000, 10999), (15000, 65535),
@@ -96,6 +103,46 @@ class Locals(dict[int, Value]):
         }
 
 
+@dataclass(slots=True)
+class LocalState(State, lifetime=Lifetime.RESET):
+    """#1 to #400 of the main program."""
+
+    main: dict[int, Value] = field(default_factory=dict)
+
+
+@dataclass(slots=True)
+class SpaceState(State, lifetime=Lifetime.POWER):
+    """`#` variables that are kept as they are written, by their offset in the space; `words` by number (#1502 …)."""
+
+    user: dict[int, Value] = field(default_factory=dict)
+    words: dict[int, int] = field(default_factory=dict)
+    modal_longs: dict[int, Value] = lasting(Lifetime.RESET, factory=dict)
+    modal_doubles: dict[int, Value] = lasting(Lifetime.RESET, factory=dict)
+
+
+@dataclass(slots=True)
+class FunctionState(State, lifetime=Lifetime.POWER):
+    """What functions remember: PUSH and POP, RANDOM, SETDRAW."""
+
+    stack: list[Value] = lasting(Lifetime.RESET, factory=list)
+    random: Random = field(default_factory=lambda: Random(0))
+    colour: int = 0
+
+
+@dataclass(slots=True)
+class BitState(State, lifetime=Lifetime.POWER):
+    """Bits I, O, A, C of the PLC interface by name."""
+
+    bits: dict[str, int]
+
+    @classmethod
+    def first(cls, channel: Channel) -> Self:
+        """The bits that the setup gives."""
+        signals = channel.setup.switches.signals.items()
+        names = (pair for pair in signals if pair[0][:1] in BIT_FAMILIES and pair[0][1:].isdigit())
+        return cls({name: int(bool(value)) for name, value in names})
+
+
 @dataclass(frozen=True, slots=True)
 class Space:
     """Variables `first` to `last`, read and written by their offset; without `write` read-only."""
@@ -121,15 +168,14 @@ class Registry:
         return self._spaces[place]
 
 
-def stored(name: str) -> tuple[Read, Write]:
-    """Reader and writer of a space that is kept in the dictionary `name` of the memory."""
+def stored(values: Callable[[SpaceState], dict[int, Value]]) -> tuple[Read, Write]:
+    """Reader and writer of a space that holds values of any type, or none."""
 
     def read(memory: SyntecMemory, offset: int) -> Value:
-        values: dict[int, Value] = getattr(memory, name)
-        return values.get(offset, VACANT)
+        return values(SpaceState.of(memory.channel)).get(offset, VACANT)
 
     def write(memory: SyntecMemory, offset: int, value: Value) -> None:
-        put(getattr(memory, name), offset, value)
+        put(values(SpaceState.of(memory.channel)), offset, value)
 
     return read, write
 
@@ -142,12 +188,12 @@ def put(values: dict[int, Value], index: int, value: Value) -> None:
         values[index] = value
 
 
-class Globals:
-    """The `@` variables and the R registers."""
+@dataclass(slots=True)
+class GlobalState(State, lifetime=Lifetime.RETAINED):
+    """The `@` variables and the R registers, which all axis groups share."""
 
-    def __init__(self) -> None:
-        self.values: dict[int, Value] = {}
-        self.registers: dict[int, int] = {}
+    values: dict[int, Value] = retained(VARIABLES, of_control=True)
+    registers: dict[int, int] = retained(REGISTERS, of_control=True)
 
     def read(self, index: Value) -> Value:
         """The value of `@index`."""

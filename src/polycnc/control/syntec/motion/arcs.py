@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import hypot
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State, lasting
+from polycnc.control.syntec.coordinates.systems import ScaleState
 from polycnc.control.syntec.five_axes.tip_control import TIP_CODES
 from polycnc.control.syntec.parameters import has_option
 from polycnc.control.word_address.block.words_as_data import targets_as_data, word_as_data
@@ -26,6 +29,14 @@ if TYPE_CHECKING:
 
 OPTION_THREE_POINT_ARC = 19
 THREE_POINT_CODES = ("G2.4", "G3.4")
+
+
+@dataclass(slots=True)
+class ArcState(State, lifetime=Lifetime.POWER):
+    """Centre vector of the last arc, and the mid point of a G02.4 whose end point is still to come."""
+
+    last_center: Vector = (0.0, 0.0, 0.0)
+    mid_point: list[float] | None = lasting(Lifetime.RESET, None)
 
 
 def plan_arc_cw(builder: Builder, plan: Plan) -> Step | None:
@@ -112,7 +123,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
                 control.check_arc(channel, begin, end, center)
         vector = [0.0, 0.0, 0.0]
         vector[u], vector[v] = center[0] - begin[0], center[1] - begin[1]
-        channel.memory.last_center = (vector[0], vector[1], vector[2])
+        ArcState.of(channel).last_center = (vector[0], vector[1], vector[2])
         center = _scaled_center(channel, words, begin, end, center, ccw=ccw)
         emit_arc(
             channel, programmed, center, (u, v, w), ccw=ccw, feed=channel.feed, turns=float((turns or 1) - 1)
@@ -169,7 +180,7 @@ def _scaled_center(
     """
     memory = channel.memory
     u, v, _ = words.plane
-    factors: Vector = memory.scale_factors
+    factors: Vector = ScaleState.of(channel).factors
     if channel.mode["scaling"] != "G51" or abs(factors[u]) == abs(factors[v]):
         return center
     frame: Frame = memory.frames.product()
@@ -214,14 +225,15 @@ def plan_three_point_arc(builder: Builder, plan: Plan) -> Step | None:
     feed_named = builder.has("F")
 
     def move(channel: Channel, values: list[float]) -> None:
-        memory, c = channel.memory, channel.coordinates
-        if memory.mid_point is None:
-            memory.mid_point = path.reach(channel, plan.axis_words, values)
+        state = ArcState.of(channel)
+        c = channel.coordinates
+        if state.mid_point is None:
+            state.mid_point = path.reach(channel, plan.axis_words, values)
             return
         if feed_named:
             raise control.fail("three_point_format", address="F")
-        mid = memory.mid_point
-        memory.mid_point = None
+        mid = state.mid_point
+        state.mid_point = None
         start = c.programmed
         c.programmed = mid
         try:
@@ -256,6 +268,7 @@ def _three_point_moves(channel: Channel, mid: list[float], end: list[float]) -> 
 
 def check_pair_complete(channel: Channel) -> None:
     """COR-134: a three-point arc whose end point never came."""
-    if channel.memory.mid_point is not None:
-        channel.memory.mid_point = None
+    state = ArcState.of(channel)
+    if state.mid_point is not None:
+        state.mid_point = None
         raise channel.control.fail("three_point_format")

@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from functools import partial
 from math import copysign, hypot, nan, sqrt
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State, lasting
+from polycnc.control.syntec.coordinates.systems import TurnState
 from polycnc.control.syntec.macros.calls import ModalMacroState
 from polycnc.control.syntec.motion import planes
+from polycnc.control.syntec.spindles import SpindleState
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block import settled
 from polycnc.control.word_address.motion import path, skip
 from polycnc.control.word_address.motion.arcs import emit_arc
 from polycnc.control.word_address.motion.path import CENTER_WORDS
 from polycnc.control.word_address.tools import radius
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
@@ -35,6 +40,47 @@ if TYPE_CHECKING:
 #: Default feeds while none was programmed: mm/s and mm/rev (2.2).
 DEFAULT_FEED = {"G93": nan, "G94": 1000.0 / 60.0, "G95": 1.0}
 ANGLE_TOLERANCE = 1e-6
+
+
+@dataclass(slots=True)
+class FeedState(State, lifetime=Lifetime.RESET):
+    """Feeds beside the one in force.
+
+    Attributes:
+        mode: The feed mode that the feed in force belongs to.
+        by_mode: The last feed of each feed mode that was left.
+        lead: F of G33, mm.
+        rapid_speed: F1 of the running G00 P1, mm/s; 0 for none.
+    """
+
+    mode: str = "G94"
+    by_mode: dict[str, float] = field(default_factory=dict)
+    lead: float = lasting(Lifetime.POWER, 0.0)
+    rapid_speed: float = lasting(Lifetime.POWER, 0.0)
+
+
+@dataclass(slots=True)
+class SkipState(State, lifetime=Lifetime.POWER):
+    """Moves that signals end.
+
+    Attributes:
+        flags: #1608.
+        machine: Machine position of the last skip.
+        groups: Groups of G31.10 that G31.11 will move; `groups_end` is the step behind the last one.
+    """
+
+    flags: int = 0
+    machine: list[float] | None = None
+    groups: list[SkipGroup] = lasting(Lifetime.RESET, factory=list)
+    groups_end: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class SkipGroup:
+    """Axes that move and skip together: programmed end of each, and where their signal comes."""
+
+    ends: dict[int, float]
+    signal: object
 
 
 # ---- G00, G53 --------------------------------------------------------------------------------------------
@@ -82,13 +128,13 @@ def move_in_machine_system(channel: Channel, words: Words) -> None:
 @contextmanager
 def _rapid_at(channel: Channel, speed: float) -> Iterator[float]:
     """A rapid with a speed of its own, mm/s; NaN for rapid traverse."""
-    memory = channel.memory
-    memory.rapid_speed = max(0.0, speed)
+    state = FeedState.of(channel)
+    state.rapid_speed = max(0.0, speed)
     channel.context_changed()
     try:
         yield speed
     finally:
-        memory.rapid_speed = 0.0
+        state.rapid_speed = 0.0
         channel.context_changed()
 
 
@@ -105,30 +151,31 @@ def plan_feed(builder: Builder) -> Step:
     )
 
     def set_lead(channel: Channel, values: list[float]) -> None:
-        channel.memory.lead = values[slot] * factor
+        FeedState.of(channel).lead = values[slot] * factor
 
     return set_lead
 
 
 def change_feed_mode(channel: Channel, words: Words) -> None:
     """G93, G94, G95: each mode has its own F; without one it is 1000 per minute, 1 per revolution."""
-    memory, mode = channel.memory, channel.mode["feed"]
-    if mode != memory.feed_mode:
+    state = FeedState.of(channel)
+    mode = channel.mode["feed"]
+    if mode != state.mode:
         if "F" not in words:
-            memory.feeds[memory.feed_mode] = channel.feed
-            channel.feed = memory.feeds.get(mode, DEFAULT_FEED[mode])
-        memory.feed_mode = mode
+            state.by_mode[state.mode] = channel.feed
+            channel.feed = state.by_mode.get(mode, DEFAULT_FEED[mode])
+        state.mode = mode
     channel.context_changed()
 
 
 def _feed_is_settled(channel: Channel) -> bool:
     """G93 to G95: the feed in force is that of the code."""
-    return bool(channel.memory.feed_mode == channel.mode["feed"])
+    return bool(FeedState.of(channel).mode == channel.mode["feed"])
 
 
 def _frame_is_settled(channel: Channel) -> bool:
     """G69: nothing is rotated or tilted."""
-    return channel.coordinates.direct and channel.memory.tilt is IDENTITY
+    return channel.coordinates.direct and TurnState.of(channel).tilt is IDENTITY
 
 
 def _length_is_settled(channel: Channel) -> bool:
@@ -143,7 +190,7 @@ def _has_no_modal_call(channel: Channel) -> bool:
 
 def _surface_axis_is_linear(channel: Channel) -> bool:
     """G96: a linear axis gives the diameter."""
-    return not channel.axis_data[channel.memory.surface_axis].rotary
+    return not channel.axis_data[SpindleState.of(channel).surface_axis].rotary
 
 
 #: Codes that change nothing where they are in force already; see `word_address.settled`.
@@ -202,6 +249,7 @@ def _length(channel: Channel, plan: Plan, values: list[float]) -> float:
 
 def skip_move(channel: Channel, words: Words) -> None:
     """G31 X Y Z F [Q] [P]: a cut that ends where the skip signal comes (2.22)."""
+    state = SkipState.of(channel)
     if channel.mode["compensation"] != "G40":
         raise words.fail("comp_skip", "G31")
     deceleration = words.typed("P")
@@ -211,10 +259,10 @@ def skip_move(channel: Channel, words: Words) -> None:
     end = c.to_position(path.reach(channel, words.plan.axis_words, words.values))
     stopped = skip.signal_position(channel, c.position, end, skip_source(channel, words))
     memory = channel.memory
-    memory.skip_flags = int(stopped is not None)
+    state.flags = int(stopped is not None)
     skip.move_to_signal(channel, end, stopped)
     memory.note_skip(list(c.position))
-    memory.skip_machine = c.machine
+    state.machine = c.machine
 
 
 def skip_source(channel: Channel, words: Words) -> object:
@@ -237,7 +285,7 @@ def plan_thread(builder: Builder, plan: Plan) -> Step | None:
         return None
 
     def move(channel: Channel, values: list[float]) -> None:
-        lead = channel.memory.lead
+        lead = FeedState.of(channel).lead
         if not lead > 0.0:
             raise builder.control.fail("no_feed", address="F")
         c = channel.coordinates
@@ -254,14 +302,15 @@ def plan_thread(builder: Builder, plan: Plan) -> Step | None:
 
 def _lengthened_move(factor: float, channel: Channel, words: Words) -> None:
     """G45 to G48: the move of this block grows by `factor` tool radii, arcs in their radius (2.31)."""
-    control, memory = channel.control, channel.memory
+    state = RadiusState.of(channel)
+    control = channel.control
     code = f"G{({1.0: 45, -1.0: 46, 2.0: 47, -2.0: 48})[factor]}"
     if channel.mode["compensation"] != "G40":
         raise control.fail("offset_in_compensation", address=code)
     number = words.typed("D")
     if number is not None:
-        memory.d = int(number)
-    growth = factor * control.radius_value(channel, memory.d)
+        state.number = int(number)
+    growth = factor * control.radius_value(channel, state.number)
     motion = channel.mode["motion"]
     if motion in ("G2", "G3"):
         _lengthened_arc(channel, words, growth, ccw=motion == "G3")

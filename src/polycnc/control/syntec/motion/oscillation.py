@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.channel.state import Lifetime, State
 from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
 from polycnc.control.syntec.parameters import decimals, has_option
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
@@ -56,10 +57,19 @@ class Oscillation:
     speed: float
 
 
+@dataclass(slots=True)
+class OscillationState(State, lifetime=Lifetime.POWER):
+    """The axis that oscillates; `precise` by G81.2, `was_precise` that there was one, on `precise_axis`."""
+
+    running: Oscillation | None = None
+    precise: bool = False
+    was_precise: bool = False
+    precise_axis: int = 0
+
+
 def start(channel: Channel, words: Words) -> None:
     """G81.1 Z Q R F: upper vertex (machine), from there the way to the lower one and to the R point."""
-    memory = channel.memory
-    if memory.oscillation is not None:
+    if OscillationState.of(channel).running is not None:
         raise words.fail("oscillation_repeated", SIMPLE)
     _refuse_transformations(channel, words, SIMPLE)
     named = words.axes()
@@ -72,17 +82,18 @@ def start(channel: Channel, words: Words) -> None:
 
 def end(channel: Channel, _words: Words) -> None:
     """G80: a drilling cycle ends, and with it G81.1; its axis goes back to R."""
-    memory = channel.memory
-    if memory.oscillation is None:
+    state = OscillationState.of(channel)
+    if state.running is None:
         return
-    if memory.precise:
+    if state.precise:
         channel.mode = channel.mode.with_code(OSCILLATION, PRECISE)
         return
-    _stop(channel, memory.oscillation.home)
+    _stop(channel, state.running.home)
 
 
 def start_precise(channel: Channel, words: Words) -> None:
     """G81.2 P Q [R] L: axis P between the vertices in registers Q and Q + 1, from R, at the speed in register L."""
+    state = OscillationState.of(channel)
     memory = channel.memory
     if not has_option(memory.parameters, OPTION_PRECISE):
         raise words.fail("option", PRECISE)
@@ -90,8 +101,8 @@ def start_precise(channel: Channel, words: Words) -> None:
     axis, places, speed = _axis(channel, words), words.integer("Q"), words.integer("L")
     if places is None or speed is None:
         raise words.fail("argument", "Q" if places is not None else PRECISE)
-    running: Oscillation | None = memory.oscillation
-    if running is not None and not (memory.precise and running.axis == axis):
+    running: Oscillation | None = state.running
+    if running is not None and not (state.precise and running.axis == axis):
         raise words.fail("oscillation_repeated", PRECISE)
     unit = 10.0 ** -decimals(memory.parameters, inch=False)
     registers = memory.globals.registers
@@ -106,38 +117,40 @@ def start_precise(channel: Channel, words: Words) -> None:
     )
     new = Oscillation(axis, vertices, home, registers.get(speed, 0) / 60.0)
     if running is not None:
-        memory.oscillation = new
+        state.running = new
         return
-    memory.precise = memory.was_precise = True
+    state.precise = state.was_precise = True
     _begin(channel, new)
 
 
 def end_precise(channel: Channel, words: Words) -> None:
     """G80.2 [Q]: the axis stops at Q, else where Pr3957 says."""
+    state = OscillationState.of(channel)
     memory = channel.memory
-    if not memory.was_precise:
+    if not state.was_precise:
         raise words.fail("oscillation_repeated", OFF)
     place = words.length("Q")
-    running: Oscillation | None = memory.oscillation
-    if running is None or not memory.precise:
+    running: Oscillation | None = state.running
+    if running is None or not state.precise:
         if running is not None:
             channel.mode = channel.mode.with_code(OSCILLATION, SIMPLE)
         elif place is not None:
-            _arrive(channel, memory.precise_axis, place)
+            _arrive(channel, state.precise_axis, place)
         return
     if place is None and memory.parameter(STOP) == 1:
         # Where the axis is at that moment is known to the main run alone.
         raise AlarmError("PC0001", hint="hint.not-supported", address=OFF, code="G80.2 Pr3957=1")
-    memory.precise = False
-    memory.precise_axis = running.axis
+    state.precise = False
+    state.precise_axis = running.axis
     _stop(channel, running.home if place is None else place)
 
 
 def check_block(builder: Builder) -> None:
     """Refuse moves and frames of an axis that oscillates."""
-    if builder.before[OSCILLATION] == OFF or builder.channel.memory.oscillation is None:
+    state = OscillationState.of(builder.channel)
+    if builder.before[OSCILLATION] == OFF or state.running is None:
         return
-    axis = builder.channel.axes[builder.channel.memory.oscillation.axis]
+    axis = builder.channel.axes[state.running.axis]
     fail = builder.control.fail
     for row in builder.codes:
         if row.code in FRAME_CODES:
@@ -152,7 +165,7 @@ def check_block(builder: Builder) -> None:
 
 def check_frame(memory: SyntecMemory) -> None:
     """Refuse a system variable that would move the coordinates of an oscillating axis."""
-    if memory.oscillation is not None:
+    if OscillationState.of(memory.channel).running is not None:
         raise memory.channel.control.fail("oscillation_frame")
 
 
@@ -174,7 +187,7 @@ def _axis(channel: Channel, words: Words) -> int:
 
 def _begin(channel: Channel, oscillation: Oscillation) -> None:
     channel.flush()
-    channel.memory.oscillation = oscillation
+    OscillationState.of(channel).running = oscillation
     channel.modes.forget_plans()
     c = channel.coordinates
     machine = c.machine
@@ -184,10 +197,11 @@ def _begin(channel: Channel, oscillation: Oscillation) -> None:
 
 def _stop(channel: Channel, place: float) -> None:
     channel.flush()
-    running: Oscillation = channel.memory.oscillation
-    channel.memory.oscillation = None
+    state = OscillationState.of(channel)
+    running, state.running = state.running, None
     channel.modes.forget_plans()
-    _arrive(channel, running.axis, place)
+    if running is not None:
+        _arrive(channel, running.axis, place)
 
 
 def _arrive(channel: Channel, axis: int, place: float) -> None:

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.syntec.coordinates.systems import DiameterState
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.polar_interpolation import (
     GROUP,
     PolarState,
@@ -37,7 +39,7 @@ def start_polar(channel: Channel, words: Words) -> None:
     linear, rotary = (channel.axis_index.get(name, -1) for name in (LINEAR, ROTARY))
     if linear < 0 or rotary < 0 or not channel.axis_data[rotary].rotary:
         raise words.fail("polar_axes", "G12.1")
-    if memory.side or not (c.direct and c.zero.is_identity):
+    if RadiusState.of(channel).side or not (c.direct and c.zero.is_identity):
         raise words.fail("polar_mode", "G12.1")
     if PolarState.of(channel).plane is not None:
         return
@@ -46,7 +48,7 @@ def start_polar(channel: Channel, words: Words) -> None:
     eccentricity = (words.length("X") or 0.0, words.length("C") or 0.0)
     side = -1.0 if here[linear] < 0.0 else 1.0
     diameter = memory.is_diameter(linear)
-    memory.diameters[linear] = False
+    DiameterState.of(channel).switched[linear] = False
     geometry = (linear, rotary, c.geometry[2])
     polar = PolarPlane(linear, rotary, geometry, here[rotary], eccentricity, side)
     enter_polar(channel, polar, "G17", diameter=diameter)
@@ -54,10 +56,9 @@ def start_polar(channel: Channel, words: Words) -> None:
 
 def end_polar(channel: Channel, words: Words) -> None:
     """G13.1: X and C are axes of their own again; the former plane and the parameter's kind of X return."""
-    memory = channel.memory
     if PolarState.of(channel).plane is None:
         return
-    if memory.side:
+    if RadiusState.of(channel).side:
         raise words.fail("polar_mode", "G13.1")
     channel.flush()
     leave_plane(channel)
@@ -67,7 +68,7 @@ def leave_plane(channel: Channel) -> None:
     """The axes are named themselves again; nothing moves."""
     plane = PolarState.of(channel).plane
     if plane is not None:
-        channel.memory.diameters.pop(plane.linear, None)
+        DiameterState.of(channel).switched.pop(plane.linear, None)
         leave_polar(channel)
 
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import copysign
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec.motion.moves import skip_source
+from polycnc.control.syntec.motion.moves import SkipGroup, SkipState, skip_source
 from polycnc.control.word_address.motion import path, skip
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
@@ -19,35 +18,27 @@ if TYPE_CHECKING:
 MAX_GROUPS = 6
 
 
-@dataclass(frozen=True, slots=True)
-class SkipGroup:
-    """Axes that move and skip together: programmed end of each, and where their signal comes."""
-
-    ends: dict[int, float]
-    signal: object
-
-
 def define_group(channel: Channel, words: Words) -> None:
     """G31.10 X Y Z F Q P: a group of axes with its own signal, feed and deceleration."""
-    memory: SyntecMemory = channel.memory
+    state = SkipState.of(channel)
     deceleration = words.typed("P")
     if deceleration is not None and (deceleration < 0 or deceleration != int(deceleration)):
         raise words.fail("number", "P")
     target = path.reach(channel, words.plan.axis_words, words.values)
     axes = [word.axis for word in words.plan.axis_words]
-    taken = {axis for group in memory.skip_groups for axis in group.ends}
-    follows = not memory.skip_groups or _follows(channel)
-    if not axes or taken & set(axes) or len(memory.skip_groups) >= MAX_GROUPS or not follows:
+    taken = {axis for group in state.groups for axis in group.ends}
+    follows = not state.groups or _follows(channel)
+    if not axes or taken & set(axes) or len(state.groups) >= MAX_GROUPS or not follows:
         raise words.fail("skip_groups", "G31.10")
     group = SkipGroup({axis: target[axis] for axis in axes}, skip_source(channel, words))
-    memory.skip_groups.append(group)
-    memory.skip_groups_end = channel.level.index
+    state.groups.append(group)
+    state.groups_end = channel.level.index
 
 
 def _follows(channel: Channel) -> bool:
     """Whether nothing but empty lines stands between the last G31.10 and this block."""
     level = channel.level
-    first, last = channel.memory.skip_groups_end, level.current
+    first, last = SkipState.of(channel).groups_end, level.current
     lines = level.code.program.lines
     start, end = level.code.line(first), level.code.line(last)
     between = lines[start - level.code.program.first_line : end - level.code.program.first_line]
@@ -56,13 +47,14 @@ def _follows(channel: Channel) -> bool:
 
 def move_groups(channel: Channel, words: Words) -> None:
     """G31.11: all groups start together, each ends at its signal; #1608 names the axes that skipped."""
+    state = SkipState.of(channel)
     memory: SyntecMemory = channel.memory
-    groups, memory.skip_groups = memory.skip_groups, []
+    groups, state.groups = state.groups, []
     if not groups or not _follows(channel):
         raise words.fail("skip_groups", "G31.11")
     c = channel.coordinates
     end = c.position[:]
-    memory.skip_flags = 0
+    state.flags = 0
     for group in groups:
         own = c.programmed[:]
         for axis, value in group.ends.items():
@@ -71,10 +63,10 @@ def move_groups(channel: Channel, words: Words) -> None:
         stopped = skip.signal_position(channel, c.position, target, group.signal)
         for axis in group.ends:
             end[axis] = target[axis] if stopped is None else stopped[axis]
-            memory.skip_flags |= 0 if stopped is None else 1 << (axis + 1)
+            state.flags |= 0 if stopped is None else 1 << (axis + 1)
     channel.straight(Kind.SKIP, end, channel.feed)
     memory.note_skip(list(c.position))
-    memory.skip_machine = c.machine
+    state.machine = c.machine
 
 
 def position_at_sensor(channel: Channel, words: Words) -> None:
@@ -83,13 +75,12 @@ def position_at_sensor(channel: Channel, words: Words) -> None:
     if words.typed("R") is None or not named:
         return
     word = min(named, key=lambda each: each.axis)
-    memory: SyntecMemory = channel.memory
     c = channel.coordinates
     axis, begin = word.axis, c.programmed[word.axis]
     first = path.reach(channel, (word,), words.values)
     stroke = words.length("Q")
     stroke = first[axis] - begin if stroke is None else stroke
-    memory.skip_flags = 0
+    SkipState.of(channel).flags = 0
     channel.straight(Kind.FEED, c.to_position(first), _speed(channel, words, "F1"), first)
     second = first[:]
     second[axis] += stroke

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.coordinates.systems import zero_offsets
+from polycnc.control.word_address.coordinates.systems import ZeroState, zero_offsets
 from polycnc.control.word_address.macro_b.macro_calls import ModalCallState
-from polycnc.control.word_address.tools.radius import active_compensation
+from polycnc.control.word_address.tools.length import LengthState
+from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
 from polycnc.control.word_address.transformations.cylinder import CylinderState
 from polycnc.control.word_address.transformations.tilted_plane import TiltState
 
@@ -28,16 +29,17 @@ def plane(channel: Channel) -> bool:
     return (
         channel.coordinates.geometry == tuple(memory.basic_geometry)
         and CylinderState.of(channel).active is None
-        and not memory.side
+        and not RadiusState.of(channel).side
         and not any(control.axis_role(channel, axis) in _PARALLELS for axis in range(len(channel.axes)))
     )
 
 
 def work_offset(channel: Channel) -> bool:
     """G54 to G59: the offsets in force are still those of the table."""
-    c, memory = channel.coordinates, channel.memory
-    unchanged = c.zero == memory.zero_frame and c.offsets == zero_offsets(channel)
-    return c.direct and unchanged and bool(memory.wcs == channel.mode["wcs"])
+    state = ZeroState.of(channel)
+    c = channel.coordinates
+    unchanged = c.zero == state.frame and c.offsets == zero_offsets(channel)
+    return c.direct and unchanged and bool(state.system == channel.mode["wcs"])
 
 
 def compensation(channel: Channel) -> bool:
@@ -52,9 +54,10 @@ def frame(channel: Channel) -> bool:
 
 def length(channel: Channel) -> bool:
     """G49: no length is in force, and neither a shift nor an incremental word is owed any."""
-    c, memory = channel.coordinates, channel.memory
-    none = memory.h == 0 and not any(memory.length_offset) and not c.owes
-    unchanged = c.zero == memory.zero_frame and c.offsets == zero_offsets(channel)
+    state = ZeroState.of(channel)
+    c = channel.coordinates
+    none = LengthState.of(channel).number == 0 and not any(state.length) and not c.owes
+    unchanged = c.zero == state.frame and c.offsets == zero_offsets(channel)
     return c.direct and c.transformation is None and c.geometry[2] >= 0 and none and unchanged
 
 

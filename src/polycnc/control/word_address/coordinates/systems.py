@@ -2,36 +2,64 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.state import Lifetime, State, lasting
 from polycnc.control.word_address.auxiliary.interlocks import note_reference_return
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.radius import suspended
+from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
+    from typing import Self
+
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
 
 
+@dataclass(slots=True)
+class ZeroState(State, lifetime=Lifetime.POWER):
+    """What lies between display and machine, beside the table of work offsets; a number for each axis.
+
+    Attributes:
+        system: Name of the active work coordinate system.
+        local: G52.
+        preset: G92.
+        length: The active tool length.
+        frame: Turn of the work coordinate system; identity on most controls.
+    """
+
+    system: str = lasting(Lifetime.RESET, "G54")
+    local: list[float] = field(default_factory=list)
+    preset: list[float] = field(default_factory=list)
+    length: list[float] = lasting(Lifetime.RESET, factory=list)
+    frame: Frame = lasting(Lifetime.RESET, IDENTITY)
+
+    @classmethod
+    def first(cls, channel: Channel) -> Self:
+        """No shift of any axis."""
+        count = len(channel.axes)
+        return cls(local=[0.0] * count, preset=[0.0] * count, length=[0.0] * count)
+
+
 def refresh_zero(channel: Channel, *, travelled: bool = False) -> None:
     """Work out the shift from display to machine anew: external + work + local + G92 offset + tool length."""
-    channel.coordinates.set_zero(channel.memory.zero_frame, zero_offsets(channel), travelled=travelled)
+    channel.coordinates.set_zero(ZeroState.of(channel).frame, zero_offsets(channel), travelled=travelled)
     channel.context_changed()
 
 
 def zero_offsets(channel: Channel) -> list[float]:
     """What lies between display and machine now, for every axis."""
-    memory = channel.memory
+    memory, zero = channel.memory, ZeroState.of(channel)
     parts = zip(
         memory.work_offset(EXTERNAL),
-        memory.work_offset(memory.wcs),
-        memory.local_shift,
-        memory.preset_shift,
-        memory.length_offset,
+        memory.work_offset(zero.system),
+        zero.local,
+        zero.preset,
+        zero.length,
         strict=True,
     )
     return [sum(values) for values in parts]
@@ -39,21 +67,22 @@ def zero_offsets(channel: Channel) -> list[float]:
 
 def select_work_offset(channel: Channel, words: Words) -> None:
     """G54 to G59, G54.1 P1 … (also `G54 P1`): the work coordinate system; no motion by itself."""
+    state = ZeroState.of(channel)
     code = channel.mode["wcs"]
     number = words.integer("P") if "P" in words else None
     if number is not None and not 0 <= number <= channel.control.EXTENDED_WORK_SYSTEMS:
         raise words.fail("offset_number", "P")
     if number:
-        channel.memory.wcs = f"G54.1 P{number}"
+        state.system = f"G54.1 P{number}"
     else:
-        channel.memory.wcs = "G54" if code == "G54.1" else code
+        state.system = "G54" if code == "G54.1" else code
     refresh_zero(channel)
 
 
 def set_local_system(channel: Channel, words: Words) -> None:
     """G52: zero of a local system within every work coordinate system; no motion."""
     for axis, value, _ in words.axes():
-        channel.memory.local_shift[axis] = value
+        ZeroState.of(channel).local[axis] = value
     refresh_zero(channel)
 
 
@@ -61,7 +90,7 @@ def set_position(channel: Channel, words: Words) -> None:
     """G92: the present position gets these coordinates; every work coordinate system shifts with it (Hartford 3.2)."""
     position = channel.coordinates.position
     for axis, value, _ in words.axes():
-        channel.memory.preset_shift[axis] += position[axis] - value
+        ZeroState.of(channel).preset[axis] += position[axis] - value
     refresh_zero(channel)
 
 
@@ -77,9 +106,10 @@ def set_position_or_limit(channel: Channel, words: Words) -> None:
 
 def preset_system(channel: Channel, words: Words) -> None:
     """G92.1: shifts by G92 and G52 of the named axes vanish."""
+    state = ZeroState.of(channel)
     for axis, _, _ in words.axes():
-        channel.memory.preset_shift[axis] = 0.0
-        channel.memory.local_shift[axis] = 0.0
+        state.preset[axis] = 0.0
+        state.local[axis] = 0.0
     refresh_zero(channel)
 
 

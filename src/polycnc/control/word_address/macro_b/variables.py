@@ -8,14 +8,15 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.snapshot import unchanging
+from polycnc.channel.state import Lifetime, State, retained
 from polycnc.control.word_address.memory import Memory
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.word_address.functions import round_half_away
-from polycnc.memory.retained import VARIABLE_NAMES
+from polycnc.memory.retained import VARIABLE_NAMES, VARIABLES
 from polycnc.toolpath.events import Print
 
 if TYPE_CHECKING:
@@ -28,7 +29,8 @@ if TYPE_CHECKING:
 Read = Callable[[Any, int], "float | None"]
 Write = Callable[[Any, int, "float | None", str], None]
 LOCALS = 34
-COMMONS = 1000
+#: #100 to #199 are cleared with the power, #500 to #999 stay.
+COMMONS, KEPT = 200, range(500, 1000)
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,12 +74,28 @@ class Registry:
         return self._ranges[i]
 
 
+@dataclass(slots=True)
+class LocalState(State, lifetime=Lifetime.RESET):
+    """#1 to #33 of the main program (index 0 is #0, vacant)."""
+
+    main: list[float | None] = field(default_factory=lambda: [None] * LOCALS)
+
+
+@dataclass(slots=True)
+class VariableTables(State, lifetime=Lifetime.RETAINED):
+    """#500 to #999 and #98000 to #98499, and names given by SETVN."""
+
+    values: dict[int, float | None] = retained(VARIABLES)
+    names: dict[str, int] = retained(VARIABLE_NAMES)
+
+
 class MacroMemory(Memory):
     """A control's memory with the variables of custom macro B.
 
     Attributes:
         locals: #1 to #33 of the running macro level (index 0 is #0, vacant).
-        common: #100 to #199 and #500 to #999.
+        common: #100 to #199, by number.
+        kept: #500 to #999, all of them, and of #98000 to #98499 those that were written.
         names: Names given by SETVN.
         signals: Interface signals between macro and machine by name (UI000 …, UO000 …).
         control_switches: Settings by #3003 to #3005, #3901, #3902.
@@ -87,17 +105,16 @@ class MacroMemory(Memory):
             the same input gives the same output.
     """
 
-    CLEARED = (*Memory.CLEARED, "locals")
-
     def __init__(self, channel: Channel, registry: Registry) -> None:
         super().__init__(channel)
-        self.channel = channel
+        self.channel: Channel = channel
         self.registry = registry
-        self.locals: list[float | None] = [None] * LOCALS
+        self.locals = LocalState.of(channel).main
         self.common: list[float | None] = [None] * COMMONS
-        self.more: dict[int, float | None] = {}
-        self.names: dict[str, int] = channel.retained.table(VARIABLE_NAMES, channel.number)
-        self.printing = False
+        tables = VariableTables.of(channel)
+        self.kept, self.names = tables.values, tables.names
+        if not self.kept:
+            self.kept.update(dict.fromkeys(KEPT))
         self.signals: dict[str, int] = {
             name: int(bool(value)) for name, value in channel.setup.switches.signals.items()
         }
@@ -134,10 +151,10 @@ class MacroMemory(Memory):
             return self.locals[number]
         if number == 0:
             return None
-        if 100 <= number <= 199 or 500 <= number <= 999:
+        if 100 <= number <= 199:
             return self.common[number]
-        if 98000 <= number <= 98499:
-            return self.more.get(number)
+        if number in KEPT or 98000 <= number <= 98499:
+            return self.kept.get(number)
         found = self.registry.find(number)
         if found is None:
             raise self.fail("variable_number")
@@ -149,10 +166,10 @@ class MacroMemory(Memory):
         """Set a variable; `text` is the comment behind the statement (#3000, #3006)."""
         if 1 <= number < LOCALS:
             self.locals[number] = value
-        elif 100 <= number <= 199 or 500 <= number <= 999:
+        elif 100 <= number <= 199:
             self.common[number] = value
-        elif 98000 <= number <= 98499:
-            self.more[number] = value
+        elif number in KEPT or 98000 <= number <= 98499:
+            self.kept[number] = value
         else:
             found = self.registry.find(number)
             if found is None and number != 0:
@@ -198,11 +215,11 @@ class MacroMemory(Memory):
             raise self.fail("variable_number")
         return self.read(number)
 
-    # ---- printing -----------------------------------------------------------------------------------------------
+    def forget_locals(self) -> None:
+        """The local variables are those of the main program, as they begin."""
+        self.locals = LocalState.of(self.channel).main
 
-    def print_open(self, opened: bool) -> None:
-        """POPEN, PCLOS."""
-        self.printing = opened
+    # ---- printing -----------------------------------------------------------------------------------------------
 
     def print_line(self, parts: list[str | tuple[float | None, int, int]]) -> None:
         """DPRNT: one line of text; vacant variables print nothing (6001#1: without leading blanks)."""
@@ -222,7 +239,7 @@ class MacroMemory(Memory):
         numbers = [
             n for values in (self.locals, self.common) for n, value in enumerate(values) if value is not None
         ]
-        return [f"#{n}" for n in numbers + [n for n, value in self.more.items() if value is not None]]
+        return [f"#{n}" for n in numbers + [n for n, value in self.kept.items() if value is not None]]
 
     def write_text(self, name: str, value: object) -> None:
         """Set a variable as a user names it."""

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.motion.arcs import emit_arc
 from polycnc.control.word_address.motion.path import CENTER_WORDS, reach
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
@@ -26,12 +27,13 @@ def cut_circle_ccw(channel: WordAddressChannel, words: Words) -> None:
 
 def _cut_circle(channel: WordAddressChannel, words: Words, *, ccw: bool) -> None:
     """A half circle out to the first axis, the full circle, a half circle back: tangential on and off."""
-    control, memory, c = channel.control, channel.memory, channel.coordinates
+    state = RadiusState.of(channel)
+    control, c = channel.control, channel.coordinates
     if channel.mode["compensation"] != "G40":
         raise words.fail("comp_cycle", "G12")
     number = words.integer("D")
-    memory.d = memory.d if number is None else number
-    radius = abs(words.length("I") or 0.0) - control.radius_value(channel, memory.d)
+    state.number = state.number if number is None else number
+    radius = abs(words.length("I") or 0.0) - control.radius_value(channel, state.number)
     if not radius > 0.0:
         raise words.fail("circle_radius", "I")
     feed = channel.feed

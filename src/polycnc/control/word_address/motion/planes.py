@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.compensation import CutterCompensation
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations import cylinder
 from polycnc.geometry.planes import PLANES
 from polycnc.transformation.parallel import ParallelAxes
@@ -28,9 +29,13 @@ def choose_axes(channel: Channel, geometry: tuple[int, int, int]) -> None:
 
 def select_plane(channel: Channel, words: Words) -> None:
     """G17 to G19: another plane than that of an active radius compensation is an alarm."""
-    memory, code = channel.memory, channel.mode["plane"]
+    code = channel.mode["plane"]
     stage = channel.path.find(CutterCompensation)
-    if memory.side and stage is not None and (stage.plane.u, stage.plane.v) != PLANES[code][:2]:
+    if (
+        RadiusState.of(channel).side
+        and stage is not None
+        and (stage.plane.u, stage.plane.v) != PLANES[code][:2]
+    ):
         raise words.fail("comp_plane", code)
     lay_axes(channel, words)
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.motion.arcs import center_by_radius, emit_arc
 from polycnc.control.word_address.motion.path import CENTER_WORDS, reach
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
 
@@ -24,7 +25,8 @@ CENTER_LETTERS = "IJKR"
 
 def offset_move(channel: Channel, words: Words) -> None:
     """G45 to G48: the move of each named axis grows or shrinks along its own direction; only in this block."""
-    memory, c = channel.memory, channel.coordinates
+    state = RadiusState.of(channel)
+    c = channel.coordinates
     code = next(key for key in words.plan.order if key in TIMES)
     if channel.mode["compensation"] != "G40":
         raise words.fail("comp_g45", code)
@@ -32,8 +34,8 @@ def offset_move(channel: Channel, words: Words) -> None:
     if motion not in MOTIONS:
         raise words.fail("address", code)
     number = words.integer("D") if "D" in words else None
-    memory.d = memory.d if number is None else number
-    amount = TIMES[code] * channel.control.radius_value(channel, memory.d)
+    state.number = state.number if number is None else number
+    amount = TIMES[code] * channel.control.radius_value(channel, state.number)
     end = reach(channel, words.plan.axis_words, words.values)
     for word in words.plan.axis_words:
         end[word.axis] += amount * _direction(words, word, end[word.axis] - c.programmed[word.axis])

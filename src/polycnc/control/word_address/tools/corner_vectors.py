@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.tools import radius
-from polycnc.control.word_address.tools.radius import place_of_block
+from polycnc.control.word_address.tools.radius import RadiusState, place_of_block
 from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def _force(channel: WordAddressChannel, words: Words) -> None:
 
 def _stage(channel: WordAddressChannel, words: Words, code: str) -> CutterCompensation:
     stage = radius.active_compensation(channel)
-    if stage is None or not channel.memory.side:
+    if stage is None or not RadiusState.of(channel).side:
         raise words.fail("comp_format", code)
     return stage
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.channel.state import Lifetime, State
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.cycles import drilling
 from polycnc.toolpath import Kind
 
@@ -14,21 +16,30 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
+    from polycnc.geometry.frames import Vector
 
 _SIGN = {"G43": 1.0, "G44": -1.0}
+
+
+@dataclass(slots=True)
+class LengthState(State, lifetime=Lifetime.RESET):
+    """Number of the active length offset (H), and the direction in which it counts where that is not Z."""
+
+    number: int = 0
+    direction: Vector | None = None
 
 
 def compensate_length(channel: Channel, words: Words) -> None:
     """G43 / G44 H: shifts Z by the offset value, or against it; a new H replaces the old one."""
     number = words.integer("H")
     if number is not None:
-        channel.memory.h = number
+        LengthState.of(channel).number = number
     _apply(channel, words)
 
 
 def cancel_length(channel: Channel, words: Words) -> None:
     """G49: the shift ends; Z travels it back with its next move."""
-    channel.memory.h = 0
+    LengthState.of(channel).number = 0
     _apply(channel, words)
 
 
@@ -39,7 +50,7 @@ def plan_length_number(builder: Builder) -> Step | None:
     moved = any(word.axis == z for word in builder.axis_words())
 
     def change(channel: Channel, values: list[float]) -> None:
-        channel.memory.h = int(values[slot])
+        LengthState.of(channel).number = int(values[slot])
         if channel.mode["length"] in _SIGN:
             _shift(channel)
             if not moved:
@@ -62,18 +73,21 @@ def _apply(channel: Channel, words: Words) -> None:
 
 
 def _shift(channel: Channel) -> None:
-    memory = channel.memory
+    zero_state = ZeroState.of(channel)
+    length_state = LengthState.of(channel)
     z = channel.coordinates.geometry[2]
     if z < 0:
         raise channel.control.fail("plane")
     sign = _SIGN.get(channel.mode["length"], 0.0)
-    value = channel.control.length_value(channel, memory.h) if sign and memory.h else 0.0
-    if memory.tool_direction is None:
-        memory.length_offset[z] = sign * value
+    value = (
+        channel.control.length_value(channel, length_state.number) if sign and length_state.number else 0.0
+    )
+    if length_state.direction is None:
+        zero_state.length[z] = sign * value
     else:
-        for axis, part in zip(channel.coordinates.geometry, memory.tool_direction, strict=True):
+        for axis, part in zip(channel.coordinates.geometry, length_state.direction, strict=True):
             if axis >= 0:
-                memory.length_offset[axis] = sign * value * part
+                zero_state.length[axis] = sign * value * part
     refresh_zero(channel, travelled=True)
 
 
@@ -81,7 +95,7 @@ def renew_direction(channel: Channel) -> None:
     """The direction of the tool has changed: an active length counts along the new one."""
     for axis in channel.coordinates.geometry:
         if axis >= 0:
-            channel.memory.length_offset[axis] = 0.0
+            ZeroState.of(channel).length[axis] = 0.0
     if channel.mode["length"] in _SIGN:
         _shift(channel)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import copysign, nan
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.tools.length import LengthState
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -17,10 +18,11 @@ def measure_length(channel: Channel, words: Words) -> None:
 
     How far the signal lies from the programmed position is added to the active length offset.
     """
-    memory, c, control = channel.memory, channel.coordinates, channel.control
+    state = LengthState.of(channel)
+    c, control = channel.coordinates, channel.control
     if "H" in words:
         raise words.fail("measure_h", "H")
-    if not memory.h:
+    if not state.number:
         raise words.fail("measure_no_offset", "G37")
     named = words.axes()
     if len(named) != 1 or named[0][0] != c.geometry[2]:
@@ -40,4 +42,4 @@ def measure_length(channel: Channel, words: Words) -> None:
     end = c.position[:]
     end[axis] = measured
     channel.straight(Kind.SKIP, end, feed)
-    control.note_length(channel, memory.h, measured - goal)
+    control.note_length(channel, state.number, measured - goal)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.path import Move
+from polycnc.channel.state import Lifetime, State
 from polycnc.compensation import CutterCompensation, Plane, Violation
 from polycnc.control.word_address.motion import corners
 from polycnc.control.word_address.motion.arcs import mirrors_plane
@@ -33,6 +35,21 @@ MISTAKES = {
 }
 
 
+@dataclass(slots=True)
+class RadiusState(State, lifetime=Lifetime.RESET):
+    """Cutter radius compensation as blocks ask for it.
+
+    Attributes:
+        number: Number of the active radius offset (D).
+        side: Side that G41/G42 ask for: 1, -1, 0 off.
+        engaged_side: Side that the stage of the path was last told.
+    """
+
+    number: int = 0
+    side: int = 0
+    engaged_side: int = 0
+
+
 def violation_codes(alarms: Mapping[str, str]) -> dict[Violation, str]:
     """The control's alarm code of every violation; that of an interference where it has none of its own."""
     return {
@@ -51,23 +68,23 @@ def compensate_right(channel: Channel, words: Words) -> None:
 
 
 def _engage(channel: Channel, words: Words, side: int) -> None:
+    state = RadiusState.of(channel)
     number = words.integer("D")
     if number is not None:
-        channel.memory.d = number
+        state.number = number
     _refuse_arc(channel, words)
     stage = compensation_stage(channel)
-    memory = channel.memory
-    memory.side = side
+    state.side = side
     stage.policy = channel.control.compensation_policy(channel)
-    if stage.active and memory.engaged_side != side:
-        memory.engaged_side = side
+    if stage.active and state.engaged_side != side:
+        state.engaged_side = side
         stage.change_side(side_on_display(channel))
         return
-    memory.engaged_side = side
+    state.engaged_side = side
     control = channel.control
     tip = control.nose_tip(channel)
     stage.engage(
-        side_on_display(channel), control.radius_value(channel, memory.d), tip, place_of_block(channel)
+        side_on_display(channel), control.radius_value(channel, state.number), tip, place_of_block(channel)
     )
     channel.context_changed()
 
@@ -80,11 +97,12 @@ def cancel_compensation(channel: Channel, words: Words, *, takes_wall: bool = Tr
         words: Words of the block; I J K give the wall behind the last point.
         takes_wall: Whether I J K count.
     """
+    state = RadiusState.of(channel)
     stage = active_compensation(channel)
     if stage is None:
         return
     _refuse_arc(channel, words)
-    channel.memory.side = channel.memory.engaged_side = 0
+    state.side = state.engaged_side = 0
     u, v, _ = PLANES[channel.mode["plane"]]
     wall = (words.length("IJK"[u]) or 0.0, words.length("IJK"[v]) or 0.0)
     stage.cancel(wall if takes_wall and wall != (0.0, 0.0) else None, place=place_of_block(channel))
@@ -102,11 +120,11 @@ def plan_radius_number(builder: Builder) -> Step:
     slot = builder.slots["D"][0]
 
     def change(channel: Channel, values: list[float]) -> None:
-        memory = channel.memory
-        memory.d = int(values[slot])
+        state = RadiusState.of(channel)
+        state.number = int(values[slot])
         stage = active_compensation(channel)
-        if stage is not None and memory.side:
-            stage.change_radius(channel.control.radius_value(channel, memory.d))
+        if stage is not None and state.side:
+            stage.change_radius(channel.control.radius_value(channel, state.number))
 
     return change
 
@@ -114,7 +132,7 @@ def plan_radius_number(builder: Builder) -> Step:
 @contextmanager
 def suspended(channel: Channel) -> Iterator[None]:
     """Motion without compensation in between: the vector vanishes, and the next plane motion starts up again."""
-    memory = channel.memory
+    state = RadiusState.of(channel)
     stage = active_compensation(channel)
     if stage is None:
         yield
@@ -122,15 +140,15 @@ def suspended(channel: Channel) -> Iterator[None]:
     stage.drop_vector()
     stage.discard()
     yield
-    if memory.side:
+    if state.side:
         control = channel.control
         tip = control.nose_tip(channel)
-        stage.engage(side_on_display(channel), control.radius_value(channel, memory.d), tip)
+        stage.engage(side_on_display(channel), control.radius_value(channel, state.number), tip)
 
 
 def side_on_display(channel: Channel) -> int:
     """Side in display coordinates: a mirror of one plane axis changes left and right."""
-    side: int = channel.memory.side
+    side: int = RadiusState.of(channel).side
     plane = PLANES[channel.mode["plane"]]
     return -side if mirrors_plane(channel.coordinates.programming, plane) else side
 

@@ -11,7 +11,7 @@ from math import pi
 from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
-from polycnc.control.word_address.tools.radius import active_compensation
+from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
 from polycnc.geometry.planes import PLANES
 from polycnc.transformation.cylinder import Cylinder
 
@@ -44,13 +44,17 @@ def cylinder(channel: Channel, words: Words) -> None:
     if len(named) != 1 or not channel.axis_data[named[0].axis].rotary:
         raise words.fail("cylinder_axis", "G7.1")
     radius = abs(words.length(named[0].address) or 0.0)
-    memory, state = channel.memory, CylinderState.of(channel)
+    state = CylinderState.of(channel)
     if not radius:
         end_cylinder(channel)
         return
     if state.active is not None:
         raise words.fail("cylinder_axis", "G7.1")
-    if channel.mode["motion"] not in _CUTS or memory.side or channel.coordinates.transformation is not None:
+    if (
+        channel.mode["motion"] not in _CUTS
+        or RadiusState.of(channel).side
+        or channel.coordinates.transformation is not None
+    ):
         raise words.fail("cylinder_code", "G7.1")
     axis, c = named[0].axis, channel.coordinates
     channel.flush()

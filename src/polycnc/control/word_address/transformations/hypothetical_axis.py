@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.path import Rank, Stage
 from polycnc.channel.state import Lifetime, State
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.geometry import arcs
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS
@@ -39,7 +40,7 @@ def switch(channel: WordAddressChannel, words: Words) -> None:
     state, c = HypotheticalState.of(channel), channel.coordinates
     before = state.standing
     foreign = c.transformation is not None and c.transformation is not before
-    if foreign or channel.memory.side:
+    if foreign or RadiusState.of(channel).side:
         raise words.fail("hypothetical_mode", "G7")
     position = c.from_machine(c.machine)
     kept = {} if before is None else dict(before.places)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.cylinder import CylinderState
 from polycnc.geometry.planes import PLANES
 from polycnc.transformation.polar import PolarPlane
@@ -58,7 +59,7 @@ def start_polar(channel: WordAddressChannel, words: Words) -> None:
         or not channel.axis_data[rotary].rotary
     ):
         raise words.fail("polar_axes", "G12.1")
-    if memory.side or CylinderState.of(channel).active is not None or not c.zero.is_identity:
+    if RadiusState.of(channel).side or CylinderState.of(channel).active is not None or not c.zero.is_identity:
         raise words.fail("polar_code", "G12.1")
     if PolarState.of(channel).plane is not None:
         return
@@ -90,7 +91,7 @@ def end_polar(channel: WordAddressChannel, words: Words) -> None:
     """G13.1 (G113): the axes are axes of their own again; the former plane returns."""
     if PolarState.of(channel).plane is None:
         return
-    if channel.memory.side:
+    if RadiusState.of(channel).side:
         raise words.fail("polar_code", "G13.1")
     channel.flush()
     leave_polar(channel)

@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.coordinates import frames
-from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.tools import length
+from polycnc.control.word_address.tools.length import LengthState
 from polycnc.geometry.frames import IDENTITY, Frame, translation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.messages import AlarmError
@@ -109,7 +110,7 @@ def align_tool_about_tip(channel: WordAddressChannel, words: Words) -> None:
 
 
 def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: bool) -> None:
-    memory, c, plane = channel.memory, channel.coordinates, TiltState.of(channel).plane
+    c, plane = channel.coordinates, TiltState.of(channel).plane
     if plane is None:
         raise words.fail("tilt_missing", code)
     kinematics = Kinematics.of(channel.machine)
@@ -120,7 +121,7 @@ def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: b
     angles = angles_for(kinematics, wanted, near)
     if angles is None or not set(angles) <= set(channel.axes):
         raise words.fail("tilt_unreachable", code)
-    zero = [c.offsets[axis] - memory.length_offset[axis] if axis >= 0 else 0.0 for axis in c.geometry]
+    zero = [c.offsets[axis] - ZeroState.of(channel).length[axis] if axis >= 0 else 0.0 for axis in c.geometry]
     tip, end = c.position, c.machine
     for name, angle in angles.items():
         end[channel.axis_index[name]] = angle
@@ -143,17 +144,9 @@ def end_tilt(channel: WordAddressChannel, words: Words) -> None:
         _renew(channel, IDENTITY, None)
 
 
-def forget(channel: WordAddressChannel) -> None:
-    """Reset: no plane is tilted; the coordinates follow when the zero is worked out anew."""
-    memory = channel.memory
-    TiltState.of(channel).plane = memory.tool_direction = None
-    memory.zero_frame = IDENTITY
-
-
 def _renew(channel: WordAddressChannel, frame: Frame, tool: Vector | None) -> None:
     """Another frame of the work system, and the direction in which the tool's length counts; the machine stays."""
-    memory = channel.memory
-    memory.zero_frame = frame
-    memory.tool_direction = tool
+    ZeroState.of(channel).frame = frame
+    LengthState.of(channel).direction = tool
     length.renew_direction(channel)
     refresh_zero(channel)

@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.block.words import Words
-from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.motion.path import reach
+from polycnc.control.word_address.tools.length import LengthState
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import TiltState
 from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
@@ -35,17 +37,18 @@ class TipState(State, lifetime=Lifetime.RESET):
 
 def start_following(channel: WordAddressChannel, words: Words) -> None:
     """G43.4, G43.5 H: from here on positions are those of the tip. Without motion in its block nothing moves."""
-    memory, c = channel.memory, channel.coordinates
+    state = LengthState.of(channel)
+    c = channel.coordinates
     kinematics = Kinematics.of(channel.machine)
     if not kinematics.axes or not set(kinematics.axes) <= set(channel.axes) or -1 in c.geometry:
         raise words.fail("tip_machine", "G43.4")
-    if TiltState.of(channel).plane is not None or memory.side:
+    if TiltState.of(channel).plane is not None or RadiusState.of(channel).side:
         raise words.fail("tip_mode", "G43.4")
     number = words.integer("H") if "H" in words else None
-    memory.h = memory.h if number is None else number
-    value = channel.control.length_value(channel, memory.h) if memory.h else 0.0
+    state.number = state.number if number is None else number
+    value = channel.control.length_value(channel, state.number) if state.number else 0.0
     c.transform(None)
-    memory.length_offset = [0.0] * len(channel.axes)
+    ZeroState.of(channel).length = [0.0] * len(channel.axes)
     refresh_zero(channel)
     following = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(c.offsets), (0.0, 0.0, -value))
     TipState.of(channel).active = following

@@ -13,8 +13,9 @@ from polycnc.control.fanuc.lathe.motion.corners import corner_waits
 from polycnc.control.fanuc.lathe.tools.offsets import refresh
 from polycnc.control.word_address.block import settled
 from polycnc.control.word_address.coordinates import systems
+from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.motion import planes
-from polycnc.control.word_address.tools.radius import active_compensation, suspended
+from polycnc.control.word_address.tools.radius import RadiusState, active_compensation, suspended
 from polycnc.geometry.frames import IDENTITY, about, rotation
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
@@ -56,6 +57,7 @@ def set_position(channel: LatheChannel, words: Words) -> None:
     S clamps the speed of G96. The point is the one before the tool offset that moves it (II.5.1.2), so a T in the
     block moves nothing.
     """
+    state = ZeroState.of(channel)
     limit = words.typed("S")
     if limit is not None:
         channel.memory.spindle_limit_rpm = limit
@@ -64,24 +66,24 @@ def set_position(channel: LatheChannel, words: Words) -> None:
     if not named:
         return
     _refuse_rotation(channel, words, "G50")
-    c, memory = channel.coordinates, channel.memory
+    c = channel.coordinates
     drop_vector(channel)
     point = c.programmed[:]
     by_address = channel.control.system(channel) == "A"
     for axis, value, incremental in named:
         point[axis] = point[axis] + value if incremental and by_address else value
-        memory.local_shift[axis] = 0.0
+        state.local[axis] = 0.0
     refresh(channel)
     wanted = c.to_position(point)
     for axis, _, _ in named:
-        memory.preset_shift[axis] += c.position[axis] - wanted[axis]
+        state.preset[axis] += c.position[axis] - wanted[axis]
     refresh(channel)
 
 
 def set_local_system(channel: LatheChannel, words: Words) -> None:
     """G52: zero of a local system within each of G54 to G59; an increment moves it."""
     _refuse_rotation(channel, words, "G52")
-    local = channel.memory.local_shift
+    local = ZeroState.of(channel).local
     drop_vector(channel)
     for axis, value, incremental in words.axes():
         local[axis] = local[axis] + value if incremental else value
@@ -90,12 +92,13 @@ def set_local_system(channel: LatheChannel, words: Words) -> None:
 
 def preset_system(channel: LatheChannel, words: Words) -> None:
     """G50.3 (B, C: G92.1): G50 and G52 of the named axes vanish, and offsets that move the point (1205#7)."""
+    state = ZeroState.of(channel)
     _refuse_rotation(channel, words, "G50.3")
     memory = channel.memory
     for axis, value, _ in words.axes():
         if value != 0.0:
             raise words.fail("preset_value", words.plan.axis_words[0].address)
-        memory.preset_shift[axis] = memory.local_shift[axis] = 0.0
+        state.preset[axis] = state.local[axis] = 0.0
         if not memory.parameters.WTC:
             memory.frames.offset[axis] = 0.0
     refresh(channel)
@@ -219,7 +222,7 @@ def feed_number(channel: LatheChannel) -> float:
 def select_plane(channel: LatheChannel, words: Words) -> None:
     """G17 to G19: the plane; an axis word names a parallel axis (1022) in place of the basic one."""
     state, code = CodeState.of(channel), channel.mode["plane"]
-    if channel.memory.side and state.plane != code:
+    if RadiusState.of(channel).side and state.plane != code:
         raise words.fail("comp_plane", code)
     _refuse_corner(channel, words, code)
     SingleCycleState.of(channel).forget()  # also where the code changes nothing (II.4.1.6)
@@ -243,6 +246,7 @@ def select_work_offset(channel: LatheChannel, words: Words) -> None:
 
 def rotate(channel: LatheChannel, words: Words) -> None:
     """G68.1 X Z R: rotation of the plane about a point, counter-clockwise; 5410 where R is missing."""
+    state = RotationState.of(channel)
     memory, c = channel.memory, channel.coordinates
     parts = memory.frames
     if channel.mode["motion"] not in ("G0", "G1"):
@@ -257,8 +261,8 @@ def rotate(channel: LatheChannel, words: Words) -> None:
         # FRD: without a decimal point R counts 0.00001 degrees.
         angle /= 100.0
     if "R" in words and channel.mode["distance"] == "G91" and memory.parameters.RIN:
-        angle += RotationState.of(channel).angle
-    RotationState.of(channel).angle = angle
+        angle += state.angle
+    state.angle = angle
     x, y, z = (center[i] if i >= 0 else 0.0 for i in c.geometry)
     parts.rotation = about((x, y, z), rotation(PLANES[channel.mode["plane"]][2], angle))
     # 11600#5 AX1 = 0: an axis that the next block does not name keeps the value that it had before the rotation.

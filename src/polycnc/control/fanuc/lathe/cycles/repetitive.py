@@ -33,7 +33,7 @@ from polycnc.control.fanuc.lathe.cycles.strokes import (
 )
 from polycnc.control.fanuc.lathe.motion.threads import CHAMFERS, lead_in_force, refuse_corners, start_angle
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
-from polycnc.control.word_address.tools.radius import active_compensation
+from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
 from polycnc.cycles.turning.contour import points, reversal, swapped, swapped_stroke
 from polycnc.cycles.turning.pattern import repeat_pattern as pattern_strokes
 from polycnc.cycles.turning.peck import Pecks, peck_columns
@@ -100,7 +100,7 @@ def finish(channel: LatheChannel, words: Words) -> None:
     )
     section.data["rotation"] = set_rotation(channel, IDENTITY)
     section.data["start"] = channel.coordinates.position
-    section.data["compensated"] = bool(channel.memory.side)
+    section.data["compensated"] = bool(RadiusState.of(channel).side)
     if is_compensated(channel):
         leave_compensation(channel)
         enter_compensation(channel)
@@ -116,10 +116,10 @@ def end_of_shape(channel: LatheChannel) -> None:
     refuse_open_end(channel)
     set_rotation(channel, section.data["rotation"])
     start: list[float] = section.data["start"]
-    if channel.memory.side and not section.data["compensated"]:
+    if RadiusState.of(channel).side and not section.data["compensated"]:
         raise channel.control.fail("shape_compensation_open", address="Q")
     stage = active_compensation(channel)
-    if stage is None or not channel.memory.side:
+    if stage is None or not RadiusState.of(channel).side:
         channel.straight(Kind.RAPID, start, nan)
         return
     stage.cancel()

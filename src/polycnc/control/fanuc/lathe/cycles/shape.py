@@ -22,7 +22,7 @@ from polycnc.control.fanuc.lathe.motion.drawing import DrawingState
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.offsets import nose_radius, nose_tip
 from polycnc.control.word_address.macro_b import interruption
-from polycnc.control.word_address.tools.radius import violation_codes
+from polycnc.control.word_address.tools.radius import RadiusState, violation_codes
 from polycnc.cycles.turning.contour import Contour, Piece
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
@@ -143,7 +143,7 @@ def read_shape(channel: LatheChannel, first: int, last: int) -> Shape:
 def _not_put_back(channel: LatheChannel) -> tuple[object, ...]:
     """What macro statements of a shape write stays: variables, offsets, outputs. No move reaches the toolpath."""
     memory = channel.memory
-    variables = (memory.locals, memory.common, memory.more, memory.signals)
+    variables = (memory.locals, memory.common, memory.kept, memory.signals)
     return (channel.toolpath, *variables, memory.work_offsets, OffsetMemory.of(channel))
 
 
@@ -189,7 +189,7 @@ def contour_of(channel: LatheChannel, shape: Shape, *, as_written: bool = False)
             if i not in (first, second)
         ):
             raise channel.control.fail("shape_command", address="P")
-    is_compensated = channel.memory.side and not as_written
+    is_compensated = RadiusState.of(channel).side and not as_written
     moves = _compensated(channel, shape.moves, plane) if is_compensated else shape.moves
     contour: Contour = []
     for move in moves:
@@ -205,7 +205,7 @@ def _compensated(channel: LatheChannel, moves: list[Move], plane: Plane) -> list
     codes = violation_codes(channel.control.alarms)
     stage = CutterCompensation(plane, channel.control.compensation_policy(channel), codes)
     stage.after = recorder
-    stage.engage(channel.memory.side, nose_radius(channel), nose_tip(channel))
+    stage.engage(RadiusState.of(channel).side, nose_radius(channel), nose_tip(channel))
     for move in moves:
         stage.move(replace(move))
         stage.block()

@@ -16,7 +16,7 @@ from polycnc.control.fanuc.lathe.motion.threads import (
     thread_move,
 )
 from polycnc.control.fanuc.lathe.tools.offsets import nose_radius, nose_tip
-from polycnc.control.word_address.tools.radius import active_compensation, suspended
+from polycnc.control.word_address.tools.radius import RadiusState, active_compensation, suspended
 from polycnc.geometry import offset
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
@@ -99,7 +99,7 @@ def compensated_cycle(channel: LatheChannel, strokes: Sequence[PlaneStroke]) -> 
     G41 or G42 say.
     """
     stage = active_compensation(channel)
-    if stage is None or not channel.memory.side:
+    if stage is None or not RadiusState.of(channel).side:
         emit(channel, strokes)
         return
     leave_compensation(channel)
@@ -115,7 +115,7 @@ def compensated_cycle(channel: LatheChannel, strokes: Sequence[PlaneStroke]) -> 
 
 def is_compensated(channel: LatheChannel) -> bool:
     """Whether nose radius compensation is at work."""
-    return active_compensation(channel) is not None and bool(channel.memory.side)
+    return active_compensation(channel) is not None and bool(RadiusState.of(channel).side)
 
 
 def leave_compensation(channel: LatheChannel) -> None:
@@ -130,4 +130,4 @@ def enter_compensation(channel: LatheChannel) -> None:
     """The next move starts compensation up again."""
     stage = channel.path.find(CutterCompensation)
     if stage is not None:
-        stage.engage(channel.memory.engaged_side, nose_radius(channel), nose_tip(channel))
+        stage.engage(RadiusState.of(channel).engaged_side, nose_radius(channel), nose_tip(channel))

@@ -10,6 +10,7 @@ from polycnc.control.fanuc.lathe.cycles.modal import SHAPE_KIND, is_reading
 from polycnc.control.fanuc.lathe.motion import corners
 from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
 from polycnc.control.word_address.tools import radius
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.geometry.planes import PLANES
 
@@ -60,10 +61,10 @@ def _engage(channel: LatheChannel, words: Words, engage: Callable[[LatheChannel,
         return
     if channel.setup.switches.mode == "mdi" and memory.parameters.MCR:
         raise words.fail("comp_in_mdi", channel.mode["compensation"])
-    memory.d = OffsetState.of(channel).number
+    RadiusState.of(channel).number = OffsetState.of(channel).number
     engage(channel, words)
     stage = radius.active_compensation(channel)
-    if stage is not None and not memory.d:
+    if stage is not None and not RadiusState.of(channel).number:
         # Number 0 has no offset: start-up waits for another one.
         stage.cancel()
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.state import Lifetime, State, retained
 from polycnc.memory.retained import TOOL_OFFSETS, WORK_SHIFT
 
 if TYPE_CHECKING:
+    from typing import Self
+
     from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.machine.setup.values import Offsets, Tool
 
@@ -39,22 +41,27 @@ class OffsetMemory(State, lifetime=Lifetime.RETAINED):
 
     Attributes:
         numbers: Tool offsets by number.
-        work_shift: Shift of all work coordinate systems (G10 P0, work shift screen), all axes, mm.
+        shifts: The work shift, as `work`.
     """
 
-    numbers: dict[int, TurningOffset] = field(default_factory=dict)
-    work_shift: list[float] = field(default_factory=list)
+    numbers: dict[int, TurningOffset] = retained(TOOL_OFFSETS)
+    shifts: dict[str, list[float]] = retained(WORK_SHIFT)
 
     @classmethod
-    def first(cls, channel: LatheChannel) -> OffsetMemory:
+    def first(cls, channel: LatheChannel) -> Self:
         """What is retained, else what the setup says."""
-        numbers: dict[int, TurningOffset] = channel.retained.table(TOOL_OFFSETS, channel.number)
-        if not numbers:
+        memory = super(OffsetMemory, cls).first(channel)
+        if not memory.numbers:
             for name, tool in channel.setup.tools.items():
                 if isinstance(name, int) or name.isdigit():
-                    numbers[int(name)] = _from_setup(channel, tool)
-        shifts: dict[str, list[float]] = channel.retained.table(WORK_SHIFT, channel.number)
-        return cls(numbers, shifts.setdefault("work", [0.0] * len(channel.axes)))
+                    memory.numbers[int(name)] = _from_setup(channel, tool)
+        memory.shifts.setdefault("work", [0.0] * len(channel.axes))
+        return memory
+
+    @property
+    def work_shift(self) -> list[float]:
+        """Shift of all work coordinate systems (G10 P0, work shift screen), all axes, mm."""
+        return self.shifts["work"]
 
     def at(self, number: int) -> TurningOffset:
         """An offset number; zero until it is set."""

@@ -16,9 +16,9 @@ from polycnc.control.fanuc.lathe.cycles.modal import is_reading
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory, y_offset_axis
 from polycnc.control.tool_change import check_change_points
 from polycnc.control.word_address.block.plan import NOT_YET
-from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.macro_b.code_calls import calls_by_tool
-from polycnc.control.word_address.tools.radius import compensation_stage, side_on_display
+from polycnc.control.word_address.tools.radius import RadiusState, compensation_stage, side_on_display
 from polycnc.geometry.planes import PLANES
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -250,19 +250,20 @@ def move_by_offset(channel: LatheChannel) -> None:
 
 def refresh(channel: LatheChannel) -> None:
     """Work out the zero of the display anew: work offsets, shifts, tool."""
-    memory, active = channel.memory, OffsetState.of(channel)
-    memory.length_offset = _sum(active.shift, OffsetMemory.of(channel).work_shift)
+    active = OffsetState.of(channel)
+    ZeroState.of(channel).length = _sum(active.shift, OffsetMemory.of(channel).work_shift)
     refresh_zero(channel)
 
 
 def renew_nose(channel: LatheChannel) -> None:
     """Another offset number under G41 or G42: the next block has its radius and tip; 0 cancels (II.5.3, 5.4.1)."""
-    memory, active = channel.memory, OffsetState.of(channel)
-    before, memory.d = memory.d, active.number
-    if not memory.side:
+    state = RadiusState.of(channel)
+    active = OffsetState.of(channel)
+    before, state.number = state.number, active.number
+    if not state.side:
         return
     stage = compensation_stage(channel)
-    if not memory.d:
+    if not state.number:
         stage.cancel()
     elif before and stage.active:
         stage.change_radius(nose_radius(channel), nose_tip(channel))
