@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
 from polycnc.channel.group import ChannelGroup
@@ -29,6 +29,8 @@ from polycnc.toolpath.trace import Display
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    import pyarrow as pa
+
     from polycnc.channel.waits import Wait
     from polycnc.control.interface import Control
     from polycnc.machine.model import Machine
@@ -38,7 +40,9 @@ if TYPE_CHECKING:
     from polycnc.motion.planner import Planner
     from polycnc.motion.sampling.samples import Sampler, Samples
     from polycnc.program import Program, ProgramStore
+    from polycnc.toolpath.motion_settings import MotionSettings
     from polycnc.toolpath.table import Chunk
+    from polycnc.toolpath.trace import Record
 
 #: A wait of this reason is a halt in single block mode.
 _BLOCK_NUMBER = re.compile(r"\s*(?:/\d*\s*)?(N\d+)", re.IGNORECASE)
@@ -66,6 +70,20 @@ class Variables(Mapping[str, Any]):
         return sum(1 for _ in self)
 
 
+class Lead(TypedDict):
+    """What the planner must know of the start.
+
+    Attributes:
+        start: Machine position, mm (radius) and degrees.
+        tool: The tool in the spindle.
+        settings: How the control leads the axes.
+    """
+
+    start: Sequence[float]
+    tool: int | str
+    settings: MotionSettings
+
+
 @dataclass
 class Result:
     """What a run gave.
@@ -77,8 +95,7 @@ class Result:
         channel: The (first) channel in its last state.
         display: Turns rows of the toolpath into what the control shows.
         alarms: In order.
-        lead: What the planner must know of the start: machine position (mm, radius, degrees), and how the
-            control leads the axes.
+        lead: What the planner must know of the start.
         planner: Has planned the chunks that are no longer held; None where all are, or none is planned.
         timed: Whether there is a cycle time.
         stops: Where the run halted in single block mode, as N words.
@@ -89,7 +106,7 @@ class Result:
     machine: Machine
     channel: Channel
     display: Display
-    lead: Mapping[str, Any]
+    lead: Lead
     planner: Planner | None = None
     timed: bool = True
     stops: list[str] = field(default_factory=list)
@@ -116,21 +133,22 @@ class Result:
         return self.channel.toolpath
 
     @cached_property
-    def rows(self) -> list[dict[str, Any]]:
+    def rows(self) -> list[Record]:
         """Moves and events in order, as the trace shows them."""
         return list(self.display.records())
 
     @property
-    def rows_of_other_channels(self) -> Iterator[dict[str, Any]]:
+    def rows_of_other_channels(self) -> Iterator[Record]:
         """As `rows`, of every further channel that has run; each row names its `channel`."""
         group = self.channel.group
         for other in group.channels[1:] if group is not None else ():
             if other.memory is not None:
                 display = Display(other.toolpath, axis_layout(self.machine, other.number))
-                yield from ({"channel": other.number, **record} for record in display.records())
+                for record in display.records():
+                    yield {"channel": other.number, **record}
 
     @cached_property
-    def moves(self) -> Any:
+    def moves(self) -> pa.Table:
         """The rows as a pyarrow table, one column for each value; needs pyarrow."""
         from polycnc.toolpath.export import arrow_table
 
@@ -255,7 +273,7 @@ class Session:
         self.channel.passes = Passes()
         self.group = ChannelGroup(self.channel)
         display = Display(toolpath, axis_layout(machine, 1), self._event_text)
-        lead: dict[str, Any] = {
+        lead: Lead = {
             "start": self.channel.coordinates.machine,
             "tool": setup.spindle_tool,
             "settings": control.motion_settings(self.channel),
@@ -342,7 +360,7 @@ def open_session(
     name: str = "",
     control: str | None = None,
     machine: str | Path | None = None,
-    setup: Mapping[str, Any] | str | Path | None = None,
+    setup: Mapping[str, object] | str | Path | None = None,
     search: Sequence[str | Path] = (),
     encoding: str | None = None,
     files: Mapping[str, str] | None = None,
@@ -401,7 +419,7 @@ _MAIN_PROGRAM = "/_N_WKS_DIR/_N_TEST_WPD/_N_MAIN_MPF"
 
 def _machine_and_setup(
     machine: str | Path | None,
-    setup: Mapping[str, Any] | str | Path | None,
+    setup: Mapping[str, object] | str | Path | None,
     folder: Path | None,
     default: str,
 ) -> tuple[Machine, Setup]:
@@ -465,7 +483,7 @@ def run(
     *,
     control: str | None = None,
     machine: str | Path | None = None,
-    setup: Mapping[str, Any] | str | Path | None = None,
+    setup: Mapping[str, object] | str | Path | None = None,
     search: Sequence[str | Path] = (),
     encoding: str | None = None,
     block_limit: int = DEFAULT_BLOCK_LIMIT,

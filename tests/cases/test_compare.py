@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import pytest
 
@@ -9,6 +9,7 @@ from polycnc.cases.format import ExpectedAlarm, ExpectedEvent, ExpectedMove, Exp
 from polycnc.control import registry
 from polycnc.control.alarm_text import alarm_key
 from polycnc.messages import Alarm
+from polycnc.toolpath.trace import Record
 
 NEAR = compare.Positions(0.001)
 
@@ -21,10 +22,15 @@ def events(*written: dict[str, Any]) -> list[ExpectedEvent]:
     return [ExpectedEvent.model_validate(event) for event in written]
 
 
-def row(type_: str, line: int = 1, **to_and_more: Any) -> dict[str, Any]:
+def row(type_: str, line: int = 1, **to_and_more: Any) -> Record:
     to = {key: value for key, value in to_and_more.items() if key.isupper()}
     rest = {key: value for key, value in to_and_more.items() if not key.isupper()}
-    return {"type": type_, "program": "O1", "line": line, "to": to, "machine": to, **rest}
+    head = {"type": type_, "program": "O1", "line": line, "to": to, "machine": to}
+    return cast("Record", head | rest)
+
+
+def event(type_: str, **values: float | str) -> Record:
+    return cast("Record", {"type": type_, "program": "O1", "line": 1, **values})
 
 
 CAME = [row("rapid", X=0.0, Z=2.0), row("feed", 2, X=0.0, Z=-5.0, feed=100.0), row("rapid", 3, X=50.0, Z=2.0)]
@@ -175,14 +181,14 @@ def test_an_alarm_can_be_placed_by_its_block_number() -> None:
 
 # ---- events, stops -------------------------------------------------------------------------------------
 
-HAPPENED: list[dict[str, Any]] = [
-    {"type": "s", "speed": 1200.0, "spindle": 1},
-    {"type": "m", "code": 3},
-    {"type": "t", "tool": 2},
-    {"type": "message", "text": "DOOR"},
-    {"type": "print", "text": "X1.5"},
-    {"type": "stop", "code": "M00"},
-    {"type": "s", "speed": 500.0, "spindle": 2},
+HAPPENED = [
+    event("s", speed=1200.0, spindle=1),
+    event("m", code=3),
+    event("t", tool=2),
+    event("message", text="DOOR"),
+    event("print", text="X1.5"),
+    event("stop", code="M00"),
+    event("s", speed=500.0, spindle=2),
 ]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, TypeVar
 
 from polycnc.control.alarm_text import alarm_key
 from polycnc.messages import text
@@ -14,8 +14,10 @@ if TYPE_CHECKING:
     from polycnc.cases.format import ExpectedAlarm, ExpectedEvent, ExpectedMove, ExpectedPosition
     from polycnc.control.interface import Control
     from polycnc.messages import Alarm
+    from polycnc.toolpath.trace import Record
 
-Record = dict[str, Any]
+E = TypeVar("E")
+A = TypeVar("A")
 ANY_ALARM = "any"
 #: The name in the trace of what an expected event writes short.
 EVENT_FIELDS = {
@@ -103,7 +105,7 @@ def _move_fits(move: ExpectedMove, record: Record, positions: Positions) -> bool
         return False
     if move.center and not positions.equal(move.center, record.get("center", {})):
         return False
-    wanted = move.model_dump(include=_MOVE_VALUES, exclude_none=True)
+    wanted: dict[str, object] = move.model_dump(include=_MOVE_VALUES, exclude_none=True)
     return all(values_equal(value, record.get(key), positions.tolerance) for key, value in wanted.items())
 
 
@@ -124,7 +126,7 @@ def compare_final(expected: ExpectedPosition, work: Mapping[str, float], machine
 
 
 def compare_variables(
-    expected: Mapping[str, Any], read: Callable[[str], object], tolerance: float
+    expected: Mapping[str, object], read: Callable[[str], object], tolerance: float
 ) -> list[str]:
     """Variables at the program end, read by name."""
     differences = []
@@ -169,10 +171,8 @@ def _alarm_fits(control: Control, wanted: ExpectedAlarm, came: Alarm, block: Cal
         return False
     if wanted.block is not None and _label(wanted.block) != _label(block(came)):
         return False
-    return all(
-        value is None or value == getattr(came, key)
-        for key, value in (("line", wanted.line), ("column", wanted.column), ("program", wanted.program))
-    )
+    places = (wanted.line, came.line), (wanted.column, came.column), (wanted.program, came.program)
+    return all(value is None or value == actual for value, actual in places)
 
 
 def compare_events(
@@ -193,7 +193,7 @@ def compare_events(
 
 
 def _event_fits(event: ExpectedEvent, record: Record, tolerance: float) -> bool:
-    wanted = event.model_dump(exclude_none=True)
+    wanted: dict[str, object] = event.model_dump(exclude_none=True)
     if record["type"] == "stop" and "m" in wanted:
         wanted["stop"] = f"M{wanted.pop('m')}"  # a programmed stop is an M function too
     for key, value in wanted.items():
@@ -239,7 +239,7 @@ def _label(word: object) -> str:
 
 
 def _first_missing(
-    expected: Sequence[Any], actual: Sequence[Any], fits: Callable[[Any, Any], bool]
+    expected: Sequence[E], actual: Sequence[A], fits: Callable[[E, A], bool]
 ) -> tuple[int, int] | None:
     """The first expected item that does not come in order, and how far the actual ones were used."""
     used = 0
@@ -271,18 +271,14 @@ def _words(position: Mapping[str, float]) -> str:
 
 def show_move(move: ExpectedMove) -> str:
     """An expected move in one line."""
-    rest = {
-        key: value
-        for key, value in move.model_dump(exclude_defaults=True).items()
-        if key not in ("type", "to")
-    }
+    rest: dict[str, object] = move.model_dump(exclude_defaults=True, exclude={"type", "to"})
     return " ".join(filter(None, [move.type or "*", _words(move.to), show(rest) if rest else ""]))
 
 
 def show_record(record: Record) -> str:
     """A move of the trace in one line."""
     rest = {
-        key: record[key] for key in ("center", "feed", "seconds", "revolutions", "turns") if key in record
+        key: record.get(key) for key in ("center", "feed", "seconds", "revolutions", "turns") if key in record
     }
     place = f"(line {record['line']})"
     return " ".join(filter(None, [record["type"], _words(record["to"]), show(rest) if rest else "", place]))

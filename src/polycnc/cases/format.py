@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
@@ -11,6 +11,8 @@ from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from pydantic_core import ErrorDetails
 
 Number = float
 Match = Literal["exact", "subsequence"]
@@ -24,14 +26,14 @@ COMMANDS = frozenset({
 CALCULATED = frozenset({"moves", "variables", "events", "stops", "no_stop"})
 
 
-def _is_command(step: str | dict[str, Any]) -> str | dict[str, Any]:
+def _is_command(step: str | dict[str, object]) -> str | dict[str, object]:
     names = [step] if isinstance(step, str) else list(step)
     if len(names) != 1 or names[0] not in COMMANDS:
         raise ValueError(text("case.unknown-command", known=listed(sorted(COMMANDS))))
     return step
 
 
-Step = Annotated[str | dict[str, Any], AfterValidator(_is_command)]
+Step = Annotated[str | dict[str, object], AfterValidator(_is_command)]
 
 
 class _Strict(BaseModel):
@@ -108,7 +110,7 @@ class Expectation(_Strict):
     moves: list[ExpectedMove] | None = None
     moves_match: Match = "exact"
     final: ExpectedPosition | None = None
-    variables: dict[str, Any] = Field(default_factory=dict)
+    variables: dict[str, object] = Field(default_factory=dict)
     alarms: list[ExpectedAlarm] = Field(default_factory=list)
     events: list[ExpectedEvent] = Field(default_factory=list)
     stops: list[str | int] | None = None
@@ -126,7 +128,7 @@ class Case(_Strict):
     control: str
     source: str = ""
     note: str = ""
-    setup: dict[str, Any] = Field(default_factory=dict)
+    setup: dict[str, object] = Field(default_factory=dict)
     files: dict[str, str] = Field(default_factory=dict)
     program: str
     operate: list[Step] = Field(default_factory=list)
@@ -163,7 +165,7 @@ def parse_case(data: object) -> Case:
     return case
 
 
-def _without_empty(data: dict[Any, Any]) -> dict[str, Any]:
+def _without_empty(data: dict[object, object]) -> dict[str, object]:
     """A section that is named but left empty (`setup:`) is the same as an absent one; ids may be numbers."""
     cleaned = {str(key): value for key, value in data.items() if value is not None}
     for key in ("id", "feature", "source", "note"):
@@ -172,7 +174,7 @@ def _without_empty(data: dict[Any, Any]) -> dict[str, Any]:
     return cleaned
 
 
-def _explain(error: Any) -> str:
+def _explain(error: ErrorDetails) -> str:
     where = _dotted(error["loc"])
     if error["type"] == "extra_forbidden":
         return text("case.unknown-key", name=where)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from inspect import signature
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, cast
 
 from polycnc.cases import compare
 from polycnc.cases.format import CaseError
@@ -19,6 +19,7 @@ from polycnc.mainrun import CommandRefused, VirtualControl
 from polycnc.messages import text
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     from polycnc.cases.format import Case, Step
@@ -51,19 +52,19 @@ class Operator:
             if name == "run":
                 self.control.run(limit_s=LIMIT_S)
             else:
-                _call(getattr(self.control, name), given)
+                _call(name, cast("Callable[..., object]", getattr(self.control, name)), given)
         except CommandRefused:
             self.refused.append(name)
 
 
-def _call(command: Any, given: Any) -> None:
-    named: dict[str, Any] = given if isinstance(given, dict) else {}
-    listed = [] if given is None or named else given if isinstance(given, list) else [given]
+def _call(name: str, command: Callable[..., object], given: object) -> None:
+    named: dict[str, object] = given if isinstance(given, dict) else {}
+    listed: list[object] = [] if given is None or named else given if isinstance(given, list) else [given]
     try:
         signature(command).bind(*listed, **named)
     except TypeError as error:
-        name = f"operate.{command.__name__}"
-        raise CaseError(text("case.wrong-value", name=name, value=repr(given), reason=error)) from None
+        key = f"operate.{name}"
+        raise CaseError(text("case.wrong-value", name=key, value=repr(given), reason=error)) from None
     command(*listed, **named)
 
 
@@ -92,7 +93,7 @@ def operated(case: Case, folder: Path) -> list[str]:
 def _panel_differences(case: Case, operator: Operator) -> list[str]:
     """What the panel shows at the end, and what was refused on the way."""
     control, wanted = operator.control, case.expect.panel
-    came = {
+    came: dict[str, object] = {
         "state": str(control.state),
         "mode": str(control.mode),
         "time": control.time,
@@ -100,14 +101,15 @@ def _panel_differences(case: Case, operator: Operator) -> list[str]:
         "parts": control.snapshot.parts,
         "refused": operator.refused,
     }
+    shown: dict[str, object] = wanted.model_dump(exclude_none=True)
     return [
         text("case.panel-differs", name=name, expected=value, came=came[name])
-        for name, value in wanted.model_dump(exclude_none=True).items()
+        for name, value in shown.items()
         if not compare.values_equal(value, came[name], max(case.expect.tolerance, wanted.tolerance))
     ]
 
 
-def _beside(setup: dict[str, Any], folder: Path) -> dict[str, Any]:
+def _beside(setup: dict[str, object], folder: Path) -> dict[str, object]:
     """The setup with a machine file looked up beside the case file."""
     machine = setup.get("machine")
     found = folder / str(machine) if machine is not None else None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from polycnc.cases import compare
 from polycnc.cases.format import Case, CaseError, case_id, parse_case
@@ -14,7 +14,7 @@ from polycnc.session import Result, SessionError, block_number, open_session
 from polycnc.toolpath.kinds import TYPE_NAMES, Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
     from pathlib import Path
 
     from polycnc.cases.selection import Selection
@@ -38,7 +38,7 @@ class Outcome:
     readable: bool = True
 
 
-def run_cases(data: list[Any], selection: Selection, folder: Path) -> Iterator[Outcome]:
+def run_cases(data: Iterable[object], selection: Selection, folder: Path) -> Iterator[Outcome]:
     """Run the selected cases of a file, in order; `folder` is that of the file."""
     for number, entry in enumerate(data, 1):
         name = case_id(entry, number)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from polycnc.cli.console import coloured
 from polycnc.cli.diagnostics import diagnostics_of
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from polycnc.motion.plan import Times
     from polycnc.session import Result
     from polycnc.toolpath.table import Chunk
-    from polycnc.toolpath.trace import Display
+    from polycnc.toolpath.trace import Display, Record
 
 #: A program may say much; the report shows so many messages and stops, the trace shows all.
 MOST_HAPPENINGS = 50
@@ -29,7 +29,7 @@ class Happenings:
 
     def __init__(self, display: Display) -> None:
         self._display = display
-        self.records: list[dict[str, Any]] = []
+        self.records: list[Record] = []
         self.more = 0
 
     def take(self, chunk: Chunk) -> None:
@@ -108,7 +108,7 @@ def as_state(result: Result) -> str:
     """The state at the end of the run as JSON: positions, modal codes, variables, alarms, times."""
     import json
 
-    state: dict[str, Any] = {
+    state: dict[str, object] = {
         **result.metadata,
         "alarms": [
             {

@@ -8,15 +8,22 @@ from __future__ import annotations
 
 import csv
 import json
-from typing import IO, TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import IO, TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
 from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
+    import numpy as np
+    import pyarrow as pa
+    from numpy.typing import NDArray
+
     from polycnc.toolpath.table import Chunk
-    from polycnc.toolpath.trace import Display
+    from polycnc.toolpath.trace import Display, Record
+
+    #: A column of numbers, whole or not.
+    Numbers = NDArray[np.float64] | NDArray[np.int32]
 
 #: Columns that stand before the positions, and behind them. Values of events go into the last ones.
 _FIRST = ("type", "program", "line", "unit")
@@ -24,7 +31,13 @@ _NUMBERS = ("feed", "turns", "seconds", "revolutions", "lead", "start_angle", "s
 _TEXTS = ("code", "tool", "text")
 #: Columns of few names.
 _NAMES = ("type", "program", "unit")
-Record = dict[str, Any]
+#: Prefixes of the columns of positions.
+_POSITIONS: tuple[tuple[Literal["to", "machine", "center"], str], ...] = (
+    ("to", ""),
+    ("machine", "machine_"),
+    ("center", "center_"),
+)
+_NOWHERE: dict[str, float] = {}
 #: What the schema of a table says of the whole run: control, machine.
 Metadata: TypeAlias = "Mapping[str, str]"
 
@@ -111,20 +124,20 @@ WRITERS: dict[str, tuple[str, Callable[[IO[Any], Display, Metadata], TraceWriter
 def table_columns(display: Display) -> tuple[str, ...]:
     """Names of the columns: positions as `x`, `machine_x`, `center_x`."""
     names = [axis.lower() for axis in display.axes]
-    positions = [prefix + name for prefix in ("", "machine_", "center_") for name in names]
+    positions = [prefix + name for _, prefix in _POSITIONS for name in names]
     return (*_FIRST, *positions, *_NUMBERS, *_TEXTS)
 
 
-def flattened(record: Record) -> Record:
+def flattened(record: Record) -> dict[str, object]:
     """A record with its positions as columns of their own."""
-    flat = {key: value for key, value in record.items() if not isinstance(value, dict)}
-    for key, prefix in (("to", ""), ("machine", "machine_"), ("center", "center_")):
-        for axis, value in record.get(key, {}).items():
+    flat: dict[str, object] = {key: value for key, value in record.items() if not isinstance(value, dict)}
+    for key, prefix in _POSITIONS:
+        for axis, value in record.get(key, _NOWHERE).items():
             flat[prefix + axis.lower()] = value
     return flat
 
 
-def arrow_schema(display: Display, metadata: Metadata) -> Any:
+def arrow_schema(display: Display, metadata: Metadata) -> pa.Schema:
     """The Arrow schema of a run's table; `metadata` says control, machine and units."""
     import pyarrow as pa
 
@@ -135,7 +148,7 @@ def arrow_schema(display: Display, metadata: Metadata) -> Any:
     return pa.schema(fields, metadata=dict(metadata))
 
 
-def arrow_table(display: Display, chunks: Iterable[Chunk], metadata: Metadata) -> Any:
+def arrow_table(display: Display, chunks: Iterable[Chunk], metadata: Metadata) -> pa.Table:
     """Chunks as an Arrow table; a value that a row does not have is null."""
     import pyarrow as pa
 
@@ -144,26 +157,28 @@ def arrow_table(display: Display, chunks: Iterable[Chunk], metadata: Metadata) -
     return pa.Table.from_batches(batches, schema=schema)
 
 
-def _batch(display: Display, chunk: Chunk, schema: Any) -> Any:
+def _batch(display: Display, chunk: Chunk, schema: pa.Schema) -> pa.RecordBatch:
     """The rows of one chunk: whole columns; what only few rows have, row by row."""
     import numpy as np
     import pyarrow as pa
 
     shown = display.columns(chunk)
-    kinds, types = shown["kind"].astype(np.int32), list(TYPE_NAMES)
-    numbers: dict[str, Any] = {"line": shown["line"].astype(np.int32), "feed": shown["feed"]}
+    kinds, types = shown.columns.kind.astype(np.int32), list(TYPE_NAMES)
+    numbers: dict[str, Numbers] = {"line": shown.columns.line.astype(np.int32), "feed": shown.feed}
     for i, axis in enumerate(display.axes):
-        numbers[axis.lower()] = shown["work"][:, i]
-        numbers[f"machine_{axis.lower()}"] = shown["machine"][:, i]
+        numbers[axis.lower()] = shown.work[:, i]
+        numbers[f"machine_{axis.lower()}"] = shown.machine[:, i]
     numbers |= {name.lower(): values for name, values in display.arcs(shown).items()}
     sparse = _sparse(display, chunk, kinds, types, numbers)
     names = {
         "type": _named(kinds, types),
-        "program": _named(shown["program"], display.toolpath.programs),
-        "unit": _named(shown["unit"] == "inch", ("mm", "inch"), shown["kind"] == Kind.EVENT),
+        "program": _named(shown.columns.program.astype(np.int32), display.toolpath.programs),
+        "unit": _named(
+            (shown.unit == "inch").astype(np.int32), ("mm", "inch"), shown.columns.kind == Kind.EVENT
+        ),
     }
 
-    def column(field: Any) -> Any:
+    def column(field: pa.Field) -> pa.Array:
         if field.name in names:
             return names[field.name]
         values = sparse.get(field.name, numbers.get(field.name))
@@ -174,18 +189,19 @@ def _batch(display: Display, chunk: Chunk, schema: Any) -> Any:
     return pa.record_batch([column(field) for field in schema], schema=schema)
 
 
-def _named(numbers: Any, names: Sequence[str], is_null: Any = None) -> Any:
+def _named(
+    numbers: NDArray[np.int32], names: Sequence[str], is_null: NDArray[np.bool_] | None = None
+) -> pa.Array:
     """A column of names from their numbers."""
-    import numpy as np
     import pyarrow as pa
 
-    indices = pa.array(numbers.astype(np.int32), mask=is_null)
+    indices = pa.array(numbers, mask=is_null)
     return pa.DictionaryArray.from_arrays(indices, pa.array(names, pa.string()))
 
 
 def _sparse(
-    display: Display, chunk: Chunk, kinds: Any, types: list[str], numbers: Mapping[str, Any]
-) -> dict[str, Any]:
+    display: Display, chunk: Chunk, kinds: NDArray[np.int32], types: list[str], numbers: Mapping[str, Numbers]
+) -> dict[str, NDArray[np.object_]]:
     """Columns that few rows fill: what curve parameters beside arcs add, and events.
 
     The types of events join `types`, their numbers go into `kinds`; what events have of other columns goes into
@@ -193,18 +209,20 @@ def _sparse(
     """
     import numpy as np
 
-    known, sparse = frozenset(table_columns(display)), dict[str, Any]()
+    known = frozenset(table_columns(display))
+    sparse: dict[str, NDArray[np.object_]] = {}
     curve = np.frombuffer(chunk.curve, np.int32)
-    for i in np.flatnonzero((curve >= 0) & ~np.isin(kinds, tuple(ARC_KINDS))).tolist():
+    rows: list[int] = np.flatnonzero((curve >= 0) & ~np.isin(kinds, tuple(ARC_KINDS))).tolist()
+    for i in rows:
         row = display.toolpath.row_of(chunk, i)
         for name, value in flattened(display.record(row)).items():
             if name in _NAMES or name not in known:
                 if name == "type" and row.event is not None:
-                    if value not in types:
-                        types.append(value)
-                    kinds[i] = types.index(value)
+                    if row.event.type not in types:
+                        types.append(row.event.type)
+                    kinds[i] = types.index(row.event.type)
             elif name in numbers:
-                if row.event is not None:
+                if row.event is not None and isinstance(value, float | int):
                     numbers[name][i] = value
             else:
                 column = sparse.setdefault(name, np.full(len(chunk), None, object))

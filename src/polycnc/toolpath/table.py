@@ -9,12 +9,15 @@ from __future__ import annotations
 
 from array import array
 from math import isnan, nan
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
+
+    import numpy as np
+    from numpy.typing import NDArray
 
     from polycnc.toolpath.context import Context
     from polycnc.toolpath.events import Event
@@ -49,6 +52,19 @@ class Row(NamedTuple):
     def has_feed(self) -> bool:
         """Whether the row names a feed."""
         return not isnan(self.feed)
+
+
+class Columns(NamedTuple):
+    """The columns of a chunk as NumPy views: `end` is (n, axes), `curves` (m, CURVE_WIDTH), the others (n,)."""
+
+    kind: NDArray[np.uint8]
+    program: NDArray[np.uint16]
+    line: NDArray[np.uint32]
+    context: NDArray[np.uint32]
+    feed: NDArray[np.float64]
+    end: NDArray[np.float64]
+    curve: NDArray[np.int32]
+    curves: NDArray[np.float64]
 
 
 class Chunk:
@@ -107,7 +123,7 @@ class Chunk:
             context: Number of their context.
             columns: Bytes of `kind`, `line`, `feed`, `end`, `curve`, with items as here.
         """
-        own: tuple[array[Any], ...] = (self.kind, self.line, self.feed, self.end, self.curve)
+        own: tuple[array[int] | array[float], ...] = (self.kind, self.line, self.feed, self.end, self.curve)
         widths = (
             1,
             self.line.itemsize,
@@ -124,27 +140,27 @@ class Chunk:
         """Add the first rows of a column of curve parameters."""
         self.curves.extend(curves[: count * CURVE_WIDTH])
 
-    def numpy(self) -> dict[str, Any]:
-        """The columns as NumPy views: `end` is (n, axes), `curves` (m, CURVE_WIDTH), the others (n,)."""
+    def numpy(self) -> Columns:
+        """The columns as NumPy views of the same memory."""
         import numpy as np
 
-        return {
-            "kind": np.frombuffer(self.kind, np.uint8),
-            "program": np.frombuffer(self.program, np.uint16),
-            "line": np.frombuffer(self.line, np.uint32),
-            "context": np.frombuffer(self.context, np.uint32),
-            "feed": np.frombuffer(self.feed, np.float64),
-            "end": np.frombuffer(self.end, np.float64).reshape(-1, self.axes),
-            "curve": np.frombuffer(self.curve, np.int32),
-            "curves": np.frombuffer(self.curves, np.float64).reshape(-1, CURVE_WIDTH),
-        }
+        return Columns(
+            kind=np.frombuffer(self.kind, np.uint8),
+            program=np.frombuffer(self.program, np.uint16),
+            line=np.frombuffer(self.line, np.uint32),
+            context=np.frombuffer(self.context, np.uint32),
+            feed=np.frombuffer(self.feed, np.float64),
+            end=np.frombuffer(self.end, np.float64).reshape(-1, self.axes),
+            curve=np.frombuffer(self.curve, np.int32),
+            curves=np.frombuffer(self.curves, np.float64).reshape(-1, CURVE_WIDTH),
+        )
 
     def memento(self) -> Callable[[], None]:
         """What drops the rows that are added from here on; rows that are there now stay for ever."""
         rows, curves, events = len(self.kind), len(self.curves), len(self.events)
 
         def put_back() -> None:
-            columns: tuple[array[Any], ...] = (
+            columns: tuple[array[int] | array[float], ...] = (
                 self.kind, self.program, self.line, self.context, self.feed, self.curve
             )  # fmt: skip
             for column in columns:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple, NotRequired, TypedDict, cast
 
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.events import Raised
@@ -18,12 +18,18 @@ from polycnc.toolpath.modes import FeedMode
 from polycnc.transformation.rows import machine_rows
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
+
+    import numpy as np
+    from numpy.typing import NDArray
 
     from polycnc.machine.layout import AxisLayout
     from polycnc.toolpath.context import Context
     from polycnc.toolpath.events import Event
-    from polycnc.toolpath.table import Chunk, Row, Toolpath
+    from polycnc.toolpath.table import Chunk, Columns, Row, Toolpath
+
+    #: Kind, program, line, unit, work, machine, feed and number of the curve parameters of a row.
+    _ShownRow = tuple[int, int, int, str, list[float], list[float], float, int]
 
 #: Steps of a unit that the displays resolve: finer than any control, far above rounding noise.
 _STEPS = 1e7
@@ -53,6 +59,66 @@ class Scale:
     unit: str
 
 
+class Record(TypedDict):
+    """A row as the trace shows it. A move has a unit and positions, by the names of the axes; an event has its fields.
+
+    Only the records of further channels name their `channel`.
+    """
+
+    channel: NotRequired[int]
+    type: str
+    program: str
+    line: int
+    unit: NotRequired[str]
+    to: NotRequired[dict[str, float]]
+    machine: NotRequired[dict[str, float]]
+    feed: NotRequired[float]
+    center: NotRequired[dict[str, float]]
+    turns: NotRequired[float]
+    seconds: NotRequired[float]
+    revolutions: NotRequired[float]
+    lead: NotRequired[float]
+    start_angle: NotRequired[float]
+    code: NotRequired[float | str]
+    spindle: NotRequired[int]
+    speed: NotRequired[float]
+    tool: NotRequired[float | str]
+    text: NotRequired[str]
+    name: NotRequired[str]
+    value: NotRequired[float]
+    word: NotRequired[str]
+    column: NotRequired[int]
+
+
+class CurveRecord(TypedDict, total=False):
+    """What the curve parameters of a row add to its record."""
+
+    center: dict[str, float]
+    turns: float
+    seconds: float
+    revolutions: float
+    lead: float
+    start_angle: float
+
+
+class Shown(NamedTuple):
+    """The columns of a chunk as the displays show them.
+
+    Attributes:
+        columns: As the table has them.
+        work: Work display (n, axes); NaN where a row is an event.
+        machine: Machine display (n, axes); NaN where a row is an event.
+        feed: As shown (n,); NaN where a row names none.
+        unit: Unit of lengths as text (n,); None where a row is an event.
+    """
+
+    columns: Columns
+    work: NDArray[np.float64]
+    machine: NDArray[np.float64]
+    feed: NDArray[np.float64]
+    unit: NDArray[np.object_]
+
+
 class Display:
     """Shows the rows of one toolpath.
 
@@ -75,12 +141,12 @@ class Display:
         self.modulo_axes = frozenset(self.axes[i] for i in layout.modulo)
         self._scales: dict[int, Scale] = {}
 
-    def records(self) -> Iterator[dict[str, Any]]:
+    def records(self) -> Iterator[Record]:
         """The records of all rows that the toolpath still holds, in order."""
         for row in self.toolpath.rows():
             yield self.record(row)
 
-    def records_of(self, chunk: Chunk) -> Iterator[dict[str, Any]]:
+    def records_of(self, chunk: Chunk) -> Iterator[Record]:
         """The records of one chunk. Long chunks go by whole columns, which gives the same values."""
         if len(chunk) >= COLUMN_ROWS and find_spec("numpy") is not None:
             yield from self._records_by_column(chunk)
@@ -88,16 +154,17 @@ class Display:
             for row in self.toolpath.rows_of(chunk):
                 yield self.record(row)
 
-    def _records_by_column(self, chunk: Chunk) -> Iterator[dict[str, Any]]:
+    def _records_by_column(self, chunk: Chunk) -> Iterator[Record]:
         shown = self.columns(chunk)
-        names = ("kind", "program", "line", "unit", "work", "machine", "feed", "curve")
+        kinds, numbers, lines, _context, _feed, _end, curves, _curves = shown.columns
+        columns = (kinds, numbers, lines, shown.unit, shown.work, shown.machine, shown.feed, curves)
         axes, programs = self.axes, self.toolpath.programs
-        rows = zip(*(shown[name].tolist() for name in names), strict=True)
+        rows: Iterable[_ShownRow] = zip(*(column.tolist() for column in columns), strict=True)
         for i, (kind, program, line, unit, work, machine, feed, curve) in enumerate(rows):
             if curve >= 0:
                 yield self.record(self.toolpath.row_of(chunk, i))
                 continue
-            record = {
+            record: Record = {
                 "type": TYPE_NAMES[kind],
                 "program": programs[program],
                 "line": line,
@@ -109,20 +176,17 @@ class Display:
                 record["feed"] = feed
             yield record
 
-    def columns(self, chunk: Chunk) -> dict[str, Any]:
-        """What `Chunk.numpy` gives, `feed` as shown, and with it `work`, `machine` (n, axes) and `unit`.
-
-        Rows that are events have NaN for positions and None for the unit. Needs NumPy.
-        """
+    def columns(self, chunk: Chunk) -> Shown:
+        """A chunk by whole columns. Needs NumPy."""
         import numpy as np
 
         columns = chunk.numpy()
-        kind, end, feed = columns["kind"], columns["end"], columns["feed"].copy()
+        kind, end, feed = columns.kind, columns.end, columns.feed.copy()
         work, machine = np.empty_like(end), np.empty_like(end)
         unit = np.full(len(chunk), None, object)
-        turning: list[tuple[Any, int]] = []
-        for number in np.unique(columns["context"]):
-            rows = columns["context"] == number
+        turning: list[tuple[NDArray[np.bool_], int]] = []
+        for number in np.unique(columns.context):
+            rows = columns.context == number
             context = self.toolpath.contexts[number]
             scale = self.scale(context)
             work[rows] = end[rows] * scale.work
@@ -136,14 +200,14 @@ class Display:
         is_event = kind == Kind.EVENT
         work[is_event] = machine[is_event] = np.nan
         unit[is_event] = None
-        return {**columns, "work": work, "machine": machine, "feed": feed, "unit": unit}
+        return Shown(columns, work, machine, feed, unit)
 
-    def record(self, row: Row) -> dict[str, Any]:
+    def record(self, row: Row) -> Record:
         """One row as a record of the trace."""
         if row.event is not None:
             return self._event(row, row.event)
         scale = self.scale(row.context)
-        record: dict[str, Any] = {
+        record: Record = {
             "type": TYPE_NAMES[row.kind],
             "program": row.program,
             "line": row.line,
@@ -155,12 +219,11 @@ class Display:
             # The F of a thread is its lead, whatever the feed mode.
             factor = scale.length if row.kind == Kind.THREAD else scale.feed
             record["feed"] = _shown(row.feed * factor)
-        if row.curve:
-            record.update(self.curve(row.kind, row.curve, row.context))
-        return record
+        return {**record, **self.curve(row.kind, row.curve, row.context)} if row.curve else record
 
-    def _event(self, row: Row, event: Event) -> dict[str, Any]:
-        record: dict[str, Any] = {"type": event.type, "program": row.program, "line": row.line, **event.data}
+    def _event(self, row: Row, event: Event) -> Record:
+        place = {"type": event.type, "program": row.program, "line": row.line}
+        record = cast("Record", {**place, **event.data})
         if isinstance(event, Raised) and self._alarm_text is not None:
             record["text"] = self._alarm_text(event)
         return record
@@ -210,19 +273,19 @@ class Display:
             return self.layout.modulo
         return self.layout.modulo.difference(made.geometry)
 
-    def curve(self, kind: int, curve: Sequence[float], context: Context) -> dict[str, Any]:
+    def curve(self, kind: int, curve: Sequence[float], context: Context) -> CurveRecord:
         """What the curve parameters of a row add to its record."""
         scale = self.scale(context)
         if kind == Kind.DWELL:
             seconds, revolutions = curve[0], curve[1]
             return {"revolutions": _shown(revolutions)} if revolutions else {"seconds": _shown(seconds)}
         if kind in (Kind.THREAD, Kind.TAP):
-            record = {"lead": _shown(curve[0] * scale.length), "start_angle": _shown(curve[1])}
+            record: CurveRecord = {"lead": _shown(curve[0] * scale.length), "start_angle": _shown(curve[1])}
             # A circular thread: its centre and normal stand behind lead and angle.
             return {**record, **self._arc((*curve[2:8], 0.0), context)} if any(curve[5:8]) else record
         return self._arc(curve, context) if kind in ARC_KINDS else {}
 
-    def _arc(self, curve: Sequence[float], context: Context) -> dict[str, Any]:
+    def _arc(self, curve: Sequence[float], context: Context) -> CurveRecord:
         """Centre on the axes of the arc's plane (all three where it is tilted), and further turns."""
         center, normal, turns = curve[0:3], curve[3:6], curve[6]
         tilted = sum(1 for component in normal if abs(component) > 1e-9) > 1
@@ -231,23 +294,24 @@ class Display:
         for i, value, component in zip(self._geometry(context), center, normal, strict=True):
             if i >= 0 and (tilted or abs(component) <= 1e-9):
                 shown[self.axes[i]] = _shown(value * scale.work[i])
-        record: dict[str, Any] = {"center": shown}
+        record: CurveRecord = {"center": shown}
         if turns:
             record["turns"] = _shown(turns + 1)
         return record
 
-    def arcs(self, shown: Mapping[str, Any]) -> dict[str, Any]:
+    def arcs(self, shown: Shown) -> dict[str, NDArray[np.float64]]:
         """`center_X` … and `turns` of the rows that `columns` gives, NaN where a row has none; as `_arc` for one."""
         import numpy as np
 
-        is_arc = np.isin(shown["kind"], tuple(ARC_KINDS))
-        found: dict[str, Any] = {}
+        columns = shown.columns
+        is_arc = np.isin(columns.kind, tuple(ARC_KINDS))
+        found: dict[str, NDArray[np.float64]] = {}
         if not is_arc.any():
             return found
-        for number in np.unique(shown["context"][is_arc]):
+        for number in np.unique(columns.context[is_arc]):
             context = self.toolpath.contexts[number]
-            rows = np.flatnonzero(is_arc & (shown["context"] == number))
-            curves, scale = shown["curves"][shown["curve"][rows]], self.scale(context)
+            rows = np.flatnonzero(is_arc & (columns.context == number))
+            curves, scale = columns.curves[columns.curve[rows]], self.scale(context)
             along = np.abs(curves[:, 3:6]) > 1e-9
             tilted = along.sum(axis=1) > 1
             for k, i in enumerate(self._geometry(context)):
@@ -272,7 +336,9 @@ def _shown(value: float) -> float:
     return round(value * _STEPS) / _STEPS
 
 
-def _machine_columns(end: Any, context: Context, geometry: tuple[int, int, int]) -> Any:
+def _machine_columns(
+    end: NDArray[np.float64], context: Context, geometry: tuple[int, int, int]
+) -> NDArray[np.float64]:
     """`Toolpath.to_machine` for whole columns (n, axes), in the same order of operations."""
     machine = end.copy()
     if context.transformation is not None:
