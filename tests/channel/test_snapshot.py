@@ -68,17 +68,51 @@ G1 Z-10. F.1
 X40. Z-30.
 N20 X60.
 G70 P10 Q20"""
+FACING = """G72 W2. R1.
+G72 P30 Q40 U.5 W.1 F.3
+N30 G0 Z-20. X60.
+#105=#105+1
+G1 X40. F.1
+N40 X20. Z0
+G0 X60. Z5."""
+PATTERN = """G73 U2. W1. R2
+G73 P50 Q60 U.5 W.1 F.3
+N50 G0 X20. Z2.
+G1 Z-10. F.1
+N60 X50. Z-20.
+G0 X60. Z5."""
+COMPENSATED = """G0 G42 X60. Z5.
+G71 U2. R1.
+G71 P70 Q80 U.5 W.1 F.3
+N70 G0 X20.
+G1 Z-10. F.1
+G2 X30. Z-15. R5.
+N80 G1 X60.
+G40 G0 X70. Z10."""
 LATHE = Language(
-    "O1\nT0101\nG50 S2000\nG97 S500 M3\nG0 X60. Z5.",
+    "O1\nM96 P4\nT0101\nG50 S2000\nG97 S500 M3\nG0 X60. Z5.",
     (
         "G1 X50. Z0 F.2", "G0 X60. Z5.", "G96 S100", "G97 S400", "U-2. W-1.", "G2 U4. W-2. R3. F.1", "T0202", "T0200",
         "G42 G1 X40. Z2. F.2\nZ-10.\nX50. Z-15.", "G40 G0 X70. Z10.", "G92 X30. Z-20. F1.5", "G90 X40. Z-10. F.2\nX38.",
         "G76 P010060 Q100 R.1\nG76 X28. Z-20. P900 Q300 F1.5", ROUGHING, "G83 Z-20. R-3. Q2000 F.1", "G80 G0 Z10.",
         "M98 P2", "#100=#100+1.5", "#101=0\nWHILE[#101LT3]DO1\nG0 X[60.+#101]\n#101=#101+1\nEND1", "M0", "G4 U.1",
         "G10 L2 P1 Z1.", "G55", "G54", "G52 Z1.", "G28 U0", "G99", "G98 F50.", "G32 Z-5. F1.",
+        FACING, PATTERN, COMPENSATED, "G74 R1.\nG74 X40. Z-10. P2000 Q3000 F.1",
+        "G75 R1.\nG75 X40. Z-6. P2000 Q3000 F.1", "G65 P3 A1. B2.", "G66 P3 A2. B1.\nG0 X62.\nG67",
+        "G1 X50. Z0 F.2\nX60. K-1.\nZ-10.", "G32 Z-5. F1.\nX62. Z-8.\nG0 Z5.", "G34 Z-9. F1. K.1",
+        "G94 X40. Z-3. F.1", "G84 Z-8. R-3. F1.\nG80", "G85 Z-8. R-3. F.1 K2\nG80", "G10 P1 X.5",
+        "G10 P10001 X1. R.8", "#2001=#2001+.1", "G50 X61.", "G10 L52\nN5114 R2.\nG11",
+        "G22 X200. Z200. I-200. K-200.\nG23", "G20\nG21", "T0101\nG0 X61.", "G18",
     ),
-    files={"O2": "O2\nG0 U1.\n#102=#102+1\nM99\n"},
-    setup={"tools": {1: {"radius": 0.4, "tip": 3, "x": 5.0}, 2: {"x": 10.0, "z": 3.0}}},
+    files={
+        "O2": "O2\nG0 U1.\n#102=#102+1\nM99\n",
+        "O3": "O3\n#103=#1+#103\nG0 W#2\nM99\n",
+        "O4": "O4\n#104=#5041\nG0 U2.\nM99\n",
+    },
+    setup={
+        "tools": {1: {"radius": 0.4, "tip": 3, "x": 5.0}, 2: {"x": 10.0, "z": 3.0}},
+        "switches": {"interrupts": [{"input": 1, "line": 7, "at": {"X": 25}}]},
+    },
 )  # fmt: skip
 MELDAS = replace(MILL, head=MILL.head.replace("M96 P4\n", ""))
 SYNTEC = replace(

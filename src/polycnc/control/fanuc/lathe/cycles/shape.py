@@ -8,7 +8,7 @@ they reach the toolpath. Then everything is put back, and the cycle cuts along t
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from polycnc.channel.path import Recorder
 from polycnc.channel.snapshot import Snapshot
@@ -22,10 +22,12 @@ from polycnc.control.fanuc.lathe.motion.drawing import DrawingState
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.offsets import nose_radius, nose_tip
 from polycnc.control.word_address.macro_b import interruption
+from polycnc.control.word_address.macro_b.subprograms import sequences_of
 from polycnc.control.word_address.tools.radius import RadiusState, violation_codes
 from polycnc.cycles.turning.contour import Contour, Piece
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
+from polycnc.language.word_address.executable import WordAddressProgram
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -107,7 +109,7 @@ def plan_note(builder: Builder, plan: Plan) -> Step | None:
     return note
 
 
-def section_steps(channel: LatheChannel, code: Any, first: int, last: int) -> tuple[int, int]:
+def section_steps(channel: LatheChannel, code: WordAddressProgram, first: int, last: int) -> tuple[int, int]:
     """First and last step of a shape. No other block of the program may have its numbers (II.4.2.8).
 
     A shape holds no further cycle: its blocks might lead back into it without end.
@@ -125,7 +127,7 @@ def section_steps(channel: LatheChannel, code: Any, first: int, last: int) -> tu
 def read_shape(channel: LatheChannel, first: int, last: int) -> Shape:
     """Read the blocks from sequence number `first` to `last` of the running program."""
     level = channel.level
-    code: Any = level.code
+    code = sequences_of(level)
     begin, end = section_steps(channel, code, first, last)
     shape, recorder = Shape(start=channel.coordinates.programmed[:], end=end), Recorder()
     state = ShapeState.of(channel)
@@ -148,7 +150,7 @@ def _not_put_back(channel: LatheChannel) -> tuple[object, ...]:
 
 
 def _run_blocks(channel: LatheChannel, level: Level, begin: int, end: int) -> None:
-    code: Any = level.code
+    code = sequences_of(level)
     level.index = begin
     for _ in range(MAX_SHAPE_BLOCKS):
         index = level.index
@@ -213,14 +215,19 @@ def _compensated(channel: LatheChannel, moves: list[Move], plane: Plane) -> list
     return recorder.moves
 
 
-class Section:
-    """The blocks of a shape as a program of its own: G70 runs them once, as they are written."""
+class Section(WordAddressProgram):
+    """The blocks of a shape as a program of its own: G70 runs them once, as they are written.
 
-    def __init__(self, code: Any, begin: int, end: int) -> None:
-        self.code = code
-        self.program = code.program
+    Args:
+        whole: The program that they stand in; places of sequence numbers and loops are found once for both.
+        begin: First step.
+        end: Last step.
+    """
+
+    def __init__(self, whole: WordAddressProgram, begin: int, end: int) -> None:
+        self.__dict__.update(whole.__dict__)
         self.begin, self.end = begin, end
-        self.steps: tuple[BlockStep | None, ...] = ()
+        self.steps = []
 
     def step(self, index: int) -> BlockStep | None:
         """The step of a block; None behind the last one of the shape, an alarm where a jump has left it."""
@@ -228,11 +235,7 @@ class Section:
             return None
         if not self.begin <= index <= self.end:
             return _outside
-        step: BlockStep = self.code.compile(self.code.lines[index], index)
-        return step
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self.code, name)
+        return self.compile(self.lines[index], index)
 
 
 def _outside(channel: LatheChannel) -> None:

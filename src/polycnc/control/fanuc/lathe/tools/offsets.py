@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import nan
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
 from polycnc.compensation.tips import tip_direction
@@ -317,7 +317,7 @@ def _select_by_code(channel: LatheChannel, words: Words, code: str, *, is_length
         raise words.fail("atc_not_chosen", code)
     if is_length:
         raise AlarmError(NOT_YET, address=code, hint="hint.not-supported", code=code)
-    number: Any = words.integer("D")
+    number = words.integer("D")
     if number is None:
         return
     select_offset(channel, number, number)
