@@ -9,7 +9,7 @@ from polycnc.control.word_address.block.codes import GCode
 from polycnc.control.word_address.block.plan import Builder
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.plan import AxisWord, Plan
     from polycnc.control.word_address.control import WordAddressControl
     from polycnc.program import Program
@@ -33,7 +33,7 @@ class SyntecBuilder(Builder):
 
     def __init__(
         self,
-        channel: Channel,
+        channel: SyntecChannel,
         control: WordAddressControl,
         signature: tuple[str, ...],
         *,
@@ -94,7 +94,7 @@ class SyntecBuilder(Builder):
             return False
         return bool(plan.axis_words) or self.moves_by_words()
 
-    def plain_plan(self, channel: Channel) -> Plan:
+    def plain_plan(self, channel: SyntecChannel) -> Plan:
         """The plan of the block without its registered codes."""
         if self._plain_plan is None:
             self._plain_plan = type(self)(channel, self.control, self.signature, plain=True).build()

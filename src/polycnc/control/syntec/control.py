@@ -42,9 +42,9 @@ from polycnc.toolpath.modes import FeedMode
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-    from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step as ProgramStep
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import GCode, Handler, MCode, Planner, Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
@@ -90,11 +90,11 @@ class SyntecMill(WordAddressControl):
         """Make a program ready to run: macro language where its file says so."""
         return executable(program, self.grammar, macro=program.form is Form.MACRO)
 
-    def plain_blocks(self, _channel: Channel) -> SyntecPlainBlocks:
+    def plain_blocks(self, _channel: SyntecChannel) -> SyntecPlainBlocks:
         """What a scanner must know of plain blocks."""
         return SyntecPlainBlocks()
 
-    def find_program(self, _channel: Channel, number: int) -> Program:
+    def find_program(self, _channel: SyntecChannel, number: int) -> Program:
         """A program by its number."""
         program = _channel.store.find_number(number)
         if program is None:
@@ -103,7 +103,7 @@ class SyntecMill(WordAddressControl):
 
     # ---- states ------------------------------------------------------------------------------------------
 
-    def motion_settings(self, channel: Channel) -> MotionSettings:
+    def motion_settings(self, channel: SyntecChannel) -> MotionSettings:
         """Pr411: each axis runs a rapid by itself; Pr405, Pr406, Pr461 on, Pr621 on: speeds in mm/min, 0 for none."""
         given = channel.setup.parameters
 
@@ -121,11 +121,11 @@ class SyntecMill(WordAddressControl):
             feed_caps=caps(621),
         )
 
-    def make_memory(self, channel: Channel) -> SyntecMemory:
+    def make_memory(self, channel: SyntecChannel) -> SyntecMemory:
         """Offsets, tools and variables."""
         return SyntecMemory(channel)
 
-    def start(self, channel: Channel) -> None:
+    def start(self, channel: SyntecChannel) -> None:
         """Power-on state."""
         super().start(channel)
         memory = channel.memory
@@ -139,7 +139,7 @@ class SyntecMill(WordAddressControl):
         if memory.parameter(3838) == 1:
             channel.mode = channel.mode.with_code("stroke", "G22")
 
-    def begin(self, channel: Channel) -> None:
+    def begin(self, channel: SyntecChannel) -> None:
         """A main program begins: it has the local variables; a channel of a file with `$n` runs its section."""
         local = channel.memory.locals
         channel.level.locals = local
@@ -149,14 +149,14 @@ class SyntecMill(WordAddressControl):
             channel.stack.pop()
             channel.push(section, kind="main", local=local)
 
-    def start_codes(self, channel: Channel) -> dict[str, str]:
+    def start_codes(self, channel: SyntecChannel) -> dict[str, str]:
         """Power-on codes; Pr3836 chooses between G94 and G95."""
         codes = super().start_codes(channel)
         if parameter(channel.setup.parameters, 3836) == 1:
             codes["feed"] = "G95"
         return codes
 
-    def reset(self, channel: Channel) -> None:
+    def reset(self, channel: SyntecChannel) -> None:
         """The state after reset: Pr3014 may keep the tilted plane, Pr413 the turn of G92.1."""
         quiet.switch_quiet(channel, on=False)
         normal_line.end(channel)
@@ -168,32 +168,32 @@ class SyntecMill(WordAddressControl):
         super().reset(channel)
         tilted.set_tilt(channel, kept)
 
-    def end_of_program(self, channel: Channel) -> None:
+    def end_of_program(self, channel: SyntecChannel) -> None:
         """The text ends: as M30, in a subprogram as M99."""
         if len(channel.stack) > 1:
             calls.leave_program(channel)
         else:
             self.finish(channel)
 
-    def finish(self, channel: Channel) -> None:
+    def finish(self, channel: SyntecChannel) -> None:
         """The main program is over."""
         arcs.check_pair_complete(channel)
         nurbs.check_complete(channel)
         interrupts.check_off(channel)
         channel.end()
 
-    def leave(self, channel: Channel) -> None:
+    def leave(self, channel: SyntecChannel) -> None:
         """End of a subprogram or macro: the caller's local variables return, words that were left act."""
         ended = channel.pop()
         channel.memory.locals = channel.level.locals
         calls.finish_macro(channel, ended)
 
-    def check_nesting(self, channel: Channel, _kind: str) -> None:
+    def check_nesting(self, channel: SyntecChannel, _kind: str) -> None:
         """Alarm for one level of calls too many."""
         if len(channel.stack) >= calls.MAX_LEVELS:
             raise self.fail("nesting", hint="hint.syntec.levels")
 
-    def halts(self, channel: Channel, level: Level, step: ProgramStep) -> bool:
+    def halts(self, channel: SyntecChannel, level: Level, step: ProgramStep) -> bool:
         """Single block halts behind a block of words, but not at the mid point of an arc nor while #1502 forbids it."""
         if SpaceState.of(channel).words.get(1502, 0) & 1 or ArcState.of(channel).mid_point is not None:
             return False
@@ -223,7 +223,7 @@ class SyntecMill(WordAddressControl):
 
     # ---- blocks ------------------------------------------------------------------------------------------
 
-    def plan(self, channel: Channel, signature: tuple[str, ...]) -> Plan:
+    def plan(self, channel: SyntecChannel, signature: tuple[str, ...]) -> Plan:
         """The plan of a shape in the present modal state, made and kept."""
         mode = channel.mode
         builder = SyntecBuilder(channel, self, signature)
@@ -267,7 +267,7 @@ class SyntecMill(WordAddressControl):
 
     # ---- numbers -----------------------------------------------------------------------------------------
 
-    def number_rules(self, channel: Channel) -> NumberRules:
+    def number_rules(self, channel: SyntecChannel) -> NumberRules:
         """Least input units by Pr17; Pr3241 = 1 makes numbers without a point whole units."""
         parameters = channel.setup.parameters
         return NumberRules(
@@ -284,7 +284,7 @@ class SyntecMill(WordAddressControl):
             return 1.0
         return float(10.0 ** -(rules.decimals_inch if builder.inch else rules.decimals))
 
-    def is_diameter(self, channel: Channel, axis: int) -> bool:
+    def is_diameter(self, channel: SyntecChannel, axis: int) -> bool:
         """Whether words of an axis are diameters (Pr281~, G10.9)."""
         return bool(channel.memory.is_diameter(axis))
 
@@ -294,7 +294,9 @@ class SyntecMill(WordAddressControl):
             return length_converter(form, builder.rules, inch=builder.inch)
         return super().axis_converter(builder, axis, form)
 
-    def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
+    def axis_of_address(
+        self, channel: SyntecChannel, address: str, builder: Builder
+    ) -> tuple[int, bool] | None:
         """U, V, W are increments of X, Y, Z only with Pr3809 = 1."""
         if address in self.INCREMENTAL_ADDRESSES and parameter(channel.setup.parameters, 3809) == 1:
             index = channel.axis_index.get(self.INCREMENTAL_ADDRESSES[address])
@@ -304,31 +306,31 @@ class SyntecMill(WordAddressControl):
 
     # ---- motion ------------------------------------------------------------------------------------------
 
-    def arc_tolerance(self, channel: Channel) -> float:
+    def arc_tolerance(self, channel: SyntecChannel) -> float:
         """Allowed distance of an arc's end from its circle (Pr3807), mm."""
         parameters = channel.setup.parameters
         return parameter(parameters, 3807) * 10.0 ** -decimals(parameters, inch=False)
 
-    def check_arc(self, channel: Channel, start: Point, end: Point, center: Point) -> None:
+    def check_arc(self, channel: SyntecChannel, start: Point, end: Point, center: Point) -> None:
         """COR-006 for an end point that is not on the circle, or an arc without radius."""
         first = hypot(start[0] - center[0], start[1] - center[1])
         last = hypot(end[0] - center[0], end[1] - center[1])
         if first == 0.0 or abs(first - last) > self.arc_tolerance(channel) + 1e-9:
             raise self.fail("arc_end")
 
-    def plan_corner(self, _builder: Builder) -> Callable[[Channel, list[float]], object] | None:
+    def plan_corner(self, _builder: Builder) -> Callable[[SyntecChannel, list[float]], object] | None:
         """Corner words are not executed; `untaken` says so."""
         return None
 
-    def polar_target(self, channel: Channel, plan: Plan, values: list[float]) -> list[float]:
+    def polar_target(self, channel: SyntecChannel, plan: Plan, values: list[float]) -> list[float]:
         """End point under G16."""
         return frames.polar_target(channel, plan, values)
 
-    def scale_factors(self, channel: Channel, words: Words) -> tuple[float, float, float]:
+    def scale_factors(self, channel: SyntecChannel, words: Words) -> tuple[float, float, float]:
         """Factors of G51."""
         return systems.scale_factors(channel, words)
 
-    def reference_point(self, channel: Channel, axis: int, number: int) -> float:
+    def reference_point(self, channel: SyntecChannel, axis: int, number: int) -> float:
         """Machine position of a reference point: 1 the machine zero, 2 to 4 by Pr2801 on, in least units."""
         delivered = channel.axis_data[axis].reference_points[number - 1]
         if number == 1:
@@ -340,21 +342,21 @@ class SyntecMill(WordAddressControl):
 
     # ---- offsets -----------------------------------------------------------------------------------------
 
-    def compensation_policy(self, channel: Channel) -> Policy:
+    def compensation_policy(self, channel: SyntecChannel) -> Policy:
         """Radius compensation; Pr3819 = 1 checks for overcut."""
         checked = parameter(channel.setup.parameters, 3819) == 1
         return Policy(checks_direction=checked)
 
     # ---- reports -----------------------------------------------------------------------------------------
 
-    def context(self, channel: Channel) -> Context:
+    def context(self, channel: SyntecChannel) -> Context:
         """The context that holds now; under G93 feeds are recorded per minute. G63 takes override and hold away."""
         context = in_tapping_mode(channel, super().context(channel))
         by_time = context.feed_mode is FeedMode.INVERSE_TIME
         mode = FeedMode.PER_MINUTE if by_time else context.feed_mode
         return replace(context, feed_mode=mode, rapid_speed=FeedState.of(channel).rapid_speed)
 
-    def variable_names(self, channel: Channel) -> list[str]:
+    def variable_names(self, channel: SyntecChannel) -> list[str]:
         """Names of all variables that hold something."""
         memory = channel.memory
         names = [f"#{index}" for index in sorted(memory.locals)]
@@ -368,7 +370,7 @@ class SyntecMill(WordAddressControl):
 def _after_check(step: Step | None) -> Step:
     """A step behind the check that the last three-point arc is whole."""
 
-    def run(channel: Channel, values: list[float]) -> None:
+    def run(channel: SyntecChannel, values: list[float]) -> None:
         arcs.check_pair_complete(channel)
         if step is not None:
             step(channel, values)

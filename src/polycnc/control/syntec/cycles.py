@@ -27,7 +27,7 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Handler, Step
     from polycnc.control.word_address.block.numbers import NumberRules
     from polycnc.control.word_address.block.plan import Builder
@@ -63,7 +63,7 @@ class RetractState(State, lifetime=Lifetime.POWER):
     feed: float = 0.0
 
 
-def relief(channel: Channel, code: str) -> float:
+def relief(channel: SyntecChannel, code: str) -> float:
     """Pr4002 between drilling pecks; between tapping pecks Pr4004, or out to R where Pr4001 is 0."""
     parameters = channel.setup.parameters
     if code in TAPPING and parameter(parameters, 4001) != 1:
@@ -72,7 +72,7 @@ def relief(channel: Channel, code: str) -> float:
     return parameter(parameters, number) * 10.0 ** -decimals(parameters, inch=False)
 
 
-def shift_off_wall(channel: Channel, data: CycleData, plane: tuple[int, int]) -> tuple[float, float]:
+def shift_off_wall(channel: SyntecChannel, data: CycleData, plane: tuple[int, int]) -> tuple[float, float]:
     """Q in the direction of Pr4020; G87 shifts against it."""
     axis, sense = SHIFT_DIRECTIONS.get(parameter(channel.setup.parameters, 4020), (0, 1.0))
     if axis not in plane:
@@ -88,7 +88,7 @@ def dwell_seconds(value: float, form: str, rules: NumberRules) -> float:
     return value if form != "" or rules.calculator else value / 10.0**rules.decimals
 
 
-def out_at_feed(channel: Channel, code: str, hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
+def out_at_feed(channel: SyntecChannel, code: str, hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
     """Fast drilling (Pr4008 = 1): the tool leaves a hole of G81 at the speed F2 (2.52)."""
     speed: float = RetractState.of(channel).feed
     if code != "G81" or not speed > 0.0 or not channel.feed > 0.0:
@@ -124,7 +124,7 @@ def with_cycle_words(builder: Builder, step: Step) -> Step:
         builder.take("E")
     control = builder.control
 
-    def drill(channel: Channel, values: list[float]) -> None:
+    def drill(channel: SyntecChannel, values: list[float]) -> None:
         state = RetractState.of(channel)
         if entering:
             state.feed = 0.0
@@ -140,7 +140,7 @@ def with_cycle_words(builder: Builder, step: Step) -> Step:
     return drill
 
 
-def _feed_by_threads(channel: Channel, per_inch: float) -> None:
+def _feed_by_threads(channel: SyntecChannel, per_inch: float) -> None:
     """E: threads per inch, the lead is 25.4 mm / E (2.48, 2.55)."""
     if not per_inch > 0.0:
         raise AlarmError("COR-023", address="E", word="E")
@@ -152,7 +152,7 @@ def _feed_by_threads(channel: Channel, per_inch: float) -> None:
 # ---- radius compensation ----------------------------------------------------------------------------
 
 
-def _unless_drilling(handler: Handler, channel: Channel, words: Words) -> None:
+def _unless_drilling(handler: Handler, channel: SyntecChannel, words: Words) -> None:
     """G40, G41 and G42 are ignored while a drilling cycle is active (2.47 ff.)."""
     if channel.mode["cycle"] == "G80":
         handler(channel, words)
@@ -161,7 +161,7 @@ def _unless_drilling(handler: Handler, channel: Channel, words: Words) -> None:
     channel.mode = channel.mode.with_code("compensation", side)
 
 
-def _cancel(channel: Channel, words: Words) -> None:
+def _cancel(channel: SyntecChannel, words: Words) -> None:
     """G40 ends compensation in the plane and in space."""
     spatial.end(channel)
     radius.cancel_compensation(channel, words)
@@ -175,7 +175,7 @@ compensate_right: Handler = partial(_unless_drilling, radius.compensate_right)
 # ---- hole patterns ---------------------------------------------------------------------------------------
 
 
-def circle_of_holes(channel: Channel, words: Words) -> None:
+def circle_of_holes(channel: SyntecChannel, words: Words) -> None:
     """G134 X Y I J K: K holes on a circle about X Y, radius I, from angle J; K negative clockwise (2.68)."""
     count = _count(words, "K", signed=True)
     radius = _length(words, "I", positive=True)
@@ -183,14 +183,14 @@ def circle_of_holes(channel: Channel, words: Words) -> None:
     _drill(channel, patterns.circle(plane_point(channel, words), radius, start, count))
 
 
-def line_of_holes(channel: Channel, words: Words) -> None:
+def line_of_holes(channel: SyntecChannel, words: Words) -> None:
     """G135 X Y I J K: K holes with pitch I along angle J (2.69)."""
     count = _count(words, "K")
     pitch, angle = _length(words, "I"), words.angle("J") or 0.0
     _drill(channel, patterns.line(plane_point(channel, words), pitch, angle, count))
 
 
-def arc_of_holes(channel: Channel, words: Words) -> None:
+def arc_of_holes(channel: SyntecChannel, words: Words) -> None:
     """G136 X Y I J P K: K holes on a circle about X Y, radius I, from angle J, pitch P degrees (2.70)."""
     count = _count(words, "K")
     radius = _length(words, "I", positive=True)
@@ -198,7 +198,7 @@ def arc_of_holes(channel: Channel, words: Words) -> None:
     _drill(channel, patterns.arc(plane_point(channel, words), radius, start, pitch, count))
 
 
-def grid_of_holes(channel: Channel, words: Words) -> None:
+def grid_of_holes(channel: SyntecChannel, words: Words) -> None:
     """G137.1 X Y I P J K: P holes along X, pitch I, and K along Y, pitch J, row by row to and fro (2.71)."""
     columns, rows = _count(words, "P"), _count(words, "K")
     pitches = _length(words, "I"), _length(words, "J")
@@ -219,7 +219,7 @@ def _length(words: Words, address: str, *, positive: bool = False) -> float:
     return value
 
 
-def _drill(channel: Channel, points: Iterator[Point]) -> None:
+def _drill(channel: SyntecChannel, points: Iterator[Point]) -> None:
     """Position over each point and drill with the data of the active cycle; COR-023 where none is active."""
     if not is_active(channel) or CycleState.of(channel).data is None:
         raise AlarmError("COR-023", word="", hint="hint.syntec.pattern-without-cycle")

@@ -17,7 +17,7 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
 
 
 class SyntecMemory(Memory):
@@ -30,9 +30,9 @@ class SyntecMemory(Memory):
         functions: The functions of the macro language, by name.
     """
 
-    def __init__(self, channel: Channel) -> None:
+    def __init__(self, channel: SyntecChannel) -> None:
         super().__init__(channel)
-        self.channel: Channel = channel
+        self.channel: SyntecChannel = channel
         self.locals = LocalState.of(channel).main
         self.globals = GlobalState.of(channel)
         self.functions: dict[str, Callable[..., Value]] = functions.bound(self)

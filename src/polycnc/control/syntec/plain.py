@@ -10,7 +10,7 @@ from polycnc.language.bulk import Spelling
 from polycnc.language.syntec.blocks import MAX_DIGITS
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.language.bulk.scanner import LastMoves
 
 SPELLING = Spelling(
@@ -24,7 +24,7 @@ class SyntecPlainBlocks(PlainBlocks):
     def __init__(self) -> None:
         super().__init__(SPELLING)
 
-    def moved(self, channel: Channel, last: LastMoves) -> None:
+    def moved(self, channel: WordAddressChannel, last: LastMoves) -> None:
         """The centre of the last arc can be read as a system variable."""
         if last.center is not None:
             ArcState.of(channel).last_center = last.center

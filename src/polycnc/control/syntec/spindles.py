@@ -14,7 +14,7 @@ from polycnc.language.bulk import Note, declare
 from polycnc.toolpath.events import SpindleSpeed
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.syntec.memory import SyntecMemory
     from polycnc.control.word_address.block.codes import Planner, Step
     from polycnc.control.word_address.block.plan import Builder
@@ -54,7 +54,7 @@ def plan_speed(builder: Builder) -> Step:
     """S: speed of the active spindle (R791, else 1); surface speed under G96."""
     slot = builder.slots["S"][0]
 
-    def set_speed(channel: Channel, values: list[float]) -> None:
+    def set_speed(channel: SyntecChannel, values: list[float]) -> None:
         active = channel.memory.globals.registers.get(ACTIVE_SPINDLE, 0) or 1
         command_speed(channel, active, values[slot], active=True)
 
@@ -67,7 +67,7 @@ def plan_named_speed(spindle: int) -> Planner:
     def plan(builder: Builder) -> Step:
         slot = builder.slots[f"S{spindle}"][0]
 
-        def set_speed(channel: Channel, values: list[float]) -> None:
+        def set_speed(channel: SyntecChannel, values: list[float]) -> None:
             active = channel.memory.globals.registers.get(ACTIVE_SPINDLE, 0) or 1
             command_speed(channel, spindle, values[slot], active=spindle == active)
 
@@ -76,7 +76,7 @@ def plan_named_speed(spindle: int) -> Planner:
     return plan
 
 
-def command_speed(channel: Channel, spindle: int, speed: float, *, active: bool) -> None:
+def command_speed(channel: SyntecChannel, spindle: int, speed: float, *, active: bool) -> None:
     """A spindle's own S, and what follows from it for spindles in step with it."""
     state = SpindleState.of(channel)
     memory: SyntecMemory = channel.memory
@@ -100,7 +100,7 @@ def speed_of(memory: SyntecMemory, spindle: int) -> float:
     return own
 
 
-def _report(channel: Channel, spindle: int) -> None:
+def _report(channel: SyntecChannel, spindle: int) -> None:
     """Record a spindle's speed if it is another than before."""
     state = SpindleState.of(channel)
     memory: SyntecMemory = channel.memory
@@ -125,23 +125,23 @@ class SpindlePair:
     adds: bool = False
 
 
-def polygon_on(channel: Channel, words: Words) -> None:
+def polygon_on(channel: SyntecChannel, words: Words) -> None:
     """G51.2 P Q R K: the sync spindle turns Q/P times as fast as the base spindle (2.84)."""
     p, q = _ratio_part(words, "P"), _ratio_part(words, "Q")
     _couple(channel, words, q / p)
 
 
-def synchronise(channel: Channel, words: Words) -> None:
+def synchronise(channel: SyntecChannel, words: Words) -> None:
     """G114.1 R K: the sync spindle follows the base spindle 1:1 (2.85)."""
     _couple(channel, words, 1.0)
 
 
-def superimpose(channel: Channel, words: Words) -> None:
+def superimpose(channel: SyntecChannel, words: Words) -> None:
     """G114.3 K: the sync spindle's own speed is added to that of the base spindle (2.86)."""
     _couple(channel, words, 1.0, adds=True)
 
 
-def release(channel: Channel, words: Words) -> None:
+def release(channel: SyntecChannel, words: Words) -> None:
     """G50.2, G113 [K]: a pair, or without K every pair, is no longer in step."""
     state = SpindleState.of(channel)
     groups = [_group(words)] if "K" in words else list(state.pairs)
@@ -165,7 +165,7 @@ def _group(words: Words) -> int:
     return int(group)
 
 
-def _couple(channel: Channel, words: Words, ratio: float, *, adds: bool = False) -> None:
+def _couple(channel: SyntecChannel, words: Words, ratio: float, *, adds: bool = False) -> None:
     state = SpindleState.of(channel)
     memory: SyntecMemory = channel.memory
     group = _group(words)
@@ -194,7 +194,7 @@ def axis_name(code: int) -> str:
     return AXIS_LETTERS[letter - 1] + (str(index) if index else "")
 
 
-def constant_surface_speed(channel: Channel, words: Words) -> None:
+def constant_surface_speed(channel: SyntecChannel, words: Words) -> None:
     """G96 S P: surface speed in m/min or feet/min; P names the axis whose position is the diameter."""
     state = SpindleState.of(channel)
     reference = words.typed("P")
@@ -206,7 +206,7 @@ def constant_surface_speed(channel: Channel, words: Words) -> None:
     channel.context_changed()
 
 
-def _reference_axis(channel: Channel, words: Words, reference: float) -> int:
+def _reference_axis(channel: SyntecChannel, words: Words, reference: float) -> int:
     """P 1 to 3 a geometry axis, 0 the first axis, 100 to 999 an axis name code."""
     if reference != int(reference) or reference < 0:
         raise words.fail("surface_axis", "P")
@@ -221,6 +221,6 @@ def _reference_axis(channel: Channel, words: Words, reference: float) -> int:
     return axis
 
 
-def end_surface_speed(channel: Channel, _words: Words) -> None:
+def end_surface_speed(channel: SyntecChannel, _words: Words) -> None:
     """G97 S: revolutions per minute again; without S the speed that ran last holds."""
     channel.context_changed()

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.intervention import TYPED_IN, TakesBack
 from polycnc.channel.snapshot import unchanging
+from polycnc.compensation import Policy
 from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.word_address.block.codes import GCode, MCode
 from polycnc.control.word_address.block.numbers import Convert, NumberRules, angle_converter, length_converter
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
     from polycnc.channel.steps import Step as ProgramStep
     from polycnc.control.parameters import AxisParameters, ControlParameters
     from polycnc.control.word_address.block.codes import Handler, Planner, Step
+    from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.memory import ToolOffset
     from polycnc.geometry.arcs import Point
     from polycnc.language.bulk import Condition
@@ -79,6 +81,7 @@ class WordAddressControl:
         CURVE_BEGINS_AT_TOOL: The first pole of a G06.2 curve must be where the tool stands.
         NORMAL_LINE_RULES: What G41.1 and G42.1 refuse.
         INCREMENTAL_ADDRESSES: Addresses that are increments of an axis whatever the mode (U is X …).
+        LENGTH_TRAVELS_ALONE: G43 H without a Z word moves Z by the offset at once.
         LATER_AXIS_WORD_COUNTS: Of an absolute and an incremental word of one axis the later one counts alone.
         POINT_IN_WHOLE_NUMBERS: A decimal point behind a whole number is read over where no point belongs.
     """
@@ -102,6 +105,7 @@ class WordAddressControl:
     CURVE_BEGINS_AT_TOOL: ClassVar[bool] = False
     NORMAL_LINE_RULES: ClassVar[NormalLineRules] = NormalLineRules()
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {}
+    LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
     LATER_AXIS_WORD_COUNTS: ClassVar[bool] = False
     INCH_CODE: ClassVar[str] = "G20"
     POINT_IN_WHOLE_NUMBERS: ClassVar[bool] = True
@@ -347,6 +351,18 @@ class WordAddressControl:
     def polar_target(self, channel: Channel, plan: Plan, values: list[float]) -> list[float]:
         """End point of a block in polar words."""
         return frames.polar_target(channel, plan, values)
+
+    def scale_factors(self, _channel: Channel, _words: Words) -> tuple[float, float, float]:
+        """Factors of G51 on the geometry axes."""
+        return (1.0, 1.0, 1.0)
+
+    def reference_point(self, channel: Channel, axis: int, number: int) -> float:
+        """Machine position of a reference point of an axis, from 1."""
+        return channel.axis_data[axis].reference_points[number - 1]
+
+    def compensation_policy(self, _channel: Channel) -> Policy:
+        """Rules of radius compensation."""
+        return Policy()
 
     def nose_tip(self, _channel: Channel) -> tuple[float, float]:
         """Way from the centre of the tool to its programmed point, in the plane, in units of its radius."""

@@ -7,11 +7,14 @@ from typing import TYPE_CHECKING, TypeAlias
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.control import WordAddressControl
+    from polycnc.control.word_address.machining_centre import MillingControl
     from polycnc.control.word_address.macro_b.custom_macro import CustomMacroControl
     from polycnc.control.word_address.macro_b.variables import MacroMemory
     from polycnc.control.word_address.memory import Memory
 
 #: Of every word-address control.
 WordAddressChannel: TypeAlias = "Channel[WordAddressControl, Memory]"
-#: Of those with custom macro B.
+#: Of mills with custom macro B.
+MillingChannel: TypeAlias = "Channel[MillingControl, MacroMemory]"
+#: Of all controls with custom macro B.
 MacroChannel: TypeAlias = "Channel[CustomMacroControl, MacroMemory]"

@@ -14,7 +14,6 @@ from polycnc.control.word_address.motion import corners, nurbs
 from polycnc.control.word_address.motion.line_by_angle import plan_line_by_angle
 from polycnc.control.word_address.tools.length import renew_length
 from polycnc.control.word_address.transformations import normal_line
-from polycnc.control.word_address.transformations.normal_line import NormalLineParameters
 from polycnc.control.word_address.transformations.tool_center_point import plan_with_direction
 
 if TYPE_CHECKING:
@@ -38,14 +37,10 @@ class MillingControl(CustomMacroControl):
 
     Attributes:
         OVERRUN_PARAMETER: Parameter of each axis with the overrun of G60.
-        NORMAL_LINE_PARAMETERS: Parameters of G41.1 and G42.1.
-        LENGTH_TRAVELS_ALONE: G43 H without a Z word moves Z by the offset at once.
     """
 
     OVERRUN_PARAMETER: ClassVar[int] = 5440
-    LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
     settled_codes: ClassVar[Mapping[str, Condition]] = settled.MILLING
-    NORMAL_LINE_PARAMETERS: ClassVar[NormalLineParameters] = NormalLineParameters(5480, 5481, 5482, 5483)
     CURVE_BEGINS_AT_TOOL: ClassVar[bool] = True
     POLAR_CODES: ClassVar[frozenset[str]] = CustomMacroControl.POLAR_CODES | {"G90", "G91", "G94", "G95"}
     REFUSED_ON_CYLINDER: ClassVar[frozenset[str]] = CustomMacroControl.REFUSED_ON_CYLINDER | {

@@ -12,7 +12,6 @@ from polycnc.memory.retained import TOOL_OFFSETS, WORK_OFFSETS
 if TYPE_CHECKING:
     from typing import Self
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.machine.setup.values import Tool
     from polycnc.transformation.parallel import ParallelAxes
@@ -61,7 +60,7 @@ class ToolOffsets(State, lifetime=Lifetime.RETAINED):
     numbers: dict[int, ToolOffset] = retained(TOOL_OFFSETS)
 
     @classmethod
-    def first(cls, channel: Channel) -> Self:
+    def first(cls, channel: WordAddressChannel) -> Self:
         """What is retained, else what the setup says."""
         offsets = super(ToolOffsets, cls).first(channel)
         if not offsets.numbers:

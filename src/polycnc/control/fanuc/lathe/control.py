@@ -40,7 +40,7 @@ from polycnc.control.word_address.macro_b import code_calls, interruption
 from polycnc.control.word_address.macro_b.custom_macro import CustomMacroControl
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.transformations import normal_line
-from polycnc.control.word_address.transformations.normal_line import NormalLineParameters, NormalLineRules
+from polycnc.control.word_address.transformations.normal_line import NormalLineRules
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.toolpath.modes import FeedMode
 
@@ -94,7 +94,6 @@ class FanucTurning(CustomMacroControl):
         "G90",
         "G94",
     }
-    NORMAL_LINE_PARAMETERS: ClassVar[NormalLineParameters] = NormalLineParameters(5480, 5481, 5482, 5483)
     NORMAL_LINE_RULES: ClassVar[NormalLineRules] = NormalLineRules(preset="G50")
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z", "H": "C"}
     LATER_AXIS_WORD_COUNTS: ClassVar[bool] = True

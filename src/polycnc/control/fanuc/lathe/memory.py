@@ -11,6 +11,7 @@ from polycnc.geometry.frames import IDENTITY, Frame, scaling, translation
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.fanuc.lathe.parameters import LatheParameters
     from polycnc.control.parameters import Parameter
     from polycnc.control.word_address.family import WordAddressChannel
@@ -53,6 +54,7 @@ class TurningFrames(ProgrammingFrames):
 class TurningMemory(MacroMemory):
     """State of a lathe control that no single feature owns."""
 
+    channel: LatheChannel
     parameters: LatheParameters
 
     def __init__(self, channel: Channel, registry: Registry) -> None:

@@ -16,7 +16,7 @@ from polycnc.control.syntec.coordinates.systems import TurnState
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
@@ -35,7 +35,7 @@ class BorrowingState(State, lifetime=Lifetime.POWER):
     tries: int = 0
 
 
-def roams(channel: Channel, axis: int) -> bool:
+def roams(channel: SyntecChannel, axis: int) -> bool:
     """Whether an axis belongs to whoever borrows it."""
     memory = channel.memory
     if memory.parameter(ROAMING) != 1:
@@ -44,7 +44,7 @@ def roams(channel: Channel, axis: int) -> bool:
     return mask & (mask - 1) != 0 and bool(mask >> (channel.number - 1) & 1)
 
 
-def release(channel: Channel, words: Words) -> None:
+def release(channel: SyntecChannel, words: Words) -> None:
     """G52.1 P Q R: give axes back."""
     holders = _holders(channel)
     axes = _axes(channel, words)
@@ -56,7 +56,7 @@ def release(channel: Channel, words: Words) -> None:
         del holders[_name(channel, axis)]
 
 
-def borrow(channel: Channel, words: Words) -> None:
+def borrow(channel: SyntecChannel, words: Words) -> None:
     """G52.2 P Q R [I] [J] [K]: borrow all of the axes or none; I says what happens where one is not free."""
     state = BorrowingState.of(channel)
     holders = _holders(channel)
@@ -93,7 +93,7 @@ def guarded(builder: Builder, plan: Plan, step: Step) -> Step:
     if not roaming:
         return step
 
-    def move(channel: Channel, values: list[float]) -> None:
+    def move(channel: SyntecChannel, values: list[float]) -> None:
         holders = _holders(channel)
         for word in roaming:
             if holders.get(_name(channel, word.axis)) != channel.number:
@@ -103,18 +103,18 @@ def guarded(builder: Builder, plan: Plan, step: Step) -> Step:
     return move
 
 
-def _holders(channel: Channel) -> dict[str, int]:
+def _holders(channel: SyntecChannel) -> dict[str, int]:
     """Which group holds a roaming axis, by the machine's name of the axis."""
     assert channel.group is not None  # a session always runs a group
     holders: dict[str, int] = channel.group.shared.setdefault(HOLDERS, {})
     return holders
 
 
-def _name(channel: Channel, axis: int) -> str:
+def _name(channel: SyntecChannel, axis: int) -> str:
     return str(channel.axis_data[axis].name)
 
 
-def _axes(channel: Channel, words: Words) -> list[int]:
+def _axes(channel: SyntecChannel, words: Words) -> list[int]:
     """The axes that P, Q and R name; each must roam, and none may take part in a transformation."""
     codes = [words.typed(letter) for letter in "PQR" if letter in words]
     if any(code is not None and code != int(code) for code in codes):
@@ -144,13 +144,13 @@ def _answers(words: Words) -> tuple[int, int | None, bool]:
     return int(reaction or WAITS), None if result is None else int(result), seconds is not None
 
 
-def _try_again(channel: Channel, until: Callable[[], bool]) -> None:
+def _try_again(channel: SyntecChannel, until: Callable[[], bool]) -> None:
     """Run the block once more after others have had their turn."""
     channel.level.index = channel.level.current
     channel.wait = Wait(Why.CHANNEL, until=until)
 
 
-def _take_position(channel: Channel, axis: int) -> None:
+def _take_position(channel: SyntecChannel, axis: int) -> None:
     """The axis stands where the group that moved it last has left it."""
     group, name = channel.group, _name(channel, axis)
     assert group is not None

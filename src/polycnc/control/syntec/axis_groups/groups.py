@@ -9,7 +9,7 @@ from polycnc.channel.waits import Wait, Why
 from polycnc.program.split import split_channels
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
     from polycnc.program import Program
 
@@ -32,7 +32,7 @@ class Meeting:
     over: bool = False
 
 
-def start_others(channel: Channel, program: Program) -> None:
+def start_others(channel: SyntecChannel, program: Program) -> None:
     """The first axis group starts: those with a section of their own start with it."""
     group = channel.group
     if group is None or channel is not group.first:
@@ -44,7 +44,7 @@ def start_others(channel: Channel, program: Program) -> None:
             group.start(number)
 
 
-def meet(channel: Channel, words: Words) -> None:
+def meet(channel: SyntecChannel, words: Words) -> None:
     """G04.1 P Q: axis groups wait for each other; Q names them by digits, without Q all of them."""
     mark, groups = words.typed("P"), words.typed("Q")
     existing = {each.number for each in channel.machine.channels}
@@ -64,7 +64,7 @@ def meet(channel: Channel, words: Words) -> None:
         _wait_for(channel, words, Meeting(int(mark), frozenset(named)))
 
 
-def _wait_for(channel: Channel, words: Words, own: Meeting) -> None:
+def _wait_for(channel: SyntecChannel, words: Words, own: Meeting) -> None:
     """Wait until all groups named stand at the same mark; another mark or another set of groups is a mistake."""
     assert channel.group is not None  # a session always runs a group
     waiting: dict[int, Meeting] = channel.group.shared.setdefault(MEETINGS, {})

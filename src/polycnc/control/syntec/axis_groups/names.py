@@ -9,7 +9,7 @@ from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.block.plan import AxisWord
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
 
@@ -25,19 +25,19 @@ class VirtualAxisState(State, lifetime=Lifetime.POWER):
     axes: dict[str, list[int]] = field(default_factory=dict)
 
 
-def name_code(channel: Channel, axis: int) -> int:
+def name_code(channel: SyntecChannel, axis: int) -> int:
     """The code of an axis: Pr321 on, or what its name stands for."""
     told: int = channel.memory.parameter(AXIS_NAMES + axis)
     name = channel.axes[axis]
     return told or LETTERS.get(name[0], 0) + int(name[1:] if name[1:].isdigit() else 0)
 
 
-def axis_of_code(channel: Channel, code: float) -> int:
+def axis_of_code(channel: SyntecChannel, code: float) -> int:
     """The axis with a name code; -1 where there is none."""
     return next((axis for axis in range(len(channel.axes)) if name_code(channel, axis) == code), -1)
 
 
-def map_virtual_axis(channel: Channel, words: Words) -> None:
+def map_virtual_axis(channel: SyntecChannel, words: Words) -> None:
     """G10 L801 P Q: the axis with code Q moves with the virtual axis P; Q0 takes all away."""
     virtual, real = words.typed("P"), words.typed("Q")
     letter = next((each for each, hundreds in LETTERS.items() if virtual == hundreds), "")

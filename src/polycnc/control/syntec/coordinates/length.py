@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.tools import length
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
 
 
-def compensate_length(channel: Channel, words: Words) -> None:
+def compensate_length(channel: SyntecChannel, words: Words) -> None:
     """G43 / G44 H."""
     channel.flush()
     length.compensate_length(channel, words)
 
 
-def cancel_length(channel: Channel, words: Words) -> None:
+def cancel_length(channel: SyntecChannel, words: Words) -> None:
     """G49."""
     channel.flush()
     length.cancel_length(channel, words)

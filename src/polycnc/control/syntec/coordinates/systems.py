@@ -21,7 +21,7 @@ from polycnc.language.syntec.values import to_long
 from polycnc.machine.kinematics import turn_about
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.syntec.memory import SyntecMemory
     from polycnc.control.word_address.block.words import Words
     from polycnc.geometry.frames import Frame, Vector
@@ -66,7 +66,7 @@ class DiameterState(State, lifetime=Lifetime.POWER):
 # ---- work systems ----------------------------------------------------------------------------------------
 
 
-def select_work_system(channel: Channel, words: Words) -> None:
+def select_work_system(channel: SyntecChannel, words: Words) -> None:
     """G54 to G59, G59.1 to G59.9, G54 P1 to P100 (2.38); Pr3229 = 1 switches work systems off."""
     state = ZeroState.of(channel)
     code = channel.mode["wcs"]
@@ -87,7 +87,7 @@ def select_work_system(channel: Channel, words: Words) -> None:
 NO_WORK_SYSTEM = "G53"
 
 
-def set_position(channel: Channel, words: Words) -> None:
+def set_position(channel: SyntecChannel, words: Words) -> None:
     """G92 X Y Z: the present position gets these coordinates; G92 S: highest speed under G96 (2.63, 2.66)."""
     state = ZeroState.of(channel)
     axes = words.axes()
@@ -111,7 +111,7 @@ def set_position(channel: Channel, words: Words) -> None:
         channel.context_changed()
 
 
-def preset_system(channel: Channel, words: Words) -> None:
+def preset_system(channel: SyntecChannel, words: Words) -> None:
     """G92.1 X Y Z I J K R: this point becomes the origin, the axes turn by R about (I, J, K) (2.62)."""
     state = TurnState.of(channel)
     c, memory = channel.coordinates, channel.memory
@@ -151,7 +151,7 @@ def renew_preset_frame(memory: SyntecMemory) -> None:
 # ---- reference points, stroke limits ---------------------------------------------------------------------
 
 
-def return_to_further_reference(channel: Channel, words: Words) -> None:
+def return_to_further_reference(channel: SyntecChannel, words: Words) -> None:
     """G30 [P]: over the intermediate point to reference point 1 to 4, 2 without P (2.21)."""
     number = words.typed("P")
     number = 2 if number is None else number
@@ -160,7 +160,7 @@ def return_to_further_reference(channel: Channel, words: Words) -> None:
     go_to_reference(channel, words, int(number))
 
 
-def stroke_limit_on(channel: Channel, words: Words) -> None:
+def stroke_limit_on(channel: SyntecChannel, words: Words) -> None:
     """G22 X Y Z I J K: second travel limits, X Y Z with I J K in pairs, the others from Pr2501 on (2.18)."""
     memory = channel.memory
     given = {axis: value for axis, value, _ in words.axes()}
@@ -184,7 +184,7 @@ def stroke_limit_on(channel: Channel, words: Words) -> None:
     set_zone(channel, zones)
 
 
-def set_zone(channel: Channel, zones: dict[int, tuple[float, float]]) -> None:
+def set_zone(channel: SyntecChannel, zones: dict[int, tuple[float, float]]) -> None:
     """The protected range of each axis; Pr2542 says whether its inside or its outside is forbidden."""
     if not zones:
         channel.stroke_zone = None
@@ -198,7 +198,7 @@ def set_zone(channel: Channel, zones: dict[int, tuple[float, float]]) -> None:
 # ---- programming frames ----------------------------------------------------------------------------------
 
 
-def scale_factors(channel: Channel, words: Words) -> tuple[float, float, float]:
+def scale_factors(channel: SyntecChannel, words: Words) -> tuple[float, float, float]:
     """Factors of G51: P for all axes or I J K; only axes of the plane are scaled (2.33)."""
     common = words.typed("P")
     factors = [1.0, 1.0, 1.0]
@@ -213,7 +213,7 @@ def scale_factors(channel: Channel, words: Words) -> tuple[float, float, float]:
     return result
 
 
-def mirror(channel: Channel, words: Words) -> None:
+def mirror(channel: SyntecChannel, words: Words) -> None:
     """G51.1 X Y Z: mirror about these coordinates, which under G91 count from the position (2.32)."""
     frames, c = channel.memory.frames, channel.coordinates
     for axis, value, incremental in words.axes():
@@ -226,7 +226,7 @@ def mirror(channel: Channel, words: Words) -> None:
     c.set_programming(frames.product())
 
 
-def rotate(channel: Channel, words: Words) -> None:
+def rotate(channel: SyntecChannel, words: Words) -> None:
     """G68 X Y R: turns the plane about a point in absolute coordinates; a new one replaces the old (2.43)."""
     frames, c = channel.memory.frames, channel.coordinates
     angle = words.angle("R")
@@ -243,7 +243,7 @@ def rotate(channel: Channel, words: Words) -> None:
     c.set_programming(frames.product())
 
 
-def switch_diameter(channel: Channel, words: Words) -> None:
+def switch_diameter(channel: SyntecChannel, words: Words) -> None:
     """G10.9 X0 Y1: axes programmed and shown in radius (0) or diameter (1); nothing moves (2.73)."""
     named = words.plan.axis_words
     if not named:
@@ -260,7 +260,7 @@ def switch_diameter(channel: Channel, words: Words) -> None:
 # ---- dwell, data input, cutting modes --------------------------------------------------------------------
 
 
-def dwell(channel: Channel, words: Words) -> None:
+def dwell(channel: SyntecChannel, words: Words) -> None:
     """G04 X or P: X with a point seconds, without milliseconds; P milliseconds, decimals cut off (2.8)."""
     if "Q" in words:
         raise channel.control.not_yet("G4 Q", "Q")
@@ -275,7 +275,7 @@ def dwell(channel: Channel, words: Words) -> None:
     channel.dwell(seconds=value / 1000.0 if whole else value)
 
 
-def input_data(channel: Channel, words: Words) -> None:
+def input_data(channel: SyntecChannel, words: Words) -> None:
     """G10 L2 work offsets, L10 to L13 tool data (2.14), L450 corners, L801 virtual axes, L1000 registers; G91 adds."""
     kind, number = words.typed("L"), words.typed("P")
     if kind == REGISTER_INPUT:
@@ -308,7 +308,7 @@ def input_data(channel: Channel, words: Words) -> None:
     renew_length(channel)
 
 
-def _input_work_offset(channel: Channel, words: Words) -> None:
+def _input_work_offset(channel: SyntecChannel, words: Words) -> None:
     """G10 L2 P X Y Z: zero of work system P, 0 the external one; G91 adds."""
     number = words.typed("P")
     if number is None or number != int(number) or not 0 <= number <= len(WORK_SYSTEMS):
@@ -319,7 +319,7 @@ def _input_work_offset(channel: Channel, words: Words) -> None:
     refresh_zero(channel)
 
 
-def cutting_mode(channel: Channel, words: Words) -> None:
+def cutting_mode(channel: SyntecChannel, words: Words) -> None:
     """G61 to G64 [P]: P of G62 and G64 selects a set of machining conditions (2.40)."""
     condition = words.typed("P") if "P" in words else None
     if condition is not None and condition not in MACHINING_CONDITIONS:

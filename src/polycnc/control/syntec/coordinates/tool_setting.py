@@ -17,7 +17,7 @@ from polycnc.toolpath import Kind
 from polycnc.toolpath.events import Auxiliary
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
 
 #: Parameters that stand in for words: distance R, tolerance D, feed F, reference point P, place Z.
@@ -27,7 +27,7 @@ BLOW_ON, BLOW_OFF = 90, 91
 BACK_MM, SECOND_FEED_MM_S = 3.0, 50.0 / 60.0
 
 
-def measure_length(channel: Channel, words: Words) -> None:
+def measure_length(channel: SyntecChannel, words: Words) -> None:
     """G37 Z [R] [D] [F] [P]: the signal must come within Z ± D; the length of H gets what lies between it and Z."""
     state = LengthState.of(channel)
     memory, c = channel.memory, channel.coordinates
@@ -53,7 +53,7 @@ def measure_length(channel: Channel, words: Words) -> None:
     length.renew_length(channel)
 
 
-def measure_into_work_system(channel: Channel, words: Words) -> None:
+def measure_into_work_system(channel: SyntecChannel, words: Words) -> None:
     """G37.2 K [Z] [R] [F] [P] [Q]: the signal's machine position becomes Z of work system K; 0 is the external one."""
     memory = channel.memory
     if not memory.tool:
@@ -67,7 +67,7 @@ def measure_into_work_system(channel: Channel, words: Words) -> None:
     refresh_zero(channel)
 
 
-def measure_into_length(channel: Channel, words: Words) -> None:
+def measure_into_length(channel: SyntecChannel, words: Words) -> None:
     """G37.3 [Z] [H] [R] [F] [P] [Q] [T]: the machine position of the signal becomes the length of H."""
     state = LengthState.of(channel)
     memory = channel.memory
@@ -85,7 +85,7 @@ def measure_into_length(channel: Channel, words: Words) -> None:
     length.renew_length(channel)
 
 
-def _measure_twice(channel: Channel, words: Words) -> float:
+def _measure_twice(channel: SyntecChannel, words: Words) -> float:
     """Over the sensor, blow it clean, probe, back, probe slowly, up again; gives the machine position of the signal."""
     c = channel.coordinates
     z = c.geometry[2]
@@ -112,7 +112,7 @@ def _measure_twice(channel: Channel, words: Words) -> float:
     return machine
 
 
-def _length(channel: Channel, words: Words, address: str, number: int) -> float:
+def _length(channel: SyntecChannel, words: Words, address: str, number: int) -> float:
     """A length word, or the parameter that stands in for it (least units), mm."""
     value = words.length(address)
     if value is not None:
@@ -121,7 +121,7 @@ def _length(channel: Channel, words: Words, address: str, number: int) -> float:
     return least * float(10.0 ** -decimals(channel.memory.parameters, inch=False))
 
 
-def _feed(channel: Channel, words: Words) -> float:
+def _feed(channel: SyntecChannel, words: Words) -> float:
     """F of the block, of Pr4057, or the one in force, mm/s."""
     value = words.typed("F")
     if value is None:
@@ -130,7 +130,7 @@ def _feed(channel: Channel, words: Words) -> float:
     return value * (INCH_MM if words.plan.inch else 1.0) / 60.0
 
 
-def _go_to_reference(channel: Channel, words: Words) -> None:
+def _go_to_reference(channel: SyntecChannel, words: Words) -> None:
     """X and Y to the reference point that P or Pr4058 names; nowhere without one."""
     c = channel.coordinates
     number = words.typed("P")
@@ -143,7 +143,7 @@ def _go_to_reference(channel: Channel, words: Words) -> None:
     channel.straight(Kind.REF, c.from_machine(machine), nan)
 
 
-def _to(channel: Channel, kind: Kind, level: float, feed: float) -> None:
+def _to(channel: SyntecChannel, kind: Kind, level: float, feed: float) -> None:
     """Z to a level of the work display."""
     c = channel.coordinates
     end = c.position[:]
@@ -151,7 +151,7 @@ def _to(channel: Channel, kind: Kind, level: float, feed: float) -> None:
     channel.straight(kind, end, feed)
 
 
-def _to_machine(channel: Channel, level: float) -> None:
+def _to_machine(channel: SyntecChannel, level: float) -> None:
     """Z to a machine position at rapid."""
     c = channel.coordinates
     machine = c.machine
@@ -159,7 +159,7 @@ def _to_machine(channel: Channel, level: float) -> None:
     channel.straight(Kind.RAPID, c.from_machine(machine), nan)
 
 
-def _probe(channel: Channel, level: float, feed: float) -> float | None:
+def _probe(channel: SyntecChannel, level: float, feed: float) -> float | None:
     """Z towards a level until the signal comes; where that was on the work display, or None."""
     c = channel.coordinates
     z = c.geometry[2]

@@ -22,7 +22,7 @@ from polycnc.transformation.orientation import solutions_for
 from polycnc.transformation.tilted import about_tip, table_turn
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
     from polycnc.geometry.frames import Vector
 
@@ -34,7 +34,7 @@ TRAVEL = 3009
 Angles = dict[str, float]
 
 
-def align_tool(channel: Channel, words: Words) -> None:
+def align_tool(channel: SyntecChannel, words: Words) -> None:
     """G53.1 [P]: the rotary axes turn at rapid; X, Y and Z stay."""
     angles = _angles(channel, words, "G53.1")
     end = _turned(channel, angles)
@@ -42,7 +42,7 @@ def align_tool(channel: Channel, words: Words) -> None:
     channel.straight(Kind.RAPID, channel.coordinates.from_machine(end), nan)
 
 
-def align_and_position(channel: Channel, words: Words) -> None:
+def align_and_position(channel: SyntecChannel, words: Words) -> None:
     """G53.3 [X] [Y] [Z] [H] [P]: with the length of H on, all axes move at rapid to a point of the plane."""
     number = words.integer("H")
     angles = _angles(channel, words, "G53.3")
@@ -60,7 +60,7 @@ def align_and_position(channel: Channel, words: Words) -> None:
     channel.straight(Kind.RAPID, position, nan)
 
 
-def align_about_tip(channel: Channel, words: Words) -> None:
+def align_about_tip(channel: SyntecChannel, words: Words) -> None:
     """G53.6 [H] [P] [R]: the tip, or the point R above it, stays where it is on the work while the tool turns."""
     state = LengthState.of(channel)
     c = channel.coordinates
@@ -84,7 +84,7 @@ def align_about_tip(channel: Channel, words: Words) -> None:
     channel.straight(Kind.RAPID, c.from_machine(end), nan)
 
 
-def _turned(channel: Channel, angles: Angles) -> list[float]:
+def _turned(channel: SyntecChannel, angles: Angles) -> list[float]:
     """Machine positions with the rotary axes at their new angles."""
     end = channel.coordinates.machine
     for name, angle in angles.items():
@@ -92,7 +92,7 @@ def _turned(channel: Channel, angles: Angles) -> list[float]:
     return end
 
 
-def _stand_on_plane(channel: Channel, angles: Angles) -> None:
+def _stand_on_plane(channel: SyntecChannel, angles: Angles) -> None:
     """The plane as the table has turned it, the length along the tool; the machine stays."""
     memory = channel.memory
     kinematics = Kinematics.of(channel.machine)
@@ -111,7 +111,7 @@ def _stand_on_plane(channel: Channel, angles: Angles) -> None:
 # ---- angles ----------------------------------------------------------------------------------------------
 
 
-def _angles(channel: Channel, words: Words, code: str) -> Angles:
+def _angles(channel: SyntecChannel, words: Words, code: str) -> Angles:
     """Angles of the rotary axes that P chooses: with P0 the other solution where the first one is out of reach."""
     state = TurnState.of(channel)
     c = channel.coordinates
@@ -142,7 +142,7 @@ def _angles(channel: Channel, words: Words, code: str) -> Angles:
     return chosen
 
 
-def _reachable(channel: Channel, names: list[str], near: Angles, solution: Angles) -> bool:
+def _reachable(channel: SyntecChannel, names: list[str], near: Angles, solution: Angles) -> bool:
     """Whether the angles and the way to them lie within the travel of the rotary axes."""
     unit = 10.0 ** -decimals(channel.memory.parameters, inch=False)
     for i, name in enumerate(names[:2]):

@@ -18,7 +18,7 @@ from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
 
 OPTION = 59
@@ -42,7 +42,7 @@ _FORBIDDEN: dict[str | tuple[str, str], str] = {
 RULES = NormalLineRules(_FORBIDDEN, preset="", axis_word="normal_rotary_word", with_its_end=False)
 
 
-def start(channel: Channel, words: Words) -> None:
+def start(channel: SyntecChannel, words: Words) -> None:
     """G41.1, G42.1 [Q] [P] [E] [R]: from here on the axis follows the cuts."""
     memory, mode = channel.memory, channel.mode
     code = mode[GROUP]
@@ -75,7 +75,7 @@ def start(channel: Channel, words: Words) -> None:
     channel.path.put(NormalStage(direction))
 
 
-def _rotary_axis(channel: Channel, words: Words, code: str) -> tuple[int, int, float]:
+def _rotary_axis(channel: SyntecChannel, words: Words, code: str) -> tuple[int, int, float]:
     """The axis of Pr5801: its column, the geometry axis that it turns about, and its sense."""
     memory = channel.memory
     if -1 in channel.coordinates.geometry:
@@ -101,7 +101,7 @@ def _rotary_axis(channel: Channel, words: Words, code: str) -> tuple[int, int, f
     return axis, place, 1.0 if joints[0].direction[place] > 0.0 else -1.0
 
 
-def _words(channel: Channel, words: Words) -> tuple[float, bool, float, float]:
+def _words(channel: SyntecChannel, words: Words) -> tuple[float, bool, float, float]:
     """Q in degrees, whether P turns first, and E and R in millimetres."""
     unit = INCH_MM if words.plan.inch else 1.0
     angle, way = words.angle("Q") or 0.0, words.typed("P") or 0
@@ -118,7 +118,7 @@ def _words(channel: Channel, words: Words) -> tuple[float, bool, float, float]:
     return angle, way == 1, shortest, longest
 
 
-def _parameter(channel: Channel, number: int, default: float) -> float:
+def _parameter(channel: SyntecChannel, number: int, default: float) -> float:
     """A length of the parameters, mm; the default where it is not set."""
     value = channel.setup.parameters.get(number)
     return float(value) if isinstance(value, int | float) and value > 0 else default

@@ -21,7 +21,7 @@ from polycnc.machine.kinematics import Kinematics
 from polycnc.transformation.orientation import Posture
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
 
@@ -51,12 +51,12 @@ class SpatialState(State, lifetime=Lifetime.POWER):
     corner_way: int = 0
 
 
-def is_on(channel: Channel) -> bool:
+def is_on(channel: SyntecChannel) -> bool:
     """Whether the compensation is active."""
     return channel.path.find(SpatialStage) is not None
 
 
-def start(channel: Channel, words: Words) -> None:
+def start(channel: SyntecChannel, words: Words) -> None:
     """G41.2, G42.2, G41.6, G42.6 [D]: left or right of the path, across the tool; also changes sides."""
     state = RadiusState.of(channel)
     code = channel.mode["compensation"]
@@ -76,7 +76,7 @@ def start(channel: Channel, words: Words) -> None:
     channel.path.put(SpatialStage(c.geometry, posture, radius, SIDES[code], _corners(channel)))
 
 
-def _check_start(channel: Channel, words: Words, code: str) -> None:
+def _check_start(channel: SyntecChannel, words: Words, code: str) -> None:
     mode = channel.mode
     if channel.path.find(NormalStage) is not None:
         raise words.fail("normal_spatial", code)
@@ -90,14 +90,14 @@ def _check_start(channel: Channel, words: Words, code: str) -> None:
         raise words.fail("spatial_mode", code)
 
 
-def _corners(channel: Channel) -> Corners:
+def _corners(channel: SyntecChannel) -> Corners:
     memory = channel.memory
     unit: float = memory.least_angle
     least, most = memory.parameter(LEAST_INTERSECTION), memory.parameter(MOST_ARC)
     return Corners(SpatialState.of(channel).corner_way, least * unit, most * unit if most else 180.0)
 
 
-def choose_corners(channel: Channel, words: Words) -> None:
+def choose_corners(channel: SyntecChannel, words: Words) -> None:
     """G10 L450 P: 0 intersections, 1 intersections first, 2 arcs first."""
     way = words.typed("P")
     if way is None or not INTERSECTION <= way <= ARC_FIRST or way != int(way):
@@ -105,7 +105,7 @@ def choose_corners(channel: Channel, words: Words) -> None:
     SpatialState.of(channel).corner_way = int(way)
 
 
-def end(channel: Channel) -> None:
+def end(channel: SyntecChannel) -> None:
     """G40: the last block ends square on itself, the next one leads back."""
     if not is_on(channel):
         return

@@ -20,21 +20,21 @@ from polycnc.machine.kinematics import Kinematics
 from polycnc.transformation.tilted import by_euler, by_rotary_axes, square_on
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
     from polycnc.geometry.frames import Vector
 
 OPTION_TOOL_PLANE = 13
 
 
-def tilt_by_angles(channel: Channel, words: Words) -> None:
+def tilt_by_angles(channel: SyntecChannel, words: Words) -> None:
     """G68.2 X Y Z I J K: origin from the work zero, turned by I about Z, J about X', K about Z''."""
     origin = named_point(channel, words, "argument")
     i, j, k = (words.angle(letter) or 0.0 for letter in "IJK")
     set_tilt(channel, translation(*origin) @ by_euler(i, j, k))
 
 
-def tilt_by_tool(channel: Channel, words: Words) -> None:
+def tilt_by_tool(channel: SyntecChannel, words: Words) -> None:
     """G68.3 [P1] X Y Z R: the plane stands square on the tool; without X Y Z its origin is the present position.
 
     P1 turns the plane with the rotary axes; otherwise its X axis is square on the Z axes of work and tool, and R
@@ -56,14 +56,14 @@ def tilt_by_tool(channel: Channel, words: Words) -> None:
     set_tilt(channel, translation(*origin) @ turn)
 
 
-def end_tilt(channel: Channel, words: Words) -> None:
+def end_tilt(channel: SyntecChannel, words: Words) -> None:
     """G69: ends the rotation of G68 and the tilted plane."""
     base_frames.end_rotation(channel, words)
     if TurnState.of(channel).tilt is not IDENTITY:
         set_tilt(channel, IDENTITY)
 
 
-def switch_work_rotation(channel: Channel, words: Words) -> None:
+def switch_work_rotation(channel: SyntecChannel, words: Words) -> None:
     """G54.4 P0, P1: rotation of the work system; the angles belong to the offset page and are zero here."""
     switch = words.typed("P")
     if switch is None:
@@ -73,7 +73,7 @@ def switch_work_rotation(channel: Channel, words: Words) -> None:
     TurnState.of(channel).by_table = switch == 1
 
 
-def _position_in_work_system(channel: Channel) -> Vector:
+def _position_in_work_system(channel: SyntecChannel) -> Vector:
     c = channel.coordinates
     here: Vector = TurnState.of(channel).tilt.apply(
         *(c.position[axis] if axis >= 0 else 0.0 for axis in c.geometry)
@@ -81,7 +81,7 @@ def _position_in_work_system(channel: Channel) -> Vector:
     return here
 
 
-def set_tilt(channel: Channel, tilt: Frame) -> None:
+def set_tilt(channel: SyntecChannel, tilt: Frame) -> None:
     """Another tilted plane, the tool not yet aligned with it; the machine stays."""
     length_state = LengthState.of(channel)
     turn_state = TurnState.of(channel)
@@ -96,7 +96,7 @@ def set_tilt(channel: Channel, tilt: Frame) -> None:
     refresh_zero(channel)
 
 
-def tool_turn(channel: Channel) -> Frame:
+def tool_turn(channel: SyntecChannel) -> Frame:
     """How the rotary axes turn the tool against the work: the table's turns undone, then the head's."""
     angles = dict(zip(channel.axes, channel.coordinates.machine, strict=True))
     return by_rotary_axes(Kinematics.of(channel.machine), angles)

@@ -15,7 +15,7 @@ from polycnc.control.word_address.transformations.polar_interpolation import Pol
 if TYPE_CHECKING:
     from typing import Self
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
 
@@ -29,17 +29,17 @@ class PostureState(State, lifetime=Lifetime.RESET):
     in_work: bool = False
 
     @classmethod
-    def first(cls, channel: Channel) -> Self:
+    def first(cls, channel: SyntecChannel) -> Self:
         """As Pr3057 has it."""
         return cls(parameter(channel.setup.parameters, 3057) == 1)
 
 
-def is_on(channel: Channel) -> bool:
+def is_on(channel: SyntecChannel) -> bool:
     """Whether tool tip control is active."""
     return channel.mode["length"] in TIP_CODES
 
 
-def start(channel: Channel, words: Words) -> None:
+def start(channel: SyntecChannel, words: Words) -> None:
     """G43.4 H [Q] [L1] [I], G43.5 H: from here on positions are those of the tip; nothing moves.
 
     Q chooses the frame of directions; L1 and I (smoothness, speed of the compensating axes) leave the path as it is.
@@ -57,20 +57,20 @@ def start(channel: Channel, words: Words) -> None:
     tool_center_point.start_following(channel, words)
 
 
-def compensate_length(channel: Channel, words: Words) -> None:
+def compensate_length(channel: SyntecChannel, words: Words) -> None:
     """G43, G44 H: tip control ends, the length counts along the tool."""
     end(channel)
     tool_length.compensate_length(channel, words)
 
 
-def cancel(channel: Channel, words: Words) -> None:
+def cancel(channel: SyntecChannel, words: Words) -> None:
     """G49: ends every kind of length compensation, and normal direction control."""
     normal_line.end(channel)
     end(channel)
     tool_length.cancel_length(channel, words)
 
 
-def end(channel: Channel) -> None:
+def end(channel: SyntecChannel) -> None:
     """The axes are named themselves again; nothing moves."""
     if PolarState.of(channel).plane is None:
         tool_center_point.end_following(channel)
@@ -88,7 +88,7 @@ def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
     if step is None:
         return None
 
-    def move(channel: Channel, values: list[float]) -> None:
+    def move(channel: SyntecChannel, values: list[float]) -> None:
         words = Words(plan, values)
         if not any(words.typed(letter) for letter in letters):
             raise words.fail("tip_zero_direction", letters[0])

@@ -19,9 +19,9 @@ from polycnc.language.syntec.values import Text, Value
 from polycnc.language.word_address import WordBlock
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Level
     from polycnc.control.syntec.builder import SyntecBuilder
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Plan
     from polycnc.control.word_address.block.words import Words
@@ -113,7 +113,7 @@ def _plan_g65(builder: SyntecBuilder, plan: Plan) -> Step:
     settings = _settings(builder, plan)
     mode = builder.mode
 
-    def call(channel: Channel, values: list[Any]) -> None:
+    def call(channel: SyntecChannel, values: list[Any]) -> None:
         channel.mode = mode
         for step in settings:
             step(channel, values)
@@ -130,7 +130,7 @@ def _plan_g65(builder: SyntecBuilder, plan: Plan) -> Step:
     return call
 
 
-def _program(channel: Channel, number: Value | None) -> Program:
+def _program(channel: SyntecChannel, number: Value | None) -> Program:
     """The program that P names, by number or text."""
     control = channel.control
     if isinstance(number, Text):
@@ -150,7 +150,7 @@ def plan_modal_call(builder: SyntecBuilder, plan: Plan) -> Step | None:
     if builder.mode["macro"] == "G67" or not (each or builder.moves(plan)):
         return None
 
-    def follow(channel: Channel, values: list[Any]) -> None:
+    def follow(channel: SyntecChannel, values: list[Any]) -> None:
         calls = ModalMacroState.of(channel).calls
         if not calls or any(level.kind == "modal" for level in channel.stack):
             return
@@ -161,7 +161,7 @@ def plan_modal_call(builder: SyntecBuilder, plan: Plan) -> Step | None:
     return follow
 
 
-def end_modal_call(channel: Channel, _words: Words) -> None:
+def end_modal_call(channel: SyntecChannel, _words: Words) -> None:
     """G67: all modal calls end."""
     ModalMacroState.of(channel).calls.clear()
 
@@ -220,7 +220,7 @@ def _plan_code_macro(builder: SyntecBuilder, plan: Plan, macro: CodeMacro) -> St
     first = builder.called_m if macro.kind == "m" else next(iter(builder.m_codes), None)
     others = tuple(f"M{code}" for code in builder.m_codes if code != first)
 
-    def call(channel: Channel, values: list[Any]) -> None:
+    def call(channel: SyntecChannel, values: list[Any]) -> None:
         if macro.kind in "gmt" and any(level.kind == macro.kind for level in channel.stack):
             builder.plain_plan(channel).run(channel, values)
             return
@@ -251,7 +251,7 @@ def _settings(builder: SyntecBuilder, plan: Plan) -> list[Step]:
     return [builder.handled(row.handler, plan) for row in rows if row.handler]
 
 
-def finish_macro(channel: Channel, ended: Level) -> None:
+def finish_macro(channel: SyntecChannel, ended: Level) -> None:
     """What a macro has left of its block acts now, in the caller."""
     local = ended.data.get("rest", ended.locals)
     if ended.kind not in ("macro", "g", "m", "t") or not isinstance(local, Locals) or not local.returns_words:
@@ -269,7 +269,7 @@ def finish_macro(channel: Channel, ended: Level) -> None:
 
 
 def enter_shared(
-    channel: Channel, program: Program, kind: str, count: int = 1, sequence: int | None = None
+    channel: SyntecChannel, program: Program, kind: str, count: int = 1, sequence: int | None = None
 ) -> None:
     """Put a program on the stack that works on the caller's local variables."""
     channel.control.check_nesting(channel, kind)
@@ -278,7 +278,7 @@ def enter_shared(
     channel.push(program, kind=kind, repeats=count - 1, index=index, local=channel.level.locals)
 
 
-def call_subprogram(channel: Channel, words: Words) -> None:
+def call_subprogram(channel: SyntecChannel, words: Words) -> None:
     """M98 P H L: program P (without P the running one), from N number H, L times."""
     program = channel.level.code.program
     if "P" in words:
@@ -286,7 +286,7 @@ def call_subprogram(channel: Channel, words: Words) -> None:
     _enter_subprogram(channel, words, program)
 
 
-def call_external_subprogram(channel: Channel, words: Words) -> None:
+def call_external_subprogram(channel: SyntecChannel, words: Words) -> None:
     """M198 P H L: as M98, the file read anew at each call; P must be there."""
     if "P" not in words:
         raise words.fail("subprogram_number", "M198")
@@ -297,7 +297,7 @@ def call_external_subprogram(channel: Channel, words: Words) -> None:
     _enter_subprogram(channel, words, program)
 
 
-def _enter_subprogram(channel: Channel, words: Words, program: Program) -> None:
+def _enter_subprogram(channel: SyntecChannel, words: Words, program: Program) -> None:
     count = _whole(words, "L", "repeat_count") if "L" in words else 1
     sequence = _whole(words, "H", "program_number") if "H" in words else None
     if count > 0:
@@ -311,7 +311,7 @@ def _whole(words: Words, address: str, mistake: str) -> int:
     return int(value)
 
 
-def return_from_program(channel: Channel, words: Words) -> None:
+def return_from_program(channel: SyntecChannel, words: Words) -> None:
     """M99: back behind the call, P to an N number, Q to a line of the caller; in the main program to its top.
 
     P and Q end all passes of the call.
@@ -329,7 +329,7 @@ def return_from_program(channel: Channel, words: Words) -> None:
         channel.begin_again()
 
 
-def leave_program(channel: Channel, *, jumps: bool = False) -> None:
+def leave_program(channel: SyntecChannel, *, jumps: bool = False) -> None:
     """The end of a pass: the next one begins, or the caller goes on; a main program begins again."""
     level = channel.level
     if len(channel.stack) == 1:
@@ -345,7 +345,7 @@ def leave_program(channel: Channel, *, jumps: bool = False) -> None:
             interrupts.go_back(channel, level)
 
 
-def end_program(channel: Channel, _words: Words) -> None:
+def end_program(channel: SyntecChannel, _words: Words) -> None:
     """M02, M30: the end; in a subprogram a return (manual, chapter 3)."""
     if len(channel.stack) > 1:
         leave_program(channel)

@@ -16,8 +16,8 @@ from polycnc.control.word_address.motion import path, skip
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Level
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
@@ -46,7 +46,7 @@ class InterruptState(State, lifetime=Lifetime.RESET):
     prepared: Interrupt | None = None
 
 
-def interrupts_on(channel: Channel, words: Words) -> None:
+def interrupts_on(channel: SyntecChannel, words: Words) -> None:
     """M96 P [I Q] [R] [L]: from now on the signal calls program P."""
     number = _whole(words, "P", 1, LAST_PROGRAM)
     if number is None:
@@ -60,7 +60,7 @@ def interrupts_on(channel: Channel, words: Words) -> None:
     channel.mode = channel.mode.with_code(GROUP, ON)
 
 
-def interrupts_off(channel: Channel, _words: Words) -> None:
+def interrupts_off(channel: SyntecChannel, _words: Words) -> None:
     """M97."""
     channel.flush()
     InterruptState.of(channel).prepared = None
@@ -97,7 +97,7 @@ def with_interrupt(builder: Builder, plan: Plan, step: Step) -> Step:
     """A motion that ends where the signal comes and calls the subprogram there."""
     kind = STRAIGHT.get(builder.mode["motion"])
 
-    def move(channel: Channel, values: list[float]) -> None:
+    def move(channel: SyntecChannel, values: list[float]) -> None:
         interrupt = InterruptState.of(channel).prepared
         at = channel.setup.switches.signals_at.get(interrupt.signal) if interrupt else None
         if interrupt is None or not interrupt.armed or not at or SpindleState.of(channel).pairs:
@@ -118,7 +118,7 @@ def with_interrupt(builder: Builder, plan: Plan, step: Step) -> Step:
     return move
 
 
-def _call(channel: Channel, program: Program) -> None:
+def _call(channel: SyntecChannel, program: Program) -> None:
     """Call the subprogram; the block that runs will be read again."""
     caller = channel.level
     caller.index = caller.current
@@ -127,13 +127,13 @@ def _call(channel: Channel, program: Program) -> None:
     level.data["break"] = channel.coordinates.position[:]
 
 
-def go_back(channel: Channel, ended: Level) -> None:
+def go_back(channel: SyntecChannel, ended: Level) -> None:
     """M99 of the interrupt subprogram: rapid to where the block was interrupted."""
     if ended.kind == "interrupt":
         channel.straight(Kind.RAPID, ended.data["break"][:], nan)
 
 
-def check_off(channel: Channel) -> None:
+def check_off(channel: SyntecChannel) -> None:
     """COR-117: the main program ends without M97."""
     if channel.mode.codes.get(GROUP, OFF) == ON:
         raise channel.control.fail("interrupt_left_on")

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from typing import Self
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.syntec.memory import SyntecMemory
 
 Read = Callable[["SyntecMemory", int], Value]
@@ -136,7 +136,7 @@ class BitState(State, lifetime=Lifetime.POWER):
     bits: dict[str, int]
 
     @classmethod
-    def first(cls, channel: Channel) -> Self:
+    def first(cls, channel: SyntecChannel) -> Self:
         """The bits that the setup gives."""
         signals = channel.setup.switches.signals.items()
         names = (pair for pair in signals if pair[0][:1] in BIT_FAMILIES and pair[0][1:].isdigit())

@@ -20,7 +20,7 @@ from polycnc.language.bulk import Arc, declare
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.geometry.arcs import Point
@@ -105,7 +105,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
     polar = builder.mode.codes.get("polar") == "G16"
     u, v, w = words.plane
 
-    def move(channel: Channel, values: list[float]) -> None:
+    def move(channel: SyntecChannel, values: list[float]) -> None:
         c = channel.coordinates
         first, second = c.geometry[u], c.geometry[v]
         if first < 0 or second < 0:
@@ -146,14 +146,14 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
     )
 
 
-def _end(channel: Channel, plan: Plan, values: list[float], *, polar: bool) -> list[float]:
+def _end(channel: SyntecChannel, plan: Plan, values: list[float], *, polar: bool) -> list[float]:
     """The programmed end point; the start where no axis word is given."""
     if polar:
-        return channel.control.polar_target(channel, plan, values)  # type: ignore[no-any-return]
+        return channel.control.polar_target(channel, plan, values)
     return path.reach(channel, plan.axis_words, values)
 
 
-def _turns(channel: Channel, words: ArcWords, values: list[float]) -> int | None:
+def _turns(channel: SyntecChannel, words: ArcWords, values: list[float]) -> int | None:
     """L of a spiral: a started turn counts."""
     if words.turns is None:
         return None
@@ -163,7 +163,7 @@ def _turns(channel: Channel, words: ArcWords, values: list[float]) -> int | None
     return int(turns)
 
 
-def _center_by_radius(channel: Channel, begin: Point, end: Point, radius: float, *, ccw: bool) -> Point:
+def _center_by_radius(channel: SyntecChannel, begin: Point, end: Point, radius: float, *, ccw: bool) -> Point:
     control = channel.control
     try:
         return arcs.center_from_radius(begin, end, radius, ccw, 2.0 * control.arc_tolerance(channel))
@@ -172,7 +172,7 @@ def _center_by_radius(channel: Channel, begin: Point, end: Point, radius: float,
 
 
 def _scaled_center(
-    channel: Channel, words: ArcWords, begin: Point, end: Point, center: Point, *, ccw: bool
+    channel: SyntecChannel, words: ArcWords, begin: Point, end: Point, center: Point, *, ccw: bool
 ) -> Point:
     """The centre under G51 with unequal factors: the radius grows by the largest of them (2.33).
 
@@ -224,7 +224,7 @@ def plan_three_point_arc(builder: Builder, plan: Plan) -> Step | None:
         return None
     feed_named = builder.has("F")
 
-    def move(channel: Channel, values: list[float]) -> None:
+    def move(channel: SyntecChannel, values: list[float]) -> None:
         state = ArcState.of(channel)
         c = channel.coordinates
         if state.mid_point is None:
@@ -245,7 +245,7 @@ def plan_three_point_arc(builder: Builder, plan: Plan) -> Step | None:
     return move
 
 
-def _three_point_moves(channel: Channel, mid: list[float], end: list[float]) -> None:
+def _three_point_moves(channel: SyntecChannel, mid: list[float], end: list[float]) -> None:
     """The arc; two lines where there is no circle, two arcs where further axes move along."""
     c = channel.coordinates
     places = [c.to_position(mid), c.to_position(end)]
@@ -266,7 +266,7 @@ def _three_point_moves(channel: Channel, mid: list[float], end: list[float]) -> 
     channel.curve(kind, places[1], feed, center=center, normal=normal, programmed=end)
 
 
-def check_pair_complete(channel: Channel) -> None:
+def check_pair_complete(channel: SyntecChannel) -> None:
     """COR-134: a three-point arc whose end point never came."""
     state = ArcState.of(channel)
     if state.mid_point is not None:

@@ -32,10 +32,11 @@ from polycnc.toolpath.modes import FeedMode
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Handler, Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
+    from polycnc.language.bulk import Condition
 
 #: Default feeds while none was programmed: mm/s and mm/rev (2.2).
 DEFAULT_FEED = {"G93": nan, "G94": 1000.0 / 60.0, "G95": 1.0}
@@ -96,7 +97,7 @@ def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
     unit = (INCH_MM if builder.inch else 1.0) / 60.0
     polar = builder.mode.codes.get("polar") == "G16"
 
-    def move(channel: Channel, values: list[float]) -> None:
+    def move(channel: SyntecChannel, values: list[float]) -> None:
         if values[switch] != 1:
             step(channel, values)
             return
@@ -111,7 +112,7 @@ def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
     return move
 
 
-def move_in_machine_system(channel: Channel, words: Words) -> None:
+def move_in_machine_system(channel: SyntecChannel, words: Words) -> None:
     """G53 [P1] X Y Z [F1=] [Q=]: rapid to machine coordinates, under G91 by machine increments."""
     c = channel.coordinates
     machine = c.machine
@@ -126,7 +127,7 @@ def move_in_machine_system(channel: Channel, words: Words) -> None:
 
 
 @contextmanager
-def _rapid_at(channel: Channel, speed: float) -> Iterator[float]:
+def _rapid_at(channel: SyntecChannel, speed: float) -> Iterator[float]:
     """A rapid with a speed of its own, mm/s; NaN for rapid traverse."""
     state = FeedState.of(channel)
     state.rapid_speed = max(0.0, speed)
@@ -150,13 +151,13 @@ def plan_feed(builder: Builder) -> Step:
         INCH_MM if builder.inch else 1.0
     )
 
-    def set_lead(channel: Channel, values: list[float]) -> None:
+    def set_lead(channel: SyntecChannel, values: list[float]) -> None:
         FeedState.of(channel).lead = values[slot] * factor
 
     return set_lead
 
 
-def change_feed_mode(channel: Channel, words: Words) -> None:
+def change_feed_mode(channel: SyntecChannel, words: Words) -> None:
     """G93, G94, G95: each mode has its own F; without one it is 1000 per minute, 1 per revolution."""
     state = FeedState.of(channel)
     mode = channel.mode["feed"]
@@ -168,33 +169,33 @@ def change_feed_mode(channel: Channel, words: Words) -> None:
     channel.context_changed()
 
 
-def _feed_is_settled(channel: Channel) -> bool:
+def _feed_is_settled(channel: SyntecChannel) -> bool:
     """G93 to G95: the feed in force is that of the code."""
     return bool(FeedState.of(channel).mode == channel.mode["feed"])
 
 
-def _frame_is_settled(channel: Channel) -> bool:
+def _frame_is_settled(channel: SyntecChannel) -> bool:
     """G69: nothing is rotated or tilted."""
     return channel.coordinates.direct and TurnState.of(channel).tilt is IDENTITY
 
 
-def _length_is_settled(channel: Channel) -> bool:
+def _length_is_settled(channel: SyntecChannel) -> bool:
     """G49: as on every control; no direction is led to the path either."""
     return channel.path.find(NormalStage) is None and settled.length(channel)
 
 
-def _has_no_modal_call(channel: Channel) -> bool:
+def _has_no_modal_call(channel: SyntecChannel) -> bool:
     """G67: there is no modal call."""
     return not ModalMacroState.of(channel).calls
 
 
-def _surface_axis_is_linear(channel: Channel) -> bool:
+def _surface_axis_is_linear(channel: SyntecChannel) -> bool:
     """G96: a linear axis gives the diameter."""
     return not channel.axis_data[SpindleState.of(channel).surface_axis].rotary
 
 
 #: Codes that change nothing where they are in force already; see `word_address.settled`.
-SETTLED = {
+SETTLED: dict[str, Condition] = {
     **settled.MILLING,
     "G49": _length_is_settled,
     "G67": _has_no_modal_call,
@@ -215,7 +216,7 @@ def with_inverse_time(builder: Builder, plan: Plan, step: Step) -> Step:
     if builder.mode["polar"] == "G16":
         raise AlarmError("PC0001", hint="hint.not-supported", address="G93", code="G93 G16")
 
-    def move(channel: Channel, values: list[float]) -> None:
+    def move(channel: SyntecChannel, values: list[float]) -> None:
         rate = channel.feed
         if not arc or (radius_slot is None and not any(slot is not None for slot in centers)):
             channel.feed = rate * _length(channel, plan, values)
@@ -237,7 +238,7 @@ def with_inverse_time(builder: Builder, plan: Plan, step: Step) -> Step:
     return move
 
 
-def _length(channel: Channel, plan: Plan, values: list[float]) -> float:
+def _length(channel: SyntecChannel, plan: Plan, values: list[float]) -> float:
     """Length of the straight way that a block will make, over all axes."""
     c = channel.coordinates
     end = c.to_position(path.target(channel, plan.axis_words, values))
@@ -247,7 +248,7 @@ def _length(channel: Channel, plan: Plan, values: list[float]) -> float:
 # ---- G31, G33 --------------------------------------------------------------------------------------------
 
 
-def skip_move(channel: Channel, words: Words) -> None:
+def skip_move(channel: SyntecChannel, words: Words) -> None:
     """G31 X Y Z F [Q] [P]: a cut that ends where the skip signal comes (2.22)."""
     state = SkipState.of(channel)
     if channel.mode["compensation"] != "G40":
@@ -265,7 +266,7 @@ def skip_move(channel: Channel, words: Words) -> None:
     state.machine = c.machine
 
 
-def skip_source(channel: Channel, words: Words) -> object:
+def skip_source(channel: SyntecChannel, words: Words) -> object:
     """Where the signal comes: Q none is the skip input, 101 to 132 C bits, 201 to 218 inputs of drives."""
     switches = channel.setup.switches
     source = words.typed("Q")
@@ -284,7 +285,7 @@ def plan_thread(builder: Builder, plan: Plan) -> Step | None:
     if not words:
         return None
 
-    def move(channel: Channel, values: list[float]) -> None:
+    def move(channel: SyntecChannel, values: list[float]) -> None:
         lead = FeedState.of(channel).lead
         if not lead > 0.0:
             raise builder.control.fail("no_feed", address="F")
@@ -300,7 +301,7 @@ def plan_thread(builder: Builder, plan: Plan) -> Step | None:
 # ---- G45 to G48 ------------------------------------------------------------------------------------------
 
 
-def _lengthened_move(factor: float, channel: Channel, words: Words) -> None:
+def _lengthened_move(factor: float, channel: SyntecChannel, words: Words) -> None:
     """G45 to G48: the move of this block grows by `factor` tool radii, arcs in their radius (2.31)."""
     state = RadiusState.of(channel)
     control = channel.control
@@ -330,7 +331,7 @@ def _lengthened_move(factor: float, channel: Channel, words: Words) -> None:
     )
 
 
-def _lengthened_arc(channel: Channel, words: Words, growth: float, *, ccw: bool) -> None:
+def _lengthened_arc(channel: SyntecChannel, words: Words, growth: float, *, ccw: bool) -> None:
     """An arc of 90 or 270 degrees with another radius and the same tangent at its start."""
     control, c = channel.control, channel.coordinates
     u, v, w = PLANES[channel.mode["plane"]]

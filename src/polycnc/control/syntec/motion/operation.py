@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
 
 RETRACT_AXES = 1
 
 
-def arm_retract(channel: Channel, words: Words) -> None:
+def arm_retract(channel: SyntecChannel, words: Words) -> None:
     """G10.6 R or one axis, F: what the retract key will do; F holds for the cutting that follows."""
     distance = words.typed("R")
     axes = words.plan.axis_words
@@ -27,7 +27,7 @@ def arm_retract(channel: Channel, words: Words) -> None:
         channel.feed = speed * (INCH_MM if words.plan.inch else 1.0) / 60.0
 
 
-def select_conditions(channel: Channel, words: Words) -> None:
+def select_conditions(channel: SyntecChannel, words: Words) -> None:
     """G120.1 P Q: one of nine sets of machining conditions; P0 the default."""
     application, condition = words.typed("P"), words.typed("Q")
     if application is None and condition is None:
@@ -40,6 +40,6 @@ def select_conditions(channel: Channel, words: Words) -> None:
     channel.context_changed()
 
 
-def default_conditions(channel: Channel, _words: Words) -> None:
+def default_conditions(channel: SyntecChannel, _words: Words) -> None:
     """G121: the default set."""
     channel.context_changed()

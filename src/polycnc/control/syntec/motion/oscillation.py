@@ -18,7 +18,7 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.syntec.memory import SyntecMemory
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
@@ -67,7 +67,7 @@ class OscillationState(State, lifetime=Lifetime.POWER):
     precise_axis: int = 0
 
 
-def start(channel: Channel, words: Words) -> None:
+def start(channel: SyntecChannel, words: Words) -> None:
     """G81.1 Z Q R F: upper vertex (machine), from there the way to the lower one and to the R point."""
     if OscillationState.of(channel).running is not None:
         raise words.fail("oscillation_repeated", SIMPLE)
@@ -80,7 +80,7 @@ def start(channel: Channel, words: Words) -> None:
     _begin(channel, Oscillation(axis, (upper, upper + stroke), upper + home, channel.feed))
 
 
-def end(channel: Channel, _words: Words) -> None:
+def end(channel: SyntecChannel, _words: Words) -> None:
     """G80: a drilling cycle ends, and with it G81.1; its axis goes back to R."""
     state = OscillationState.of(channel)
     if state.running is None:
@@ -91,7 +91,7 @@ def end(channel: Channel, _words: Words) -> None:
     _stop(channel, state.running.home)
 
 
-def start_precise(channel: Channel, words: Words) -> None:
+def start_precise(channel: SyntecChannel, words: Words) -> None:
     """G81.2 P Q [R] L: axis P between the vertices in registers Q and Q + 1, from R, at the speed in register L."""
     state = OscillationState.of(channel)
     memory = channel.memory
@@ -123,7 +123,7 @@ def start_precise(channel: Channel, words: Words) -> None:
     _begin(channel, new)
 
 
-def end_precise(channel: Channel, words: Words) -> None:
+def end_precise(channel: SyntecChannel, words: Words) -> None:
     """G80.2 [Q]: the axis stops at Q, else where Pr3957 says."""
     state = OscillationState.of(channel)
     memory = channel.memory
@@ -169,12 +169,12 @@ def check_frame(memory: SyntecMemory) -> None:
         raise memory.channel.control.fail("oscillation_frame")
 
 
-def _refuse_transformations(channel: Channel, words: Words, code: str) -> None:
+def _refuse_transformations(channel: SyntecChannel, words: Words, code: str) -> None:
     if channel.coordinates.transformation is not None or channel.path.find(NormalStage) is not None:
         raise words.fail("oscillation_kinematics", code)
 
 
-def _axis(channel: Channel, words: Words) -> int:
+def _axis(channel: SyntecChannel, words: Words) -> int:
     """P: number of an axis from 1, or the code of its name (Pr321 on)."""
     told = words.integer("P")
     axis = -1
@@ -185,7 +185,7 @@ def _axis(channel: Channel, words: Words) -> int:
     raise words.fail("oscillation_axis", "P" if told is not None else PRECISE)
 
 
-def _begin(channel: Channel, oscillation: Oscillation) -> None:
+def _begin(channel: SyntecChannel, oscillation: Oscillation) -> None:
     channel.flush()
     OscillationState.of(channel).running = oscillation
     channel.modes.forget_plans()
@@ -195,7 +195,7 @@ def _begin(channel: Channel, oscillation: Oscillation) -> None:
     channel.straight(Kind.RAPID, c.from_machine(machine), nan)
 
 
-def _stop(channel: Channel, place: float) -> None:
+def _stop(channel: SyntecChannel, place: float) -> None:
     channel.flush()
     state = OscillationState.of(channel)
     running, state.running = state.running, None
@@ -204,7 +204,7 @@ def _stop(channel: Channel, place: float) -> None:
         _arrive(channel, running.axis, place)
 
 
-def _arrive(channel: Channel, axis: int, place: float) -> None:
+def _arrive(channel: SyntecChannel, axis: int, place: float) -> None:
     """The axis has gone to a machine position beside the path."""
     machine = channel.coordinates.machine
     machine[axis] = place

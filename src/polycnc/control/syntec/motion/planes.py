@@ -11,7 +11,7 @@ from polycnc.geometry.planes import PLANES
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
 
 #: The direction that the first letter of an axis name stands for; of one direction the earlier letter goes first.
@@ -21,7 +21,7 @@ _ORDER = {letter: number for number, letter in enumerate(CLASSES)}
 NAMED_FIRST = "XYZUVW"
 
 
-def select_plane(channel: Channel, words: Words) -> None:
+def select_plane(channel: SyntecChannel, words: Words) -> None:
     """G17, G18, G19; within polar interpolation its plane stays (2.15.2, note 4)."""
     memory = channel.memory
     if PolarState.of(channel).plane is not None:
@@ -33,7 +33,7 @@ def select_plane(channel: Channel, words: Words) -> None:
     channel.context_changed()
 
 
-def settled_plane(channel: Channel) -> bool:
+def settled_plane(channel: SyntecChannel) -> bool:
     """Whether the plane that is in force may be written again with any axes: each of them has its place already."""
     memory, basic = channel.memory, channel.memory.basic_geometry
     return (

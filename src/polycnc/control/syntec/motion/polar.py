@@ -19,7 +19,7 @@ from polycnc.control.word_address.transformations.polar_interpolation import (
 from polycnc.transformation.polar import PolarPlane
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
 
@@ -33,7 +33,7 @@ FORBIDDEN = frozenset({
 })  # fmt: skip
 
 
-def start_polar(channel: Channel, words: Words) -> None:
+def start_polar(channel: SyntecChannel, words: Words) -> None:
     """G12.1 [X] [C]: the plane of X and C; X and C are the program zero against the rotation centre."""
     memory, c = channel.memory, channel.coordinates
     linear, rotary = (channel.axis_index.get(name, -1) for name in (LINEAR, ROTARY))
@@ -54,7 +54,7 @@ def start_polar(channel: Channel, words: Words) -> None:
     enter_polar(channel, polar, "G17", diameter=diameter)
 
 
-def end_polar(channel: Channel, words: Words) -> None:
+def end_polar(channel: SyntecChannel, words: Words) -> None:
     """G13.1: X and C are axes of their own again; the former plane and the parameter's kind of X return."""
     if PolarState.of(channel).plane is None:
         return
@@ -64,7 +64,7 @@ def end_polar(channel: Channel, words: Words) -> None:
     leave_plane(channel)
 
 
-def leave_plane(channel: Channel) -> None:
+def leave_plane(channel: SyntecChannel) -> None:
     """The axes are named themselves again; nothing moves."""
     plane = PolarState.of(channel).plane
     if plane is not None:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from polycnc.channel.path import Sink
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.channel.path import PlacedEvent
+    from polycnc.control.syntec.family import SyntecChannel
 
 
 class QuietStage(Sink):
@@ -19,12 +19,12 @@ class QuietStage(Sink):
         self.after.event(event)
 
 
-def is_quiet(channel: Channel) -> bool:
+def is_quiet(channel: SyntecChannel) -> bool:
     """Whether quiet mode is on."""
     return channel.path.find(QuietStage) is not None
 
 
-def switch_quiet(channel: Channel, *, on: bool) -> None:
+def switch_quiet(channel: SyntecChannel, *, on: bool) -> None:
     """Put the stage into the path, or take it out; the next move then starts from where the axes really are."""
     channel.flush()
     if not on:

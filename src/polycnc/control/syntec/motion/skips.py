@@ -11,14 +11,14 @@ from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.syntec.memory import SyntecMemory
     from polycnc.control.word_address.block.words import Words
 
 MAX_GROUPS = 6
 
 
-def define_group(channel: Channel, words: Words) -> None:
+def define_group(channel: SyntecChannel, words: Words) -> None:
     """G31.10 X Y Z F Q P: a group of axes with its own signal, feed and deceleration."""
     state = SkipState.of(channel)
     deceleration = words.typed("P")
@@ -35,7 +35,7 @@ def define_group(channel: Channel, words: Words) -> None:
     state.groups_end = channel.level.index
 
 
-def _follows(channel: Channel) -> bool:
+def _follows(channel: SyntecChannel) -> bool:
     """Whether nothing but empty lines stands between the last G31.10 and this block."""
     level = channel.level
     first, last = SkipState.of(channel).groups_end, level.current
@@ -45,7 +45,7 @@ def _follows(channel: Channel) -> bool:
     return first == last or (first < last and not any(line.strip() for line in between))
 
 
-def move_groups(channel: Channel, words: Words) -> None:
+def move_groups(channel: SyntecChannel, words: Words) -> None:
     """G31.11: all groups start together, each ends at its signal; #1608 names the axes that skipped."""
     state = SkipState.of(channel)
     memory: SyntecMemory = channel.memory
@@ -69,7 +69,7 @@ def move_groups(channel: Channel, words: Words) -> None:
     state.machine = c.machine
 
 
-def position_at_sensor(channel: Channel, words: Words) -> None:
+def position_at_sensor(channel: SyntecChannel, words: Words) -> None:
     """G28.1 X Q R F1= F2=: to X at F1, then Q further at F2; a signal on the way stops R behind it."""
     named = words.plan.axis_words
     if words.typed("R") is None or not named:
@@ -93,6 +93,6 @@ def position_at_sensor(channel: Channel, words: Words) -> None:
     channel.straight(Kind.SKIP, end, _speed(channel, words, "F2"), second)
 
 
-def _speed(channel: Channel, words: Words, address: str) -> float:
+def _speed(channel: SyntecChannel, words: Words, address: str) -> float:
     value = words.typed(address)
     return channel.feed if value is None else value * (INCH_MM if words.plan.inch else 1.0) / 60.0

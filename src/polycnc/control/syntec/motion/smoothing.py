@@ -14,7 +14,7 @@ from polycnc.control.word_address.motion import nurbs
 from polycnc.control.word_address.motion.path_modes import PathModeState
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
 
 OPTION_HIGH_PRECISION = 11
@@ -27,7 +27,7 @@ FILTERS = (1, 2)
 INTELLIGENT = 5
 
 
-def smooth_path(channel: Channel, words: Words) -> None:
+def smooth_path(channel: SyntecChannel, words: Words) -> None:
     """G05.1 Q1 E, Q2 E: filter or insert points; Q5 R E: tolerance of arcs and corners; Q0: off."""
     kind = words.typed("Q")
     if kind not in (0, *FILTERS, INTELLIGENT):
@@ -48,7 +48,7 @@ def smooth_path(channel: Channel, words: Words) -> None:
     channel.context_changed()
 
 
-def high_precision(channel: Channel, words: Words) -> None:
+def high_precision(channel: SyntecChannel, words: Words) -> None:
     """G05 P10000 [E] [axes], G05 E: curve fitting on; G05 P0, G05: off."""
     if not has_option(channel.setup.parameters, OPTION_HIGH_PRECISION):
         raise words.fail("option", "G5")
@@ -68,7 +68,7 @@ def high_precision(channel: Channel, words: Words) -> None:
     channel.context_changed()
 
 
-def _check_axes(channel: Channel, words: Words) -> None:
+def _check_axes(channel: SyntecChannel, words: Words) -> None:
     """Geometry axes are listed with 0, up to two rotary axes with their tolerance."""
     geometry = rotary = 0
     for axis, value, _ in words.axes():

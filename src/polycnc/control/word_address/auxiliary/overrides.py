@@ -12,8 +12,8 @@ from polycnc.channel.state import Lifetime, State
 from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
     from polycnc.toolpath import Context
 
 FEED, SPINDLE = "feed", "spindle"
@@ -36,43 +36,43 @@ class OverrideState(State, lifetime=Lifetime.RESET):
     tapping: bool = False
 
 
-def cancel_feed_override(channel: Channel, _words: Words) -> None:
+def cancel_feed_override(channel: WordAddressChannel, _words: Words) -> None:
     """M73: the feed override counts 100 %."""
     _cancel(channel, FEED, cancelled=True)
 
 
-def allow_feed_override(channel: Channel, _words: Words) -> None:
+def allow_feed_override(channel: WordAddressChannel, _words: Words) -> None:
     """M74."""
     _cancel(channel, FEED, cancelled=False)
 
 
-def cancel_spindle_override(channel: Channel, _words: Words) -> None:
+def cancel_spindle_override(channel: WordAddressChannel, _words: Words) -> None:
     """M75: the spindle override counts 100 %."""
     _cancel(channel, SPINDLE, cancelled=True)
 
 
-def allow_spindle_override(channel: Channel, _words: Words) -> None:
+def allow_spindle_override(channel: WordAddressChannel, _words: Words) -> None:
     """M76."""
     _cancel(channel, SPINDLE, cancelled=False)
 
 
-def _cancel(channel: Channel, name: str, *, cancelled: bool) -> None:
+def _cancel(channel: WordAddressChannel, name: str, *, cancelled: bool) -> None:
     state = OverrideState.of(channel)
     state.cancelled = state.cancelled | {name} if cancelled else state.cancelled - {name}
     channel.context_changed()
 
 
-def _taps(channel: Channel) -> bool:
+def _taps(channel: WordAddressChannel) -> bool:
     """Whether G63 holds, in a block of exact stop too."""
     return channel.mode.codes.get("path") == TAPPING_MODE
 
 
-def in_tapping_mode(channel: Channel, context: Context) -> Context:
+def in_tapping_mode(channel: WordAddressChannel, context: Context) -> Context:
     """A context as G63 makes it: no feed override, no feed hold."""
     return replace(context, feed_override=False, feed_hold=False) if _taps(channel) else context
 
 
-def overridden(channel: Channel, context: Context) -> Context:
+def overridden(channel: MacroChannel, context: Context) -> Context:
     """A context with what the operator's switches may do in it."""
     state = OverrideState.of(channel)
     switches = channel.memory.control_switches.get("cntl2", 0)

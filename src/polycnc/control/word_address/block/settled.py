@@ -17,13 +17,14 @@ from polycnc.control.word_address.transformations.cylinder import CylinderState
 from polycnc.control.word_address.transformations.tilted_plane import TiltState
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
+    from polycnc.language.bulk import Condition
 
 #: Parts that a parallel axis can play (1022).
 _PARALLELS = (5, 6, 7)
 
 
-def plane(channel: Channel) -> bool:
+def plane(channel: MacroChannel) -> bool:
     """G17 to G19: the plane has its basic axes, and there are no parallel ones that a word could name."""
     memory, control = channel.memory, channel.control
     return (
@@ -34,7 +35,7 @@ def plane(channel: Channel) -> bool:
     )
 
 
-def work_offset(channel: Channel) -> bool:
+def work_offset(channel: WordAddressChannel) -> bool:
     """G54 to G59: the offsets in force are still those of the table."""
     state = ZeroState.of(channel)
     c = channel.coordinates
@@ -42,17 +43,17 @@ def work_offset(channel: Channel) -> bool:
     return c.direct and unchanged and bool(state.system == channel.mode["wcs"])
 
 
-def compensation(channel: Channel) -> bool:
+def compensation(channel: WordAddressChannel) -> bool:
     """G40: no compensation is to be led back from."""
     return active_compensation(channel) is None
 
 
-def frame(channel: Channel) -> bool:
+def frame(channel: WordAddressChannel) -> bool:
     """G50, G69: nothing is scaled, rotated or tilted."""
     return channel.coordinates.direct and TiltState.of(channel).plane is None
 
 
-def length(channel: Channel) -> bool:
+def length(channel: WordAddressChannel) -> bool:
     """G49: no length is in force, and neither a shift nor an incremental word is owed any."""
     state = ZeroState.of(channel)
     c = channel.coordinates
@@ -61,19 +62,19 @@ def length(channel: Channel) -> bool:
     return c.direct and c.transformation is None and c.geometry[2] >= 0 and none and unchanged
 
 
-def modal_call(channel: Channel) -> bool:
+def modal_call(channel: WordAddressChannel) -> bool:
     """G67: there is no modal call, and its end without one is allowed (6000#0)."""
     memory = channel.memory
     return not ModalCallState.of(channel).calls and bool(memory.parameters.bit(6000, 0, default=True))
 
 
-def stroke_limit(channel: Channel) -> bool:
+def stroke_limit(channel: WordAddressChannel) -> bool:
     """G23: no zone is forbidden."""
     return channel.stroke_zone is None
 
 
 #: Codes of machining centres.
-MILLING = {
+MILLING: dict[str, Condition] = {
     **dict.fromkeys(("G17", "G18", "G19"), plane),
     **dict.fromkeys(("G54", "G55", "G56", "G57", "G58", "G59"), work_offset),
     "G40": compensation,

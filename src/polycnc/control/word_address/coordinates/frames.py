@@ -16,18 +16,17 @@ from polycnc.geometry.frames import IDENTITY, about, cos_sin_deg, rotation, scal
 from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.plan import Plan
     from polycnc.control.word_address.block.words import Words
-    from polycnc.geometry.frames import Vector
+    from polycnc.control.word_address.family import WordAddressChannel
 
 
-def _refresh(channel: Channel) -> None:
+def _refresh(channel: WordAddressChannel) -> None:
     parts = channel.memory.frames
     channel.coordinates.set_programming(parts.product(), parts.shift)
 
 
-def _point(channel: Channel, words: Words) -> list[float]:
+def _point(channel: WordAddressChannel, words: Words) -> list[float]:
     """The point that axis words name on the geometry axes; the present programmed position where they are missing."""
     c = channel.coordinates
     base = channel.memory.frames
@@ -40,7 +39,7 @@ def _point(channel: Channel, words: Words) -> list[float]:
     return point
 
 
-def rotate(channel: Channel, words: Words) -> None:
+def rotate(channel: WordAddressChannel, words: Words) -> None:
     """G68 X Y R: rotation of the plane about a point; a new one replaces the old."""
     channel.memory.frames.rotation = IDENTITY
     _refresh(channel)
@@ -53,13 +52,13 @@ def rotate(channel: Channel, words: Words) -> None:
     _refresh(channel)
 
 
-def end_rotation(channel: Channel, _words: Words) -> None:
+def end_rotation(channel: WordAddressChannel, _words: Words) -> None:
     """G69 (on lathes G69.1): the rotation ends."""
     channel.memory.frames.rotation = IDENTITY
     _refresh(channel)
 
 
-def scale(channel: Channel, words: Words) -> None:
+def scale(channel: WordAddressChannel, words: Words) -> None:
     """G51 X Y Z P or I J K: scaling about a point."""
     channel.memory.frames.scale = IDENTITY
     _refresh(channel)
@@ -69,13 +68,13 @@ def scale(channel: Channel, words: Words) -> None:
     _refresh(channel)
 
 
-def end_scale(channel: Channel, _words: Words) -> None:
+def end_scale(channel: WordAddressChannel, _words: Words) -> None:
     """G50: scaling ends."""
     channel.memory.frames.scale = IDENTITY
     _refresh(channel)
 
 
-def mirror(channel: Channel, words: Words) -> None:
+def mirror(channel: WordAddressChannel, words: Words) -> None:
     """G51.1: mirror about lines X = … , Y = …: p' = 2a - p."""
     frames = channel.memory.frames
     c = channel.coordinates
@@ -86,7 +85,7 @@ def mirror(channel: Channel, words: Words) -> None:
     _set_mirror(channel)
 
 
-def end_mirror(channel: Channel, words: Words) -> None:
+def end_mirror(channel: WordAddressChannel, words: Words) -> None:
     """G50.1: ends the mirror of the named axes, of all where none is named."""
     frames = channel.memory.frames
     named = [axis for axis, _, _ in words.axes()]
@@ -98,34 +97,34 @@ def end_mirror(channel: Channel, words: Words) -> None:
     _set_mirror(channel)
 
 
-def mirror_first_axis(channel: Channel, _words: Words) -> None:
+def mirror_first_axis(channel: WordAddressChannel, _words: Words) -> None:
     """M70: the first axis is mirrored about the place where it stands."""
     _mirror_here(channel, 0)
 
 
-def mirror_second_axis(channel: Channel, _words: Words) -> None:
+def mirror_second_axis(channel: WordAddressChannel, _words: Words) -> None:
     """M71: the second axis is mirrored about the place where it stands."""
     _mirror_here(channel, 1)
 
 
-def _mirror_here(channel: Channel, i: int) -> None:
+def _mirror_here(channel: WordAddressChannel, i: int) -> None:
     c = channel.coordinates
     channel.memory.frames.mirrored.setdefault(i, c.programmed[c.geometry[i]])
     _set_mirror(channel)
 
 
-def end_mirror_by_m(channel: Channel, _words: Words) -> None:
+def end_mirror_by_m(channel: WordAddressChannel, _words: Words) -> None:
     """M72: ends the mirror of the first and second axis."""
     for i in (0, 1):
         channel.memory.frames.mirrored.pop(i, None)
     _set_mirror(channel)
 
 
-def _set_mirror(channel: Channel) -> None:
+def _set_mirror(channel: WordAddressChannel) -> None:
     frames = channel.memory.frames
-    center: Vector = tuple(frames.mirrored.get(i, 0.0) for i in range(3))
+    x, y, z = (frames.mirrored.get(i, 0.0) for i in range(3))
     factors = [-1.0 if i in frames.mirrored else 1.0 for i in range(3)]
-    frames.mirror = about(center, scaling(*factors)) if frames.mirrored else IDENTITY
+    frames.mirror = about((x, y, z), scaling(*factors)) if frames.mirrored else IDENTITY
     _refresh(channel)
 
 
@@ -138,7 +137,7 @@ class PolarCoordinateState(State, lifetime=Lifetime.POWER):
     angle: float = 0.0
 
 
-def polar_target(channel: Channel, plan: Plan, values: list[float]) -> list[float]:
+def polar_target(channel: WordAddressChannel, plan: Plan, values: list[float]) -> list[float]:
     """End point of a block under G16: first plane axis radius, second angle (counter-clockwise from the first axis).
 
     Absolute: about the work zero. Incremental radius: about the present position. An incremental angle adds to the last
@@ -165,7 +164,7 @@ def polar_target(channel: Channel, plan: Plan, values: list[float]) -> list[floa
     return end
 
 
-def start_polar(channel: Channel, _words: Words) -> None:
+def start_polar(channel: WordAddressChannel, _words: Words) -> None:
     """G16: radius and angle begin at the present position."""
     polar, c = PolarCoordinateState.of(channel), channel.coordinates
     u, v, _ = PLANES[channel.mode["plane"]]

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
 
 
 @dataclass(slots=True)
@@ -45,13 +46,13 @@ class ZeroState(State, lifetime=Lifetime.POWER):
         return cls(local=[0.0] * count, preset=[0.0] * count, length=[0.0] * count)
 
 
-def refresh_zero(channel: Channel, *, travelled: bool = False) -> None:
+def refresh_zero(channel: WordAddressChannel, *, travelled: bool = False) -> None:
     """Work out the shift from display to machine anew: external + work + local + G92 offset + tool length."""
     channel.coordinates.set_zero(ZeroState.of(channel).frame, zero_offsets(channel), travelled=travelled)
     channel.context_changed()
 
 
-def zero_offsets(channel: Channel) -> list[float]:
+def zero_offsets(channel: WordAddressChannel) -> list[float]:
     """What lies between display and machine now, for every axis."""
     memory, zero = channel.memory, ZeroState.of(channel)
     parts = zip(
@@ -65,7 +66,7 @@ def zero_offsets(channel: Channel) -> list[float]:
     return [sum(values) for values in parts]
 
 
-def select_work_offset(channel: Channel, words: Words) -> None:
+def select_work_offset(channel: MacroChannel, words: Words) -> None:
     """G54 to G59, G54.1 P1 … (also `G54 P1`): the work coordinate system; no motion by itself."""
     state = ZeroState.of(channel)
     code = channel.mode["wcs"]
@@ -79,14 +80,14 @@ def select_work_offset(channel: Channel, words: Words) -> None:
     refresh_zero(channel)
 
 
-def set_local_system(channel: Channel, words: Words) -> None:
+def set_local_system(channel: WordAddressChannel, words: Words) -> None:
     """G52: zero of a local system within every work coordinate system; no motion."""
     for axis, value, _ in words.axes():
         ZeroState.of(channel).local[axis] = value
     refresh_zero(channel)
 
 
-def set_position(channel: Channel, words: Words) -> None:
+def set_position(channel: WordAddressChannel, words: Words) -> None:
     """G92: the present position gets these coordinates; every work coordinate system shifts with it (Hartford 3.2)."""
     position = channel.coordinates.position
     for axis, value, _ in words.axes():
@@ -94,7 +95,7 @@ def set_position(channel: Channel, words: Words) -> None:
     refresh_zero(channel)
 
 
-def set_position_or_limit(channel: Channel, words: Words) -> None:
+def set_position_or_limit(channel: WordAddressChannel, words: Words) -> None:
     """G92: sets the position; with S the highest speed under constant surface speed."""
     if words.axes():
         set_position(channel, words)
@@ -104,7 +105,7 @@ def set_position_or_limit(channel: Channel, words: Words) -> None:
         channel.context_changed()
 
 
-def preset_system(channel: Channel, words: Words) -> None:
+def preset_system(channel: WordAddressChannel, words: Words) -> None:
     """G92.1: shifts by G92 and G52 of the named axes vanish."""
     state = ZeroState.of(channel)
     for axis, _, _ in words.axes():
@@ -113,7 +114,7 @@ def preset_system(channel: Channel, words: Words) -> None:
     refresh_zero(channel)
 
 
-def move_in_machine_system(channel: Channel, words: Words) -> None:
+def move_in_machine_system(channel: WordAddressChannel, words: Words) -> None:
     """G53: rapid to machine coordinates, offsets and tool length left out; absolute only."""
     c = channel.coordinates
     machine = c.machine
@@ -123,7 +124,7 @@ def move_in_machine_system(channel: Channel, words: Words) -> None:
         channel.straight(Kind.RAPID, c.from_machine(machine), nan)
 
 
-def move_in_machine_system_absolute(channel: Channel, words: Words) -> None:
+def move_in_machine_system_absolute(channel: WordAddressChannel, words: Words) -> None:
     """G53 of FANUC: as above, but an increment is ignored by the control."""
     if channel.mode["distance"] == "G90":
         move_in_machine_system(channel, words)
@@ -136,7 +137,7 @@ class ReferenceState(State, lifetime=Lifetime.RESET):
     intermediate: list[float] | None = None
 
 
-def intermediate_point(channel: Channel, words: Words) -> list[float]:
+def intermediate_point(channel: WordAddressChannel, words: Words) -> list[float]:
     """The intermediate point that a reference return names, programmed coordinates; kept by axis for G29."""
     c = channel.coordinates
     point = c.programmed[:]
@@ -152,7 +153,7 @@ def intermediate_point(channel: Channel, words: Words) -> list[float]:
     return point
 
 
-def go_to_reference(channel: Channel, words: Words, number: int) -> None:
+def go_to_reference(channel: WordAddressChannel, words: Words, number: int) -> None:
     """Rapid over the intermediate point to a reference point, with the named axes only."""
     c = channel.coordinates
     point = intermediate_point(channel, words)
@@ -165,12 +166,12 @@ def go_to_reference(channel: Channel, words: Words, number: int) -> None:
     note_reference_return(channel, [channel.axes[axis] for axis, _, _ in words.axes()])
 
 
-def return_to_reference(channel: Channel, words: Words) -> None:
+def return_to_reference(channel: WordAddressChannel, words: Words) -> None:
     """G28: over the intermediate point to the first reference point."""
     go_to_reference(channel, words, 1)
 
 
-def return_to_further_reference(channel: Channel, words: Words) -> None:
+def return_to_further_reference(channel: MacroChannel, words: Words) -> None:
     """G30 [P2 … P4]: over the intermediate point to another reference point."""
     number = words.integer("P")
     number = 2 if number is None else number
@@ -179,7 +180,7 @@ def return_to_further_reference(channel: Channel, words: Words) -> None:
     go_to_reference(channel, words, number)
 
 
-def return_from_reference(channel: Channel, words: Words) -> None:
+def return_from_reference(channel: WordAddressChannel, words: Words) -> None:
     """G29: rapid to the intermediate point of the last G28/G30, then to the target (an increment counts from there)."""
     c = channel.coordinates
     middle = ReferenceState.of(channel).intermediate
@@ -196,7 +197,7 @@ def return_from_reference(channel: Channel, words: Words) -> None:
     channel.straight(Kind.RAPID, c.to_position(end), nan, end)
 
 
-def check_reference(channel: Channel, words: Words) -> None:
+def check_reference(channel: WordAddressChannel, words: Words) -> None:
     """G27: rapid to the point, which must be the reference point of the named axes."""
     c = channel.coordinates
     end = c.programmed[:]
@@ -214,13 +215,13 @@ def check_reference(channel: Channel, words: Words) -> None:
 REFERENCE_WINDOW_MM = 0.0015
 
 
-def forget_feed(channel: Channel, words: Words) -> None:
+def forget_feed(channel: WordAddressChannel, words: Words) -> None:
     """G93 to G95: another feed mode asks for a new F, which the block may bring with it."""
     if "F" not in words:
         channel.feed = nan
     channel.context_changed()
 
 
-def note_context(channel: Channel, _words: Words) -> None:
+def note_context(channel: WordAddressChannel, _words: Words) -> None:
     """G17 to G21, G61 to G64, G70, G71, G96, G97: a modal code that only shows in the context."""
     channel.context_changed()

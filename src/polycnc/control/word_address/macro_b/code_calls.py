@@ -19,9 +19,9 @@ from polycnc.control.word_address.macro_b import macro_calls, subprograms
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.family import MacroChannel
 
 #: The common variable that hands a T code to its program.
 TOOL_VARIABLE = 149
@@ -54,7 +54,7 @@ class CodeCalls:
 
 
 def _g_row(code: str, call: CodeCall) -> GCode:
-    def act(channel: Channel, words: Words) -> None:
+    def act(channel: MacroChannel, words: Words) -> None:
         macro_calls.refuse_g_behind(words, code)
         repeats = words.integer("L") if "L" in words else 1
         program = channel.control.find_program(channel, call.program)
@@ -94,7 +94,7 @@ def m_row(builder: Builder, number: int) -> MCode | None:
     if call is None or call.kind != "sub":
         return None
 
-    def act(channel: Channel, _words: Words) -> None:
+    def act(channel: MacroChannel, _words: Words) -> None:
         program = channel.control.find_program(channel, call.program)
         subprograms.enter_subprogram(channel, program, 1, None, kind="m-sub")
         macro_calls.note_level(channel)
@@ -112,7 +112,7 @@ def plan_m_macro(builder: Builder, plan: Plan) -> Step | None:
     if call is None or call.kind == "sub":
         return None
 
-    def act(channel: Channel, values: list[float]) -> None:
+    def act(channel: MacroChannel, values: list[float]) -> None:
         words = Words(plan, values)
         macro_calls.refuse_g_behind(words, first)
         if "T" in words:
@@ -138,7 +138,7 @@ def plan_tool_call(builder: Builder) -> Step | None:
     slot = builder.slots["T"][0]
     call = _calls(builder).t
 
-    def act(channel: Channel, values: list[float]) -> None:
+    def act(channel: MacroChannel, values: list[float]) -> None:
         assert call is not None
         channel.memory.write(TOOL_VARIABLE, values[slot])
         program = channel.control.find_program(channel, call.program)

@@ -10,6 +10,7 @@ from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.macro_b import code_calls, interruption, macro_calls
 from polycnc.control.word_address.transformations import cylinder, polar_interpolation
 from polycnc.control.word_address.transformations.cylinder import CylinderState
+from polycnc.control.word_address.transformations.normal_line import NormalLineParameters
 from polycnc.language.word_address.executable import SkippedBlock
 from polycnc.messages import AlarmError
 from polycnc.program import ProgramFileError
@@ -44,6 +45,7 @@ class CustomMacroControl(WordAddressControl):
         EXTENDED_WORK_SYSTEMS: How many G54.1 P systems there are.
         REFERENCE_PARAMETERS: Parameter that holds each reference point.
         ARC_TOLERANCE_PARAMETER: Parameter with the allowed difference of radii, and its delivered value (mm).
+        NORMAL_LINE_PARAMETERS: Parameters of G41.1 and G42.1.
         POLAR_CODES: G codes that polar coordinate interpolation allows.
         REFUSED_ON_CYLINDER: G codes that cylindrical interpolation refuses, beside cycles.
     """
@@ -52,6 +54,7 @@ class CustomMacroControl(WordAddressControl):
     EXTENDED_WORK_SYSTEMS: ClassVar[int] = 300
     REFERENCE_PARAMETERS: ClassVar[dict[int, int]] = {1: 1240, 2: 1241, 3: 1242, 4: 1243}
     ARC_TOLERANCE_PARAMETER: ClassVar[tuple[int, float]] = (3410, 0.03)
+    NORMAL_LINE_PARAMETERS: ClassVar[NormalLineParameters] = NormalLineParameters(5480, 5481, 5482, 5483)
     POLAR_CODES: ClassVar[frozenset[str]] = frozenset({
         "G1", "G2", "G3", "G4", "G9", "G13.1", "G40", "G41", "G42", "G65", "G66", "G66.1", "G67",
     })  # fmt: skip

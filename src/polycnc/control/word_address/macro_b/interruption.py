@@ -17,11 +17,11 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import MacroChannel
     from polycnc.machine.setup.values import Interrupt
     from polycnc.program import Program
 
@@ -57,7 +57,7 @@ class InterruptionState(State, lifetime=Lifetime.RESET):
     running: list[Interrupted] = field(default_factory=list)
 
 
-def enable(channel: Channel, words: Words) -> None:
+def enable(channel: MacroChannel, words: Words) -> None:
     """M96 P: from now on an input calls this program."""
     number = words.integer("P")
     if number is None:
@@ -68,7 +68,7 @@ def enable(channel: Channel, words: Words) -> None:
     channel.mode = channel.mode.with_code("interruption", "M96")
 
 
-def disable(channel: Channel, _words: Words) -> None:
+def disable(channel: MacroChannel, _words: Words) -> None:
     """M97."""
     channel.mode = channel.mode.with_code("interruption", "M97")
 
@@ -80,7 +80,7 @@ M_CODES = {
 }
 
 
-def m_code(channel: Channel, number: int) -> MCode | None:
+def m_code(channel: MacroChannel, number: int) -> MCode | None:
     """M96 or M97 where 6003#7 MUS enables the interruption macro; a setup that names interrupt inputs means it."""
     setup = channel.setup
     enabled = setup.parameters.bit(6003, ENABLED_BIT, default=int(bool(setup.switches.interrupts)))
@@ -92,7 +92,7 @@ def interruptible(builder: Builder, motion: Step) -> Step:
     if builder.mode.codes.get("interruption") != "M96":
         return motion
 
-    def move(channel: Channel, values: list[float]) -> None:
+    def move(channel: MacroChannel, values: list[float]) -> None:
         start, mark = channel.coordinates.position, channel.toolpath.mark()
         motion(channel, values)
         if not InterruptionState.of(channel).running:
@@ -101,7 +101,7 @@ def interruptible(builder: Builder, motion: Step) -> Step:
     return move
 
 
-def _interrupt(channel: Channel, start: list[float], mark: int) -> None:
+def _interrupt(channel: MacroChannel, start: list[float], mark: int) -> None:
     """Look whether an input comes on the way just made, and call the program there."""
     state = InterruptionState.of(channel)
     chunk, end = channel.toolpath.chunk, channel.coordinates.position
@@ -127,14 +127,14 @@ def _interrupt(channel: Channel, start: list[float], mark: int) -> None:
         return
 
 
-def _runs(channel: Channel, interrupt: Interrupt) -> bool:
+def _runs(channel: MacroChannel, interrupt: Interrupt) -> bool:
     level = channel.level
     program = level.code.program.name if interrupt.program else channel.stack[0].code.program.name
     wanted = interrupt.program or program
     return level.code.program.name == wanted and level.code.line(level.current) == interrupt.line
 
 
-def _call(channel: Channel, program: Program) -> None:
+def _call(channel: MacroChannel, program: Program) -> None:
     """6003#5 = 0: with local variables of its own, as a macro; = 1 with those of the interrupted program."""
     memory = channel.memory
     if not memory.parameters.bit(6003, OWN_LOCALS_BIT):
@@ -142,7 +142,7 @@ def _call(channel: Channel, program: Program) -> None:
     channel.push(program, kind=LEVEL, local=memory.locals)
 
 
-def finish(channel: Channel, *, jumps: bool) -> None:
+def finish(channel: MacroChannel, *, jumps: bool) -> None:
     """The interruption program is over: without NC statements in it, the rest of the cut move is made.
 
     Args:

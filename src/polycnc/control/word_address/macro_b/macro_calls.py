@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.family import MacroChannel
     from polycnc.program import Program
 
 #: Argument assignment I.
@@ -83,14 +84,14 @@ def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) 
     return local
 
 
-def call_macro(channel: Channel, words: Words) -> None:
+def call_macro(channel: MacroChannel, words: Words) -> None:
     """G65 P L arguments."""
     refuse_g_behind(words, "G65")
     program, repeats = _macro(channel, words)
     enter_macro(channel, program, arguments_of(words, "PLG"), repeats)
 
 
-def start_modal_call(channel: Channel, words: Words) -> None:
+def start_modal_call(channel: MacroChannel, words: Words) -> None:
     """G66 P L arguments: the macro follows every block that moves; G66.1: every block."""
     code = channel.mode["macro"]
     refuse_g_behind(words, code)
@@ -99,7 +100,7 @@ def start_modal_call(channel: Channel, words: Words) -> None:
 
 
 def start_modal(
-    channel: Channel, program: Program, repeats: int, arguments: list[float | None], *, each: bool
+    channel: MacroChannel, program: Program, repeats: int, arguments: list[float | None], *, each: bool
 ) -> None:
     """From the next block on a macro follows every block that moves, or every block."""
     channel.mode = channel.mode.with_code("macro", "G66.1" if each else "G66")
@@ -113,7 +114,7 @@ def refuse_g_behind(words: Words, call: str) -> None:
         raise words.fail("g_as_argument", call)
 
 
-def end_modal_call(channel: Channel, words: Words) -> None:
+def end_modal_call(channel: MacroChannel, words: Words) -> None:
     """G67: the last modal call ends."""
     calls = ModalCallState.of(channel).calls
     if calls:
@@ -124,7 +125,7 @@ def end_modal_call(channel: Channel, words: Words) -> None:
         raise words.fail("no_modal_call", "G67")
 
 
-def _macro(channel: Channel, words: Words) -> tuple[Program, int]:
+def _macro(channel: MacroChannel, words: Words) -> tuple[Program, int]:
     repeats = words.integer("L") if "L" in words else None
     return subprograms.called_program(channel, words), 1 if repeats is None else repeats
 
@@ -137,7 +138,7 @@ def enter_macro(
     *,
     kind: str = "macro",
 ) -> None:
-    """Put a macro on the stack with local variables of its own, `local`; nothing for no repeats."""
+    """Put a macro on the stack with local variables of its own, as its language has them; nothing for no repeats."""
     if repeats < 1:
         return
     channel.control.check_nesting(channel, kind)
@@ -157,7 +158,7 @@ def plan_modal_call(builder: Builder, plan: Plan) -> Step | None:
     if not plan.axis_words or any(row.axis_words and row.code == "G4" for row in builder.codes):
         return None
 
-    def follow(channel: Channel, _values: list[float]) -> None:
+    def follow(channel: MacroChannel, _values: list[float]) -> None:
         calls = ModalCallState.of(channel).calls
         inside = sum(1 for level in channel.stack if level.kind in ("modal", "b-macro"))
         if inside < len(calls):
@@ -174,7 +175,7 @@ def plan_argument_block(builder: Builder, plan: Plan) -> Step | None:
     if "B" not in builder.before.codes.get("calls", "B"):
         return None
 
-    def call(channel: Channel, values: list[float]) -> None:
+    def call(channel: MacroChannel, values: list[float]) -> None:
         modal = ModalCallState.of(channel).calls[-1]
         arguments = _block_arguments(Words(plan, values), builder)
         enter_macro(channel, modal.program, arguments, modal.repeats, kind="b-macro")
@@ -193,7 +194,7 @@ def _block_arguments(words: Words, builder: Builder) -> list[float | None]:
     return local
 
 
-def note_level(channel: Channel) -> None:
+def note_level(channel: MacroChannel) -> None:
     """Set the letters that may call on the level that runs now.
 
     Inside a program that a code called, codes call nothing; with 6008#6 those of the other kind do. Inside the

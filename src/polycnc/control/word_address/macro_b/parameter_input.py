@@ -10,20 +10,20 @@ from polycnc.control.word_address.macro_b.subprograms import sequences_of
 from polycnc.machine.setup.values import ParameterKey
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.family import MacroChannel
 
 #: L numbers that begin the input of parameters.
 LEVELS = (50, 52)
 
 
-def begin(channel: Channel) -> None:
+def begin(channel: MacroChannel) -> None:
     """G10 L50, L52: the blocks from here to G11 name parameters."""
     channel.mode = channel.mode.with_code("data_input", "G10")
 
 
-def end(channel: Channel, _words: Words) -> None:
+def end(channel: MacroChannel, _words: Words) -> None:
     """G11: no more parameters are set by blocks."""
     channel.mode = channel.mode.with_code("data_input", "G11")
 
@@ -41,7 +41,7 @@ def plan_parameter_block(builder: Builder, plan: Plan) -> Step | None:
         if address not in "PQR":
             raise builder.control.fail("parameter_words", address=address)
 
-    def act(channel: Channel, values: list[float]) -> None:
+    def act(channel: MacroChannel, values: list[float]) -> None:
         words = Words(plan, values)
         level = channel.level
         number, value = sequences_of(level).sequence(level.current), words.typed("R")
@@ -59,7 +59,9 @@ def plan_parameter_block(builder: Builder, plan: Plan) -> Step | None:
     return act
 
 
-def set_parameter(channel: Channel, key: ParameterKey, value: float, *, keeps_plans: bool = False) -> None:
+def set_parameter(
+    channel: MacroChannel, key: ParameterKey, value: float, *, keeps_plans: bool = False
+) -> None:
     """Give a parameter another value; whatever rests on the old one is worked out anew.
 
     Args:

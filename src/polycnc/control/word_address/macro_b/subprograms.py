@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, cast
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Level
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import MacroChannel
     from polycnc.language.word_address import WordAddressProgram
     from polycnc.program import Program
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 PROGRAM_NUMBERS = 10_000
 
 
-def call_subprogram(channel: Channel, words: Words) -> None:
+def call_subprogram(channel: MacroChannel, words: Words) -> None:
     """M98 P L Q: program P, L times, from sequence number Q; without P within the same program."""
     number, repeats = _program_and_repeats(channel, words)
     sequence = words.integer("Q") if "Q" in words else None
@@ -26,7 +26,7 @@ def call_subprogram(channel: Channel, words: Words) -> None:
     enter_subprogram(channel, program, repeats, sequence)
 
 
-def called_program(channel: Channel, words: Words, number: int | None = None) -> Program:
+def called_program(channel: MacroChannel, words: Words, number: int | None = None) -> Program:
     """The program that P or `<NAME>` names."""
     if words.plan.program_name:
         return _by_name(channel, words)
@@ -38,7 +38,7 @@ def called_program(channel: Channel, words: Words, number: int | None = None) ->
     return program
 
 
-def _by_name(channel: Channel, words: Words) -> Program:
+def _by_name(channel: MacroChannel, words: Words) -> Program:
     name = words.plan.program_name
     program = channel.store.find_name(name)
     if program is None:
@@ -46,7 +46,7 @@ def _by_name(channel: Channel, words: Words) -> Program:
     return program
 
 
-def call_external_subprogram(channel: Channel, words: Words) -> None:
+def call_external_subprogram(channel: MacroChannel, words: Words) -> None:
     """M198 P L: a program on the external device; not from one that was called so itself."""
     number, repeats = _program_and_repeats(channel, words)
     if number is None:
@@ -60,7 +60,7 @@ def call_external_subprogram(channel: Channel, words: Words) -> None:
 
 
 def enter_subprogram(
-    channel: Channel, program: Program, repeats: int, sequence: int | None, *, kind: str = "sub"
+    channel: MacroChannel, program: Program, repeats: int, sequence: int | None, *, kind: str = "sub"
 ) -> None:
     """Put a subprogram on the stack: it shares the caller's local variables; nothing for no repeats."""
     if repeats < 1:
@@ -77,7 +77,7 @@ def sequences_of(level: Level) -> WordAddressProgram:
     return cast("WordAddressProgram", level.code)
 
 
-def _program_and_repeats(channel: Channel, words: Words) -> tuple[int | None, int]:
+def _program_and_repeats(channel: MacroChannel, words: Words) -> tuple[int | None, int]:
     number = words.integer("P") if "P" in words else None
     repeats = words.integer("L") if "L" in words else None
     if number is not None and number >= PROGRAM_NUMBERS and not channel.control.long_program_numbers(channel):
@@ -86,7 +86,7 @@ def _program_and_repeats(channel: Channel, words: Words) -> tuple[int | None, in
     return number, 1 if repeats is None else repeats
 
 
-def return_from_subprogram(channel: Channel, words: Words) -> None:
+def return_from_subprogram(channel: MacroChannel, words: Words) -> None:
     """M99 [P] [L]: end of a pass; P names a sequence number of the caller, L the passes that remain.
 
     In the main program M99 goes to the top, M99 P to a sequence number.

@@ -22,7 +22,7 @@ from polycnc.toolpath.events import Print
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.family import MacroChannel
     from polycnc.messages import AlarmError
 
 #: What reads and what writes a variable: they get the memory of their family.
@@ -105,9 +105,9 @@ class MacroMemory(Memory):
             the same input gives the same output.
     """
 
-    def __init__(self, channel: Channel, registry: Registry) -> None:
+    def __init__(self, channel: MacroChannel, registry: Registry) -> None:
         super().__init__(channel)
-        self.channel: Channel = channel
+        self.channel: MacroChannel = channel
         self.registry = registry
         self.locals = LocalState.of(channel).main
         self.common: list[float | None] = [None] * COMMONS

@@ -12,11 +12,11 @@ from polycnc.geometry.planes import PLANES
 from polycnc.transformation.parallel import ParallelAxes
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
 
 
-def choose_axes(channel: Channel, geometry: tuple[int, int, int]) -> None:
+def choose_axes(channel: WordAddressChannel, geometry: tuple[int, int, int]) -> None:
     """Let these axes be X, Y and Z of the plane."""
     memory = channel.memory
     channel.coordinates.geometry = geometry
@@ -27,7 +27,7 @@ def choose_axes(channel: Channel, geometry: tuple[int, int, int]) -> None:
     channel.context_changed()
 
 
-def select_plane(channel: Channel, words: Words) -> None:
+def select_plane(channel: MacroChannel, words: Words) -> None:
     """G17 to G19: another plane than that of an active radius compensation is an alarm."""
     code = channel.mode["plane"]
     stage = channel.path.find(CutterCompensation)
@@ -40,7 +40,7 @@ def select_plane(channel: Channel, words: Words) -> None:
     lay_axes(channel, words)
 
 
-def lay_axes(channel: Channel, words: Words) -> None:
+def lay_axes(channel: MacroChannel, words: Words) -> None:
     """The plane's axes: a word of the block names a parallel axis (1022) in place of the basic one."""
     memory, c = channel.memory, channel.coordinates
     basic = list(memory.basic_geometry)

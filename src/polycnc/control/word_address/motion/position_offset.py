@@ -12,9 +12,9 @@ from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.plan import AxisWord
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import MillingChannel
 
 #: How often each code adds the offset, in the direction of the move.
 TIMES = {"G45": 1.0, "G46": -1.0, "G47": 2.0, "G48": -2.0}
@@ -23,7 +23,7 @@ MOTIONS = ("G0", "G1", *ARCS)
 CENTER_LETTERS = "IJKR"
 
 
-def offset_move(channel: Channel, words: Words) -> None:
+def offset_move(channel: MillingChannel, words: Words) -> None:
     """G45 to G48: the move of each named axis grows or shrinks along its own direction; only in this block."""
     state = RadiusState.of(channel)
     c = channel.coordinates
@@ -51,7 +51,7 @@ def offset_move(channel: Channel, words: Words) -> None:
     channel.straight(kind, c.to_position(end), nan if rapid else channel.feed, end)
 
 
-def _offset_arc(channel: Channel, words: Words, end: list[float], amount: float) -> None:
+def _offset_arc(channel: MillingChannel, words: Words, end: list[float], amount: float) -> None:
     """A quarter or three quarters of a circle: its radius grows by the offset, as the way of each axis does."""
     control, c = channel.control, channel.coordinates
     if not channel.feed > 0.0:
@@ -80,7 +80,7 @@ def _direction(words: Words, word: AxisWord, way: float) -> float:
     return copysign(1.0, words.values[word.slot] if word.incremental else way)
 
 
-def position_one_way(channel: Channel, words: Words) -> None:
+def position_one_way(channel: MillingChannel, words: Words) -> None:
     """G60: rapid past the target by each axis's overrun, then on to it always from the same side."""
     c = channel.coordinates
     end = reach(channel, words.plan.axis_words, words.values)

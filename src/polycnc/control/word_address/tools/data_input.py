@@ -10,8 +10,8 @@ from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.length import renew_length
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import MacroChannel
 
 WORK_SYSTEMS = (EXTERNAL, "G54", "G55", "G56", "G57", "G58", "G59")
 #: L number of a tool offset to the field of the offset memory that it sets.
@@ -20,7 +20,7 @@ TOOL_FIELDS = {1: "length_wear", 10: "length", 11: "length_wear", 12: "radius", 
 LARGEST_OFFSET = {False: 999.999, True: 99.999}
 
 
-def input_data(channel: Channel, words: Words) -> None:
+def input_data(channel: MacroChannel, words: Words) -> None:
     """G10 L2, L20 work offsets; L10 to L13 tool offsets; G90 sets, G91 adds."""
     kind = words.integer("L")
     number = words.integer("P")
@@ -43,14 +43,14 @@ def input_data(channel: Channel, words: Words) -> None:
         _set_tool_offset(channel, words, number, TOOL_FIELDS[10 if kind is None else kind])
 
 
-def _set_work_offset(channel: Channel, words: Words, name: str) -> None:
+def _set_work_offset(channel: MacroChannel, words: Words, name: str) -> None:
     offset = channel.memory.work_offset(name)
     for axis, value, incremental in words.axes():
         offset[axis] = offset[axis] + value if incremental else value
     refresh_zero(channel)
 
 
-def _set_tool_offset(channel: Channel, words: Words, number: int, field: str) -> None:
+def _set_tool_offset(channel: MacroChannel, words: Words, number: int, field: str) -> None:
     value = words.length("R")
     if value is None or number < 1:
         raise words.fail("g10_number" if value is not None else "g10_format", "P")

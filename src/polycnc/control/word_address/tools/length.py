@@ -12,10 +12,10 @@ from polycnc.control.word_address.cycles import drilling
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.frames import Vector
 
 _SIGN = {"G43": 1.0, "G44": -1.0}
@@ -29,7 +29,7 @@ class LengthState(State, lifetime=Lifetime.RESET):
     direction: Vector | None = None
 
 
-def compensate_length(channel: Channel, words: Words) -> None:
+def compensate_length(channel: WordAddressChannel, words: Words) -> None:
     """G43 / G44 H: shifts Z by the offset value, or against it; a new H replaces the old one."""
     number = words.integer("H")
     if number is not None:
@@ -37,7 +37,7 @@ def compensate_length(channel: Channel, words: Words) -> None:
     _apply(channel, words)
 
 
-def cancel_length(channel: Channel, words: Words) -> None:
+def cancel_length(channel: WordAddressChannel, words: Words) -> None:
     """G49: the shift ends; Z travels it back with its next move."""
     LengthState.of(channel).number = 0
     _apply(channel, words)
@@ -49,7 +49,7 @@ def plan_length_number(builder: Builder) -> Step | None:
     z = builder.channel.coordinates.geometry[2]
     moved = any(word.axis == z for word in builder.axis_words())
 
-    def change(channel: Channel, values: list[float]) -> None:
+    def change(channel: WordAddressChannel, values: list[float]) -> None:
         LengthState.of(channel).number = int(values[slot])
         if channel.mode["length"] in _SIGN:
             _shift(channel)
@@ -59,20 +59,20 @@ def plan_length_number(builder: Builder) -> Step | None:
     return change
 
 
-def renew_length(channel: Channel) -> None:
+def renew_length(channel: WordAddressChannel) -> None:
     """The offset memory has changed: an active compensation takes the new value with its next move."""
     if channel.mode["length"] in _SIGN:
         _shift(channel)
 
 
-def _apply(channel: Channel, words: Words) -> None:
+def _apply(channel: WordAddressChannel, words: Words) -> None:
     _shift(channel)
     z = channel.coordinates.geometry[2]
     if not any(axis == z for axis, _, _ in words.axes()):
         _travel(channel)
 
 
-def _shift(channel: Channel) -> None:
+def _shift(channel: WordAddressChannel) -> None:
     zero_state = ZeroState.of(channel)
     length_state = LengthState.of(channel)
     z = channel.coordinates.geometry[2]
@@ -91,7 +91,7 @@ def _shift(channel: Channel) -> None:
     refresh_zero(channel, travelled=True)
 
 
-def renew_direction(channel: Channel) -> None:
+def renew_direction(channel: WordAddressChannel) -> None:
     """The direction of the tool has changed: an active length counts along the new one."""
     for axis in channel.coordinates.geometry:
         if axis >= 0:
@@ -100,7 +100,7 @@ def renew_direction(channel: Channel) -> None:
         _shift(channel)
 
 
-def _travel(channel: Channel) -> None:
+def _travel(channel: WordAddressChannel) -> None:
     """Without a Z word the axis moves by the change at once, as `G91 Z0` would, where the control has it so."""
     if not channel.control.LENGTH_TRAVELS_ALONE or drilling.is_active(channel):
         # In a drilling cycle the way to R brings the new length in (Hartford 3.3.4, note 6).

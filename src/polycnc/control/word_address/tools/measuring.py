@@ -9,11 +9,11 @@ from polycnc.control.word_address.tools.length import LengthState
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import MillingChannel
 
 
-def measure_length(channel: Channel, words: Words) -> None:
+def measure_length(channel: MillingChannel, words: Words) -> None:
     """G37 Z: rapid to the deceleration point, on at the measuring feed to the signal.
 
     How far the signal lies from the programmed position is added to the active length offset.

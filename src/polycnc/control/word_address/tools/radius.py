@@ -17,10 +17,10 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import WordAddressChannel
 
 #: What each violation is called in a control's table of mistakes.
 MISTAKES = {
@@ -57,17 +57,17 @@ def violation_codes(alarms: Mapping[str, str]) -> dict[Violation, str]:
     }
 
 
-def compensate_left(channel: Channel, words: Words) -> None:
+def compensate_left(channel: WordAddressChannel, words: Words) -> None:
     """G41: the tool is left of the contour, seen in the direction of travel."""
     _engage(channel, words, 1)
 
 
-def compensate_right(channel: Channel, words: Words) -> None:
+def compensate_right(channel: WordAddressChannel, words: Words) -> None:
     """G42: the tool is right of the contour."""
     _engage(channel, words, -1)
 
 
-def _engage(channel: Channel, words: Words, side: int) -> None:
+def _engage(channel: WordAddressChannel, words: Words, side: int) -> None:
     state = RadiusState.of(channel)
     number = words.integer("D")
     if number is not None:
@@ -89,7 +89,7 @@ def _engage(channel: Channel, words: Words, side: int) -> None:
     channel.context_changed()
 
 
-def cancel_compensation(channel: Channel, words: Words, *, takes_wall: bool = True) -> None:
+def cancel_compensation(channel: WordAddressChannel, words: Words, *, takes_wall: bool = True) -> None:
     """G40: the next plane motion leads back to the programmed path.
 
     Args:
@@ -109,7 +109,7 @@ def cancel_compensation(channel: Channel, words: Words, *, takes_wall: bool = Tr
     channel.context_changed()
 
 
-def _refuse_arc(channel: Channel, words: Words) -> None:
+def _refuse_arc(channel: WordAddressChannel, words: Words) -> None:
     """Compensation begins and ends in straight blocks only."""
     if channel.mode["motion"] in ("G2", "G3") and words.axes():
         raise words.fail("comp_arc_start", channel.mode["compensation"])
@@ -119,7 +119,7 @@ def plan_radius_number(builder: Builder) -> Step:
     """D: number of the radius offset, modal; within compensation the new radius holds from the end of the block."""
     slot = builder.slots["D"][0]
 
-    def change(channel: Channel, values: list[float]) -> None:
+    def change(channel: WordAddressChannel, values: list[float]) -> None:
         state = RadiusState.of(channel)
         state.number = int(values[slot])
         stage = active_compensation(channel)
@@ -130,7 +130,7 @@ def plan_radius_number(builder: Builder) -> Step:
 
 
 @contextmanager
-def suspended(channel: Channel) -> Iterator[None]:
+def suspended(channel: WordAddressChannel) -> Iterator[None]:
     """Motion without compensation in between: the vector vanishes, and the next plane motion starts up again."""
     state = RadiusState.of(channel)
     stage = active_compensation(channel)
@@ -146,20 +146,20 @@ def suspended(channel: Channel) -> Iterator[None]:
         stage.engage(side_on_display(channel), control.radius_value(channel, state.number), tip)
 
 
-def side_on_display(channel: Channel) -> int:
+def side_on_display(channel: WordAddressChannel) -> int:
     """Side in display coordinates: a mirror of one plane axis changes left and right."""
     side: int = RadiusState.of(channel).side
     plane = PLANES[channel.mode["plane"]]
     return -side if mirrors_plane(channel.coordinates.programming, plane) else side
 
 
-def active_compensation(channel: Channel) -> CutterCompensation | None:
+def active_compensation(channel: WordAddressChannel) -> CutterCompensation | None:
     """The stage of the path that compensates; None while none does."""
     stage = channel.path.find(CutterCompensation)
     return stage if stage is not None and stage.active else None
 
 
-def compensation_stage(channel: Channel) -> CutterCompensation:
+def compensation_stage(channel: WordAddressChannel) -> CutterCompensation:
     """The channel's compensation stage, put into its path when it is first needed."""
     u, v, w = PLANES[channel.mode["plane"]]
     geometry = channel.coordinates.geometry
@@ -176,7 +176,7 @@ def compensation_stage(channel: Channel) -> CutterCompensation:
     return channel.path.put(CutterCompensation(plane, policy, violation_codes(channel.control.alarms)))
 
 
-def place_of_block(channel: Channel) -> Move:
+def place_of_block(channel: WordAddressChannel) -> Move:
     """A move without way that stands for the running block."""
     position = channel.coordinates.position
     level = channel.level

@@ -16,9 +16,9 @@ from polycnc.geometry.planes import PLANES
 from polycnc.transformation.cylinder import Cylinder
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
 
 #: Modal group that holds `G7.1` while a cylinder is unrolled.
 GROUP = "cylinder"
@@ -38,7 +38,7 @@ class CylinderState(State, lifetime=Lifetime.RESET):
     geometry_before: tuple[int, int, int] = (-1, -1, -1)
 
 
-def cylinder(channel: Channel, words: Words) -> None:
+def cylinder(channel: MacroChannel, words: Words) -> None:
     """G07.1 C r (G107): C is unrolled at the radius r; r = 0 ends the mode."""
     named = words.plan.axis_words
     if len(named) != 1 or not channel.axis_data[named[0].axis].rotary:
@@ -66,7 +66,7 @@ def cylinder(channel: Channel, words: Words) -> None:
     channel.context_changed()
 
 
-def unrolled_geometry(channel: Channel, axis: int) -> tuple[int, int, int]:
+def unrolled_geometry(channel: MacroChannel, axis: int) -> tuple[int, int, int]:
     """The unrolled axis takes the place of a plane axis: by 1022, else of the one that the cylinder's own is not."""
     plane = channel.mode["plane"]
     u, v, _ = PLANES[plane]
@@ -79,7 +79,7 @@ def unrolled_geometry(channel: Channel, axis: int) -> tuple[int, int, int]:
     return (geometry[0], geometry[1], geometry[2])
 
 
-def _turns_about(channel: Channel, axis: int) -> int:
+def _turns_about(channel: MacroChannel, axis: int) -> int:
     """Geometry axis (0 to 2) that a rotary axis turns about, by the machine's joints; -1 where they do not say."""
     machine = channel.machine
     for joint in (*machine.tool_chain, *machine.work_chain):
@@ -88,7 +88,7 @@ def _turns_about(channel: Channel, axis: int) -> int:
     return -1
 
 
-def end_cylinder(channel: Channel) -> None:
+def end_cylinder(channel: WordAddressChannel) -> None:
     """The axis turns by degrees again (also at reset); nothing moves."""
     state = CylinderState.of(channel)
     if state.active is None:
@@ -110,13 +110,13 @@ def check_block(builder: Builder, refused: frozenset[str]) -> None:
             raise builder.control.fail("cylinder_code", address=row.code)
 
 
-def unroll(channel: Channel, axis: int, angle_deg: float) -> float:
+def unroll(channel: MacroChannel, axis: int, angle_deg: float) -> float:
     """A word of the unrolled axis as a length on the surface, mm."""
     active = CylinderState.of(channel).active
     return angle_deg * active.mm_per_degree if active is not None and active.axis == axis else angle_deg
 
 
-def _forget_compensation(channel: Channel) -> None:
+def _forget_compensation(channel: WordAddressChannel) -> None:
     """A vector of the other plane means nothing on this one."""
     stage = active_compensation(channel)
     if stage is not None:

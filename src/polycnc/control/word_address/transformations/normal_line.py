@@ -21,9 +21,9 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
 
 #: Modal group of G40.1 to G42.1, and its code while the control is off.
 GROUP, OFF = "normal_line", "G40.1"
@@ -66,10 +66,10 @@ class NormalLineRules:
     with_its_end: bool = True
 
 
-def start(channel: Channel, words: Words) -> None:
+def start(channel: MacroChannel, words: Words) -> None:
     """G41.1, G42.1: from the next way on the axis stands on the normal."""
     memory, code = channel.memory, channel.mode[GROUP]
-    numbers: NormalLineParameters = channel.control.NORMAL_LINE_PARAMETERS
+    numbers = channel.control.NORMAL_LINE_PARAMETERS
     number = memory.parameters.number
     axis = int(number(numbers.axis, default=channel.axis_index.get(DELIVERED_AXIS, -1) + 1)) - 1
     turn_feed = number(numbers.turn_feed) / 60.0 if numbers.turn_feed else 0.0
@@ -96,12 +96,12 @@ def start(channel: Channel, words: Words) -> None:
     channel.path.put(NormalStage(direction))
 
 
-def cancel(channel: Channel, _words: Words) -> None:
+def cancel(channel: WordAddressChannel, _words: Words) -> None:
     """G40.1: the axis stays where it is."""
     end(channel)
 
 
-def end(channel: Channel) -> None:
+def end(channel: WordAddressChannel) -> None:
     """Take the stage out of the path (also at reset)."""
     stage = channel.path.find(NormalStage)
     if stage is None:

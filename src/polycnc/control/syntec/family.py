@@ -1,0 +1,12 @@
+"""The channel that handlers of SYNTEC work with, as a type checker knows it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.control import SyntecMill
+    from polycnc.control.syntec.memory import SyntecMemory
+
+SyntecChannel: TypeAlias = "Channel[SyntecMill, SyntecMemory]"
