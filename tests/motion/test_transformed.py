@@ -12,7 +12,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import polycnc
-from polycnc.machine import load_machine
+from polycnc.machine import Machine, load_machine
 from polycnc.mainrun import State
 from polycnc.motion import Settings
 from polycnc.motion.frames import real_of
@@ -135,24 +135,54 @@ def test_real_axes_keep_velocity_acceleration_and_jerk_under_polar_interpolation
 ) -> None:
     result = polycnc.run(polar_program(points, arcs, feed), control="fanuc-0i-tf", machine="lathe-c-transmit")
     assert not result.alarms
-    for run, context in runs_of(result):
+    keeps_limits(result, MACHINE)
+
+
+TIP = st.tuples(
+    st.integers(-50, 50),
+    st.integers(-50, 50),
+    st.integers(-20, 20),
+    st.integers(-60, 60),
+    st.integers(-90, 90),
+)
+
+
+@settings(max_examples=12, deadline=None)
+@given(
+    st.sampled_from([("mill5-bc-head", "B", "C"), ("mill5-ac-table", "A", "C")]),
+    st.lists(TIP, min_size=1, max_size=5),
+    st.sampled_from([100, 3000, 20000]),
+)
+def test_real_axes_keep_velocity_acceleration_and_jerk_under_tool_centre_point_control(
+    machine: tuple[str, str, str], points: list[tuple[int, ...]], feed: int
+) -> None:
+    name, tilt, turn = machine
+    lines = [f"X{x}. Y{y}. Z{z}. {tilt}{a}. {turn}{b}." for x, y, z, a, b in points]
+    text = "\n".join([f"G43.4 H1\nG1 F{feed}", *lines, "G49", "M30", ""])
+    result = polycnc.run(text, control="fanuc-m", machine=name, setup={"tools": {1: {"length": 100}}})
+    assert not result.alarms
+    keeps_limits(result, load_machine(name))
+
+
+def keeps_limits(result: polycnc.Result, machine: Machine) -> None:
+    for run, context in runs_of(result, machine):
         times = np.arange(0.0, min(run.seconds, 10.0), 0.001)
-        _, velocity, acceleration = real_motion(run, context, times)
+        _, velocity, acceleration = real_motion(run, context, times, machine)
         jerk = np.diff(acceleration, axis=0) / 0.001
-        for i, name in enumerate("XZC"):
-            axis = MACHINE.axis[name]
+        for i, name in enumerate(result.toolpath.axes):
+            axis = machine.axis[name]
             assert np.abs(velocity[:, i]).max(initial=0.0) <= max(axis.rapid, axis.max_feed) * SLACK
             assert np.abs(acceleration[:, i]).max(initial=0.0) <= axis.acceleration * SLACK
             assert np.abs(jerk[:, i]).max(initial=0.0) <= axis.jerk * SLACK
 
 
-def runs_of(result: polycnc.Result) -> list[tuple[Run, Context]]:
+def runs_of(result: polycnc.Result, machine: Machine) -> list[tuple[Run, Context]]:
     """What the axes do from rest to rest, rapids of each axis alone left out."""
-    toolpath, found, n = result.toolpath, list[Any](), 3
+    toolpath, found, n = result.toolpath, list[Any](), len(result.toolpath.axes)
     width = piece_width(n)
     planner = Planner(
         toolpath,
-        MACHINE,
+        machine,
         **result.lead,
         compiled=False,
         on_pieces=lambda pieces, count: found.append(np.array(pieces[: count * width]).reshape(count, width)),
@@ -167,15 +197,16 @@ def runs_of(result: polycnc.Result) -> list[tuple[Run, Context]]:
     ]
 
 
-def real_motion(run: Run, context: Context, times: Any) -> tuple[Any, Any, Any]:
+def real_motion(run: Run, context: Context, times: Any, machine: Machine) -> tuple[Any, Any, Any]:
     """Position, velocity and acceleration of the real axes, by the chain rule over a short time."""
     position, velocity, acceleration = run.at(times)
-    short, geometry = 1e-4, MACHINE.geometry_indices(1)
+    short, geometry = 1e-4, machine.geometry_indices(1)
     places = [position + velocity * t + acceleration * t * t / 2.0 for t in (-short, 0.0, short)]
     before, now, after = (
         np.array([real_of(place, context, geometry) for place in laid.tolist()]) for laid in places
     )
     ways = [now - before, after - now]
+    turning = [i for i, name in enumerate(machine.channel(1).axes) if machine.axis[name].rotary]
     for way in ways:
-        way[:, 2] = (way[:, 2] + 180.0) % 360.0 - 180.0
+        way[:, turning] = (way[:, turning] + 180.0) % 360.0 - 180.0
     return now, (ways[0] + ways[1]) / (2.0 * short), (ways[1] - ways[0]) / short**2

@@ -9,12 +9,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from polycnc.transformation.rows import machine_rows, mapped_rows
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from polycnc.toolpath import Context
-
-Geometry = tuple[int, int, int]
+    from polycnc.transformation.contract import Geometry
+    from polycnc.transformation.rows import Table
 
 
 def work_of(machine: Sequence[float], context: Context, geometry: Geometry) -> list[float]:
@@ -46,6 +48,18 @@ def real_of(laid: Sequence[float], context: Context, geometry: Geometry) -> list
     if context.transformation is None:
         return list(laid)
     return machine_of(context.transformation.to_machine(work_of(laid, context, geometry)), context, geometry)
+
+
+def real_rows(laid: Table, context: Context, geometry: Geometry) -> Table:
+    """`real_of` for a table (n, axes) of positions."""
+    if context.transformation is None:
+        return laid
+    offsets = context.offsets or (0.0,) * laid.shape[1]
+    work = laid - offsets
+    if context.frame.is_identity:
+        return machine_rows(context.transformation, work) + offsets
+    work = mapped_rows(context.frame.inverse(), work, geometry)
+    return mapped_rows(context.frame, machine_rows(context.transformation, work), geometry) + offsets
 
 
 def laid_of(real: Sequence[float], context: Context, geometry: Geometry) -> list[float]:

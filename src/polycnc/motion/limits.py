@@ -15,7 +15,7 @@ from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode
 if TYPE_CHECKING:
     from polycnc.machine import Axis, Machine, Spindle
     from polycnc.toolpath import Context
-    from polycnc.transformation.contract import Transformation
+    from polycnc.transformation.contract import Geometry
 
 #: Deviation that counts as none: what a control resolves.
 EXACT_MM = 0.001
@@ -35,15 +35,14 @@ def axis_limits(
     channel: int,
     names: tuple[str, ...],
     settings: Settings,
-    transformation: Transformation | None = None,
+    made: Geometry | None = None,
 ) -> Limits:
-    """The kernels' `limits` for the columns of a toolpath.
+    """The kernels' `limits` for the columns of a toolpath; `made` are X, Y and Z of a transformation that acts.
 
     An axis that a transformation makes is taken to be as slow as the slowest linear one.
     """
     axes = channel_axes(machine, channel, names)
-    if transformation is not None:
-        made = transformation.geometry
+    if made is not None:
         axes = tuple(
             None if axis is not None and axis.rotary and i in made else axis for i, axis in enumerate(axes)
         )
@@ -64,8 +63,8 @@ def axis_limits(
     for i, name in enumerate("XYZ"):
         if geometry[i] < 0 and name in built.virtual and name in names:
             geometry[i] = names.index(name)
-    if transformation is not None:
-        geometry = list(transformation.geometry)
+    if made is not None:
+        geometry = list(made)
     acceleration = numbers("acceleration")
     step = settings.overload * machine.interpolation_cycle_s
     rapid, feed = (

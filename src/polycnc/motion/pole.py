@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from polycnc.machine import Axis
-    from polycnc.motion.frames import Geometry
     from polycnc.motion.row_path import ArcPath, Path
     from polycnc.toolpath import Context
+    from polycnc.transformation.contract import Geometry
     from polycnc.transformation.pole import Pole
 
 #: A path that comes so near to the pole (mm) leads through it; radius of the ring.

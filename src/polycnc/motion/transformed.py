@@ -22,7 +22,7 @@ from array import array
 from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.motion.frames import carried, laid_of, machine_of, real_of, work_of
+from polycnc.motion.frames import carried, laid_of, machine_of, real_of, real_rows, work_of
 from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
 from polycnc.motion.limits import averages, axis_limits, channel_axes, rotary_weight
 from polycnc.motion.pace import Travel, pace_of
@@ -41,14 +41,14 @@ if TYPE_CHECKING:
     from polycnc.motion.sampling.run import Moved
     from polycnc.motion.settings import Settings
     from polycnc.toolpath.table import Chunk
-    from polycnc.transformation.contract import Transformation
+    from polycnc.transformation.contract import Geometry, Transformation
 
 #: Part of the acceleration that is for the bend of the real axes' way; the rest is for changes of speed.
 BEND = 0.5
 #: Parts of the jerk: for the third derivative of the way; for bend and acceleration together.
 TWIST, TURN = 0.2, 0.3
-#: Derivatives are differences over so many mm or degrees: by the columns; along the path at most.
-STEP, PATH_STEP = 1e-6, 5e-3
+#: Derivatives along the path are differences over so many mm or degrees at most.
+PATH_STEP = 5e-3
 #: Derivatives by time are differences over so many seconds.
 SHORT_S = 1e-4
 #: Derivatives below this count as none.
@@ -169,15 +169,14 @@ class RealAxes:
         self._axes = channel_axes(machine, channel, names)
         self._geometry = machine.geometry_indices(channel)
         self._laid, self._context = list(start) or [0.0] * len(names), Context()
-        self._limits: dict[Transformation | None, Limits] = {}
+        self._limits: dict[Geometry | None, Limits] = {}
 
     def limits(self, transformation: Transformation | None) -> Limits:
         """The kernels' `limits` while a transformation acts."""
-        if transformation not in self._limits:
-            self._limits[transformation] = axis_limits(
-                self._machine, self._channel, self._names, self._settings, transformation
-            )
-        return self._limits[transformation]
+        made = None if transformation is None else transformation.geometry
+        if made not in self._limits:
+            self._limits[made] = axis_limits(self._machine, self._channel, self._names, self._settings, made)
+        return self._limits[made]
 
     def stand(self, laid: Sequence[float]) -> None:
         """The axes stand elsewhere, without a transformation."""
@@ -300,9 +299,7 @@ class RealAxes:
 
         position, velocity, acceleration = moved
         nearby = [position + velocity * t + acceleration * (0.5 * t * t) for t in (-SHORT_S, 0.0, SHORT_S)]
-        before, now, after = (
-            np.array([real_of(place, context, self._geometry) for place in laid.tolist()]) for laid in nearby
-        )
+        before, now, after = (real_rows(laid, context, self._geometry) for laid in nearby)
         turning = np.array([self._rotary(i) for i in range(len(self._axes))])
         came, goes = (
             np.where(turning, (way + 180.0) % 360.0 - 180.0, way) for way in (now - before, after - now)
@@ -500,13 +497,7 @@ class RealAxes:
     def _slopes(self, context: Context, point: list[float], columns: list[int]) -> list[list[float]]:
         """Derivatives of every real axis by some columns."""
         assert context.transformation is not None
-        real = context.transformation.to_machine(point)
-        slopes: list[list[float]] = [[] for _ in real]
-        for j in columns:
-            beside = context.transformation.to_machine([*point[:j], point[j] + STEP, *point[j + 1 :]])
-            for i, (a, b) in enumerate(zip(real, beside, strict=True)):
-                slopes[i].append(self._way(i, b - a) / STEP)
-        return slopes
+        return [[row[j] for j in columns] for row in context.transformation.jacobian(point)]
 
     def _is_soft(self, context: Context) -> bool:
         return (context.acceleration or self._settings.acceleration) is AccelerationMode.JERK_LIMITED

@@ -15,7 +15,7 @@ from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.events import Raised
 from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
 from polycnc.toolpath.modes import FeedMode
-from polycnc.transformation.rows import machine_rows
+from polycnc.transformation.rows import machine_rows, mapped_rows
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -340,14 +340,9 @@ def _machine_columns(
     end: NDArray[np.float64], context: Context, geometry: tuple[int, int, int]
 ) -> NDArray[np.float64]:
     """`Toolpath.to_machine` for whole columns (n, axes), in the same order of operations."""
-    machine = end.copy()
+    machine = end
     if context.transformation is not None:
-        machine = machine_rows(context.transformation, end)
+        machine = machine_rows(context.transformation, machine)
     if not context.frame.is_identity:
-        x, y, z = (machine[:, i].copy() if i >= 0 else 0.0 for i in geometry)
-        for i, (a, b, c), shift in zip(geometry, context.frame.m, context.frame.t, strict=True):
-            if i >= 0:
-                machine[:, i] = a * x + b * y + c * z + shift
-    if context.offsets:
-        machine += context.offsets
-    return machine
+        machine = mapped_rows(context.frame, machine, geometry)
+    return machine + context.offsets if context.offsets else machine

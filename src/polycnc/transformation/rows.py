@@ -8,7 +8,8 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-    from polycnc.transformation.contract import Transformation
+    from polycnc.geometry.frames import Frame
+    from polycnc.transformation.contract import Geometry, Transformation
 
     Table = npt.NDArray[np.float64]
 
@@ -37,3 +38,13 @@ def jacobian_rows(transformation: Transformation, work: Table) -> Table:
         for j, slope in enumerate(row):
             slopes[:, i, j] = slope
     return slopes
+
+
+def mapped_rows(frame: Frame, table: Table, geometry: Geometry) -> Table:
+    """A table (n, axes) with the geometry axes mapped by a frame; an axis that does not exist counts as zero."""
+    mapped = table.copy()
+    x, y, z = (table[:, i] if i >= 0 else 0.0 for i in geometry)
+    for i, (a, b, c), shift in zip(geometry, frame.m, frame.t, strict=True):
+        if i >= 0:
+            mapped[:, i] = a * x + b * y + c * z + shift
+    return mapped
