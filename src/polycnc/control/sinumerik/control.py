@@ -302,13 +302,14 @@ class Sinumerik:
         """Bring back what `save` returned."""
         assert isinstance(saved, tuple)
         mode, programmable = saved
-        memory = channel.memory
-        changed = {name for name, code in mode.codes.items() if channel.mode[name] != code}
+        memory, before = channel.memory, channel.mode
+        if mode is before and programmable is memory.frames.programmable:
+            return
         channel.mode = mode
         memory.frames.programmable = programmable
-        if "zero_offset" in changed:
+        if mode["zero_offset"] != before["zero_offset"]:
             memory.frames.select(gcodes.number_of(mode["zero_offset"]) - 1)
-        if "feed" in changed:
+        if mode["feed"] != before["feed"]:
             PathFeed.of(channel).mode = tables.feed_type(mode).mode
         memory.tools.assign_lengths(mode["plane"], memory.data)
         frames.changed(channel)

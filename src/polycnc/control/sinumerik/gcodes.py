@@ -138,9 +138,9 @@ GROUP_OF = {word: group for group in GROUPS for word in group.words}
 START_CODES = {group.name: group.start for group in GROUPS if group.is_modal}
 
 #: Further modal state that decides how a block acts, beside the groups: a straight line whose end the next block
-#: tells (ANG), axes with diameter programming of their own (DIAMONA), as `column:function` joined with blanks; and the
-#: function of group 15 whose feed G962 and G972 keep.
-INTERNAL_CODES = {"open_line": "", "axis_diameters": "", "feed_kept": "G94"}
+#: tells (ANG); and the function of group 15 whose feed G962 and G972 keep. Each axis that DIAMONA and the like have
+#: named adds a group of its own.
+INTERNAL_CODES = {"open_line": "", "feed_kept": "G94"}
 
 #: Known functions that polycnc does not execute: the path would differ, so they raise an alarm.
 _NOT_EXECUTED = """

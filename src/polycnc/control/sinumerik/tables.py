@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode, StopWindow
 
 if TYPE_CHECKING:
@@ -65,6 +66,11 @@ FEED_TYPES = {
 KEEP_FEED = frozenset(("G962", "G972"))
 #: S is a cutting speed.
 SURFACE_SPEEDS = frozenset(("G96", "G961", "G962"))
+
+
+def length_factor(mode: Mode) -> float:
+    """From a programmed length to mm."""
+    return INCH_MM if mode["units"] in ("G70", "G700") else 1.0
 
 
 def feed_type(mode: Mode) -> FeedType:

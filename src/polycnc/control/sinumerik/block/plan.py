@@ -15,7 +15,7 @@ from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik import auxiliary, gcodes, tables
 from polycnc.control.sinumerik.block import words
 from polycnc.control.sinumerik.block.draft import Draft, Step
-from polycnc.control.sinumerik.block.positions import axis_diameters
+from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, own_diameter
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import spindle_speed
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
@@ -115,7 +115,7 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     leaves = codes.get("block_motion") in smooth_approach.RETRACTIONS and codes.get("side") == "G40"
     late = [(name, code) for name, code in modal if name in LATE_EFFECTS and not (leaves and name == "side")]
     draft.steps += [_effect(LATE_EFFECTS, channel.mode, name, code) for name, code in late]
-    measures = measuring.measure(draft)
+    measures = measuring.measure(draft) if draft.has(*measuring.WORDS) else None
     if measures is not None:
         draft.steps.append(measures[0])
     in_spline = mode["motion"] in splines.SPLINES
@@ -170,17 +170,14 @@ def _kept_feed(before: Mode, mode: Mode) -> Mode:
 def _axis_diameters(channel: SinumerikChannel, block: Block, mode: Mode, codes: dict[str, str]) -> Mode:
     """The mode after DIAMONA[axis] and the like; a function of the channel takes the transverse axis back."""
     memory = channel.memory
-    chosen = axis_diameters(mode)
-    if "diameter" in codes:
-        chosen.pop(memory.transverse, None)
+    chosen = {memory.transverse: ""} if "diameter" in codes else {}
     for word in block.words:
         if word.address in AXIS_DIAMETERS:
-            column = memory.column(str(word.index))
-            chosen.pop(column, None)
-            if AXIS_DIAMETERS[word.address]:
-                chosen[column] = AXIS_DIAMETERS[word.address]
-    text = " ".join(f"{column}:{function}" for column, function in sorted(chosen.items()))
-    return mode.with_code("axis_diameters", text) if text != mode["axis_diameters"] else mode
+            chosen[memory.column(str(word.index))] = AXIS_DIAMETERS[word.address]
+    for column, function in chosen.items():
+        if own_diameter(mode, column) != function:
+            mode = mode.with_code(DIAMETER_OF_AXIS[column], function)
+    return mode
 
 
 def _codes(block: Block) -> dict[str, str]:

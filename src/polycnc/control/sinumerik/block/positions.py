@@ -9,6 +9,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.control.sinumerik.motion import indexing
+from polycnc.control.sinumerik.tables import length_factor
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
@@ -68,24 +69,28 @@ _MODIFIERS: dict[str, tuple[Way, bool | None]] = {
 _ROTARY_ONLY = {"DC": "16800", "ACP": "16810", "ACN": "16820"}
 
 
-def length_factor(mode: Mode) -> float:
-    """From a programmed length to mm."""
-    return INCH_MM if mode["units"] in ("G70", "G700") else 1.0
-
-
 SHOWS_DIAMETERS = ("DIAMON", "DIAM90")
 
 
-def axis_diameters(mode: Mode) -> dict[int, str]:
-    """Diameter functions of single axes (DIAMONA …) by column."""
-    pairs = (entry.split(":") for entry in mode["axis_diameters"].split())
-    return {int(column): function for column, function in pairs}
+class _GroupOfAxis(dict[int, str]):
+    """Name of the modal group of each axis that holds its own diameter function."""
+
+    def __missing__(self, column: int) -> str:
+        name = self[column] = f"diameter of axis {column}"
+        return name
+
+
+DIAMETER_OF_AXIS = _GroupOfAxis()
+
+
+def own_diameter(mode: Mode, column: int) -> str:
+    """The diameter function that a single axis was given (DIAMONA …); empty for none."""
+    return mode.codes.get(DIAMETER_OF_AXIS[column], "")
 
 
 def diameter_function(mode: Mode, column: int, transverse: int) -> str:
     """DIAMON, DIAM90 or DIAMOF as it holds for an axis: its own, or that of the channel on the transverse axis."""
-    own = axis_diameters(mode).get(column)
-    return own if own is not None else mode["diameter"] if column == transverse else "DIAMOF"
+    return own_diameter(mode, column) or (mode["diameter"] if column == transverse else "DIAMOF")
 
 
 def is_diameter(mode: Mode, way: Way, column: int, transverse: int) -> bool:

@@ -14,13 +14,14 @@ from polycnc.compensation.corner import Shape
 from polycnc.control.sinumerik import auxiliary, tables
 from polycnc.control.sinumerik.block import plain
 from polycnc.control.sinumerik.block.draft import axis_column
-from polycnc.control.sinumerik.block.positions import length_factor, number
+from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import axis_settings, spindle_speed, tolerances, tooth_feed
 from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.signals import retraction
+from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.geometry.units import INCH_MM

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import tables
-from polycnc.control.sinumerik.block.positions import length_factor
+from polycnc.control.sinumerik.tables import length_factor
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 

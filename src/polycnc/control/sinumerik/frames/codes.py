@@ -9,11 +9,12 @@ from __future__ import annotations
 from math import cos, radians, sin
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.block.positions import AxisTerm, length_factor, number
+from polycnc.control.sinumerik.block.positions import AxisTerm, number
 from polycnc.control.sinumerik.feed import spindle_speed
 from polycnc.control.sinumerik.frames import memory as frames
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion.polar import Polar
+from polycnc.control.sinumerik.tables import length_factor
 from polycnc.geometry.frames import Frame, Vector
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import cross

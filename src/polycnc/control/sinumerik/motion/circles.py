@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import plain
-from polycnc.control.sinumerik.block.positions import Way, is_diameter, length_factor, number, target
+from polycnc.control.sinumerik.block.positions import Way, is_diameter, number, target
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.limits.working_area import Ranges
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
 from polycnc.control.sinumerik.motion.polar import Polar
+from polycnc.control.sinumerik.tables import length_factor
 from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY

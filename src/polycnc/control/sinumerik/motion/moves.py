@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import plain
-from polycnc.control.sinumerik.block.positions import AxisTerm, Way, axis_term, length_factor, number, target
+from polycnc.control.sinumerik.block.positions import AxisTerm, Way, axis_term, number, target
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.limits.working_area import Ranges
 from polycnc.control.sinumerik.motion.last_move import LastMove
 from polycnc.control.sinumerik.motion.polar import Polar
+from polycnc.control.sinumerik.tables import length_factor
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM

@@ -13,9 +13,10 @@ from math import hypot, isnan, nan
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.state import Lifetime, State
-from polycnc.control.sinumerik.block.positions import length_factor, number
+from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.signals import interrupts
+from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.variables.row import RowWithStop
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY

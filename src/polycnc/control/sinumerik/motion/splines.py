@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Procedure
-from polycnc.control.sinumerik.block.positions import AxisTerm, axis_term, length_factor, number, target
+from polycnc.control.sinumerik.block.positions import AxisTerm, axis_term, number, target
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.motion.spline_stage import TOLERANCE_MM
+from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import stages
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm

@@ -21,10 +21,11 @@ from typing import TYPE_CHECKING
 from polycnc.channel.path import Move
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik import tables
-from polycnc.control.sinumerik.block.positions import length_factor, number, target
+from polycnc.control.sinumerik.block.positions import number, target
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.motion.last_move import LastMove
+from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.tools.smooth_stage import (
     APPROACHES,
