@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from polycnc.channel.channel import Channel
+from polycnc.control.registry import control
 from polycnc.control.sinumerik.gcodes import INTERNAL_CODES, START_CODES
+from polycnc.machine import load_machine, parse_setup
+from polycnc.memory.retained import InMemoryStore
+from polycnc.program import Form, ProgramStore
 from polycnc.session import open_session
 from tests.control.sinumerik.support import moves, run
 
@@ -49,3 +54,18 @@ def test_the_same_program_gives_the_same_rows_twice() -> None:
     runs = [open_session(text, control="sinumerik-840d", setup=setup).run().rows for _ in range(2)]
     assert runs[0] == runs[1]
     assert len(runs[0]) == 8
+
+
+def test_r_parameters_and_settable_frames_outlive_the_channel() -> None:
+    store = InMemoryStore()
+    program = "R1=R1+1\n$P_UIFR[1,X,TR]=$P_UIFR[1,X,TR]+1\nM30\n"
+    for times in (1, 2):
+        chosen, programs = control("sinumerik-840d"), ProgramStore(form=Form.SINUMERIK)
+        main = programs.add_text("/_N_MPF_DIR/MAIN", program)
+        setup = parse_setup({"work_offsets": {"G54": {"X": 5.0}}, "variables": {"R1": 7, "R2": 3}})
+        channel = Channel(chosen, load_machine("mill3"), setup, programs, retained=store)
+        for _ in channel.run(main):
+            pass
+        assert not channel.alarms
+        values = [chosen.read_variable(channel, name) for name in ("R1", "R2", "$P_UIFR[1,X,TR]")]
+        assert values == [7.0 + times, 3.0, 5.0 + times]

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from functools import cached_property
 from math import inf
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from polycnc.channel.snapshot import unchanging
 from polycnc.control.alarm_text import alarm_catalogue
@@ -39,6 +40,7 @@ from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.names.variables import Variable
 from polycnc.language.sinumerik.statements.sections import end_of_subprogram
 from polycnc.machine.plc import Plc
+from polycnc.memory.retained import VARIABLES, WORK_OFFSETS
 from polycnc.messages import AlarmError
 from polycnc.program import Form
 from polycnc.toolpath import Context
@@ -64,6 +66,8 @@ if TYPE_CHECKING:
 NO_LIMIT_RPM = 1e8
 #: R parameters of a channel whose machine data say nothing.
 R_PARAMETERS = 1000
+_T = TypeVar("_T")
+_R_PARAMETER = re.compile(r"\s*R(\d+|\[.*\])\s*", re.IGNORECASE)
 #: Number of every settable zero offset in its group.
 ZERO_OFFSETS = {word: gcodes.number_of(word) for word in gcodes.BY_NAME["zero_offset"].words}
 
@@ -106,6 +110,7 @@ class Sinumerik:
 
     def start(self, channel: SinumerikChannel) -> None:
         """Power-on: modal state, machine data, tools and frames as machine and setup say."""
+        is_new = not channel.retained.table(VARIABLES, channel.number)
         memory = self._memory(channel)
         channel.memory = memory
         channel.mode = channel.modes.mode(start_codes(channel, memory.data))
@@ -118,7 +123,8 @@ class Sinumerik:
         memory.language.macros.update(coordination.names(channel))
         if channel.group is None or channel is channel.group.first:
             for name, value in channel.setup.variables.items():
-                self.write_variable(channel, name, value)
+                if is_new or not _R_PARAMETER.fullmatch(name):
+                    self.write_variable(channel, name, value)
         measuring.watch(channel)
         interrupts.watch(channel)
         init_programs.call(channel)
@@ -167,9 +173,10 @@ class Sinumerik:
         )
         global_base = [NEUTRAL] * data.integer("$MN_MM_NUM_GLOBAL_BASE_FRAMES")
         bases = data.integer("$MC_MM_NUM_BASE_FRAMES")
+        of_channel, of_control = (channel.retained.table(WORK_OFFSETS, n) for n in (channel.number, 0))
         return Memory(
             language=LanguageMemory(
-                [0.0] * count,
+                _kept(channel.retained.table(VARIABLES, channel.number), "R", [0.0] * count),
                 names,
                 exact_order=bool(data.integer("$MN_PROG_FUNCTION_MASK") & 1),
                 main_variables_everywhere=bool(data.integer("$MN_LUD_EXTENDED_SCOPE")),
@@ -184,9 +191,9 @@ class Sinumerik:
             ),
             data=data,
             frames=Frames(
-                settable=shared.setdefault("settable frames", settable) if global_frames else settable,
-                base=[ctrans(base), *[NEUTRAL] * (bases - 1)][:bases],
-                global_base=shared.setdefault("global base frames", global_base),
+                settable=_kept(of_control if global_frames else of_channel, "$P_UIFR", settable),
+                base=_kept(of_channel, "$P_CHBFR", [ctrans(base), *[NEUTRAL] * (bases - 1)][:bases]),
+                global_base=_kept(of_control, "$P_NCBFR", global_base),
                 base_mask=data.integer("$MC_CHBFRAME_RESET_MASK"),
                 global_base_mask=data.integer("$MN_NCBFRAME_RESET_MASK"),
                 system={**dict.fromkeys(frames.SYSTEM_FRAMES, NEUTRAL), "$P_EXTFRAME": ctrans(external)},
@@ -402,6 +409,13 @@ class Sinumerik:
         """Names of all variables that hold something."""
         memory = channel.memory
         return [f"R{n}" for n, value in enumerate(memory.language.r) if value]
+
+
+def _kept(table: dict[str, list[_T]], name: str, delivered: list[_T]) -> list[_T]:
+    """A list of retained memory, as long as the delivered one, which fills it where it is shorter."""
+    kept = table.setdefault(name, delivered)
+    kept[:] = [*kept, *delivered[len(kept) :]][: len(delivered)]
+    return kept
 
 
 def _machine_data(channel: SinumerikChannel) -> MachineData:
