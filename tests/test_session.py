@@ -164,3 +164,19 @@ def test_a_control_that_counts_its_tools_takes_no_name(setup: dict[str, object])
         polycnc.run("M30\n", control="fanuc-m", setup=setup)
     with pytest.raises(CommandRefused, match="FACE"):
         VirtualControl("fanuc-m", setup=setup)
+
+
+def test_every_channel_has_a_result_of_its_own() -> None:
+    side = "GET(Y)\nG1 Y50 F3000\nR1=7\nG1 Y60 F=0\nM30\n"
+    main = 'INIT(2,"B")\nSTART(2)\nRELEASE(Y)\nG0 X10\nR1=3\nWAITE(2)\nM30\n'
+    session = open_session(main, control="sinumerik-840d", machine="mill3-2ch", files={"B.MPF": side})
+    result = session.run()
+    first, second = result.channels[1], result.channels[2]
+    assert [first.number, second.number] == [1, 2]
+    assert first.rows == result.rows
+    assert list(result.rows_of_other_channels) == [{"channel": 2, **row} for row in second.rows]
+    assert second.final["work"]["Y"] == 50.0
+    assert [first.variables["R1"], second.variables["R1"]] == [3, 7]
+    assert second.alarms
+    assert first.alarms == []
+    assert result.alarms == second.alarms

@@ -85,8 +85,62 @@ class Lead(TypedDict):
 
 
 @dataclass
+class ChannelResult:
+    """What a run gave of one channel.
+
+    Attributes:
+        channel: The channel in its last state.
+        display: Turns rows of its toolpath into what the control shows.
+        metadata: What a table says of the whole run.
+    """
+
+    channel: Channel
+    display: Display
+    metadata: Mapping[str, str]
+
+    @property
+    def number(self) -> int:
+        """Number of the channel."""
+        return self.channel.number
+
+    @property
+    def alarms(self) -> list[Alarm]:
+        """The alarms of its programs, in order."""
+        names = {program.name for program in self.channel.programs}
+        return [alarm for alarm in self.channel.alarms if alarm.program in names]
+
+    @property
+    def toolpath(self) -> Toolpath:
+        """The table itself, in internal units."""
+        return self.channel.toolpath
+
+    @cached_property
+    def rows(self) -> list[Record]:
+        """Moves and events in order, as the trace shows them."""
+        return list(self.display.records())
+
+    @cached_property
+    def moves(self) -> pa.Table:
+        """The rows as a pyarrow table, one column for each value; needs pyarrow."""
+        from polycnc.toolpath.export import arrow_table
+
+        return arrow_table(self.display, self.toolpath.chunks, dict(self.metadata))
+
+    @cached_property
+    def variables(self) -> Variables:
+        """The control's variables at the end of the program, before its implicit reset."""
+        return Variables(self.channel.control, self.channel)
+
+    @property
+    def final(self) -> dict[str, dict[str, float]]:
+        """`work` and `machine` display at the end, before the implicit reset, as its own program has led the axes."""
+        end, context = self.channel.row_position, self.channel.control.context(self.channel)
+        return {"work": self.display.work(end, context), "machine": self.display.machine(end, context)}
+
+
+@dataclass
 class Result:
-    """What a run gave.
+    """What a run gave. What is said without a channel is of the first one; `channels` has each.
 
     Attributes:
         program: The main program.
@@ -110,6 +164,7 @@ class Result:
     planner: Planner | None = None
     timed: bool = True
     stops: list[str] = field(default_factory=list)
+    _channels: dict[int, ChannelResult] = field(default_factory=dict, repr=False)
 
     @property
     def alarms(self) -> list[Alarm]:
@@ -132,27 +187,35 @@ class Result:
         """The table itself, in internal units."""
         return self.channel.toolpath
 
-    @cached_property
+    @property
+    def channels(self) -> dict[int, ChannelResult]:
+        """Every channel that has run, by number."""
+        group = self.channel.group
+        others = [other for other in group.channels if other.memory is not None] if group is not None else []
+        for channel in (self.channel, *others):
+            if channel.number not in self._channels:
+                layout = axis_layout(self.machine, channel.number)
+                display = self.display if channel is self.channel else Display(channel.toolpath, layout)
+                self._channels[channel.number] = ChannelResult(channel, display, self.metadata)
+        return self._channels
+
+    @property
     def rows(self) -> list[Record]:
         """Moves and events in order, as the trace shows them."""
-        return list(self.display.records())
+        return self.channels[self.channel.number].rows
 
     @property
     def rows_of_other_channels(self) -> Iterator[Record]:
         """As `rows`, of every further channel that has run; each row names its `channel`."""
-        group = self.channel.group
-        for other in group.channels[1:] if group is not None else ():
-            if other.memory is not None:
-                display = Display(other.toolpath, axis_layout(self.machine, other.number))
-                for record in display.records():
-                    yield {"channel": other.number, **record}
+        for number, channel in self.channels.items():
+            if number != self.channel.number:
+                for record in channel.display.records():
+                    yield {"channel": number, **record}
 
-    @cached_property
+    @property
     def moves(self) -> pa.Table:
         """The rows as a pyarrow table, one column for each value; needs pyarrow."""
-        from polycnc.toolpath.export import arrow_table
-
-        return arrow_table(self.display, self.toolpath.chunks, self.metadata)
+        return self.channels[self.channel.number].moves
 
     @property
     def metadata(self) -> dict[str, str]:
@@ -180,36 +243,27 @@ class Result:
         """The tools in the order of their first use, with their times."""
         return self.plan.tools
 
-    @cached_property
+    @property
     def variables(self) -> Variables:
         """The control's variables at the end of the program, before its implicit reset."""
-        return Variables(self.control, self.channel)
+        return self.channels[self.channel.number].variables
 
     @property
     def final(self) -> dict[str, dict[str, float]]:
         """`work` and `machine` display at the end of the program, before its implicit reset."""
-        channel, group = self.channel, self.channel.group
-        shown = self._shown(channel, self.display)
-        own = dict(zip(channel.axes, (axis.name for axis in channel.axis_data), strict=True))
-        for other in group.channels[1:] if group is not None else ():
+        first, group = self.channel, self.channel.group
+        channels = self.channels
+        shown = channels[first.number].final
+        own = dict(zip(first.axes, (axis.name for axis in first.axis_data), strict=True))
+        for number, result in channels.items():
             # An axis that another channel has moved last stands where that one shows it.
-            for axis, value in zip(other.axis_data, other.axes, strict=True):
-                if (
-                    other.memory is not None
-                    and group is not None
-                    and group.moved_by[axis.name] == other.number
-                    and own.get(value, axis.name) == axis.name
-                ):
-                    elsewhere = self._shown(
-                        other, Display(other.toolpath, axis_layout(self.machine, other.number))
-                    )
+            for axis, name in zip(result.channel.axis_data, result.channel.axes, strict=True):
+                is_elsewhere = number != first.number and own.get(name, axis.name) == axis.name
+                if is_elsewhere and group is not None and group.moved_by[axis.name] == number:
+                    elsewhere = result.final
                     for system in shown:
-                        shown[system][value] = elsewhere[system][value]
+                        shown[system][name] = elsewhere[system][name]
         return shown
-
-    def _shown(self, channel: Channel, display: Display) -> dict[str, dict[str, float]]:
-        end, context = channel.row_position, self.control.context(channel)
-        return {"work": display.work(end, context), "machine": display.machine(end, context)}
 
     def alarm_text(self, alarm: Alarm, lang: str | None = None) -> str:
         """The control's own text of an alarm, with the hint on this very case if there is one."""
