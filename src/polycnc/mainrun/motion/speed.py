@@ -8,19 +8,19 @@ hard as their limits let them, along the path.
 
 from __future__ import annotations
 
+from array import array
 from math import inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.kernels.columns import Form, PieceRecord
 from polycnc.motion.kernels.columns import Limits as MachineLimits
+from polycnc.motion.kernels.speeds import bound2, curved_time
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import MutableSequence, Sequence
 
 #: Relative difference of squared speeds, and a way in mm, that count as none.
 SAME, NO_WAY_MM = 1e-12, 1e-12
-#: Heights that are tried for the speed in the middle of a curved piece, as the planner does.
-TRIES = 16
 
 
 #: A phase shorter than this is rounding: it has no acceleration worth the name.
@@ -110,27 +110,16 @@ class Limits(NamedTuple):
     end_bend: tuple[float, ...]
     acceleration: tuple[float, ...]
 
-    def later(self, share: float) -> Limits:
-        """Those of the rest of the piece behind a share of it."""
-
-        def between(a: tuple[float, ...], b: tuple[float, ...]) -> tuple[float, ...]:
-            return tuple(x + (y - x) * share for x, y in zip(a, b, strict=True))
-
-        tangent, bend = between(self.tangent, self.end_tangent), between(self.bend, self.end_bend)
-        return self._replace(tangent=tangent, bend=bend)
-
-    def reachable(self, length: float, start2: float) -> tuple[float, float]:
-        """Least and largest squared speed at the end of a way under one acceleration."""
-        low, high, half = -inf, inf, 0.5 / length
+    def lowest(self, length: float, start2: float) -> float:
+        """Least squared speed at the end of a way under one acceleration."""
+        low, half = -inf, 0.5 / length
         for q, b, q_end, b_end, a in zip(*self, strict=True):
             if q != 0.0:
-                sides = sorted(start2 + (sign * a - b * start2) / (q * half) for sign in (-1.0, 1.0))
-                low, high = max(low, sides[0]), min(high, sides[1])
+                low = max(low, min(start2 + (sign * a - b * start2) / (q * half) for sign in (-1.0, 1.0)))
             own = b_end + q_end * half
             if own != 0.0:
-                sides = sorted((sign * a + q_end * half * start2) / own for sign in (-1.0, 1.0))
-                low, high = max(low, sides[0]), min(high, sides[1])
-        return low, high
+                low = max(low, min((sign * a + q_end * half * start2) / own for sign in (-1.0, 1.0)))
+        return low
 
     def brake(self, start2: float) -> float:
         """Deceleration that holds at both ends of the piece for every squared speed up to this one."""
@@ -142,33 +131,25 @@ class Limits(NamedTuple):
                     hardest = min(hardest, (a - spent) / abs(tangent))
         return max(hardest, 0.0)
 
-    def left(self, peak2: float) -> float:
-        """Acceleration to either side that is left at a squared speed, at the worse end."""
-        least = inf
-        for q, b, q_end, b_end, a in zip(*self, strict=True):
-            for tangent, bend in ((q, b), (q_end, b_end)):
-                if tangent != 0.0:
-                    least = min(least, (a - abs(bend) * peak2) / abs(tangent))
-        return least
-
 
 def curved_profile(
-    length: float, start2: float, aim2: float, cap2: float, pull: float, limits: Limits
+    record: MutableSequence[float], start2: float, aim2: float, cap2: float, axes: int, limits: MachineLimits
 ) -> Profile:
-    """Phases over a curved piece or the rest of one: one acceleration, or over a peak where that is quicker.
+    """Phases over a curved piece: one acceleration, or over a peak where that is quicker, as the planner decides.
 
     Args:
-        length: The way.
+        record: The planner's record of the piece, or of the rest of one.
         start2: Squared speed now.
         aim2: Squared speed wanted at the end.
         cap2: Largest squared speed; above it the axes brake.
-        pull: Largest acceleration along the way.
-        limits: What the axes allow.
+        axes: Number of axes.
+        limits: The machine, as the planner's kernels take it.
     """
-    low, high = limits.reachable(length, start2)
+    length, curve = record[PieceRecord.LENGTH], limits_of(record, axes, limits)
+    low, high = curve.lowest(length, start2), bound2(record, 0, axes, limits, start2, False)[0]
     end2 = min(aim2, max(high, 0.0), cap2)
     if start2 > cap2 * (1.0 + SAME) or end2 < low:
-        hardest = limits.brake(start2)
+        hardest = curve.brake(start2)
         rest2 = start2 - 2.0 * hardest * length
         if rest2 < 0.0 and cap2 <= 0.0:
             way = start2 / (2.0 * hardest)
@@ -178,27 +159,13 @@ def curved_profile(
         return Profile((), 0.0, arrives=False)
     if end2 <= 0.0 and cap2 <= 0.0:
         return Profile((ramp(length, start2, 0.0),), 0.0, arrives=True)
-    return Profile(_over_peak(length, start2, end2, cap2, pull, limits), end2, arrives=True)
-
-
-def _over_peak(
-    length: float, start2: float, end2: float, cap2: float, pull: float, limits: Limits
-) -> tuple[Phase, ...]:
-    """The planner's rule (`kernels/speeds.py`): a peak costs acceleration to the side, the rest goes up and down."""
-    high2 = max(start2, end2)
-    single = ramp(length, start2, end2) if high2 > 0.0 else None
-    peak2 = min(cap2, high2 + pull * length)
-    if single is not None and start2 + end2 >= 1.96 * peak2:
-        return (single,)
-    for _ in range(TRIES):
-        left = limits.left(peak2)
-        if left > 0.0 and abs(end2 - start2) <= 2.0 * left * length:
-            peaked = straight_profile(length, start2, end2, peak2, left)
-            if single is None or peaked.seconds < single.seconds:
-                return peaked.phases
-            return (single,)
-        peak2 = high2 + 0.5 * (peak2 - high2)
-    return (single,) if single is not None else ()
+    record[PieceRecord.CAP2] = cap2
+    seconds, peak2, rate = curved_time(record, 0, axes, limits, start2, end2)
+    if seconds == inf:
+        return Profile((), end2, arrives=True)
+    if rate == 0.0:
+        return Profile((ramp(length, start2, end2),), end2, arrives=True)
+    return straight_profile(length, start2, end2, peak2, rate)
 
 
 def limits_of(record: Sequence[float], axes: int, limits: MachineLimits) -> Limits:
@@ -234,7 +201,14 @@ def profile_of(
         return Profile((), start2, arrives=True)
     if record[PieceRecord.FORM] != Form.CURVED:
         return straight_profile(length, start2, aim2, cap2, record[PieceRecord.PULL])
-    curve = limits_of(record, axes, limits)
-    if done > 0.0:
-        curve = curve.later(done / record[PieceRecord.LENGTH])
-    return curved_profile(length, start2, aim2, cap2, record[PieceRecord.PULL], curve)
+    return curved_profile(_rest_of(record, done, axes), start2, aim2, cap2, axes, limits)
+
+
+def _rest_of(record: Sequence[float], done: float, axes: int) -> MutableSequence[float]:
+    """The record of what is left of a curved piece behind a way: q' and q'' change evenly along it."""
+    rest = array("d", record)
+    length, first = rest[PieceRecord.LENGTH], PieceRecord.VECTORS
+    rest[PieceRecord.LENGTH] = length - done
+    for k in (*range(axes), *range(2 * axes, 3 * axes)):
+        rest[first + k] += (rest[first + axes + k] - rest[first + k]) * done / length
+    return rest
