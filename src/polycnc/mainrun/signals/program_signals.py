@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.sinumerik.variables.stored import Stored
+from polycnc.control.syntec.macros.variables import BitState
+from polycnc.control.syntec.memory import SyntecMemory
+from polycnc.control.word_address.macro_b.variables import MacroMemory
+from polycnc.control.word_address.memory import Memory
 from polycnc.toolpath.events import SignalWrite
 
 if TYPE_CHECKING:
@@ -39,18 +44,20 @@ class ProgramSignals(dict[str, int]):
 
 def connect(channel: Channel, image: SignalImage) -> None:
     """Let the programs of a channel use the signal image; `#1000`, `READDI` and their likes."""
-    for attribute in ("signals", "bits"):
-        known = getattr(channel.memory, attribute, None)
-        if isinstance(known, dict):
-            setattr(channel.memory, attribute, ProgramSignals(known, channel, image))
-    if hasattr(channel.memory, "machine_signals"):
-        channel.memory.machine_signals = None  # the machine's controller is asked when a word reaches it
+    memory = channel.memory
+    if isinstance(memory, MacroMemory):
+        memory.signals = ProgramSignals(memory.signals, channel, image)
+    if isinstance(memory, SyntecMemory):
+        bits = BitState.of(channel)
+        bits.bits = ProgramSignals(bits.bits, channel, image)
+    if isinstance(memory, Memory):
+        memory.machine_signals = None  # the machine's controller is asked when a word reaches it
 
 
 def give(channel: Channel, image: SignalImage) -> None:
     """Give the inputs to programs that keep them in variables (`$A_IN[1]`), before they are read."""
-    kept: dict[tuple[str, tuple[int, ...]], float] = getattr(channel.memory, "nck", {})
     for name, value in image.values.items():
         variable, _, index = name.partition("[")
         if variable.startswith("$A_") and index[:-1].isdigit():
-            kept[variable, (int(index[:-1]),)] = bool(value) if variable[-1] != "A" else value
+            values = Stored.of(channel).of_name(variable)
+            values[variable, (int(index[:-1]),)] = bool(value) if variable[-1] != "A" else value
