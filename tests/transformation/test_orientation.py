@@ -43,6 +43,21 @@ def test_a_direction_that_the_axes_can_take_is_found_again(
     assert way < 0.05 or pole_angle(machine, pose) < 1.0
 
 
+@pytest.mark.parametrize("name", FIVE_AXES)
+@given(angles, angles)
+def test_from_anywhere_the_tool_is_stood_along_a_direction(name: str, first: float, second: float) -> None:
+    machine = of(name)
+    direction = machine.tool_on_work(dict(zip(machine.axes, (first, second), strict=True)))
+    found = angles_for(machine, direction, dict.fromkeys(machine.axes, 0.0))
+    assert found is not None
+    assert machine.tool_on_work(found) == pytest.approx(direction, abs=1e-6)
+
+
+def test_a_machine_with_one_table_reaches_only_its_own_directions() -> None:
+    assert angles_for(of("mill4"), (0.0, 1.0, 1.0), {"A": 0.0}) is not None
+    assert angles_for(of("mill4"), (1.0, 0.0, 1.0), {"A": 0.0}) is None
+
+
 @given(kinematics, poses)
 def test_the_slopes_of_the_direction_are_what_small_turns_give(
     machine: Kinematics, pose: dict[str, float]

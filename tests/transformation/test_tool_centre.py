@@ -75,6 +75,13 @@ def test_two_solutions_stand_the_tool_alike_on_the_same_place(
         assert following.orientation(work) == pytest.approx(following.orientation(point), abs=1e-6)
 
 
+@pytest.mark.parametrize("name", FIVE_AXES)
+@given(st.tuples(*[st.floats(-300.0, 300.0)] * 3))
+def test_with_the_rotary_axes_at_zero_only_the_length_counts(name: str, tip: tuple[float, ...]) -> None:
+    axes = of_machine(name).to_machine([*tip, 0.0, 0.0])
+    assert axes[:3] == pytest.approx([tip[0], tip[1], tip[2] + 120.0])
+
+
 def test_an_axis_along_the_tool_leaves_the_linear_axes_where_they_are() -> None:
     following = of_machine("mill5-bc-head")
     assert following.to_machine([1.0, 2.0, 3.0, 0.0, 77.0])[:3] == [1.0, 2.0, 123.0]

@@ -361,6 +361,7 @@ class Sinumerik:
             diameter_axes=diameters,
             wcs=mode["zero_offset"],
             part=chain(memory.frames.inner()).frame,
+            transformation=coordinates.transformation,
             pace=pace.pace(channel, side),
         )
 

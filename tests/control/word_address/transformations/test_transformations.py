@@ -2,33 +2,12 @@
 
 from __future__ import annotations
 
-from math import cos, isclose, tau
+from math import cos, tau
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 import polycnc
-from polycnc.transformation.cylinder import Cylinder
-from polycnc.transformation.polar import PolarPlane
 from tests.support import codes, ends, moves, run
-
-coordinates = st.floats(-500.0, 500.0, allow_subnormal=False)
-
-
-@given(x=coordinates, c=coordinates, start=st.floats(-360.0, 360.0), side=st.sampled_from([1.0, -1.0]))
-def test_the_real_axes_of_a_polar_plane_lead_back_to_its_point(
-    x: float, c: float, start: float, side: float
-) -> None:
-    plane = PolarPlane(0, 3, (0, 3, 2), start, side=side)
-    back = plane.to_work(plane.to_machine([x, 0.0, 5.0, c]))
-    assert all(isclose(a, b, abs_tol=1e-6) for a, b in zip(back, [x, 0.0, 5.0, c], strict=True))
-
-
-@given(angle=st.floats(-720.0, 720.0), radius=st.floats(1.0, 500.0))
-def test_degrees_and_lengths_on_a_cylinder_are_the_same_place(angle: float, radius: float) -> None:
-    surface = Cylinder(1, radius * 0.017453292519943295, (0, 1, 2))
-    assert isclose(surface.to_machine(surface.to_work([1.0, angle]))[1], angle, abs_tol=1e-9)
 
 
 def test_a_tool_on_the_negative_side_of_the_centre_does_not_turn_the_rotary_axis_when_the_mode_begins() -> (
