@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from polycnc.control.parameters import AxisParameters, Bit, ControlParameters, Number, Whole
-from polycnc.machine.setup.values import ParameterKey, Value, parameter_key
+from polycnc.machine.setup.values import ParameterKey, Parameters, Value, parameter_key
 
 
 class OfAxis(AxisParameters):
@@ -79,3 +79,9 @@ def test_another_value_makes_other_parameters() -> None:
     changed = found.having(ParameterKey(3402, 6), 1)
     assert isinstance(changed, Values)
     assert (found.CLR, changed.CLR, changed.clamp_code) == (False, True, 1)
+
+
+def test_parameters_get_their_names_once() -> None:
+    named = Values.naming(Parameters({parameter_key("5110"): 7}))
+    assert named.clamp_code == 7
+    assert Values.naming(named) is named

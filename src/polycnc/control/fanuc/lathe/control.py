@@ -230,11 +230,13 @@ class FanucTurning(CustomMacroControl):
 
     def reference_point(self, channel: LatheChannel, axis: int, number: int) -> float:
         """Machine position of a reference point; the parameter of a diameter axis is a diameter."""
-        name = channel.axes[axis]
-        shown = channel.memory.parameters.get(self.REFERENCE_PARAMETERS[number], name)
-        if isinstance(shown, int | float):
-            return float(channel.memory.radius_of(axis, float(shown)))
-        return channel.axis_data[axis].reference_points[number - 1]
+        of = channel.memory.parameters.of(channel.axes[axis])
+        shown = (of.reference_point_1, of.reference_point_2, of.reference_point_3, of.reference_point_4)[
+            number - 1
+        ]
+        if shown is None:
+            return channel.axis_data[axis].reference_points[number - 1]
+        return channel.memory.radius_of(axis, shown)
 
     def context(self, channel: LatheChannel) -> Context:
         """The context that holds now, with what threads and taps keep from the operator."""

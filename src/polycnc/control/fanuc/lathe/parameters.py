@@ -109,6 +109,10 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     tailstock_z = Number(1348, delivered=0.0)
     #: 1401#1: rapids run every axis by itself (0) or on a line (1).
     LRP = Bit(1401, 1, delivered=False)
+    #: 1401#5: a dry run acts on threads and taps (0) or not (1).
+    TDR = Bit(1401, 5, delivered=False)
+    #: 1401#6: a dry run acts on rapids (1).
+    RDR = Bit(1401, 6, delivered=False)
     #: 1403#4: the rapid override does not act on the retract of thread cutting cycles.
     ROC = Bit(1403, 4, delivered=False)
     #: 1410: Speed of a dry run; 0 for 1000 mm/min [mm/min].
@@ -242,16 +246,16 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     offset_sets = Whole(5024, delivered=0)
     #: 5028: Digits of T that are the offset number; 0 by the number of sets.
     offset_digits = Whole(5028, delivered=0)
+    #: 5040#3: tools are changed by turret (0) or arm (1).
+    TCT = Bit(5040, 3, delivered=False)
+    #: 5040#4: meaning of G43 and G43.7.
+    TLG = Bit(5040, 4, delivered=False)
     #: 5043: Axis of the Y offset.
     y_offset_axis = Whole(5043, delivered=0)
     #: 5044: Axis of the 4th axis offset.
     axis_of_offset_4 = Whole(5044, delivered=0)
     #: 5045: Axis of the 5th axis offset.
     axis_of_offset_5 = Whole(5045, delivered=0)
-    #: 5040#3: tools are changed by turret (0) or arm (1).
-    TCT = Bit(5040, 3, delivered=False)
-    #: 5040#4: meaning of G43 and G43.7.
-    TLG = Bit(5040, 4, delivered=False)
     #: 5101#0: Series 15 drills along Z (0) or across the plane (1).
     FXY = Bit(5101, 0, delivered=False)
     #: 5101#2: pecks break chips (0) or clear them (1).
@@ -383,9 +387,27 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     #: 5450#0: X of polar interpolation is a radius (0) or a diameter (1).
     PDI = Bit(5450, 0, delivered=False)
     #: 5460: Linear axis of polar interpolation.
-    polar_linear_axis = Whole(5460, delivered=1)
+    polar_linear_axis = Whole(5460, delivered=None)
     #: 5461: Rotary axis of polar interpolation.
-    polar_rotary_axis = Whole(5461, delivered=3)
+    polar_rotary_axis = Whole(5461, delivered=None)
+    #: 5480: Rotary axis of normal line control.
+    normal_axis = Whole(5480, delivered=None)
+    #: 5481: Normal line control: feed of turns; 0 for that of the cut [degrees/min].
+    normal_turn_feed = Number(5481, delivered=0.0)
+    #: 5482: Normal line control: turns up to this angle are left out [degrees].
+    normal_least_turn = Number(5482, delivered=0.0)
+    #: 5483: Normal line control: in moves up to this length the axis stands [mm].
+    normal_shortest_move = Number(5483, delivered=0.0)
+    #: 6000#0: G67 without a modal call is an alarm (0) or nothing (1).
+    G67 = Bit(6000, 0, delivered=True)
+    #: 6000#5: single block halts behind macro statements (1).
+    SBM = Bit(6000, 5, delivered=False)
+    #: 6000#7: single block halts behind macro statements whatever #3003 says (1).
+    SBV = Bit(6000, 7, delivered=False)
+    #: 6001#1: DPRNT prints blanks in front of a number (0) or none (1).
+    PRT = Bit(6001, 1, delivered=False)
+    #: 6001#5: T calls O9000 (1).
+    TCS = Bit(6001, 5, delivered=False)
     #: 6003#2: an interruption macro waits for the end of the block (1).
     MIN = Bit(6003, 2, delivered=False)
     #: 6003#5: the interruption program has local variables of its own, as a macro (0), or those of the
@@ -393,6 +415,68 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     MSB = Bit(6003, 5, delivered=False)
     #: 6003#7: M96 and M97 are those of the interruption macro (1).
     MUS = Bit(6003, 7, delivered=False)
+    #: 6004#0: results of ATAN are 0 to 360 (0) or -180 to 180 degrees (1).
+    NAT = Bit(6004, 0, delivered=False)
+    #: 6006#0: conditions may be joined by AND, OR, XOR (1).
+    MLG = Bit(6006, 0, delivered=False)
+    #: 6050: G code that calls O9010; negative: a modal call.
+    g_code_of_o9010 = Whole(6050, delivered=0)
+    #: 6051: G code that calls O9011; negative: a modal call.
+    g_code_of_o9011 = Whole(6051, delivered=0)
+    #: 6052: G code that calls O9012; negative: a modal call.
+    g_code_of_o9012 = Whole(6052, delivered=0)
+    #: 6053: G code that calls O9013; negative: a modal call.
+    g_code_of_o9013 = Whole(6053, delivered=0)
+    #: 6054: G code that calls O9014; negative: a modal call.
+    g_code_of_o9014 = Whole(6054, delivered=0)
+    #: 6055: G code that calls O9015; negative: a modal call.
+    g_code_of_o9015 = Whole(6055, delivered=0)
+    #: 6056: G code that calls O9016; negative: a modal call.
+    g_code_of_o9016 = Whole(6056, delivered=0)
+    #: 6057: G code that calls O9017; negative: a modal call.
+    g_code_of_o9017 = Whole(6057, delivered=0)
+    #: 6058: G code that calls O9018; negative: a modal call.
+    g_code_of_o9018 = Whole(6058, delivered=0)
+    #: 6059: G code that calls O9019; negative: a modal call.
+    g_code_of_o9019 = Whole(6059, delivered=0)
+    #: 6071: M code that calls O9001 as a subprogram.
+    m_code_of_o9001 = Whole(6071, delivered=0)
+    #: 6072: M code that calls O9002 as a subprogram.
+    m_code_of_o9002 = Whole(6072, delivered=0)
+    #: 6073: M code that calls O9003 as a subprogram.
+    m_code_of_o9003 = Whole(6073, delivered=0)
+    #: 6074: M code that calls O9004 as a subprogram.
+    m_code_of_o9004 = Whole(6074, delivered=0)
+    #: 6075: M code that calls O9005 as a subprogram.
+    m_code_of_o9005 = Whole(6075, delivered=0)
+    #: 6076: M code that calls O9006 as a subprogram.
+    m_code_of_o9006 = Whole(6076, delivered=0)
+    #: 6077: M code that calls O9007 as a subprogram.
+    m_code_of_o9007 = Whole(6077, delivered=0)
+    #: 6078: M code that calls O9008 as a subprogram.
+    m_code_of_o9008 = Whole(6078, delivered=0)
+    #: 6079: M code that calls O9009 as a subprogram.
+    m_code_of_o9009 = Whole(6079, delivered=0)
+    #: 6080: M code that calls the macro O9020.
+    m_code_of_o9020 = Whole(6080, delivered=0)
+    #: 6081: M code that calls the macro O9021.
+    m_code_of_o9021 = Whole(6081, delivered=0)
+    #: 6082: M code that calls the macro O9022.
+    m_code_of_o9022 = Whole(6082, delivered=0)
+    #: 6083: M code that calls the macro O9023.
+    m_code_of_o9023 = Whole(6083, delivered=0)
+    #: 6084: M code that calls the macro O9024.
+    m_code_of_o9024 = Whole(6084, delivered=0)
+    #: 6085: M code that calls the macro O9025.
+    m_code_of_o9025 = Whole(6085, delivered=0)
+    #: 6086: M code that calls the macro O9026.
+    m_code_of_o9026 = Whole(6086, delivered=0)
+    #: 6087: M code that calls the macro O9027.
+    m_code_of_o9027 = Whole(6087, delivered=0)
+    #: 6088: M code that calls the macro O9028.
+    m_code_of_o9028 = Whole(6088, delivered=0)
+    #: 6089: M code that calls the macro O9029.
+    m_code_of_o9029 = Whole(6089, delivered=0)
     #: 7001#0: axes moved by hand return to the path before the program goes on (1).
     MIT = Bit(7001, 0, delivered=False)
     #: 8103#1: P of waiting and balance cutting is a binary sum (0) or path numbers (1).
@@ -413,6 +497,8 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     NCR = Bit(8136, 7, delivered=False)
     #: 8137#0: balance cutting is not there.
     NVC = Bit(8137, 0, delivered=False)
+    #: 11304#3: program numbers have four (0) or eight digits (1).
+    ON8 = Bit(11304, 3, delivered=False)
     #: 11349#4: the Y offset screen switches by [SWITCH] (0) or [WEAR], [GEOM] (1).
     YGW = Bit(11349, 4, delivered=False)
     #: 11400#1: the 5th axis offset is in use.
