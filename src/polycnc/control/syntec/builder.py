@@ -10,6 +10,7 @@ from polycnc.control.word_address.block.plan import Builder
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
+    from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import AxisWord, Plan
     from polycnc.control.word_address.control import WordAddressControl
     from polycnc.program import Program
@@ -69,6 +70,10 @@ class SyntecBuilder(Builder):
         if not FIRST_MACRO <= int(whole) <= LAST_MACRO:
             return None
         return self.channel.store.find_name(f"G{int(whole):04d}")
+
+    def replacement(self, plan: Plan) -> Step | None:
+        """As everywhere; a block whose registered codes are plain has been asked already."""
+        return None if self.plain else super().replacement(plan)
 
     def axis_words(self) -> tuple[AxisWord, ...]:
         """The axis words of the block, those of virtual axes included."""

@@ -25,12 +25,12 @@ from polycnc.control.syntec.motion.moves import FeedState
 from polycnc.control.syntec.parameters import decimals, parameter
 from polycnc.control.syntec.plain import SyntecPlainBlocks
 from polycnc.control.word_address.auxiliary.overrides import in_tapping_mode
-from polycnc.control.word_address.block.numbers import Convert, NumberRules, length_converter
+from polycnc.control.word_address.block.numbers import NumberRules
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.coordinates import frames
+from polycnc.control.word_address.cycles import drilling as drilling_cycles
 from polycnc.control.word_address.motion import nurbs
 from polycnc.control.word_address.transformations import normal_line
-from polycnc.control.word_address.transformations.polar_interpolation import is_length
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.syntec import executable, iso_grammar
 from polycnc.language.syntec.blocks import TypedBlock
@@ -40,13 +40,14 @@ from polycnc.program.split import split_channels
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Mapping
 
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step as ProgramStep
     from polycnc.control.syntec.family import SyntecChannel
-    from polycnc.control.word_address.block.codes import GCode, Handler, MCode, Planner, Step
+    from polycnc.control.word_address.block.codes import GCode, Handler, MCode, Planner
     from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.geometry.arcs import Point
@@ -78,6 +79,24 @@ class SyntecMill(WordAddressControl):
     mdi_intervenes: ClassVar[bool] = False
     only_context: ClassVar[frozenset[Handler]] = WordAddressControl.only_context | {systems.cutting_mode}
     settled_codes: ClassVar[Mapping[str, Condition]] = moves.SETTLED
+    #: A motion code cancels the cycle of its block, in whatever order they are typed (2.47.3, note 9).
+    ENDED_ANYWHERE: ClassVar[frozenset[str]] = frozenset(G_CODES)
+    builder: ClassVar[type[Builder]] = SyntecBuilder
+    rules: ClassVar[tuple[Rule, ...]] = (
+        polar.RULE,
+        normal_line.RULE,
+        oscillation.RULE,
+        spatial.RULE,
+        calls.RULE,
+        tip_control.RULE,
+        drilling_cycles.RULE,
+        cycles.RULE,
+        borrowing.RULE,
+        moves.INVERSE_TIME_RULE,
+        interrupts.RULE,
+        arcs.RULE,
+        calls.MODAL_RULE,
+    )
 
     # ---- programs ----------------------------------------------------------------------------------------
 
@@ -221,50 +240,6 @@ class SyntecMill(WordAddressControl):
             return self.not_yet(address, address)
         return self.fail("address", address=address, hint="hint.syntec.word-not-used", word=address)
 
-    # ---- blocks ------------------------------------------------------------------------------------------
-
-    def plan(self, channel: SyntecChannel, signature: tuple[str, ...]) -> Plan:
-        """The plan of a shape in the present modal state, made and kept."""
-        mode = channel.mode
-        builder = SyntecBuilder(channel, self, signature)
-        polar.check_block(builder)
-        normal_line.check_block(builder)
-        oscillation.check_block(builder)
-        spatial.check_block(builder)
-        plan = mode.plans[signature] = builder.build()
-        return plan
-
-    def modal_changes(self, rows: list[GCode]) -> Iterator[tuple[str, str]]:
-        """A motion code cancels the cycle of its block, in whatever order they are typed (2.47.3, note 9)."""
-        return super().modal_changes(sorted(rows, key=lambda row: bool(row.ends)))
-
-    def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
-        """G65, G66, and macros called by G, M and T codes."""
-        assert isinstance(builder, SyntecBuilder)  # `plan` makes no other
-        return None if builder.plain else calls.plan_call(builder, plan)
-
-    def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
-        """The step of the active motion code; G93 works out the feed of each block."""
-        step = tip_control.plan_with_direction(builder, plan) or super().plan_motion(builder, plan)
-        if builder.mode["cycle"] != "G80":
-            return None if step is None else cycles.with_cycle_words(builder, step)
-        if step is not None:
-            step = borrowing.guarded(builder, plan, step)
-        before, after = builder.before["motion"], builder.mode["motion"]
-        if step is not None and builder.mode["feed"] == "G93" and after in ("G1", "G2", "G3"):
-            step = moves.with_inverse_time(builder, plan, step)
-        if step is not None and interrupts.is_on(builder):
-            step = interrupts.with_interrupt(builder, plan, step)
-        if before in arcs.THREE_POINT_CODES and after not in arcs.THREE_POINT_CODES:
-            return _after_check(step)
-        return step
-
-    def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
-        """The modal macro behind a block."""
-        assert isinstance(builder, SyntecBuilder)  # `plan` makes no other
-        step = calls.plan_modal_call(builder, plan)
-        return [step] if step is not None else []
-
     # ---- numbers -----------------------------------------------------------------------------------------
 
     def number_rules(self, channel: SyntecChannel) -> NumberRules:
@@ -287,12 +262,6 @@ class SyntecMill(WordAddressControl):
     def is_diameter(self, channel: SyntecChannel, axis: int) -> bool:
         """Whether words of an axis are diameters (Pr281~, G10.9)."""
         return bool(channel.memory.is_diameter(axis))
-
-    def axis_converter(self, builder: Builder, axis: int, form: str) -> Convert | None:
-        """What turns a word of an axis into internal units; C is a length in polar interpolation."""
-        if is_length(builder.channel, axis):
-            return length_converter(form, builder.rules, inch=builder.inch)
-        return super().axis_converter(builder, axis, form)
 
     def axis_of_address(
         self, channel: SyntecChannel, address: str, builder: Builder
@@ -317,10 +286,6 @@ class SyntecMill(WordAddressControl):
         last = hypot(end[0] - center[0], end[1] - center[1])
         if first == 0.0 or abs(first - last) > self.arc_tolerance(channel) + 1e-9:
             raise self.fail("arc_end")
-
-    def plan_corner(self, _builder: Builder) -> Callable[[SyntecChannel, list[float]], object] | None:
-        """Corner words are not executed; `untaken` says so."""
-        return None
 
     def polar_target(self, channel: SyntecChannel, plan: Plan, values: list[float]) -> list[float]:
         """End point under G16."""
@@ -365,14 +330,3 @@ class SyntecMill(WordAddressControl):
         names += [f"#{2001 + offset}" for offset in sorted(spaces.modal_doubles)]
         names += [f"@{index}" for index in sorted(memory.globals.values)]
         return names + [f"R{index}" for index in sorted(memory.globals.registers)]
-
-
-def _after_check(step: Step | None) -> Step:
-    """A step behind the check that the last three-point arc is whole."""
-
-    def run(channel: SyntecChannel, values: list[float]) -> None:
-        arcs.check_pair_complete(channel)
-        if step is not None:
-            step(channel, values)
-
-    return run

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.syntec.five_axes import spatial
 from polycnc.control.syntec.parameters import decimals, parameter
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.cycles.drilling import (
     CycleState,
     DrillCycle,
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Handler, Step
     from polycnc.control.word_address.block.numbers import NumberRules
-    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import CycleData
     from polycnc.geometry.arcs import Point
@@ -112,8 +113,10 @@ DRILLING = Drilling(
 )
 
 
-def with_cycle_words(builder: Builder, step: Step) -> Step:
+def _with_cycle_words(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
     """F2 of G81 and E of the tapping cycles in front of a drilling block."""
+    if step is None or builder.mode["cycle"] == "G80":
+        return step
     code = builder.mode["cycle"]
     entering = builder.before["cycle"] not in CYCLES
     unit = (INCH_MM if builder.inch else 1.0) / (1.0 if builder.mode["feed"] == "G95" else 60.0)
@@ -224,3 +227,7 @@ def _drill(channel: SyntecChannel, points: Iterator[Point]) -> None:
     if not is_active(channel) or CycleState.of(channel).data is None:
         raise AlarmError("COR-023", word="", hint="hint.syntec.pattern-without-cycle")
     drill_points(channel, points)
+
+
+#: Words of drilling blocks that only these cycles have.
+RULE = Rule("words of drilling cycles", unless={"cycle": "G80"}, wrap=_with_cycle_words)

@@ -7,7 +7,7 @@ from functools import cached_property
 from importlib import resources
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from polycnc.channel.intervention import TYPED_IN, TakesBack
+from polycnc.channel.intervention import TYPED_IN
 from polycnc.channel.snapshot import unchanging
 from polycnc.compensation import Policy
 from polycnc.control.alarm_text import alarm_catalogue
@@ -17,7 +17,8 @@ from polycnc.control.word_address.block.plain import PlainBlocks
 from polycnc.control.word_address.block.plan import Builder, Plan
 from polycnc.control.word_address.coordinates import frames, systems
 from polycnc.control.word_address.coordinates.systems import ZeroState
-from polycnc.control.word_address.cycles.drilling import Drilling, give_way, plan_drilling
+from polycnc.control.word_address.cycles import drilling as drilling_cycles
+from polycnc.control.word_address.cycles.drilling import Drilling
 from polycnc.control.word_address.memory import Memory
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.path_modes import corner_mode
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
     from polycnc.channel.steps import Step as ProgramStep
     from polycnc.control.parameters import AxisParameters, ControlParameters
     from polycnc.control.word_address.block.codes import Handler, Planner, Step
+    from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.memory import ToolOffset
     from polycnc.geometry.arcs import Point
@@ -76,6 +78,8 @@ class WordAddressControl:
         settled_codes: When codes that are in force already change nothing; see `settled.py`.
         foreign_codes: Codes of other makers to message ids of hints.
         drilling: The drilling cycles.
+        rules: What acts on blocks beside their codes and words, in the order in which it acts; see `block/rules.py`.
+        builder: What works out plans.
         FEED_AT_START: Feed that holds before any F (mm/s), or None for the alarm of a missing feed.
         DIAMETER_PROGRAMMING: Axes marked as transverse are programmed in diameters.
         CURVE_BEGINS_AT_TOOL: The first pole of a G06.2 curve must be where the tool stands.
@@ -83,6 +87,7 @@ class WordAddressControl:
         INCREMENTAL_ADDRESSES: Addresses that are increments of an axis whatever the mode (U is X …).
         LENGTH_TRAVELS_ALONE: G43 H without a Z word moves Z by the offset at once.
         LATER_AXIS_WORD_COUNTS: Of an absolute and an incremental word of one axis the later one counts alone.
+        ENDED_ANYWHERE: Codes that a code of their block ends wherever it stands there; others only behind them.
         POINT_IN_WHOLE_NUMBERS: A decimal point behind a whole number is read over where no point belongs.
     """
 
@@ -100,6 +105,8 @@ class WordAddressControl:
     foreign_codes: ClassVar[Mapping[str, str]] = {}
     parameter_class: ClassVar[type[ControlParameters[AxisParameters]] | None] = None
     drilling: ClassVar[Drilling] = Drilling({})
+    rules: ClassVar[tuple[Rule, ...]] = (drilling_cycles.RULE,)
+    builder: ClassVar[type[Builder]] = Builder
     FEED_AT_START: ClassVar[float | None] = None
     DIAMETER_PROGRAMMING: ClassVar[bool] = False
     CURVE_BEGINS_AT_TOOL: ClassVar[bool] = False
@@ -108,6 +115,7 @@ class WordAddressControl:
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
     LATER_AXIS_WORD_COUNTS: ClassVar[bool] = False
     INCH_CODE: ClassVar[str] = "G20"
+    ENDED_ANYWHERE: ClassVar[frozenset[str]] = frozenset()
     POINT_IN_WHOLE_NUMBERS: ClassVar[bool] = True
     form: ClassVar[Form] = Form.WORD_ADDRESS
     default_machine: ClassVar[str] = "mill3"
@@ -252,32 +260,10 @@ class WordAddressControl:
 
     def plan(self, channel: Channel, signature: tuple[str, ...]) -> Plan:
         """The plan of a shape in the present modal state, made and kept."""
-        plan = Builder(channel, self, signature).build()
+        plan = self.builder(channel, self, signature).build()
         channel_mode: Mode = channel.mode
         channel_mode.plans[signature] = plan
         return plan
-
-    def call_by_code(self, _builder: Builder, _plan: Plan) -> Step | None:
-        """A step that calls a program in place of the block, where a code is registered for that."""
-        return None
-
-    def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
-        """The step of the active motion code for the axis words of a block."""
-        if builder.mode.codes.get("cycle", "") in self.drilling_rules(builder.channel).cycles:
-            return plan_drilling(builder, plan)
-        give_way(builder)
-        planner = self.g_codes[builder.mode["motion"]].planner
-        return planner(builder, plan) if planner is not None else None
-
-    def before_motion(self, _builder: Builder, _plan: Plan) -> list[Step]:
-        """Steps in front of everything else that a block does."""
-        return []
-
-    def takes_back(self, builder: Builder, plan: Plan) -> TakesBack:
-        """What a block takes back of a manual intervention: axes named absolutely; in a cycle each as it moves."""
-        if builder.mode.codes.get("cycle", "") in self.drilling_rules(builder.channel).cycles:
-            return TakesBack(by_move=(1 << len(builder.channel.axes)) - 1)
-        return TakesBack(sum(1 << axis for axis in {w.axis for w in plan.axis_words if not w.incremental}))
 
     def modal_changes(self, rows: list[GCode]) -> Iterator[tuple[str, str]]:
         """The modal groups that the G codes of a block change, in the order typed."""
@@ -286,10 +272,10 @@ class WordAddressControl:
                 yield row.ends, self.power_on[row.ends]
             if row.group:
                 yield row.group, row.code
-
-    def after_motion(self, _builder: Builder, _plan: Plan) -> list[Step]:
-        """Further steps behind the motion (modal macro calls)."""
-        return []
+        chosen = {row.group for row in rows if row.code in self.ENDED_ANYWHERE}
+        for row in rows:
+            if row.ends and row.ends in chosen:
+                yield row.ends, self.power_on[row.ends]
 
     def m_code(self, number: int) -> MCode:
         """The row of an M code; one that the table does not know is an event of the machine's builder."""
@@ -343,10 +329,6 @@ class WordAddressControl:
     def plan_arc_without_center(self, builder: Builder, _plan: Plan) -> Step | None:
         """An arc block without radius and centre."""
         raise self.fail("no_center", address=builder.mode["motion"])
-
-    def plan_corner(self, _builder: Builder) -> Step | None:
-        """What chamfer and corner words of a block ask for; None on a control without them."""
-        return None
 
     def polar_target(self, channel: Channel, plan: Plan, values: list[float]) -> list[float]:
         """End point of a block in polar words."""

@@ -5,28 +5,31 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policy import Policy
-from polycnc.control.word_address.auxiliary.interlocks import guarded, guarded_motion, unlisted
+from polycnc.control.word_address.auxiliary.interlocks import BRAKE_RULE, guarded, unlisted
 from polycnc.control.word_address.block import settled
 from polycnc.control.word_address.block.codes import MCode
+from polycnc.control.word_address.cycles import drilling
+from polycnc.control.word_address.macro_b import code_calls, macro_calls, parameter_input
 from polycnc.control.word_address.macro_b.custom_macro import CustomMacroControl
-from polycnc.control.word_address.macro_b.parameter_input import plan_parameter_block
-from polycnc.control.word_address.motion import corners, nurbs
-from polycnc.control.word_address.motion.line_by_angle import plan_line_by_angle
+from polycnc.control.word_address.motion import corners, line_by_angle, nurbs, path
 from polycnc.control.word_address.tools.length import renew_length
-from polycnc.control.word_address.transformations import normal_line
-from polycnc.control.word_address.transformations.tool_center_point import plan_with_direction
+from polycnc.control.word_address.transformations import (
+    cylinder,
+    normal_line,
+    polar_interpolation,
+    tool_center_point,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.block.codes import Step
-    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.block.words import Words
     from polycnc.language.bulk import Condition
 
 
-CUTTING = frozenset({"G1", "G2", "G3"})
 #: Two blocks are read ahead, and a start-up that does not see the next plane motion makes no offset (training manual
 #: 3.3.1 D of Hartford machining centres, FANUC and MELDAS).
 HARTFORD = Policy(recommand_is_square=True, blind_start_is_square=False)
@@ -42,42 +45,28 @@ class MillingControl(CustomMacroControl):
     OVERRUN_PARAMETER: ClassVar[int] = 5440
     settled_codes: ClassVar[Mapping[str, Condition]] = settled.MILLING
     CURVE_BEGINS_AT_TOOL: ClassVar[bool] = True
-    POLAR_CODES: ClassVar[frozenset[str]] = CustomMacroControl.POLAR_CODES | {"G90", "G91", "G94", "G95"}
-    REFUSED_ON_CYLINDER: ClassVar[frozenset[str]] = CustomMacroControl.REFUSED_ON_CYLINDER | {
-        "G51", "G51.1", "G68", "G68.2", "G43.4", "G43.5",
-    }  # fmt: skip
+    rules: ClassVar[tuple[Rule, ...]] = (
+        normal_line.RULE,
+        parameter_input.RULE,
+        polar_interpolation.rule("G90", "G91", "G94", "G95"),
+        cylinder.rule("G51", "G51.1", "G68", "G68.2", "G43.4", "G43.5"),
+        code_calls.RULE,
+        macro_calls.RULE,
+        corners.RULE,
+        path.INVERSE_TIME_RULE,
+        line_by_angle.RULE,
+        tool_center_point.RULE,
+        drilling.RULE,
+        nurbs.RULE,
+        BRAKE_RULE,
+    )
 
     # ---- motion --------------------------------------------------------------------------------------
-
-    def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
-        """Parameter blocks of G10 L50; macro calls."""
-        normal_line.check_block(builder)
-        return plan_parameter_block(builder, plan) or super().call_by_code(builder, plan)
-
-    def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
-        """The step of the active motion or cycle; under G93 every cutting block needs its own F."""
-        mode = builder.mode
-        if mode["feed"] == "G93" and mode["motion"] in CUTTING and plan.axis_words and not builder.has("F"):
-            raise self.fail("inverse_time_feed", address=mode["motion"])
-        step = self._straight_words(builder, plan) or super().plan_motion(builder, plan)
-        leaves_curve = builder.before["motion"] == "G6.2" != mode["motion"]
-        step = nurbs.then(step) if leaves_curve else step
-        return step and guarded_motion(step, builder, plan)
-
-    def _straight_words(self, builder: Builder, plan: Plan) -> Step | None:
-        """The step of a straight block that tells its end otherwise: by an angle, or by the direction of the tool."""
-        if builder.mode["cycle"] != "G80":
-            return None
-        return plan_line_by_angle(builder, plan) or plan_with_direction(builder, plan)
 
     def spiral_tolerance(self, channel: Channel) -> float:
         """What an arc takes up on its way; beyond it, where a parameter allows that, the rest is straight."""
         limit, delivered = self.arc_tolerance(channel), self.ARC_TOLERANCE_PARAMETER[1]
         return min(limit, delivered) if limit > 0.0 else delivered
-
-    def plan_corner(self, builder: Builder) -> Step | None:
-        """What ,R and ,C ask for."""
-        return corners.plan_corner_words(builder)
 
     def scale_factors(self, channel: Channel, words: Words) -> tuple[float, float, float]:
         """Factors of G51: P for all axes, or I J K; without a point in units of 5400#7."""

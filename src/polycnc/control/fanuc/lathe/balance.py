@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.fanuc.lathe.cycles.single import CYCLES
+from polycnc.control.word_address.block.rules import Rule
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -122,3 +123,7 @@ def _meet(channel: LatheChannel, mark: int, paths: Iterable[int]) -> None:
     if others:
         channel.flush()
         group.meet(channel, mark, others)
+
+
+#: Balanced paths start their cuts together.
+RULE = Rule("balanced cutting", modes={GROUP: ("G68",)}, wrap=together)

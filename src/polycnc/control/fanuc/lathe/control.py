@@ -36,18 +36,17 @@ from polycnc.control.fanuc.operation import dry_run
 from polycnc.control.word_address.auxiliary.overrides import OverrideState
 from polycnc.control.word_address.block.codes import MCode
 from polycnc.control.word_address.cycles.drilling import CycleState
-from polycnc.control.word_address.macro_b import code_calls, interruption
+from polycnc.control.word_address.macro_b import code_calls, interruption, macro_calls
 from polycnc.control.word_address.macro_b.custom_macro import CustomMacroControl
 from polycnc.control.word_address.motion import path
-from polycnc.control.word_address.transformations import normal_line
+from polycnc.control.word_address.transformations import cylinder, normal_line, polar_interpolation
 from polycnc.control.word_address.transformations.normal_line import NormalLineRules
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Mapping
 
-    from polycnc.channel.intervention import TakesBack
     from polycnc.channel.stack import Level
     from polycnc.channel.steps import Step as ProgramStep
     from polycnc.compensation.policy import Policy
@@ -55,6 +54,7 @@ if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import GCode, Handler, Planner, Step
     from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
     from polycnc.language.bulk import Condition
@@ -88,15 +88,33 @@ class FanucTurning(CustomMacroControl):
     EXTENDED_WORK_SYSTEMS: ClassVar[int] = 48
     DIAMETER_PROGRAMMING: ClassVar[bool] = True
     POINT_IN_WHOLE_NUMBERS: ClassVar[bool] = False
-    POLAR_CODES: ClassVar[frozenset[str]] = CustomMacroControl.POLAR_CODES | {"G98", "G99"}
-    REFUSED_ON_CYLINDER: ClassVar[frozenset[str]] = CustomMacroControl.REFUSED_ON_CYLINDER | {
-        "G50",
-        "G90",
-        "G94",
-    }
     NORMAL_LINE_RULES: ClassVar[NormalLineRules] = NormalLineRules(preset="G50")
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z", "H": "C"}
     LATER_AXIS_WORD_COUNTS: ClassVar[bool] = True
+    #: A motion code in the block of a tap cancels the tap, wherever it stands (II.4.5.1, "cancel").
+    ENDED_ANYWHERE: ClassVar[frozenset[str]] = tapping.TAPS
+    rules: ClassVar[tuple[Rule, ...]] = (
+        intervention.RULE,
+        normal_line.RULE,
+        data_input.RULE,
+        polar_interpolation.rule("G98", "G99"),
+        cylinder.rule("G50", "G90", "G94"),
+        repetitive.RULE,
+        code_calls.RULE,
+        macro_calls.RULE,
+        nose_radius.CORNER_RULE,
+        tapping.WAITING_RULE,
+        drilling.RULE,
+        single.ROTATION_RULE,
+        nose_radius.RULE,
+        threads.RULE,
+        shape.INTERRUPTION_RULE,
+        balance.RULE,
+        shape.RULE,
+        single.CLEARING_RULE,
+        tapping.LEAVING_RULE,
+        drawing.RULE,
+    )
 
     # ---- state -----------------------------------------------------------------------------------------------
 
@@ -248,63 +266,11 @@ class FanucTurning(CustomMacroControl):
 
     # ---- motion ----------------------------------------------------------------------------------------------
 
-    def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
-        """Parameter blocks of G10 L52; programs called by codes."""
-        normal_line.check_block(builder)
-        return data_input.plan_parameter_block(builder, plan) or super().call_by_code(builder, plan)
-
     def check_nesting(self, channel: LatheChannel, kind: str) -> None:
         """As everywhere; the shape that G70 runs calls no program at all (II.4.2.8)."""
         if channel.level.kind == modal.SHAPE_KIND:
             raise self.fail("shape_command", address="P")
         super().check_nesting(channel, kind)
-
-    def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
-        """The step of the active motion code, or of the active drilling cycle; balanced paths start it together.
-
-        An interruption may cut it, but for the shape that G70 runs (II.4.2.8).
-        """
-        motion = self._motion_step(builder, plan)
-        if motion is not None:
-            motion = shape.interruptible(builder, motion)
-        return balance.together(builder, plan, motion)
-
-    def _motion_step(self, builder: Builder, plan: Plan) -> Step | None:
-        if builder.mode["cycle"] != "G80":
-            return systems.without_rotation(drilling.plan(builder, plan))
-        tapping.plan_waiting(builder, plan)
-        drilling.give_way(builder)
-        motion = builder.mode["motion"]
-        row = next(code for code in self.g_table(builder.channel).values() if _is_motion(code, motion))
-        step = row.planner(builder, plan) if row.planner is not None else None
-        if step is not None and motion in single.CYCLES:
-            step = systems.without_rotation(step)
-        return threads.plan_way_off(builder, nose_radius.plan_travel(builder, plan, step))
-
-    def modal_changes(self, rows: list[GCode]) -> Iterator[tuple[str, str]]:
-        """A motion code in the block of a tap cancels the tap, wherever it stands (II.4.5.1, "cancel")."""
-        yield from super().modal_changes(rows)
-        if any(row.code in tapping.TAPS for row in rows) and any(row.ends for row in rows):
-            yield "cycle", self.power_on["cycle"]
-
-    def takes_back(self, builder: Builder, plan: Plan) -> TakesBack:
-        """What a block takes back of a manual intervention."""
-        return intervention.takes_back(builder) or super().takes_back(builder, plan)
-
-    def before_motion(self, builder: Builder, plan: Plan) -> list[Step]:
-        """A turning cycle begins where the tool was before it was moved by hand."""
-        return intervention.plan_return(builder, plan)
-
-    def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
-        """Modal macro calls; words of single cycles that a one-shot code clears."""
-        repetitive.check_block(builder, plan)
-        further = (
-            shape.plan_note(builder, plan),
-            single.plan_clearing(builder),
-            tapping.plan_leaving(builder),
-            drawing.plan_check(builder, plan),
-        )
-        return [*super().after_motion(builder, plan), *(step for step in further if step is not None)]
 
     def end_of_program(self, channel: LatheChannel) -> None:
         """The shape of G70 ends with its last block; every other text as usual."""
@@ -318,10 +284,6 @@ class FanucTurning(CustomMacroControl):
         if builder.channel.memory.parameters.CIR:
             raise self.fail("no_center", address=builder.mode["motion"])
         return path.plan_line(builder, plan)
-
-    def plan_corner(self, builder: Builder) -> Callable[[LatheChannel, list[float]], object] | None:
-        """Chamfer and corner R, or a vector given by I and K within compensation."""
-        return nose_radius.plan_line_words(builder)
 
     def untaken(self, address: str, builder: Builder) -> AlarmError:
         """The alarm for a word that nothing takes: drawing dimensions beside a code that allows none have their own."""
@@ -380,7 +342,3 @@ class FanucTurning(CustomMacroControl):
     def compensation_policy(self, channel: LatheChannel) -> Policy:
         """Rules of nose radius compensation by 5003, 5008, 5010, 19607, 19625."""
         return nose_radius.policy(channel)
-
-
-def _is_motion(code: GCode, motion: str) -> bool:
-    return code.group == "motion" and code.code == motion

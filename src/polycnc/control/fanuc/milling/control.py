@@ -21,8 +21,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.block.codes import GCode, MCode, Planner, Step
-    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.codes import GCode, MCode, Planner
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
     from polycnc.toolpath.motion_settings import MotionSettings
@@ -45,6 +46,7 @@ class FanucMilling(MillingControl):
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
     drilling: ClassVar[Drilling] = MILLING_DRILLING
+    rules: ClassVar[tuple[Rule, ...]] = (*MillingControl.rules, interruption.RULE)
     plc_files: ClassVar[tuple[str, ...]] = ("hartford/rules.toml", "fanuc/plc.toml")
 
     def code_calls(self, channel: Channel) -> CodeCalls:
@@ -54,11 +56,6 @@ class FanucMilling(MillingControl):
     def m_row(self, builder: Builder, number: int) -> MCode:
         """The row of an M code; M96 P and M97 are those of the interruption macro where 6003#7 enables it."""
         return interruption.m_code(builder.channel, number) or super().m_row(builder, number)
-
-    def plan_motion(self, builder: Builder, plan: Plan) -> Step | None:
-        """The step of the active motion or cycle, which an interruption may cut."""
-        step = super().plan_motion(builder, plan)
-        return step and interruption.interruptible(builder, step)
 
     def several_m_codes(self, channel: Channel) -> bool:
         """3404#7: up to three M codes in a block."""

@@ -12,6 +12,7 @@ from polycnc.channel.state import Lifetime, State
 from polycnc.channel.waits import Wait, Why
 from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
 from polycnc.control.syntec.coordinates.systems import TurnState
+from polycnc.control.word_address.block.rules import Rule
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -87,10 +88,10 @@ def borrow(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("axes_not_borrowed", "G52.2")
 
 
-def guarded(builder: Builder, plan: Plan, step: Step) -> Step:
+def _guarded(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
     """A motion that is refused while the group does not have its roaming axes."""
     roaming = [word for word in plan.axis_words if roams(builder.channel, word.axis)]
-    if not roaming:
+    if step is None or not roaming:
         return step
 
     def move(channel: SyntecChannel, values: list[float]) -> None:
@@ -162,3 +163,7 @@ def _take_position(channel: SyntecChannel, axis: int) -> None:
         machine[axis] = other.coordinates.machine[places[name]]
         channel.coordinates.arrive_machine(machine)
     group.moved_by[name] = channel.number
+
+
+#: A group moves a roaming axis only while it has it.
+RULE = Rule("roaming axes", in_cycles=False, wrap=_guarded)

@@ -63,6 +63,6 @@ def virtual_words(builder: Builder) -> tuple[AxisWord, ...]:
             position, form = builder.slots[address]
             builder.take(address)
             for axis in axes:
-                convert = builder.control.axis_converter(builder, axis, form)
+                convert = builder.axis_converter(axis, form)
                 found.append(AxisWord(address, axis, position, convert, incremental))
     return tuple(found)

@@ -13,6 +13,7 @@ from polycnc.control.syntec.five_axes.spatial_stage import (
     SpatialStage,
 )
 from polycnc.control.syntec.five_axes.tip_control import PostureState
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
@@ -113,7 +114,7 @@ def end(channel: SyntecChannel) -> None:
     channel.path.take(SpatialStage)
 
 
-def check_block(builder: Builder) -> None:
+def _check_block(builder: Builder) -> None:
     """Refuse what the compensation does not allow."""
     before, after = builder.before["compensation"], builder.mode["compensation"]
     fail = builder.control.fail
@@ -126,3 +127,7 @@ def check_block(builder: Builder) -> None:
             target = builder.control.axis_of_address(builder.channel, address, builder)
             if target is not None and builder.channel.axis_data[target[0]].rotary:
                 raise fail("tip_rotary_word", address=address)
+
+
+#: What must not come during spatial radius compensation.
+RULE = Rule("spatial radius compensation", modes={"compensation": SIDES}, check=_check_block)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.syntec.coordinates import length as tool_length
 from polycnc.control.syntec.parameters import parameter
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.transformations import normal_line, tool_center_point
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
@@ -76,7 +77,7 @@ def end(channel: SyntecChannel) -> None:
         tool_center_point.end_following(channel)
 
 
-def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
+def _plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
     """G43.5: I, J, K give the direction of the tool at the end of a straight block; rotary words are refused."""
     if builder.mode["length"] != "G43.5":
         return None
@@ -95,3 +96,7 @@ def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
         step(channel, values)
 
     return move
+
+
+#: Straight blocks that name the direction of the tool.
+RULE = Rule("tool direction by a vector", modes={"length": ("G43.5",)}, motion=_plan_with_direction)

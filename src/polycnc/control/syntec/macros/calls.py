@@ -10,9 +10,10 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.state import Lifetime, State
-from polycnc.control.syntec.builder import CALLS
+from polycnc.control.syntec.builder import CALLS, SyntecBuilder
 from polycnc.control.syntec.macros import interrupts
 from polycnc.control.syntec.macros.variables import INDEXED_LETTERS, Locals
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b.macro_calls import enter_macro
 from polycnc.language.syntec.blocks import FORMS
 from polycnc.language.syntec.values import Text, Value
@@ -20,10 +21,9 @@ from polycnc.language.word_address import WordBlock
 
 if TYPE_CHECKING:
     from polycnc.channel.stack import Level
-    from polycnc.control.syntec.builder import SyntecBuilder
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Step
-    from polycnc.control.word_address.block.plan import Plan
+    from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.program import Program
 
@@ -99,8 +99,9 @@ def _count(words: dict[str, Value], builder: SyntecBuilder) -> int:
 # ---- G65, G66 --------------------------------------------------------------------------------------------
 
 
-def plan_call(builder: SyntecBuilder, plan: Plan) -> Step | None:
+def _plan_call(builder: Builder, plan: Plan) -> Step | None:
     """The step of a block that calls a macro; None for any other block."""
+    assert isinstance(builder, SyntecBuilder)  # the control makes no other
     if any(row.code in CALLS for row in builder.codes):
         return _plan_g65(builder, plan)
     macro = _code_macro(builder)
@@ -144,8 +145,9 @@ def _program(channel: SyntecChannel, number: Value | None) -> Program:
     return found
 
 
-def plan_modal_call(builder: SyntecBuilder, plan: Plan) -> Step | None:
+def _plan_modal_call(builder: Builder, plan: Plan) -> Step | None:
     """What follows a block while G66 or G66.1 is active; None for a block that calls nothing."""
+    assert isinstance(builder, SyntecBuilder)  # the control makes no other
     each = builder.mode["macro"] == "G66.1"
     if builder.mode["macro"] == "G67" or not (each or builder.moves(plan)):
         return None
@@ -351,3 +353,9 @@ def end_program(channel: SyntecChannel, _words: Words) -> None:
         leave_program(channel)
     else:
         channel.control.finish(channel)
+
+
+#: Programs that codes call.
+RULE = Rule("macro calls", replace=_plan_call)
+#: The macro that follows blocks.
+MODAL_RULE = Rule("modal macro calls", unless={"macro": "G67"}, after=_plan_modal_call)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.syntec.spindles import SpindleState
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path, skip
 from polycnc.toolpath import Kind
 
@@ -87,14 +88,16 @@ def _signal(words: Words) -> str:
     return f"R{bit // 100}.{bit % 100}" if family == 1 else f"{'IA'[family - 2]}{bit}"
 
 
-def is_on(builder: Builder) -> bool:
+def _is_on(builder: Builder) -> bool:
     """Whether motion must ask for the signal."""
     codes = builder.mode.codes
     return codes.get(GROUP, OFF) == ON and all(codes[group] == none for group, none in DEAF.items())
 
 
-def with_interrupt(builder: Builder, plan: Plan, step: Step) -> Step:
+def _with_interrupt(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
     """A motion that ends where the signal comes and calls the subprogram there."""
+    if step is None or not _is_on(builder):
+        return step
     kind = STRAIGHT.get(builder.mode["motion"])
 
     def move(channel: SyntecChannel, values: list[float]) -> None:
@@ -137,3 +140,7 @@ def check_off(channel: SyntecChannel) -> None:
     """COR-117: the main program ends without M97."""
     if channel.mode.codes.get(GROUP, OFF) == ON:
         raise channel.control.fail("interrupt_left_on")
+
+
+#: What an interrupt cuts.
+RULE = Rule("interrupts", modes={GROUP: (ON,)}, in_cycles=False, wrap=_with_interrupt)

@@ -10,6 +10,7 @@ from polycnc.channel.state import Lifetime, State, lasting
 from polycnc.control.syntec.coordinates.systems import ScaleState
 from polycnc.control.syntec.five_axes.tip_control import TIP_CODES
 from polycnc.control.syntec.parameters import has_option
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words_as_data import targets_as_data, word_as_data
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.arcs import emit_arc
@@ -272,3 +273,20 @@ def check_pair_complete(channel: SyntecChannel) -> None:
     if state.mid_point is not None:
         state.mid_point = None
         raise channel.control.fail("three_point_format")
+
+
+def _behind(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
+    """A step behind the check that the last three-point arc is whole."""
+    if builder.before["motion"] not in THREE_POINT_CODES or builder.mode["motion"] in THREE_POINT_CODES:
+        return step
+
+    def run(channel: SyntecChannel, values: list[float]) -> None:
+        check_pair_complete(channel)
+        if step is not None:
+            step(channel, values)
+
+    return run
+
+
+#: A three-point arc is whole when another motion code comes.
+RULE = Rule("three-point arcs", modes={"motion": THREE_POINT_CODES}, in_cycles=False, wrap=_behind)

@@ -15,6 +15,7 @@ from polycnc.control.syntec.motion import planes
 from polycnc.control.syntec.spindles import SpindleState
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block import settled
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path, skip
 from polycnc.control.word_address.motion.arcs import emit_arc
 from polycnc.control.word_address.motion.path import CENTER_WORDS
@@ -206,8 +207,13 @@ SETTLED: dict[str, Condition] = {
 }
 
 
-def with_inverse_time(builder: Builder, plan: Plan, step: Step) -> Step:
+_TIMED = frozenset({"G1", "G2", "G3"})
+
+
+def _with_inverse_time(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
     """G93: F times the block length, on arcs F times the radius; F stands in every block (2.64)."""
+    if step is None or builder.mode["feed"] != "G93" or builder.mode["motion"] not in _TIMED:
+        return step
     arc = builder.mode["motion"] in ("G2", "G3")
     u, v, _ = PLANES[builder.mode["plane"]]
     radius_slot, centers = builder.slot("R"), [builder.slot(CENTER_WORDS[axis]) for axis in (u, v)]
@@ -361,3 +367,9 @@ lengthened: Handler = partial(_lengthened_move, 1.0)
 shortened: Handler = partial(_lengthened_move, -1.0)
 lengthened_twice: Handler = partial(_lengthened_move, 2.0)
 shortened_twice: Handler = partial(_lengthened_move, -2.0)
+
+
+#: Feeds of blocks under G93.
+INVERSE_TIME_RULE = Rule(
+    "inverse time feed", modes={"feed": ("G93",)}, in_cycles=False, wrap=_with_inverse_time
+)

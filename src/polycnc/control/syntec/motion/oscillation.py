@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
 from polycnc.control.syntec.parameters import decimals, has_option
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -145,7 +146,7 @@ def end_precise(channel: SyntecChannel, words: Words) -> None:
     _stop(channel, running.home if place is None else place)
 
 
-def check_block(builder: Builder) -> None:
+def _check_block(builder: Builder) -> None:
     """Refuse moves and frames of an axis that oscillates."""
     state = OscillationState.of(builder.channel)
     if builder.before[OSCILLATION] == OFF or state.running is None:
@@ -209,3 +210,7 @@ def _arrive(channel: SyntecChannel, axis: int, place: float) -> None:
     machine = channel.coordinates.machine
     machine[axis] = place
     channel.coordinates.arrive_machine(machine)
+
+
+#: What must not come while an axis oscillates.
+RULE = Rule("oscillation", unless={OSCILLATION: OFF}, check=_check_block)

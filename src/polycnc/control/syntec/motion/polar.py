@@ -9,12 +9,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.systems import DiameterState
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.polar_interpolation import (
     GROUP,
     PolarState,
     enter_polar,
     leave_polar,
+    length_word,
 )
 from polycnc.transformation.polar import PolarPlane
 
@@ -72,7 +74,7 @@ def leave_plane(channel: SyntecChannel) -> None:
         leave_polar(channel)
 
 
-def check_block(builder: Builder) -> None:
+def _check_block(builder: Builder) -> None:
     """Refuse codes that polar interpolation does not allow."""
     if builder.before[POLAR] != "G12.1":
         return
@@ -81,3 +83,7 @@ def check_block(builder: Builder) -> None:
             raise builder.control.fail("polar_mode", address=row.code)
         if row.code == "G10.9":
             raise builder.control.fail("polar_diameter", address=row.code)
+
+
+#: What blocks may hold and how they are read in polar interpolation.
+RULE = Rule("polar interpolation", unless={POLAR: "G13.1"}, check=_check_block, convert=length_word)

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.tool_change import stands_at_reference, z_stands_at_change_point
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.language.bulk import Note, declare, declared
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import InterlockQuery
@@ -137,8 +138,10 @@ def _lets_speeds_pass(channel: WordAddressChannel) -> bool:
     return signals is None or _refusal(channel, "S_CODE", signals) is None
 
 
-def guarded_motion(step: Step, builder: Builder, plan: Plan) -> Step:
+def guarded_motion(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
     """A move behind the interlocks of its axes: a clamped rotary axis."""
+    if step is None:
+        return None
     control: Any = builder.control
     rotary = [data.name for data in builder.channel.axis_data if data.rotary]
     moved = [builder.channel.axes[word.axis] for word in plan.axis_words]
@@ -166,3 +169,7 @@ def note_tool_number(channel: WordAddressChannel) -> None:
     plc: Plc = channel.control.plc
     if channel.memory.machine_signals is not None:
         plc.latch("T_CODE", channel.memory.machine_signals)
+
+
+#: A rotary axis does not move against its brake.
+BRAKE_RULE = Rule("brakes of rotary axes", rotary=True, wrap=guarded_motion)

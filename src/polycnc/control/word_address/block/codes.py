@@ -8,7 +8,7 @@ stand in its tables only where a program can see them (#4001).
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
@@ -54,6 +54,7 @@ class GCode:
         idle_in_cycle: Has no effect in a block while a drilling cycle is active.
         only_changes: Acts only where another code of its group was in force.
         not_yet: Known to the control, not executed by polycnc.
+        addresses: The addresses of `takes`.
     """
 
     code: str
@@ -67,11 +68,10 @@ class GCode:
     idle_in_cycle: bool = False
     only_changes: bool = False
     not_yet: bool = False
+    addresses: tuple[str, ...] = field(init=False, repr=False, compare=False)
 
-    @property
-    def addresses(self) -> tuple[str, ...]:
-        """The addresses of `takes`."""
-        return tuple(self.takes.split())
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "addresses", tuple(self.takes.split()))
 
 
 @dataclass(frozen=True, slots=True)

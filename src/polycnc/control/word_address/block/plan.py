@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.channel.intervention import NOTHING_BACK
+from polycnc.channel.intervention import NOTHING_BACK, TakesBack
 from polycnc.control.word_address.block.codes import GCode, MCode, Order, Step
 from polycnc.control.word_address.block.numbers import Convert, NumberRules, length_converter
 from polycnc.control.word_address.block.words import Words
@@ -22,10 +22,14 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Auxiliary
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
-    from polycnc.control.word_address.block.codes import Handler
+    from polycnc.control.word_address.block.codes import Handler, MotionPlanner
+    from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.control import WordAddressControl
+    from polycnc.control.word_address.cycles.drilling import Drilling
 
 #: The alarm of a code that a control knows and polycnc does not execute yet, on every control.
 NOT_YET = "PC0001"
@@ -40,6 +44,37 @@ class AxisWord:
     slot: int
     convert: Convert | None
     incremental: bool
+
+
+class Footing:
+    """What the blocks of a modal state rest on, beside the modes themselves; like plans it is kept on the mode.
+
+    Attributes:
+        g_codes: The G table as programs write it now.
+        planners: What plans the axis words of each motion code.
+        rules: How numbers are read.
+        cycles: How the control drills.
+    """
+
+    __slots__ = ("cycles", "g_codes", "planners", "rules")
+
+    def __init__(self, channel: Channel, control: WordAddressControl) -> None:
+        self.g_codes: Mapping[str, GCode] = control.g_table(channel)
+        rows = (*control.g_codes.values(), *self.g_codes.values())
+        self.planners: dict[str, MotionPlanner | None] = {
+            row.code: row.planner for row in rows if row.group == "motion"
+        }
+        self.rules: NumberRules = control.number_rules(channel)
+        self.cycles: Drilling = control.drilling_rules(channel)
+
+    @classmethod
+    def of(cls, channel: Channel, control: WordAddressControl) -> Footing:
+        """The footing of the present modal state."""
+        plans = channel.mode.plans
+        footing = plans.get(cls)
+        if footing is None:
+            footing = plans[cls] = cls(channel, control)
+        return footing
 
 
 class Plan:
@@ -81,6 +116,7 @@ class Builder:
         slots: Address to (index of its value, how it was written); of a repeated address the last one counts.
         typed: All words in the order typed, repeated ones included: (address, index, how written).
         codes: Rows of the block's G codes in the order typed; of one group only the last.
+        acting: The control's rules that concern the block, in their order.
     """
 
     def __init__(self, channel: Channel, control: WordAddressControl, signature: tuple[str, ...]) -> None:
@@ -88,6 +124,8 @@ class Builder:
         self.control = control
         self.signature = signature
         self.before: Mode = channel.mode
+        self.footing = Footing.of(channel, control)
+        self.rules = self.footing.rules
         self.slots: dict[str, tuple[int, str]] = {}
         self.typed: list[tuple[str, int, str]] = []
         self.order: list[str] = []
@@ -99,7 +137,7 @@ class Builder:
         self.mode = self.before.with_codes(control.modal_changes(self.codes))
         self._drop_idle_codes()
         self.inch = control.is_inch(self.mode)
-        self.rules = control.number_rules(channel)
+        self.acting: tuple[Rule, ...] = tuple(rule for rule in control.rules if rule.concerns(self))
 
     def _read_signature(self) -> None:
         position = 0
@@ -130,14 +168,14 @@ class Builder:
     def _drop_idle_codes(self) -> None:
         """Leave out codes that have no effect while a drilling cycle is active; their words are theirs."""
         idle = [row for row in self.codes if row.idle_in_cycle]
-        if idle and self.mode.codes.get("cycle", "") in self.control.drilling_rules(self.channel).cycles:
+        if idle and self.drills:
             for row in idle:
                 self.take(*row.addresses)
             self.codes = [row for row in self.codes if not row.idle_in_cycle]
             self.mode = self.before.with_codes(self.control.modal_changes(self.codes))
 
     def _row(self, code: str) -> GCode:
-        row = self.control.g_table(self.channel).get(code)
+        row = self.footing.g_codes.get(code)
         if row is None:
             raise self.control.unknown_code(code)
         if row.not_yet:
@@ -171,6 +209,26 @@ class Builder:
         """A step that calls a handler with the block's words."""
         return lambda channel, values: handler(channel, Words(plan, values))
 
+    @property
+    def drills(self) -> bool:
+        """Whether a drilling cycle is active in the block."""
+        return self.mode.codes.get("cycle", "") in self.footing.cycles.cycles
+
+    def corner(self) -> Step | None:
+        """What chamfer and corner words of the block ask for; None without them."""
+        for rule in self.acting:
+            if rule.corner is not None and (step := rule.corner(self)) is not None:
+                return step
+        return None
+
+    def axis_converter(self, axis: int, form: str) -> Convert | None:
+        """What turns a word of an axis, written so, into internal units."""
+        convert = self.control.axis_converter(self, axis, form)
+        for rule in self.acting:
+            if rule.convert is not None:
+                convert = rule.convert(self, axis, form, convert)
+        return convert
+
     def _in_force(self, row: GCode) -> bool:
         return bool(row.group) and self.before.codes.get(row.group) == row.code
 
@@ -201,7 +259,7 @@ class Builder:
             if target is None:
                 continue
             index, incremental = target
-            convert = control.axis_converter(self, index, form)
+            convert = self.axis_converter(index, form)
             words.append(AxisWord(address, index, position, convert, incremental))
             self.take(address)
         if control.LATER_AXIS_WORD_COUNTS:
@@ -213,32 +271,64 @@ class Builder:
     def build(self) -> Plan:
         """The plan; raises the control's alarm for what the block must not hold."""
         plan = Plan(self)
-        call = self.control.call_by_code(self, plan)
-        if call is not None:
+        whole = self.replacement(plan)
+        if whole is not None:
             plan.mode = self.before
-            plan.steps = (call,)
+            plan.steps = (whole,)
             return plan
         rows = sorted((row for row in self.codes if not self._is_repeated(row)), key=lambda row: row.order)
         for row in rows:
             self.take(*row.addresses)
         plan.axis_words = self.axis_words()
-        plan.takes_back = self.control.takes_back(self, plan)
+        plan.takes_back = self._takes_back(plan)
         before, after = self._auxiliary_steps(plan)
+        front = [rule.before(self, plan) for rule in self.acting if rule.before is not None]
         steps = [
-            *self.control.before_motion(self, plan),
+            *(step for step in front if step is not None),
             *before,
             *(self._acted(r, r.handler, plan) for r in rows if r.handler and r.order < Order.MOTION),
         ]
         if not any(row.axis_words for row in rows):
-            motion = self.control.plan_motion(self, plan)
+            motion = self._motion_step(plan)
             if motion is not None:
                 steps.append(motion)
         steps += [self.handled(r.handler, plan) for r in rows if r.handler and r.order >= Order.MOTION]
         if any(row.handler is exact_stop_block for row in rows):
             steps.append(end_of_exact_stop)
-        plan.steps = (*steps, *self.control.after_motion(self, plan), *after)
+        behind = [rule.after(self, plan) for rule in self.acting if rule.after is not None]
+        plan.steps = (*steps, *(step for step in behind if step is not None), *after)
         self._check_all_taken()
         return plan
+
+    def replacement(self, plan: Plan) -> Step | None:
+        """The step of a rule that takes the whole block; raises what a rule refuses in front of it."""
+        for rule in self.acting:
+            if rule.check is not None:
+                rule.check(self)
+            if rule.replace is not None and (step := rule.replace(self, plan)) is not None:
+                return step
+        return None
+
+    def _takes_back(self, plan: Plan) -> TakesBack:
+        """What the block takes back of a manual intervention: axes named absolutely, where no rule says else."""
+        for rule in self.acting:
+            if rule.takes_back is not None and (back := rule.takes_back(self, plan)) is not None:
+                return back
+        return TakesBack(sum(1 << axis for axis in {w.axis for w in plan.axis_words if not w.incremental}))
+
+    def _motion_step(self, plan: Plan) -> Step | None:
+        """The step of the axis words: of the first rule that has one, or of the active motion code; then wrapped."""
+        step: Step | None = None
+        for rule in self.acting:
+            if rule.motion is not None and (step := rule.motion(self, plan)) is not None:
+                break
+        else:
+            planner = self.footing.planners[self.mode["motion"]]
+            step = planner(self, plan) if planner is not None else None
+        for rule in self.acting:
+            if rule.wrap is not None:
+                step = rule.wrap(self, plan, step)
+        return step
 
     def _auxiliary_steps(self, plan: Plan) -> tuple[list[Step], list[Step]]:
         """Steps of F, S, T, D and the like and of M codes: those with the motion in the order typed, those after."""

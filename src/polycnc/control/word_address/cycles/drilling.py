@@ -13,10 +13,12 @@ from enum import Enum
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.channel.intervention import TakesBack
 from polycnc.channel.state import Lifetime, State, lasting
 from polycnc.control.word_address.auxiliary.functions import stand
 from polycnc.control.word_address.auxiliary.overrides import OverrideState
 from polycnc.control.word_address.block.numbers import length_converter
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.path import FEED_MODES, reach
 from polycnc.control.word_address.tools.radius import suspended
 from polycnc.cycles.drilling import lathe
@@ -263,9 +265,21 @@ def is_active(channel: WordAddressChannel) -> bool:
 
 def give_way(builder: Builder) -> None:
     """A cycle code that a later motion code of its block cancels: its words have no effect."""
-    drilling: Drilling = builder.control.drilling_rules(builder.channel)
-    if any(row.code in drilling.cycles for row in builder.codes):
-        builder.take(*(a for a in drilling.words if builder.is_free(a)))
+    cycles = builder.footing.cycles
+    if any(row.code in cycles.cycles for row in builder.codes):
+        builder.take(*(a for a in cycles.words if builder.is_free(a)))
+
+
+def _takes_back(builder: Builder, _plan: Plan) -> TakesBack | None:
+    """A drilling block takes an intervention back axis by axis, each as it moves."""
+    return TakesBack(by_move=(1 << len(builder.channel.axes)) - 1) if builder.drills else None
+
+
+def _plan_axis_words(builder: Builder, plan: Plan) -> Step | None:
+    if builder.drills:
+        return plan_drilling(builder, plan)
+    give_way(builder)
+    return None
 
 
 def plan_drilling(builder: Builder, plan: Plan) -> Step:
@@ -517,3 +531,13 @@ def _shift(channel: WordAddressChannel, center: list[float], data: CycleData, pa
         if axis >= 0:
             end[axis] = center[axis] + part * amount
     channel.straight(Kind.RAPID, c.to_position(end), nan, end)
+
+
+#: While a cycle is active the axis words of a block are a hole.
+RULE = Rule(
+    "drilling cycles",
+    unless={"cycle": "G80"},
+    groups=("cycle",),
+    takes_back=_takes_back,
+    motion=_plan_axis_words,
+)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.auxiliary.interlocks import note_tool_number
 from polycnc.control.word_address.block.codes import GCode, MCode, Order
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.macro_b import macro_calls, subprograms
 
@@ -131,7 +132,7 @@ def plan_tool_or_call(builder: Builder) -> Step | None:
     return None if calls_by_tool(builder) else functions.plan_tool(builder)
 
 
-def plan_tool_call(builder: Builder) -> Step | None:
+def plan_tool_call(builder: Builder, _plan: Plan) -> Step | None:
     """The call of the program registered for T."""
     if not builder.has("T") or not calls_by_tool(builder):
         return None
@@ -151,3 +152,9 @@ def plan_tool_call(builder: Builder) -> Step | None:
 def calls_by_tool(builder: Builder) -> bool:
     """Whether T calls a program here."""
     return _calls(builder).t is not None and may_call(builder, "T")
+
+
+#: Programs that M codes and T call.
+RULE = Rule(
+    "programs called by M and T codes", words=("T",), m_codes=True, replace=plan_m_macro, after=plan_tool_call
+)

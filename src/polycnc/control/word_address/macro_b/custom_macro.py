@@ -5,11 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.control.word_address.auxiliary import overrides
-from polycnc.control.word_address.block.numbers import NumberRules, length_converter
+from polycnc.control.word_address.block.numbers import NumberRules
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.macro_b import code_calls, interruption, macro_calls
-from polycnc.control.word_address.transformations import cylinder, polar_interpolation
-from polycnc.control.word_address.transformations.cylinder import CylinderState
 from polycnc.control.word_address.transformations.normal_line import NormalLineParameters
 from polycnc.language.word_address.executable import SkippedBlock
 from polycnc.messages import AlarmError
@@ -22,9 +20,8 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Level
     from polycnc.channel.steps import Step as ProgramStep
-    from polycnc.control.word_address.block.codes import GCode, MCode, Step
-    from polycnc.control.word_address.block.numbers import Convert
-    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.codes import GCode, MCode
+    from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
     from polycnc.geometry.arcs import Point
     from polycnc.program import Program
@@ -46,8 +43,6 @@ class CustomMacroControl(WordAddressControl):
         REFERENCE_PARAMETERS: Parameter that holds each reference point.
         ARC_TOLERANCE_PARAMETER: Parameter with the allowed difference of radii, and its delivered value (mm).
         NORMAL_LINE_PARAMETERS: Parameters of G41.1 and G42.1.
-        POLAR_CODES: G codes that polar coordinate interpolation allows.
-        REFUSED_ON_CYLINDER: G codes that cylindrical interpolation refuses, beside cycles.
     """
 
     FURTHER_REFERENCES: ClassVar[tuple[int, ...]] = (2, 3, 4)
@@ -55,12 +50,6 @@ class CustomMacroControl(WordAddressControl):
     REFERENCE_PARAMETERS: ClassVar[dict[int, int]] = {1: 1240, 2: 1241, 3: 1242, 4: 1243}
     ARC_TOLERANCE_PARAMETER: ClassVar[tuple[int, float]] = (3410, 0.03)
     NORMAL_LINE_PARAMETERS: ClassVar[NormalLineParameters] = NormalLineParameters(5480, 5481, 5482, 5483)
-    POLAR_CODES: ClassVar[frozenset[str]] = frozenset({
-        "G1", "G2", "G3", "G4", "G9", "G13.1", "G40", "G41", "G42", "G65", "G66", "G66.1", "G67",
-    })  # fmt: skip
-    REFUSED_ON_CYLINDER: ClassVar[frozenset[str]] = frozenset({
-        "G0", "G12.1", "G27", "G28", "G29", "G30", "G52", "G53", "G54", "G55", "G56", "G57", "G58", "G59", "G92",
-    })  # fmt: skip
 
     # ---- numbers -------------------------------------------------------------------------------------
 
@@ -79,17 +68,6 @@ class CustomMacroControl(WordAddressControl):
         ):
             return 0.0001 if _builder.inch else 0.01
         return 1.0
-
-    def axis_converter(self, builder: Builder, axis: int, form: str) -> Convert | None:
-        """Words of a rotary axis are lengths in polar coordinate interpolation, angles of a surface on a cylinder."""
-        channel = builder.channel
-        if polar_interpolation.is_length(channel, axis):
-            return length_converter(form, builder.rules, inch=builder.inch)
-        convert = super().axis_converter(builder, axis, form)
-        unrolled = CylinderState.of(channel).active
-        if unrolled is None or axis != unrolled.axis:
-            return convert
-        return lambda value: cylinder.unroll(channel, axis, convert(value) if convert else value)
 
     def axis_role(self, channel: Channel, axis: int) -> int:
         """1, 2, 3 for the basic axes, 5, 6, 7 for their parallels, 0 for others (1022)."""
@@ -194,15 +172,6 @@ class CustomMacroControl(WordAddressControl):
 
     # ---- calls ---------------------------------------------------------------------------------------
 
-    def call_by_code(self, builder: Builder, plan: Plan) -> Step | None:
-        """G66.1 takes every block as arguments; M codes may be registered as macro calls.
-
-        Codes that a transformation refuses are alarms before anything else.
-        """
-        polar_interpolation.check_block(builder, self.POLAR_CODES)
-        cylinder.check_block(builder, self.REFUSED_ON_CYLINDER)
-        return code_calls.plan_m_macro(builder, plan) or macro_calls.plan_argument_block(builder, plan)
-
     def code_calls(self, _channel: Channel) -> CodeCalls:
         """The G, M and T codes that call programs."""
         return code_calls.CodeCalls()
@@ -221,8 +190,3 @@ class CustomMacroControl(WordAddressControl):
     def m_row(self, builder: Builder, number: int) -> MCode:
         """The row of an M code, or of the subprogram that it calls."""
         return code_calls.m_row(builder, number) or super().m_row(builder, number)
-
-    def after_motion(self, builder: Builder, plan: Plan) -> list[Step]:
-        """The program registered for T, and the modal macro behind a block that moves."""
-        steps = (code_calls.plan_tool_call(builder), macro_calls.plan_modal_call(builder, plan))
-        return [step for step in steps if step is not None]

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.block.codes import MCode
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b.variables import LOCALS
 from polycnc.control.word_address.motion.skip import signal_position
 from polycnc.messages import AlarmError
@@ -19,7 +20,7 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.control.word_address.block.codes import Step
-    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel
     from polycnc.machine.setup.values import Interrupt
@@ -87,9 +88,9 @@ def m_code(channel: MacroChannel, number: int) -> MCode | None:
     return M_CODES.get(number) if enabled else None
 
 
-def interruptible(builder: Builder, motion: Step) -> Step:
+def interruptible(builder: Builder, _plan: Plan, motion: Step | None) -> Step | None:
     """A motion that an input may cut."""
-    if builder.mode.codes.get("interruption") != "M96":
+    if motion is None or builder.mode.codes.get("interruption") != "M96":
         return motion
 
     def move(channel: MacroChannel, values: list[float]) -> None:
@@ -156,3 +157,7 @@ def finish(channel: MacroChannel, *, jumps: bool) -> None:
     channel.mode = cut.mode
     if len(channel.toolpath) == cut.rows:
         channel.straight(cut.kind, cut.end, cut.feed)
+
+
+#: What an interruption macro cuts.
+RULE = Rule("interruption macro", modes={"interruption": ("M96",)}, wrap=interruptible)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.block.numbers import length_converter
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.macro_b import subprograms
 from polycnc.control.word_address.macro_b.variables import LOCALS
@@ -211,3 +212,12 @@ def note_level(channel: MacroChannel) -> None:
     else:
         letters = "".join(kind for kind in ("G", "MT") if not by_code & set(kind))
     channel.mode = channel.mode.with_code("calls", letters if "B" in callers else letters + "B")
+
+
+#: Blocks that G66.1 takes as arguments, and the macro behind blocks that move.
+RULE = Rule(
+    "modal macro calls",
+    modes={"macro": ("G66", "G66.1")},
+    replace=plan_argument_block,
+    after=plan_modal_call,
+)

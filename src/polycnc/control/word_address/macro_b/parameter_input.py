@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.macro_b.subprograms import sequences_of
 from polycnc.machine.setup.values import ParameterKey
@@ -76,3 +77,7 @@ def set_parameter(
     channel.setup = replace(channel.setup, parameters=memory.parameters)
     if not keeps_plans:
         channel.modes.forget_plans()
+
+
+#: Between G10 L50 and G11 blocks are parameters.
+RULE = Rule("input of parameters", unless={"data_input": "G11"}, replace=plan_parameter_block)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.compensation import Plane
 from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
@@ -61,3 +62,7 @@ def refuse_start_up(channel: WordAddressChannel) -> None:
     corners = channel.path.find(CornerStage)
     if corners is not None and corners.active and not corners.policy.start_up_between:
         raise channel.control.fail("corner_no_move")
+
+
+#: Chamfers and roundings.
+RULE = Rule("corners", words=tuple(SHAPES), corner=plan_corner_words)

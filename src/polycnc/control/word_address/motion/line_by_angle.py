@@ -6,6 +6,7 @@ from math import nan, radians, sin, tan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.numbers import angle_converter
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.path import reach
 from polycnc.geometry.planes import PLANES
 from polycnc.messages import AlarmError
@@ -36,7 +37,7 @@ def plan_line_by_angle(builder: Builder, plan: Plan) -> Step | None:
     if not named:
         # The end would be where the line of the next block meets this one.
         raise AlarmError("PC0001", address=ANGLE, hint="hint.not-supported", code=ANGLE)
-    corner = control.plan_corner(builder)
+    corner = builder.corner()
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
         rapid = kind == Kind.RAPID
@@ -60,3 +61,7 @@ def plan_line_by_angle(builder: Builder, plan: Plan) -> Step | None:
         channel.straight(kind, c.to_position(end), nan if rapid else channel.feed, end)
 
     return move
+
+
+#: Straight blocks that tell their end by an angle.
+RULE = Rule("lines by angle", words=(ANGLE,), in_cycles=False, motion=plan_line_by_angle)

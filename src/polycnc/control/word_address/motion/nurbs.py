@@ -8,6 +8,7 @@ from math import dist
 from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path
 from polycnc.geometry.nurbs import nurbs_chords
 from polycnc.toolpath import Kind
@@ -120,3 +121,11 @@ def _cut(channel: WordAddressChannel, curve: Curve) -> None:
         raise channel.control.fail("curve_knot", address="K")
     for point in nurbs_chords(order, curve.knots, poles, curve.weights, CHORD_TOLERANCE_MM):
         channel.straight(Kind.SPLINE, list(point), channel.feed)
+
+
+def _behind(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
+    return then(step) if builder.before["motion"] == "G6.2" != builder.mode["motion"] else step
+
+
+#: A curve is complete when another motion code comes.
+RULE = Rule("NURBS curves", modes={"motion": ("G6.2",)}, wrap=_behind)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words_as_data import targets_as_data, word_as_data
 from polycnc.control.word_address.motion.arcs import center_by_radius, emit_arc, emit_stretched, is_stretched
 from polycnc.geometry import arcs
@@ -35,6 +36,7 @@ FEED_MODES = {
 }
 #: The centre words of the geometry axes.
 CENTER_WORDS = "IJK"
+_CUTS = frozenset({"G1", "G2", "G3"})
 
 
 def target(channel: WordAddressChannel, words: tuple[AxisWord, ...], values: list[float]) -> list[float]:
@@ -83,7 +85,7 @@ def plan_line(builder: Builder, plan: Plan) -> Step | None:
 def _plan_straight(builder: Builder, plan: Plan, kind: Kind) -> Step | None:
     words = plan.axis_words
     control = builder.control
-    corner = control.plan_corner(builder)
+    corner = builder.corner()
     if not words:
         return corner
     rapid = kind == Kind.RAPID
@@ -140,7 +142,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
     u, v, w = plane = PLANES[builder.mode["plane"]]
     centers = [CENTER_WORDS[axis] for axis in (u, v, w) if builder.has(CENTER_WORDS[axis])]
     builder.take("R", *centers)
-    corner = control.plan_corner(builder)
+    corner = builder.corner()
     radius_slot = builder.slot("R")
     if not words and radius_slot is None and not centers:
         return corner
@@ -220,3 +222,15 @@ def _center_words(
         return (shift[0], shift[1])
 
     return tell
+
+
+def _require_feed(builder: Builder, plan: Plan) -> Step | None:
+    """Under G93 every cutting block needs its own F."""
+    motion = builder.mode["motion"]
+    if builder.mode["feed"] == "G93" and motion in _CUTS and plan.axis_words and not builder.has("F"):
+        raise builder.control.fail("inverse_time_feed", address=motion)
+    return None
+
+
+#: What G93 asks of blocks.
+INVERSE_TIME_RULE = Rule("inverse time feed", modes={"feed": ("G93",)}, motion=_require_feed)

@@ -11,11 +11,13 @@ from math import pi
 from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
 from polycnc.geometry.planes import PLANES
 from polycnc.transformation.cylinder import Cylinder
 
 if TYPE_CHECKING:
+    from polycnc.control.word_address.block.numbers import Convert
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
@@ -23,6 +25,10 @@ if TYPE_CHECKING:
 #: Modal group that holds `G7.1` while a cylinder is unrolled.
 GROUP = "cylinder"
 _CUTS = frozenset({"G1", "G2", "G3"})
+#: G codes that every control refuses, beside cycles.
+REFUSED = frozenset({
+    "G0", "G12.1", "G27", "G28", "G29", "G30", "G52", "G53", "G54", "G55", "G56", "G57", "G58", "G59", "G92",
+})  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -101,7 +107,7 @@ def end_cylinder(channel: WordAddressChannel) -> None:
     channel.context_changed()
 
 
-def check_block(builder: Builder, refused: frozenset[str]) -> None:
+def _check_block(builder: Builder, refused: frozenset[str]) -> None:
     """Refuse codes that cylindrical interpolation does not allow."""
     if not builder.before.codes.get(GROUP):
         return
@@ -114,6 +120,30 @@ def unroll(channel: MacroChannel, axis: int, angle_deg: float) -> float:
     """A word of the unrolled axis as a length on the surface, mm."""
     active = CylinderState.of(channel).active
     return angle_deg * active.mm_per_degree if active is not None and active.axis == axis else angle_deg
+
+
+def _surface_word(builder: Builder, axis: int, _form: str, convert: Convert | None) -> Convert | None:
+    """Words of the unrolled axis are angles of the surface."""
+    channel = builder.channel
+    unrolled = CylinderState.of(channel).active
+    if unrolled is None or axis != unrolled.axis:
+        return convert
+    return lambda value: unroll(channel, axis, convert(value) if convert else value)
+
+
+def rule(*further: str) -> Rule:
+    """What blocks may hold and how they are read in cylindrical interpolation.
+
+    Args:
+        further: G codes that a control refuses beside `REFUSED`.
+    """
+    refused = REFUSED | set(further)
+    return Rule(
+        "cylindrical interpolation",
+        unless={GROUP: ""},
+        check=lambda builder: _check_block(builder, refused),
+        convert=_surface_word,
+    )
 
 
 def _forget_compensation(channel: WordAddressChannel) -> None:

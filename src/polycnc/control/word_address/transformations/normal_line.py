@@ -14,6 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.transformations.normal_stage import CUTS, SAME_DEG, Direction, NormalStage
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
@@ -134,3 +135,7 @@ def check_block(builder: Builder) -> None:
         raise fail("normal_plane", address=builder.mode["plane"])
     if builder.has(name) and rules.preset in codes:
         raise fail("normal_preset", address=rules.preset, code=rules.preset)
+
+
+#: What must not stand in blocks while the axis follows the path.
+RULE = Rule("normal line control", unless={GROUP: OFF}, check=check_block)

@@ -10,12 +10,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
+from polycnc.control.word_address.block.numbers import length_converter
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.cylinder import CylinderState
 from polycnc.geometry.planes import PLANES
 from polycnc.transformation.polar import PolarPlane
 
 if TYPE_CHECKING:
+    from polycnc.control.word_address.block.numbers import Convert
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
@@ -29,6 +32,10 @@ DELIVERED_ROTARY = "C"
 #: The plane that a linear axis X, Y or Z begins: it decides which of I, J, K give the centre of an arc.
 PLANE_OF_LINEAR = ("G17", "G19", "G18")
 _CUTS = frozenset({"G1", "G2", "G3"})
+#: G codes that every control allows.
+ALLOWED = frozenset({
+    "G1", "G2", "G3", "G4", "G9", "G13.1", "G40", "G41", "G42", "G65", "G66", "G66.1", "G67",
+})  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -114,7 +121,14 @@ def is_length(channel: WordAddressChannel, axis: int) -> bool:
     return plane is not None and axis == plane.rotary
 
 
-def check_block(builder: Builder, allowed: frozenset[str]) -> None:
+def length_word(builder: Builder, axis: int, form: str, convert: Convert | None) -> Convert | None:
+    """Words of the rotary axis are lengths."""
+    if not is_length(builder.channel, axis):
+        return convert
+    return length_converter(form, builder.rules, inch=builder.inch)
+
+
+def _check_block(builder: Builder, allowed: frozenset[str]) -> None:
     """Refuse codes that polar coordinate interpolation does not allow, and rapid motion."""
     if builder.before.codes.get(GROUP) != "G12.1":
         return
@@ -125,3 +139,18 @@ def check_block(builder: Builder, allowed: frozenset[str]) -> None:
     moves = any(control.axis_of_address(builder.channel, a, builder) for a in builder.slots)
     if moves and motion not in _CUTS and not any(row.axis_words for row in builder.codes):
         raise control.fail("polar_code", address=motion)
+
+
+def rule(*further: str) -> Rule:
+    """What blocks may hold and how they are read in polar coordinate interpolation.
+
+    Args:
+        further: G codes that a control allows beside `ALLOWED`.
+    """
+    allowed = ALLOWED | set(further)
+    return Rule(
+        "polar coordinate interpolation",
+        unless={GROUP: "G13.1"},
+        check=lambda builder: _check_block(builder, allowed),
+        convert=length_word,
+    )

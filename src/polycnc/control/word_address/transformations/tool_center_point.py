@@ -11,6 +11,7 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.motion.path import reach
@@ -93,3 +94,9 @@ def end_following(channel: WordAddressChannel) -> None:
         return
     c.transform(None)
     channel.context_changed()
+
+
+#: Straight blocks that name the direction of the tool.
+RULE = Rule(
+    "tool direction by a vector", modes={"length": ("G43.5",)}, in_cycles=False, motion=plan_with_direction
+)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import TYPE_CHECKING
 
+from polycnc.control.fanuc.lathe.coordinates.systems import without_rotation
 from polycnc.control.fanuc.lathe.cycles import tapping
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.cycles import drilling as base
@@ -231,11 +232,6 @@ def _along_parallel(builder: Builder, plan: Plan) -> Step | None:
     return run
 
 
-def give_way(builder: Builder) -> None:
-    """A cycle code that a motion code of its block cancels."""
-    base.give_way(builder)
-
-
 # ---- spindle ---------------------------------------------------------------------------------------------------
 
 
@@ -310,3 +306,14 @@ def note_clamp(number: int) -> Handler:
         tapping.ClampState.of(channel).code = number
 
     return note
+
+
+def _plan_axis_words(builder: Builder, plan_: Plan) -> Step | None:
+    if builder.mode["cycle"] != "G80":
+        return without_rotation(plan(builder, plan_))
+    base.give_way(builder)
+    return None
+
+
+#: While a cycle is active the axis words of a block are a hole, and coordinate rotation has no effect.
+RULE = replace(base.RULE, motion=_plan_axis_words)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.intervention import TakesBack
 from polycnc.control.fanuc.lathe.cycles import single as turning_single
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 
@@ -19,7 +20,7 @@ _SHAPE_CYCLES, _NAMED_AXES = frozenset({"G70", "G71", "G72", "G73"}), frozenset(
 _AXIS_LETTERS = "XYZUVW"
 
 
-def takes_back(builder: Builder) -> TakesBack | None:
+def takes_back(builder: Builder, _plan: Plan) -> TakesBack | None:
     """What the cycle of a block takes back, as soon as it moves; None without a turning cycle."""
     codes = {row.code for row in builder.codes}
     plane = {builder.channel.coordinates.geometry[i] for i in PLANES[builder.mode["plane"]][:2]} - {-1}
@@ -32,11 +33,11 @@ def takes_back(builder: Builder) -> TakesBack | None:
     return TakesBack(_mask(plane)) if cuts_shape or threads or single else None
 
 
-def plan_return(builder: Builder, plan: Plan) -> list[Step]:
+def plan_return(builder: Builder, plan: Plan) -> Step | None:
     """A cycle counts from where the program has left the axes, and its first move leads them there."""
     axes = plan.takes_back.at_once
-    if takes_back(builder) is None:
-        return []
+    if takes_back(builder, plan) is None:
+        return None
 
     def count_from_path(channel: LatheChannel, _values: list[float]) -> None:
         moved, c = channel.moved_by_hand, channel.coordinates
@@ -50,7 +51,7 @@ def plan_return(builder: Builder, plan: Plan) -> list[Step]:
             ]
         )
 
-    return [count_from_path]
+    return count_from_path
 
 
 def _axis(builder: Builder, letter: str) -> int:
@@ -60,3 +61,13 @@ def _axis(builder: Builder, letter: str) -> int:
 
 def _mask(axes: set[int]) -> int:
     return sum(1 << axis for axis in axes)
+
+
+#: A turning cycle begins where the tool was before it was moved by hand.
+RULE = Rule(
+    "manual intervention and turning cycles",
+    modes={"motion": turning_single.CYCLES},
+    codes=_SHAPE_CYCLES | _NAMED_AXES | {"G76"},
+    before=plan_return,
+    takes_back=takes_back,
+)

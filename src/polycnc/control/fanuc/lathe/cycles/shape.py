@@ -21,6 +21,7 @@ from polycnc.control.fanuc.lathe.motion.corners import corner_waits
 from polycnc.control.fanuc.lathe.motion.drawing import DrawingState
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.offsets import nose_radius, nose_tip
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b import interruption
 from polycnc.control.word_address.macro_b.subprograms import sequences_of
 from polycnc.control.word_address.tools.radius import RadiusState, violation_codes
@@ -249,15 +250,21 @@ def end_finishing(channel: LatheChannel) -> None:
     channel.mode = channel.modes.mode(codes)
 
 
-def interruptible(builder: Builder, motion: Step) -> Step:
+def interruptible(builder: Builder, plan: Plan, motion: Step | None) -> Step | None:
     """A motion that an interruption macro may cut, where it belongs to no shape of G70 to G73 (II.4.2.8)."""
-    if builder.mode.codes.get(GROUP) == READING:
+    if motion is None or builder.mode.codes.get(GROUP) == READING:
         return motion
-    cut = interruption.interruptible(builder, motion)
-    if cut is motion:
+    cut = interruption.interruptible(builder, plan, motion)
+    if cut is None or cut is motion:
         return motion
 
     def move(channel: LatheChannel, values: list[float]) -> None:
         (motion if channel.level.kind == SHAPE_KIND else cut)(channel, values)
 
     return move
+
+
+#: What the blocks of a shape may hold, and what its reader is told of them.
+RULE = Rule("shapes", modes={GROUP: (READING, FINISHING)}, after=plan_note)
+#: What an interruption macro cuts outside of shapes.
+INTERRUPTION_RULE = replace(interruption.RULE, wrap=interruptible)

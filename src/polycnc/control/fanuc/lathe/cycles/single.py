@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.code_calls import PROGRAM_M
-from polycnc.control.fanuc.lathe.coordinates.systems import feed_number, plane_axes
+from polycnc.control.fanuc.lathe.coordinates.systems import feed_number, plane_axes, without_rotation
 from polycnc.control.fanuc.lathe.cycles import grinding
 from polycnc.control.fanuc.lathe.cycles.drilling import is_series_15
 from polycnc.control.fanuc.lathe.cycles.modal import GrindingState, SingleCycleState
@@ -17,6 +17,7 @@ from polycnc.control.fanuc.lathe.motion.threads import (
     plan_start_angle,
     refuse_corners,
 )
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.skip import signal_position
 from polycnc.cycles.turning import single
 from polycnc.cycles.turning.thread import Runout, thread_pass
@@ -178,7 +179,7 @@ def _taper_letters(builder: Builder, code: str) -> tuple[str, ...]:
     return ("R", "IJK"[u if code == "G94" else v])
 
 
-def plan_clearing(builder: Builder) -> Step | None:
+def plan_clearing(builder: Builder, _plan: Plan) -> Step | None:
     """A one-shot code, but for G04, or another motion code, makes the control forget the cycle's words."""
     forgets: tuple[tuple[frozenset[str], Step], ...] = (
         (CYCLES, lambda channel, _values: SingleCycleState.of(channel).forget()),
@@ -191,3 +192,16 @@ def plan_clearing(builder: Builder) -> Step | None:
         if leaves or any(not row.group and row.code not in _KEEPING for row in builder.codes):
             return forget
     return None
+
+
+def _straight(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
+    """Coordinate rotation has no effect in a single cycle."""
+    return step if step is None or builder.mode["motion"] not in CYCLES else without_rotation(step)
+
+
+#: Single cycles are not rotated.
+ROTATION_RULE = Rule(
+    "single cycles without rotation", modes={"motion": CYCLES}, in_cycles=False, wrap=_straight
+)
+#: What makes the control forget the words of a single cycle or of a grinding cycle.
+CLEARING_RULE = Rule("words of single cycles", modes={"motion": CYCLES | grinding.CODES}, after=plan_clearing)

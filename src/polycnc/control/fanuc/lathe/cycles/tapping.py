@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.motion.path import FEED_MODES
 from polycnc.toolpath.modes import FeedMode
@@ -74,17 +75,18 @@ def check_block(builder: Builder, axis_before: int, axis: int) -> None:
         raise builder.control.fail("rigid_plane", address=builder.mode["plane"])
 
 
-def plan_waiting(builder: Builder, plan: Plan) -> None:
+def _wait(builder: Builder, plan: Plan) -> Step | None:
     """Between M29 and its tapping cycle neither S nor a move of axes is allowed."""
     if builder.before[RIGID] != RIGID_ON or builder.before["cycle"] != "G80":
-        return
+        return None
     if any(row.code in TAPS for row in builder.codes):
         # The cycle, even one that a motion code of its block cancels.
-        return
+        return None
     if builder.has("S") or plan.axis_words:
         raise builder.control.fail(
             "rigid_between", address="S" if builder.has("S") else plan.axis_words[0].address
         )
+    return None
 
 
 def check(channel: LatheChannel, data: CycleData) -> None:
@@ -141,7 +143,7 @@ def _wanted_extraction(channel: LatheChannel) -> float:
     return percent / 100.0 if percent > 0.0 else 1.0
 
 
-def plan_leaving(builder: Builder) -> Step | None:
+def plan_leaving(builder: Builder, _plan: Plan) -> Step | None:
     """The end of a drilling cycle: clamp code and rigid mode are forgotten, and the S of a rigid tap (II.4.5.3).
 
     A tapping cycle that a motion code of its own block cancels has ended before it began.
@@ -159,3 +161,9 @@ def plan_leaving(builder: Builder) -> Step | None:
             channel.context_changed()
 
     return leave
+
+
+#: What M29 asks of the blocks up to its cycle.
+WAITING_RULE = Rule("blocks behind M29", unless={RIGID: RIGID_OFF}, in_cycles=False, motion=_wait)
+#: What the end of a drilling cycle forgets.
+LEAVING_RULE = Rule("end of a tap", unless={"cycle": "G80"}, codes=TAPS, after=plan_leaving)

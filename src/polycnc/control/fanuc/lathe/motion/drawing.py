@@ -15,6 +15,7 @@ from polycnc.compensation.corner import Shape
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
 from polycnc.control.fanuc.lathe.motion.corners import LEAST_ANGLE_DEG, corner_stage, corner_waits
 from polycnc.control.word_address.block.numbers import Convert, angle_converter
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path
 from polycnc.geometry import offset
 from polycnc.geometry.frames import cos_sin_deg
@@ -89,7 +90,7 @@ def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
 
 def _plan(builder: Builder, plan: Plan) -> Step | None:
     words = _DrawingWords(builder, plan)
-    vector = builder.control.plan_corner(builder)
+    vector = builder.corner()
     if not words.any and not plan.axis_words:
         return vector
 
@@ -267,3 +268,7 @@ def _is_forbidden(row: GCode) -> bool:
 def is_word(address: str) -> bool:
     """Whether an address is a word of drawing dimensions."""
     return address in (",A", ",C", ",R")
+
+
+#: What may stand between the blocks of a figure.
+RULE = Rule("drawing dimensions", after=plan_check)

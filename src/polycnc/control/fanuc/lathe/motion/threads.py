@@ -10,6 +10,7 @@ from polycnc.channel.state import Lifetime, State
 from polycnc.control.fanuc.lathe.coordinates.systems import feed_number, plane_axes
 from polycnc.control.fanuc.lathe.motion import drawing
 from polycnc.control.fanuc.lathe.tools.offsets import THREADS
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.arcs import center_by_radius
 from polycnc.control.word_address.motion.path import CENTER_WORDS, reach
 from polycnc.geometry import arcs
@@ -318,7 +319,7 @@ def note_retract(channel: LatheChannel, end: list[float]) -> None:
         ThreadState.of(channel).retracts = True
 
 
-def plan_way_off(builder: Builder, step: Step | None) -> Step | None:
+def plan_way_off(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
     """The step of the first block behind threads: feed hold waits for its end."""
     if builder.before["motion"] not in THREADS or builder.mode["motion"] in THREADS:
         return step
@@ -343,3 +344,7 @@ def check_last_lead(channel: LatheChannel, end: list[float], lead: float, growth
     largest = LEADS_MM[1] if channel.mode["unit"] == "G21" else LEADS_INCH[1] * INCH_MM
     if not 0.0 < last2 <= largest * largest:
         raise channel.control.fail("thread_lead", address="K")
+
+
+#: Feed hold waits for the end of the block behind threads.
+RULE = Rule("the way off a thread", modes={"motion": THREADS}, in_cycles=False, wrap=plan_way_off)

@@ -9,6 +9,7 @@ from polycnc.compensation.policy import Approach, Policy
 from polycnc.control.fanuc.lathe.cycles.modal import SHAPE_KIND, is_reading
 from polycnc.control.fanuc.lathe.motion import corners
 from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.geometry.offset import Joint, Outer
@@ -163,3 +164,15 @@ def plan_line_words(builder: Builder) -> Callable[[LatheChannel, list[float]], o
             stage.forced_vector((direction[0], direction[1]))
 
     return force
+
+
+#: What nose radius compensation makes of straight blocks.
+RULE = Rule(
+    "nose radius compensation",
+    unless={"compensation": "G40"},
+    codes=("G39",),
+    in_cycles=False,
+    wrap=plan_travel,
+)
+#: Corner words, and vectors of the compensation.
+CORNER_RULE = Rule("corners and vectors", words=("C", *"IJKR"), corner=plan_line_words)

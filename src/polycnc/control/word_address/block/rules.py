@@ -1,0 +1,106 @@
+"""What acts on a block beside its own codes and words, as a tuple that can be read.
+
+A control declares its `rules` in the order in which they act. Each is an object of the module whose feature it belongs
+to, and says what makes it concern a block, so that it is not asked of any other. They are asked once for each shape of
+block in each modal state, when its plan is made:
+
+1. `check`, then `replace`, rule by rule: what a block must not hold, and a call that takes the whole block.
+2. `before`: a step in front of everything else that the block does.
+3. `motion`: the step of the axis words, unless a one-shot code takes them; the first rule that has one decides. Where
+   none has, the active motion code does. `corner` and `convert` are asked by the planners of motion and of axis words.
+4. `wrap`: the step of the motion again, each rule round what the rules in front of it have made of it.
+5. `after`: a step behind the motion and behind the codes that act there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from polycnc.channel.intervention import TakesBack
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.numbers import Convert
+    from polycnc.control.word_address.block.plan import Builder, Plan
+
+#: The group of drilling cycles, and its code while none is active.
+CYCLE, NO_CYCLE = "cycle", "G80"
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """Something that acts on blocks.
+
+    What makes it concern a block; any one of them does, and a rule that names none concerns every block.
+
+    Attributes:
+        modes: Modal groups, each with codes of which one holds in front of the block or in it.
+        unless: Modal groups, each with the code at which the rule rests.
+        codes: G codes of the block.
+        groups: Groups of its G codes.
+        words: Addresses of the block.
+        m_codes: Any M code.
+
+    What it must be besides.
+
+    Attributes:
+        in_cycles: The rule acts also while a drilling cycle is active.
+        rotary: The rule acts only where the channel has rotary axes.
+
+    What it does; the head of the module says when.
+
+    Attributes:
+        check: Raises the alarm for what the block must not hold.
+        replace: The step that stands in place of the whole block.
+        before: A step in front.
+        takes_back: What the block takes back of a manual intervention.
+        motion: The step of the axis words; it may refuse them, or take other words, and leave them to the next rule.
+        corner: What goes between this move and the next one.
+        convert: What turns a word of an axis (by its form, and by what would do it otherwise) into internal units.
+        wrap: What becomes of the motion's step, None where there is no motion.
+        after: A step behind.
+    """
+
+    name: str
+    modes: Mapping[str, Collection[str]] = field(default_factory=dict)
+    unless: Mapping[str, str] = field(default_factory=dict)
+    codes: Collection[str] = ()
+    groups: Collection[str] = ()
+    words: Collection[str] = ()
+    m_codes: bool = False
+    in_cycles: bool = True
+    rotary: bool = False
+    check: Callable[[Builder], None] | None = None
+    replace: Callable[[Builder, Plan], Step | None] | None = None
+    before: Callable[[Builder, Plan], Step | None] | None = None
+    takes_back: Callable[[Builder, Plan], TakesBack | None] | None = None
+    motion: Callable[[Builder, Plan], Step | None] | None = None
+    corner: Callable[[Builder], Step | None] | None = None
+    convert: Callable[[Builder, int, str, Convert | None], Convert | None] | None = None
+    wrap: Callable[[Builder, Plan, Step | None], Step | None] | None = None
+    after: Callable[[Builder, Plan], Step | None] | None = None
+
+    def concerns(self, builder: Builder) -> bool:
+        """Whether the rule is asked of a block."""
+        if not self.in_cycles and builder.mode.codes.get(CYCLE, NO_CYCLE) != NO_CYCLE:
+            return False
+        if self.rotary and not any(data.rotary for data in builder.channel.axis_data):
+            return False
+        named = (self.modes, self.unless, self.codes, self.groups, self.words, self.m_codes)
+        return not any(named) or self._concerns_mode(builder) or self._concerns_words(builder)
+
+    def _concerns_mode(self, builder: Builder) -> bool:
+        for codes in {id(mode): mode.codes for mode in (builder.before, builder.mode)}.values():
+            if any(codes.get(group) in chosen for group, chosen in self.modes.items()):
+                return True
+            if any(codes.get(group, rests) != rests for group, rests in self.unless.items()):
+                return True
+        return False
+
+    def _concerns_words(self, builder: Builder) -> bool:
+        return (
+            (self.m_codes and bool(builder.m_codes))
+            or any(row.code in self.codes or row.group in self.groups for row in builder.codes)
+            or any(address in builder.slots for address in self.words)
+        )
