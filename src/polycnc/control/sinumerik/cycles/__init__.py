@@ -1,7 +1,8 @@
 """The machining cycles of SINUMERIK: from the call in a program to the generators of `polycnc.cycles`.
 
-`table` has the signature of every cycle and names its function; `calls` runs it as a program level; `arguments` gives
-it the values of its parameters, `levels` what they say of the cycle's axis, `moves` the tool. The cycles themselves:
+`table` has the signature of every cycle and names its function; `arguments` gives it the values of its parameters,
+`levels` what they say of the cycle's axis. The function notes what the cycle does, block by block, in `moves`, and
+`calls` runs the blocks as a program level. The cycles themselves:
 
     drilling             CYCLE81 to CYCLE89, CYCLE840
     patterns             HOLES1, HOLES2, CYCLE801, CYCLE802
