@@ -66,4 +66,7 @@ class OneToOne:
 
 def unchanged(work: Sequence[N]) -> list[list[N | float]]:
     """The Jacobian of axes that all go their own way, to be written into."""
-    return [[float(i == j) for j in range(len(work))] for i in range(len(work))]
+    slopes: list[list[N | float]] = [[0.0] * len(work) for _ in work]
+    for i, row in enumerate(slopes):
+        row[i] = 1.0
+    return slopes

@@ -21,27 +21,29 @@ if TYPE_CHECKING:
 
 #: A number, or a column of numbers: one for each point.
 N = TypeVar("N", float, "Column")
+#: What is one number; a tuple, since a union is built anew at every look.
+NUMBER = (float, int)
 #: Radians of a degree, and degrees of a radian.
 RADIAN, DEGREE = math.pi / 180.0, 180.0 / math.pi
 
 
 def cosine(angle: N) -> N:
     """Of an angle in radians."""
-    if isinstance(angle, float | int):
+    if isinstance(angle, NUMBER):
         return math.cos(angle)
     return _each(math.cos, angle)
 
 
 def sine(angle: N) -> N:
     """Of an angle in radians."""
-    if isinstance(angle, float | int):
+    if isinstance(angle, NUMBER):
         return math.sin(angle)
     return _each(math.sin, angle)
 
 
 def cosine_and_sine_deg(angle: N) -> tuple[N, N]:
     """Of an angle in degrees, exact at multiples of 90."""
-    if isinstance(angle, float | int):
+    if isinstance(angle, NUMBER):
         return cos_sin_deg(angle)
     import numpy as np
 
@@ -51,30 +53,33 @@ def cosine_and_sine_deg(angle: N) -> tuple[N, N]:
 
 def angle_deg(y: N, x: N) -> N:
     """Direction of a point from the origin, degrees from -180 to 180."""
-    if isinstance(y, float | int):
+    if isinstance(y, NUMBER):
         return math.degrees(math.atan2(y, x))
     return _each(math.atan2, y, x) * DEGREE
 
 
 def distance(x: N, y: N) -> N:
     """Of a point from the origin."""
-    if isinstance(x, float | int):
+    if isinstance(x, NUMBER):
         return math.hypot(x, y)
     return _each(math.hypot, x, y)
 
 
-def where_less(number: N, bound: float, then: N | float, otherwise: N | float) -> N:
-    """One of two numbers, as another is less than a bound or not."""
-    if isinstance(number, float | int):
-        return then if number < bound else otherwise
+def kept_off(x: N, y: N, least: float) -> tuple[N, N, N]:
+    """A point and its distance from the origin; one that is nearer than `least` is put there, in the direction of X."""
+    if isinstance(x, NUMBER):
+        away = math.hypot(x, y)
+        return (x, y, away) if away >= least else (least, 0.0, least)
     import numpy as np
 
-    return np.where(number < bound, then, otherwise)
+    away = distance(x, y)
+    near = away < least
+    return np.where(near, least, x), np.where(near, 0.0, y), np.where(near, least, away)
 
 
 def constant(value: float, like: N) -> N:
     """A number in the shape of another."""
-    if isinstance(like, float | int):
+    if isinstance(like, NUMBER):
         return value
     import numpy as np
 

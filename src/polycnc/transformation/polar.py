@@ -16,8 +16,8 @@ from polycnc.transformation.numbers import (
     constant,
     cosine,
     distance,
+    kept_off,
     sine,
-    where_less,
 )
 from polycnc.transformation.pole import Pole
 
@@ -88,15 +88,12 @@ class PolarPlane:
 
     def jacobian(self, work: Sequence[N]) -> list[list[N | float]]:
         """Along the direction of the point, and across it by its distance. In the centre: as just beside it."""
-        x, y = work[self.linear] + self.eccentricity[0], work[self.second] + self.eccentricity[1]
-        away = distance(x, y)
-        x, y = where_less(away, CLOSEST_MM, CLOSEST_MM, x), where_less(away, CLOSEST_MM, 0.0, y)
-        away = where_less(away, CLOSEST_MM, CLOSEST_MM, away)
-        slopes = unchanged(work)
-        linear, rotary = slopes[self.linear], slopes[self.rotary]
-        linear[self.linear], linear[self.second] = self.side * x / away, self.side * y / away
-        rotary[self.linear] = -DEGREE * y / (away * away)
-        rotary[self.second] = DEGREE * x / (away * away)
+        (along, across), second = self.eccentricity, self.second
+        x, y, away = kept_off(work[self.linear] + along, work[second] + across, CLOSEST_MM)
+        slopes, own = unchanged(work), self.linear
+        linear, rotary, square = slopes[own], slopes[self.rotary], away * away
+        linear[own], linear[second] = self.side * x / away, self.side * y / away
+        rotary[own], rotary[second] = -DEGREE * y / square, DEGREE * x / square
         if self.virtual >= 0:
             rotary[self.rotary] = slopes[self.virtual][self.virtual] = 0.0
         return slopes
