@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from math import inf, nan
-from typing import TYPE_CHECKING, Any, ClassVar, Generic
+from typing import TYPE_CHECKING, ClassVar, Generic
 
 from polycnc.channel.coordinates import Coordinates
 from polycnc.channel.failure import end_run, stand_at_last_row, take_back
@@ -202,7 +202,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         return [executable.program for executable in self._executables.values()]
 
     def push(
-        self, program: Program, *, kind: str, repeats: int = 0, index: int = 0, local: Any = None
+        self, program: Program, *, kind: str, repeats: int = 0, index: int = 0, local: object = None
     ) -> Level:
         """Call a program: it runs next, `repeats` more times after the first pass."""
         name = self.toolpath.program_number(program.name)

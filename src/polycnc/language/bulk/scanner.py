@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from array import array
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, cast
 
 from polycnc.channel.snapshot import unchanging
+from polycnc.channel.stack import Executable
 from polycnc.language.bulk import layout
 from polycnc.language.bulk.kernels import Tables
 from polycnc.language.bulk.layout import State, new_state
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterable, Sequence
 
     from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Level
     from polycnc.geometry.frames import Frame
     from polycnc.kernels.layout import Floats
     from polycnc.language.bulk.recipe import Recipe, Spelling
@@ -74,7 +76,7 @@ class Bulk:
         return Scanner(dialect, scan, len(channel.axes), self)
 
 
-class Scannable(Protocol):
+class Scannable(Executable, Protocol):
     """A program whose steps are lines of text."""
 
     def line_of_step(self, index: int) -> int:
@@ -85,6 +87,11 @@ class Scannable(Protocol):
 
     def scannable_to(self, line: int) -> int:
         """The line behind those that may be read as one block each, from a line of the text on."""
+
+
+def _scannable(level: Level) -> Scannable:
+    """The program of a level that has a scanner."""
+    return cast("Scannable", level.code)
 
 
 class Dialect(Protocol):
@@ -193,7 +200,7 @@ class Scanner:
     def _some(self, channel: Channel) -> bool:
         """One call of the kernel; true if it may be called again at once."""
         level, window, at = channel.level, self._window, self._state.scan
-        code: Any = level.code
+        code = _scannable(level)
         lines = code.program.lines
         line = code.line_of_step(level.index)
         if not window.stand_at(lines, line, code.scannable_to(line)):
@@ -260,7 +267,7 @@ class Scanner:
         """Rows into the chunk; where a block has left a note, its steps act between them, as they would have there."""
         state, axes = self._state, self._axes
         channel.toolpath.chunk.add_curves(state.scan.curves, self._columns[-1])
-        code: Any = channel.level.code
+        code = _scannable(channel.level)
         taken = 0
         for i in range(state.scan.notes):
             rows, line, rule = self._notes[layout.NoteRecord.SIZE * i : layout.NoteRecord.SIZE * (i + 1)]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from copy import copy
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol, cast
 
+from polycnc.channel.stack import Executable
 from polycnc.language.syntec.values import Text, Vacant, is_true, storable, whole
 from polycnc.messages import AlarmError
 
@@ -191,13 +192,31 @@ def choose(selector: Evaluate, group: Group) -> Step:
     return choose
 
 
+class NumberedProgram(Executable, Protocol):
+    """A program of which any block can be found: both forms of SYNTEC files are such."""
+
+    def find_sequence(self, number: int, _index: int = 0, /) -> int:
+        """The step of `N number`; the alarm where there is none."""
+
+    def sequence_at(self, index: int) -> int:
+        """The last N number at or before a step; 0 where there is none."""
+
+    def find_line(self, line: int) -> int:
+        """The first step of a line of the file, or of the next line that has one."""
+
+
+def numbered(code: Executable) -> NumberedProgram:
+    """A program of the control."""
+    return cast("NumberedProgram", code)
+
+
 def goto(target: Evaluate) -> Step:
     """`GOTO e`: to a sequence number of the same file."""
 
     def go(channel: Channel) -> None:
         number = whole(target(channel), NO_SEQUENCE)
         level = channel.level
-        level.index = level.code.find_sequence(number, level.current)  # type: ignore[attr-defined]
+        level.index = numbered(level.code).find_sequence(number, level.current)
 
     return go
 

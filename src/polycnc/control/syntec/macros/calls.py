@@ -16,6 +16,7 @@ from polycnc.control.syntec.macros.variables import INDEXED_LETTERS, Locals
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b.macro_calls import enter_macro
 from polycnc.language.syntec.blocks import FORMS
+from polycnc.language.syntec.layout import numbered
 from polycnc.language.syntec.values import Text, Value
 from polycnc.language.word_address import WordBlock
 
@@ -275,8 +276,8 @@ def enter_shared(
 ) -> None:
     """Put a program on the stack that works on the caller's local variables."""
     channel.control.check_nesting(channel, kind)
-    code = channel.executable(program)
-    index = 0 if sequence is None else code.find_sequence(sequence)  # type: ignore[attr-defined]
+    code = numbered(channel.executable(program))
+    index = 0 if sequence is None else code.find_sequence(sequence)
     channel.push(program, kind=kind, repeats=count - 1, index=index, local=channel.level.locals)
 
 
@@ -324,9 +325,9 @@ def return_from_program(channel: SyntecChannel, words: Words) -> None:
     leave_program(channel, jumps=sequence is not None or line is not None)
     level = channel.level
     if sequence is not None:
-        level.index = level.code.find_sequence(sequence)  # type: ignore[attr-defined]
+        level.index = numbered(level.code).find_sequence(sequence)
     elif line is not None:
-        level.index = level.code.find_line(line)  # type: ignore[attr-defined]
+        level.index = numbered(level.code).find_line(line)
     if is_main:
         channel.begin_again()
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.word_address.auxiliary import overrides
 from polycnc.control.word_address.block.numbers import NumberRules
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.macro_b import code_calls, interruption, macro_calls
+from polycnc.control.word_address.macro_b.subprograms import sequences_of
 from polycnc.control.word_address.transformations.normal_line import NormalLineParameters
 from polycnc.language.word_address.executable import SkippedBlock
 from polycnc.messages import AlarmError
@@ -161,10 +162,9 @@ class CustomMacroControl(WordAddressControl):
             return False
         if channel.level is not level:
             return False
-        code: Any = level.code
         if not level.counts(level.current):
             return bool(memory.parameters.bit(6000, 5) or memory.parameters.bit(6000, 7))
-        return bool(code.has_words(level.current))
+        return sequences_of(level).has_words(level.current)
 
     def context(self, channel: Channel) -> Context:
         """The context that holds now, with what the operator's switches may do."""
