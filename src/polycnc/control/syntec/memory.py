@@ -35,6 +35,7 @@ class SyntecMemory(Memory):
         self.channel: SyntecChannel = channel
         self.locals = LocalState.of(channel).main
         self.globals = GlobalState.of(channel)
+        self._was_kept = bool(self.globals.values or self.globals.registers)
         self.functions: dict[str, Callable[..., Value]] = functions.bound(self)
 
     def forget_locals(self) -> None:
@@ -119,6 +120,10 @@ class SyntecMemory(Memory):
         except AlarmError as error:
             raise KeyError(name) from error
         return None if isinstance(value, Vacant) else value
+
+    def is_kept(self, name: str) -> bool:
+        """Whether a variable has its value from an earlier power-on: `@` and R."""
+        return self._was_kept and name[:1].upper() in "@R"
 
     def write_text(self, name: str, value: object) -> None:
         """Set a variable as a user names it."""

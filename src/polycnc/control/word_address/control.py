@@ -19,7 +19,7 @@ from polycnc.control.word_address.coordinates import frames, systems
 from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.cycles import drilling as drilling_cycles
 from polycnc.control.word_address.cycles.drilling import Drilling
-from polycnc.control.word_address.memory import Memory
+from polycnc.control.word_address.memory import Memory, ParameterTable
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.path_modes import corner_mode
 from polycnc.control.word_address.reset import reset
@@ -195,6 +195,7 @@ class WordAddressControl:
     def start(self, channel: Channel) -> None:
         """Power-on state."""
         self.name_parameters(channel)
+        ParameterTable.of(channel).put_into(channel)
         channel.memory = self.make_memory(channel)
         channel.mode = channel.modes.mode(self.start_codes(channel))
         channel.skip_levels = channel.setup.switches.block_skip_mask(plain=1)
@@ -204,6 +205,8 @@ class WordAddressControl:
             channel.feed = self.FEED_AT_START
         systems.refresh_zero(channel)
         for name, value in channel.setup.variables.items():
+            if channel.memory.is_kept(name):
+                continue
             try:
                 self.write_variable(channel, name, value)
             except (KeyError, ValueError):

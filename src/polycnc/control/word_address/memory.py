@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State, retained
 from polycnc.geometry.frames import IDENTITY, Frame
-from polycnc.memory.retained import TOOL_OFFSETS, WORK_OFFSETS
+from polycnc.memory.retained import PARAMETERS, TOOL_OFFSETS, WORK_OFFSETS
 
 if TYPE_CHECKING:
     from typing import Self
 
+    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.family import WordAddressChannel
-    from polycnc.machine.setup.values import Tool
+    from polycnc.machine.setup.values import ParameterKey, Tool, Value
     from polycnc.transformation.parallel import ParallelAxes
 
 #: Name of the offset that is added to every work coordinate system.
@@ -71,6 +72,18 @@ class ToolOffsets(State, lifetime=Lifetime.RETAINED):
     def at(self, number: int) -> ToolOffset:
         """An offset number; zero until it is set."""
         return self.numbers.setdefault(number, ToolOffset())
+
+
+@dataclass(slots=True)
+class ParameterTable(State, lifetime=Lifetime.RETAINED):
+    """Parameters that programs or operators have given other values than the setup."""
+
+    changed: dict[ParameterKey, Value] = retained(PARAMETERS)
+
+    def put_into(self, channel: Channel) -> None:
+        """Power-on: what was changed counts, and not the setup."""
+        for key, value in self.changed.items():
+            channel.setup = replace(channel.setup, parameters=channel.setup.parameters.having(key, value))
 
 
 class ProgrammingFrames:
@@ -153,6 +166,10 @@ class Memory:
     def note_skip(self, position: list[float]) -> None:
         """A skip move has ended here (absolute display)."""
         self.skip_position = position
+
+    def is_kept(self, _name: str) -> bool:
+        """Whether a variable, as a user names it, has its value from an earlier power-on: the setup leaves it alone."""
+        return False
 
     def variable_names(self) -> list[str]:
         """Names of all variables that hold something; a control without variables has none."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.macro_b.subprograms import sequences_of
+from polycnc.control.word_address.memory import ParameterTable
 from polycnc.machine.setup.values import ParameterKey
 
 if TYPE_CHECKING:
@@ -75,6 +76,7 @@ def set_parameter(
     memory = channel.memory
     memory.parameters = memory.parameters.having(key, whole)
     channel.setup = replace(channel.setup, parameters=memory.parameters)
+    ParameterTable.of(channel).changed[key] = whole
     if not keeps_plans:
         channel.modes.forget_plans()
 

@@ -31,6 +31,8 @@ Write = Callable[[Any, int, "float | None", str], None]
 LOCALS = 34
 #: #100 to #199 are cleared with the power, #500 to #999 stay.
 COMMONS, KEPT = 200, range(500, 1000)
+#: Further variables that stay.
+FURTHER = range(98000, 98500)
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +91,11 @@ class VariableTables(State, lifetime=Lifetime.RETAINED):
     names: dict[str, int] = retained(VARIABLE_NAMES)
 
 
+def lies_in_table(number: int) -> bool:
+    """Whether a variable outlives the power."""
+    return number in KEPT or number in FURTHER
+
+
 class MacroMemory(Memory):
     """A control's memory with the variables of custom macro B.
 
@@ -113,6 +120,7 @@ class MacroMemory(Memory):
         self.common: list[float | None] = [None] * COMMONS
         tables = VariableTables.of(channel)
         self.kept, self.names = tables.values, tables.names
+        self._was_kept = bool(self.kept)
         if not self.kept:
             self.kept.update(dict.fromkeys(KEPT))
         self.signals: dict[str, int] = {
@@ -153,7 +161,7 @@ class MacroMemory(Memory):
             return None
         if 100 <= number <= 199:
             return self.common[number]
-        if number in KEPT or 98000 <= number <= 98499:
+        if lies_in_table(number):
             return self.kept.get(number)
         found = self.registry.find(number)
         if found is None:
@@ -168,7 +176,7 @@ class MacroMemory(Memory):
             self.locals[number] = value
         elif 100 <= number <= 199:
             self.common[number] = value
-        elif number in KEPT or 98000 <= number <= 98499:
+        elif lies_in_table(number):
             self.kept[number] = value
         else:
             found = self.registry.find(number)
@@ -233,6 +241,11 @@ class MacroMemory(Memory):
         """`#100` or `#DEPTH` as a user names it."""
         body = name.lstrip("#")
         return self.read(int(body)) if body.isdigit() else self.read_named(body, None)
+
+    def is_kept(self, name: str) -> bool:
+        """Whether a variable has its value from an earlier power-on: #500 on."""
+        body = name.lstrip("#")
+        return self._was_kept and body.isdigit() and lies_in_table(int(body))
 
     def variable_names(self) -> list[str]:
         """Local and common variables that are not vacant."""
