@@ -38,7 +38,8 @@ test: $(VENV)/.installed-test
 check: $(VENV)/.installed-test $(VENV)/.installed-check
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
-	$(BIN)/mypy
+	$(BIN)/mypy --any-exprs-report .mypy_cache/report
+	$(BIN)/python tests/any_exprs.py .mypy_cache/report/any-exprs.txt
 	$(BIN)/python -m pytest tests/test_imports.py
 
 bench: $(VENV)/.installed-bench

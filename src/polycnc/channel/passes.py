@@ -7,7 +7,7 @@ same, for ever. A program that counts, reads a clock or changes an offset does n
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from polycnc.channel.state import plain, plain_states
 
@@ -29,7 +29,7 @@ class Passes:
     def __init__(self) -> None:
         self.count = 0
         self.repeat = False
-        self._state: Any = None
+        self._state: tuple[object, ...] | None = None
 
     def begin_again(self, channel: Channel) -> None:
         """The main program begins again; ends the run where it would do so for ever.
@@ -52,13 +52,15 @@ def _hears(channel: Channel) -> bool:
     return others or bool(switches.probe or switches.interrupts or switches.signals_at)
 
 
-def _state(channel: Channel) -> Any:
+def _state(channel: Channel) -> tuple[object, ...]:
     """Everything that a further pass begins with, as plain values."""
     c, control = channel.coordinates, channel.control
-    memory = dict(vars(channel.memory))
+    memory: dict[str, object] = dict(vars(channel.memory))
     if not memory.get("clock_is_read"):
         memory.pop(_CLOCK, None)
-    named = {name: control.read_variable(channel, name) for name in control.variable_names(channel)}
+    named: dict[str, object] = {
+        name: control.read_variable(channel, name) for name in control.variable_names(channel)
+    }
     return (
         id(channel.mode), channel.level.index, repr(channel.feed), list(c.position), list(c.programmed),
         list(c.pending), list(c.offsets), repr(c.zero), repr(c.programming),

@@ -11,6 +11,7 @@ from polycnc.messages.catalogue import language
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from polycnc.messages import AlarmError
     from polycnc.session import Result
 
 Severity = Literal["error", "warning"]
@@ -97,7 +98,8 @@ def _of_texts(result: Result, main: str) -> Iterable[Diagnostic]:
     """What cannot be read in texts that are read as a whole, whether the run came there or not."""
     for program in result.channel.programs:
         code = result.channel.executable(program)
-        for error in getattr(code, "mistakes", ()):
+        mistakes: Iterable[AlarmError] = getattr(code, "mistakes", ())
+        for error in mistakes:
             alarm = Alarm(
                 control=result.control.id,
                 code=error.code,
@@ -109,7 +111,8 @@ def _of_texts(result: Result, main: str) -> Iterable[Diagnostic]:
                 file=program.path,
             )
             yield _of_alarm(result, alarm, main)
-        for line in getattr(code, "unclosed", ()):
+        unclosed: Iterable[int] = getattr(code, "unclosed", ())
+        for line in unclosed:
             place = Place(_shown_file(program.path, result, main), line)
             yield Diagnostic(place, "unclosed", text("check.unclosed"), "polycnc/unclosed", "warning")
 

@@ -11,7 +11,7 @@ from polycnc.messages.catalogue import listed
 from polycnc.toolpath.events import Message, Print, Stop
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from polycnc.motion.plan import Times
     from polycnc.session import Result
@@ -80,7 +80,7 @@ def _lines(result: Result, happenings: Happenings, file: str) -> Iterator[str]:
 
 def _shares(times: Times) -> str:
     """What the time went into; what took none is left out."""
-    parts = ((name, getattr(times, name)) for name in _SHARES)
+    parts: Iterable[tuple[str, float]] = ((name, getattr(times, name)) for name in _SHARES)
     return listed(f"{text(f'run.{name}')} {clock(seconds)}" for name, seconds in parts if seconds >= 0.05)
 
 

@@ -55,5 +55,6 @@ def help_in_language(words: Sequence[str]) -> Iterator[None]:
 
 @cache
 def _phrases(lang: str) -> tuple[tuple[re.Pattern[str], str], ...]:
-    table = tomllib.loads(resources.files("polycnc.cli").joinpath("usage.toml").read_text(encoding="utf-8"))
+    source = resources.files("polycnc.cli").joinpath("usage.toml").read_text(encoding="utf-8")
+    table: dict[str, list[dict[str, str]]] = tomllib.loads(source)
     return tuple((re.compile(row["pattern"], re.MULTILINE), row[lang]) for row in table["phrase"])

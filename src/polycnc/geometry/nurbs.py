@@ -76,7 +76,8 @@ def nurbs_chords(
 
 def _deviation(points: Sequence[Pole]) -> float:
     """Greatest distance of the odd points from the middle of their neighbours."""
+    triples = zip(points[:-2:2], points[1:-1:2], points[2::2], strict=True)
     return max(
-        sqrt(sum((half - 0.5 * (a + b)) ** 2 for a, half, b in zip(*points[k : k + 3], strict=True)))
-        for k in range(0, len(points) - 2, 2)
+        sqrt(sum((half - 0.5 * (a + b)) ** 2 for a, half, b in zip(*triple, strict=True)))
+        for triple in triples
     )

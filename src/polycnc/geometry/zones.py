@@ -58,7 +58,7 @@ def first_contact(moving: Sequence[Point], region: Sequence[Point], way: Point) 
     """
     if overlaps(moving, region):
         return 0.0
-    length = (way[0] ** 2 + way[1] ** 2) ** 0.5
+    length: float = (way[0] ** 2 + way[1] ** 2) ** 0.5
     if length < TOUCH_MM:
         return None
     step = PROBE_MM / length

@@ -183,7 +183,8 @@ def _utf8_scores(runs: list[bytes]) -> Iterator[float]:
 def _double_byte_scores(encoding: _DoubleByte, runs: list[bytes]) -> Iterator[float]:
     for run in runs:
         text = run.decode(encoding.codec, "replace")
-        for word in _NARROW_KANA.findall(text):
+        words: list[str] = _NARROW_KANA.findall(text)
+        for word in words:
             yield from [_narrow_kana_score(word)] * len(word)
         for char in _NARROW_KANA.sub("", text):
             if char >= "\x80":
@@ -209,7 +210,8 @@ def _score(char: str, encoding: _DoubleByte) -> float:
 def _latin_scores(runs: list[bytes]) -> Iterator[float]:
     """Letters with accents stand alone or in pairs (`Größe`); more in a row is no Western word."""
     for run in runs:
-        for word in re.findall(rb"[\x80-\xff]+", run):
+        words: list[bytes] = re.findall(rb"[\x80-\xff]+", run)
+        for word in words:
             for char in word.decode("latin-1"):
                 if char <= "\x9f":
                     yield _UNREADABLE

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -100,8 +100,7 @@ def _channel(control: str | None, machine: str | None, setup: Path | None) -> Ch
     known = setup if setup is not None and setup.exists() else None
     session = open_session(b"M30\n", name="DATA", control=control, machine=machine, setup=known)
     session.run()
-    channel: Any = session.channel
-    return channel  # type: ignore[no-any-return]
+    return session.channel
 
 
 def _give(content: str, output: Path | None) -> int:

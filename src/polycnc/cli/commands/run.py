@@ -20,6 +20,8 @@ from polycnc.toolpath.events import Print
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rich.progress import Progress, TaskID
+
     from polycnc.channel.channel import Channel
     from polycnc.session import Result, Session
     from polycnc.toolpath.table import Chunk
@@ -165,8 +167,7 @@ class _Progress:
 
     def __init__(self, session: Session) -> None:
         self._program = session.result.program
-        self._bar: Any = None
-        self._task: Any = None
+        self._bar: tuple[Progress, TaskID] | None = None
         self._started = 0.0
 
     def __enter__(self) -> Callable[[Channel], None] | None:
@@ -177,7 +178,7 @@ class _Progress:
 
     def __exit__(self, *_: object) -> None:
         if self._bar is not None:
-            self._bar.stop()
+            self._bar[0].stop()
 
     def _update(self, channel: Channel) -> None:
         from time import monotonic
@@ -188,9 +189,10 @@ class _Progress:
             from rich.console import Console
             from rich.progress import Progress
 
-            self._bar = Progress(console=Console(stderr=True), transient=True)
-            self._task = self._bar.add_task(self._program.name, total=len(self._program.lines))
-            self._bar.start()
+            bar = Progress(console=Console(stderr=True), transient=True)
+            self._bar = bar, bar.add_task(self._program.name, total=len(self._program.lines))
+            bar.start()
         if channel.stack:
             main = channel.stack[0]
-            self._bar.update(self._task, completed=main.code.line(main.current) - self._program.first_line)
+            bar, task = self._bar
+            bar.update(task, completed=main.code.line(main.current) - self._program.first_line)

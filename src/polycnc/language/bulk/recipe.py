@@ -7,19 +7,22 @@ if every one of its steps carries one; the scanner then does the same without ca
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Hashable, Iterable
 from dataclasses import dataclass
 from enum import IntEnum
 from math import inf
-from typing import Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
 from polycnc.language.bulk import layout
 
-_F = TypeVar("_F", bound=Callable[..., Any])
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+
+_F = TypeVar("_F", bound=Callable[..., object])
 #: A step of a plan: gets the channel, and the values of the block's words by their index.
-Step = Callable[[Any, Any], Any]
+Step: TypeAlias = "Callable[[Channel, Any], object]"
 #: Something of a channel on which it rests that a block is plain.
-Condition = Callable[[Any], bool]
+Condition: TypeAlias = "Callable[[Channel], bool]"
 
 
 class Scaling(IntEnum):
@@ -141,7 +144,7 @@ class Note(NamedTuple):
 class Enter(NamedTuple):
     """A step that changes nothing but the modal state."""
 
-    state: Any
+    state: Hashable
 
 
 class Idle(NamedTuple):
@@ -160,7 +163,7 @@ class Recipe(NamedTuple):
         notes: What it does in front of that, in order, one with a value at the most.
     """
 
-    next_state: Any
+    next_state: Hashable
     feed: SetFeed | None = None
     motion: Straight | Arc | None = None
     notes: tuple[tuple[Step, Note], ...] = ()
@@ -172,25 +175,26 @@ class Conditions:
     def __init__(self) -> None:
         self._all: list[Condition] = []
 
-    def hold(self, channel: Any) -> tuple[bool, ...]:
+    def hold(self, channel: Channel) -> tuple[bool, ...]:
         """Which of them hold now: while that stays, the recipes do."""
         return tuple([condition(channel) for condition in self._all])
 
-    def _holds(self, channel: Any, condition: Condition | None) -> bool:
+    def _holds(self, channel: Channel, condition: Condition | None) -> bool:
         if condition is None:
             return True
         if condition not in self._all:
             self._all.append(condition)
         return condition(channel)
 
-    def recipe(self, channel: Any, steps: Iterable[Step], state: Any) -> Recipe | None:
+    def recipe(self, channel: Channel, steps: Iterable[Step], state: Hashable) -> Recipe | None:
         """The recipe of a block that leaves a modal state; None where a step does what cannot be told."""
         feed: SetFeed | None = None
         motion: Straight | Arc | None = None
         notes: list[tuple[Step, Note]] = []
         for step in steps:
             told = declared(step)
-            for part in told if type(told) is tuple else (told,):
+            parts: tuple[object, ...] = told if type(told) is tuple else (told,)
+            for part in parts:
                 if isinstance(part, Idle) and self._holds(channel, part.condition):
                     continue
                 if motion is not None:
@@ -263,6 +267,6 @@ def declare(function: _F, what: object) -> _F:
     return function
 
 
-def declared(function: Callable[..., Any] | None) -> Any:
+def declared(function: Callable[..., object] | None) -> object:
     """What a function does, if it carries it; else None."""
     return getattr(function, "plain", None)

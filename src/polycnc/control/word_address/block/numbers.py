@@ -69,4 +69,5 @@ def _converter(form: str, rules: NumberRules, decimals: int, unit: float) -> Con
 
 def conversion(convert: Convert | None) -> Conversion | None:
     """What a converter does, told as data; None where that cannot be told."""
-    return Conversion() if convert is None else declared(convert)
+    told = Conversion() if convert is None else declared(convert)
+    return told if isinstance(told, Conversion) else None
