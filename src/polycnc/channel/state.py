@@ -155,7 +155,7 @@ def plain_states(channel: Channel) -> dict[str, Any]:
     return {name: now for name, (now, first) in found.items() if now != first}
 
 
-def plain(value: Any) -> Any:
+def plain(value: object) -> object:
     """A value as nested tuples that can be kept and compared; of what is no data only the kind."""
     if value is None or isinstance(value, str | bytes | int | float | complex):
         return value

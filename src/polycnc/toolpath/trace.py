@@ -185,8 +185,9 @@ class Display:
         work, machine = np.empty_like(end), np.empty_like(end)
         unit = np.full(len(chunk), None, object)
         turning: list[tuple[NDArray[np.bool_], int]] = []
-        for number in np.unique(columns.context):
-            rows = columns.context == number
+        numbers: list[int] = np.unique(columns.context).tolist()
+        for number in numbers:
+            rows: NDArray[np.bool_] = columns.context == number
             context = self.toolpath.contexts[number]
             scale = self.scale(context)
             work[rows] = end[rows] * scale.work
@@ -197,7 +198,7 @@ class Display:
         work, machine, feed = (np.rint(values * _STEPS) / _STEPS + 0.0 for values in (work, machine, feed))
         for rows, i in turning:
             work[rows, i] %= _FULL_TURN
-        is_event = kind == Kind.EVENT
+        is_event: NDArray[np.bool_] = kind == Kind.EVENT
         work[is_event] = machine[is_event] = np.nan
         unit[is_event] = None
         return Shown(columns, work, machine, feed, unit)
@@ -308,7 +309,8 @@ class Display:
         found: dict[str, NDArray[np.float64]] = {}
         if not is_arc.any():
             return found
-        for number in np.unique(columns.context[is_arc]):
+        numbers: list[int] = np.unique(columns.context[is_arc]).tolist()
+        for number in numbers:
             context = self.toolpath.contexts[number]
             rows = np.flatnonzero(is_arc & (columns.context == number))
             curves, scale = columns.curves[columns.curve[rows]], self.scale(context)

@@ -371,17 +371,19 @@ _SURFACE: dict[str, Reader] = {
     "tip": _number,
 }
 
+#: What a surface of each shape needs beside its place.
+_NEEDED = {"plane": ("direction",), "sphere": ("radius",), "cylinder": ("direction", "radius")}
+
 
 def _surface(where: Where, value: object) -> Surface:
     record = _required(_record(_SURFACE, where, value), where, "shape", "at")
-    shape = record.pop("shape")
-    needed = {"plane": ("direction",), "sphere": ("radius",), "cylinder": ("direction", "radius")}[shape]
+    needed = _NEEDED[str(record.pop("shape"))]
     _required(record, where, *needed)
     for key in ("direction", "radius", "inside"):
         if key in record and key not in needed and not (key == "inside" and "radius" in needed):
             raise _BadValueError((*where, key), "unknown-key", near="")
     for key in ("at", "direction"):
-        given = record.get(key, {})
+        given: dict[str, float] = record.get(key, {})
         unknown = next((axis for axis in given if axis not in "XYZ"), None)
         if unknown is not None:
             _bad((*where, key, unknown), "not-one-of", unknown, expected="X, Y, Z")

@@ -40,14 +40,15 @@ class TimeLaw:
 
     def __init__(self, seconds: Numbers, speed: Numbers, rate: Numbers) -> None:
         keep = seconds > 0.0
-        self._speed, self._rate, seconds = speed[keep], rate[keep], seconds[keep]
-        self._start = np.concatenate([[0.0], np.cumsum(seconds)])
-        ways = seconds * (self._speed + 0.5 * self._rate * seconds)
-        self._way = np.concatenate([[0.0], np.cumsum(ways)])
-        sums = seconds * (self._way[:-1] + seconds * (0.5 * self._speed + self._rate * seconds / 6.0))
-        self._sum = np.concatenate([[0.0], np.cumsum(sums)])
+        speed, rate, seconds = speed[keep], rate[keep], seconds[keep]
+        self._start: Numbers = np.concatenate([[0.0], np.cumsum(seconds)])
+        ways = seconds * (speed + 0.5 * rate * seconds)
+        self._way: Numbers = np.concatenate([[0.0], np.cumsum(ways)])
+        sums = seconds * (self._way[:-1] + seconds * (0.5 * speed + rate * seconds / 6.0))
+        self._sum: Numbers = np.concatenate([[0.0], np.cumsum(sums)])
         # At rest behind the last phase.
-        self._speed, self._rate = np.append(self._speed, 0.0), np.append(self._rate, 0.0)
+        self._speed: Numbers = np.append(speed, 0.0)
+        self._rate: Numbers = np.append(rate, 0.0)
 
     @property
     def seconds(self) -> float:
@@ -67,14 +68,14 @@ class TimeLaw:
     def when(self, way: float) -> float:
         """The time at which a way has been gone."""
         k = min(max(int(np.searchsorted(self._way, way, "right")) - 1, 0), len(self._speed) - 1)
-        left, speed, rate = max(way - self._way[k], 0.0), self._speed[k], self._rate[k]
+        left, speed, rate = max(way - float(self._way[k]), 0.0), float(self._speed[k]), float(self._rate[k])
         fast = sqrt(max(speed * speed + 2.0 * rate * left, 0.0)) + speed
-        return float(self._start[k] + (2.0 * left / fast if fast > 0.0 else 0.0))
+        return float(self._start[k]) + (2.0 * left / fast if fast > 0.0 else 0.0)
 
     def lag(self, speed: float) -> float:
         """Seconds that getting up to a speed from rest costs against having had it."""
         k = int(np.argmax(self._speed >= speed * (1.0 - 1e-9))) if speed > 0.0 else 0
-        return float(self._start[k] - self._way[k] / speed) if k else 0.0
+        return float(self._start[k]) - float(self._way[k]) / speed if k else 0.0
 
     def averaged(self, time: Numbers, window: float) -> Moved:
         """Way, speed and acceleration, averaged over a window around each time."""
@@ -107,7 +108,7 @@ class Run:
         ]
         self._start, self._end = block[PLACES], block[PLACES + 1]
         self._length = np.maximum(pieces[:, PieceRecord.LENGTH], 1e-300)
-        self._ways = np.concatenate([[0.0], np.cumsum(pieces[:, PieceRecord.LENGTH])])
+        self._ways: Numbers = np.concatenate([[0.0], np.cumsum(pieces[:, PieceRecord.LENGTH])])
         bent = np.isin(pieces[:, PieceRecord.FORM], (Form.BENT, Form.CURVED))[:, None]
         scale = (self._length / pieces[:, PieceRecord.MARGIN])[:, None]
         chord = self._end - self._start
@@ -128,18 +129,17 @@ class Run:
     @property
     def end(self) -> Numbers:
         """Position of the axes at the end, (n,)."""
-        last: Numbers = self._end[-1]
-        return last
+        return self._end[-1, :]
 
     @property
     def main_axis(self) -> int:
         """The axis with the longest way: the one along which a lead counts."""
-        return int(np.argmax(np.abs(self._end[-1] - self._start[0])))
+        return int(np.argmax(np.abs(self._end[-1, :] - self._start[0, :])))
 
     def enters(self, row: int) -> float:
         """When the axes come to the first piece of a row."""
-        way = self._ways[np.searchsorted(self.rows, row)]
-        return self.law.when(float(way)) + 0.5 * self._ramp + self._blend
+        way = float(self._ways[np.searchsorted(self.rows, row)])
+        return self.law.when(way) + 0.5 * self._ramp + self._blend
 
     def lag(self, axis_speed: float) -> float:
         """Seconds by which the axes are behind one that has had its speed from the start of the run.
@@ -147,8 +147,9 @@ class Run:
         Args:
             axis_speed: Speed of the main axis that is reached, mm/s.
         """
-        share = abs(self._end[0] - self._start[0])[self.main_axis] / self._length[0]
-        return 0.5 * self._ramp + self._blend + self.law.lag(axis_speed / max(float(share), 1e-12))
+        axis = self.main_axis
+        share = abs(float(self._end[0, axis]) - float(self._start[0, axis])) / float(self._length[0])
+        return 0.5 * self._ramp + self._blend + self.law.lag(axis_speed / max(share, 1e-12))
 
     def piece_at(self, time: Numbers) -> NDArray[np.intp]:
         """Index of the piece at times from the start of the run."""
@@ -167,7 +168,7 @@ class Run:
         before, after = (np.tensordot(simpson, places[k : k + PARTS + 1], 1) for k in (0, PARTS))
         tent = np.concatenate([np.arange(PARTS), np.arange(PARTS, -1, -1)]) / PARTS**2
         position = np.tensordot(tent, places, 1)
-        acceleration = (places[0] - 2.0 * places[PARTS] + places[-1]) / blend**2
+        acceleration = (places[0, ...] - 2.0 * places[PARTS, ...] + places[-1, ...]) / blend**2
         return position, (after - before) / blend, acceleration
 
     def on_path(self, time: Numbers) -> Numbers:
@@ -196,9 +197,10 @@ class Run:
         """Every axis by its own time law."""
         columns: list[Moved] = []
         for i, law in enumerate(self._alone):
-            sense = 1.0 if self._end[0, i] >= self._start[0, i] else -1.0
+            start, end = float(self._start[0, i]), float(self._end[0, i])
+            sense = 1.0 if end >= start else -1.0
             way, speed, rate = law.averaged(time, self._ramp)
-            columns.append((self._start[0, i] + sense * way, sense * speed, sense * rate))
+            columns.append((start + sense * way, sense * speed, sense * rate))
         position, velocity, acceleration = (np.stack(values, axis=1) for values in zip(*columns, strict=True))
         return position, velocity, acceleration
 

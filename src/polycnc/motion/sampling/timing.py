@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from array import array
 
     from polycnc.channel.channel import Channel
+    from polycnc.control.interface import Control
 
 
 def share_after(channel: Channel, end: list[float], feed: float, seconds: float) -> float | None:
@@ -29,7 +30,8 @@ def share_after(channel: Channel, end: list[float], feed: float, seconds: float)
 
     from polycnc.motion.sampling.run import Run
 
-    control, c = channel.control, channel.coordinates
+    control: Control = channel.control
+    c = channel.coordinates
     toolpath = Toolpath(channel.axes)
     context = control.context(channel)
     toolpath.append(Kind.SKIP, 0, 1, toolpath.context_number(context), feed, end)
