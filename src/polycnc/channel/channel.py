@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, ClassVar, Generic
 from polycnc.channel.coordinates import Coordinates
 from polycnc.channel.failure import end_run, stand_at_last_row, take_back
 from polycnc.channel.family import ControlT_co, MemoryT_co
-from polycnc.channel.intervention import NOTHING_BACK, TYPED_IN, MovedByHand
+from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.mode import Mode, ModeTable
 from polycnc.channel.path import Move, Path, PlacedEvent, is_way, points_of_arc
 from polycnc.channel.run import Run
-from polycnc.channel.stack import Executable, Level
+from polycnc.channel.stack import Executable, Level, LevelKind
 from polycnc.channel.state import Lifetime, State, end_of
 from polycnc.channel.view import Prepared
 from polycnc.channel.waits import (
@@ -202,7 +202,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         return [executable.program for executable in self._executables.values()]
 
     def push(
-        self, program: Program, *, kind: str, repeats: int = 0, index: int = 0, local: object = None
+        self, program: Program, *, kind: LevelKind, repeats: int = 0, index: int = 0, local: object = None
     ) -> Level:
         """Call a program: it runs next, `repeats` more times after the first pass."""
         name = self.toolpath.program_number(program.name)
@@ -224,7 +224,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
     def pop(self) -> Level:
         """End the running level; the level below becomes the running one."""
         ended = self.stack.pop()
-        if ended.kind == TYPED_IN:
+        if ended.kind is LevelKind.TYPED_IN:
             self.wait = TYPED_BLOCKS_DONE
         if self.stack:
             self.level = self.stack[-1]
@@ -281,7 +281,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         """Stand at the first block of a program; `run` calls it."""
         self.stack.clear()
         self.finished = False
-        self.push(program, kind="main")
+        self.push(program, kind=LevelKind.MAIN)
         end_of(self, Lifetime.POWER if power_on else Lifetime.PROGRAM)
         try:
             if power_on:

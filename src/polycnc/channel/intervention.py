@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-#: Kind of the level of blocks that are typed in while a program waits (MDI intervention).
-TYPED_IN = "mdi"
-
 
 class TakesBack(NamedTuple):
     """The axes of which a block takes a manual intervention back, as bit masks of channel axes.

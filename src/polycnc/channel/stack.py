@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from enum import StrEnum
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 if TYPE_CHECKING:
@@ -37,6 +38,39 @@ class Executable(Protocol):
         """The column of an address or a code in the block of a step, from 1; 0 when unknown."""
 
 
+class LevelKind(StrEnum):
+    """How a level of the program stack came about."""
+
+    MAIN = "main"
+    SUBPROGRAM = "sub"
+    MACRO = "macro"
+    MODAL = "modal"
+    """A modal call, behind a block that moves."""
+    EVERY_BLOCK = "b-macro"
+    """A macro that every block calls (G66.1)."""
+    G_SUBPROGRAM = "g-sub"
+    G_MACRO = "g-macro"
+    M_SUBPROGRAM = "m-sub"
+    M_MACRO = "m-macro"
+    T_SUBPROGRAM = "t-sub"
+    T_MACRO = "t-macro"
+    EXTERNAL = "external"
+    """A program from outside the memory (M198, EXTCALL)."""
+    INTERRUPT = "interrupt"
+    SECTION = "repeat"
+    """A section of the calling program (REPEAT)."""
+    SHAPE = "shape"
+    """The shape of a turning cycle, read or finished."""
+    CYCLE = "cycle"
+    TYPED_IN = "mdi"
+    """Blocks that are typed in while a program waits (MDI intervention)."""
+
+    @property
+    def code_letter(self) -> str:
+        """The letter of the code that called the program; empty where none did."""
+        return self[0].upper() if self[1:2] == "-" else ""
+
+
 def _always(_index: int) -> bool:
     """Every step of most languages is a block."""
     return True
@@ -54,7 +88,7 @@ class Level:
         program_number: Number of the program in the toolpath.
         repeats: How often the program is still to be run after this pass.
         entry: Step at which each pass begins.
-        kind: `main`, or how the level came about: `sub`, `macro`, `modal`, `interrupt`, `mdi`.
+        kind: How the level came about.
         locals: Local variables, shared with the caller or its own, as the kind of call has it.
         data: What the control's language keeps for this level.
         counts: Whether a step is a block for stages that look ahead (a macro statement is none).
@@ -69,7 +103,7 @@ class Level:
     program_number: int = 0
     repeats: int = 0
     entry: int = 0
-    kind: str = "main"
+    kind: LevelKind = LevelKind.MAIN
     locals: Any = None
     data: dict[Any, Any] = field(default_factory=dict)
     scanner: Scanner | None = None

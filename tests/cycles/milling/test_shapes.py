@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from polycnc.cycles.milling import contour as path_milling
 from polycnc.cycles.milling import facing, pockets, slots, spigots
 from polycnc.cycles.milling import thread as thread_milling
-from polycnc.cycles.milling.contour import Approach, PathMilling, Way
+from polycnc.cycles.milling.contour import Approach, ApproachShape, PathMilling
 from polycnc.cycles.milling.pockets import Insertion, Pocket
 from polycnc.cycles.milling.slots import Curved, Slotting, Straight
 from polycnc.cycles.milling.stroke import MillStroke, Place, ring, steps
@@ -232,9 +232,14 @@ def contour() -> list[Piece]:
 
 
 @pytest.mark.parametrize(
-    ("way", "begin"), [(Way.STRAIGHT, (-8.0, 0.0)), (Way.QUARTER, (-8.0, 8.0)), (Way.HALF, (0.0, 16.0))]
+    ("way", "begin"),
+    [
+        (ApproachShape.STRAIGHT, (-8.0, 0.0)),
+        (ApproachShape.QUARTER, (-8.0, 8.0)),
+        (ApproachShape.HALF, (0.0, 16.0)),
+    ],
 )
-def test_an_approach_touches_the_contour(way: Way, begin: tuple[float, float]) -> None:
+def test_an_approach_touches_the_contour(way: ApproachShape, begin: tuple[float, float]) -> None:
     work = PathMilling(
         contour(), 1.0, Approach(way, 8.0), Approach(way, 8.0), 500.0, 100.0, 0.0, [10.0], 2.0, 10.0
     )

@@ -7,6 +7,7 @@ from functools import cached_property
 from math import hypot, inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from polycnc.channel.stack import LevelKind
 from polycnc.compensation.policy import Policy
 from polycnc.control.syntec import cycles
 from polycnc.control.syntec.alarm_codes import ALARMS, FOREIGN_CODES
@@ -78,7 +79,7 @@ class SyntecMill(WordAddressControl):
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = False
     mdi_intervenes: ClassVar[bool] = False
     only_context: ClassVar[frozenset[Handler]] = WordAddressControl.only_context | {systems.cutting_mode}
-    settled_codes: ClassVar[Mapping[str, Condition]] = moves.SETTLED
+    repeated_codes: ClassVar[Mapping[str, Condition]] = moves.REPEATED
     #: A motion code cancels the cycle of its block, in whatever order they are typed (2.47.3, note 9).
     ENDED_ANYWHERE: ClassVar[frozenset[str]] = frozenset(G_CODES)
     builder: ClassVar[type[Builder]] = SyntecBuilder
@@ -166,7 +167,7 @@ class SyntecMill(WordAddressControl):
         section = split_channels(channel.level.code.program).get(channel.number)
         if section is not None:
             channel.stack.pop()
-            channel.push(section, kind="main", local=local)
+            channel.push(section, kind=LevelKind.MAIN, local=local)
 
     def start_codes(self, channel: SyntecChannel) -> dict[str, str]:
         """Power-on codes; Pr3836 chooses between G94 and G95."""
@@ -207,7 +208,7 @@ class SyntecMill(WordAddressControl):
         channel.memory.locals = channel.level.locals
         calls.finish_macro(channel, ended)
 
-    def check_nesting(self, channel: SyntecChannel, _kind: str) -> None:
+    def check_nesting(self, channel: SyntecChannel, _kind: LevelKind) -> None:
         """Alarm for one level of calls too many."""
         if len(channel.stack) >= calls.MAX_LEVELS:
             raise self.fail("nesting", hint="hint.syntec.levels")

@@ -7,8 +7,8 @@ from functools import cached_property
 from importlib import resources
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from polycnc.channel.intervention import TYPED_IN
 from polycnc.channel.snapshot import unchanging
+from polycnc.channel.stack import LevelKind
 from polycnc.compensation import Policy
 from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.word_address.block.codes import GCode, MCode
@@ -75,7 +75,7 @@ class WordAddressControl:
         power_on: Code of every modal group at power-on.
         alarms: Names of mistakes to alarm codes.
         only_context: Handlers that do no more than change the context.
-        settled_codes: When codes that are in force already change nothing; see `settled.py`.
+        repeated_codes: When codes that are in force already change nothing; see `block/repeated_codes.py`.
         foreign_codes: Codes of other makers to message ids of hints.
         drilling: The drilling cycles.
         rules: What acts on blocks beside their codes and words, in the order in which it acts; see `block/rules.py`.
@@ -101,7 +101,7 @@ class WordAddressControl:
     power_on: ClassVar[Mapping[str, str]] = {}
     alarms: ClassVar[Mapping[str, str]] = {}
     only_context: ClassVar[frozenset[Handler]] = frozenset((systems.note_context,))
-    settled_codes: ClassVar[Mapping[str, Condition]] = {}
+    repeated_codes: ClassVar[Mapping[str, Condition]] = {}
     foreign_codes: ClassVar[Mapping[str, str]] = {}
     parameter_class: ClassVar[type[ControlParameters[AxisParameters]] | None] = None
     drilling: ClassVar[Drilling] = Drilling({})
@@ -247,7 +247,7 @@ class WordAddressControl:
 
     def end_of_program(self, channel: Channel) -> None:
         """The text ends: at level 0 the run ends, a subprogram without M99 is an alarm."""
-        if len(channel.stack) > 1 and channel.level.kind != TYPED_IN:
+        if len(channel.stack) > 1 and channel.level.kind is not LevelKind.TYPED_IN:
             raise self.fail("end_of_record")
         channel.pop()
 

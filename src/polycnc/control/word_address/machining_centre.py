@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policy import Policy
 from polycnc.control.word_address.auxiliary.interlocks import BRAKE_RULE, guarded, unlisted
-from polycnc.control.word_address.block import settled
+from polycnc.control.word_address.block import repeated_codes
 from polycnc.control.word_address.block.codes import MCode
 from polycnc.control.word_address.cycles import drilling
 from polycnc.control.word_address.macro_b import code_calls, macro_calls, parameter_input
@@ -43,7 +43,7 @@ class MillingControl(CustomMacroControl):
     """
 
     OVERRUN_PARAMETER: ClassVar[int] = 5440
-    settled_codes: ClassVar[Mapping[str, Condition]] = settled.MILLING
+    repeated_codes: ClassVar[Mapping[str, Condition]] = repeated_codes.MILLING
     CURVE_BEGINS_AT_TOOL: ClassVar[bool] = True
     rules: ClassVar[tuple[Rule, ...]] = (
         normal_line.RULE,

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from polycnc.geometry.arcs import Point
 
 
-class Way(Enum):
+class ApproachShape(Enum):
     """How the tool comes to the contour, or leaves it."""
 
     DIRECT = 0
@@ -29,7 +29,7 @@ class Way(Enum):
 class Approach:
     """A way to the contour or off it: its shape, its length or radius, and whether it changes the level as well."""
 
-    way: Way
+    way: ApproachShape
     size: float = 0.0
     spatial: bool = False
 
@@ -104,10 +104,10 @@ def _outer_point(at: Point, direction: Point, side: float, way: Approach, sense:
     """Where an approach begins (sense -1), or a return ends (1)."""
     n, size = _square(direction, side), way.size
     along, across = {
-        Way.DIRECT: (0.0, 0.0),
-        Way.STRAIGHT: (sense * size, 0.0),
-        Way.QUARTER: (sense * size, size),
-        Way.HALF: (0.0, 2.0 * size),
+        ApproachShape.DIRECT: (0.0, 0.0),
+        ApproachShape.STRAIGHT: (sense * size, 0.0),
+        ApproachShape.QUARTER: (sense * size, size),
+        ApproachShape.HALF: (0.0, 2.0 * size),
     }[way.way]
     return at[0] + along * direction[0] + across * n[0], at[1] + along * direction[1] + across * n[1]
 
@@ -116,7 +116,7 @@ def _way(
     work: PathMilling, way: Approach, to: Point, contact: Point, direction: Point, w: float | None
 ) -> Iterator[MillStroke]:
     """Straight or on an arc that touches the contour at `contact`."""
-    if way.way in (Way.DIRECT, Way.STRAIGHT):
+    if way.way in (ApproachShape.DIRECT, ApproachShape.STRAIGHT):
         yield cut(work.feed, to, w)
         return
     n = _square(direction, work.side)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from polycnc.channel.channel import Channel
 from polycnc.channel.group import ChannelGroup
+from polycnc.channel.stack import LevelKind
 from polycnc.mainrun.axes.channel_axes import ChannelAxes
 from polycnc.mainrun.axes.machine_axes import MachineAxes
 from polycnc.mainrun.errors import CommandRefused
@@ -186,7 +187,9 @@ class ChannelRuns:
     def switch_on(self, run: ChannelRun) -> None:
         """Power-on of a channel."""
         channel = run.channel
-        channel.push(self._programs.typed("\n"), kind="main")  # a control starts with a level to stand on
+        channel.push(
+            self._programs.typed("\n"), kind=LevelKind.MAIN
+        )  # a control starts with a level to stand on
         try:
             self._control.start(channel)
         except AlarmError as error:

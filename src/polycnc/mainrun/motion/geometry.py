@@ -71,7 +71,7 @@ class Arc:
         return point
 
 
-Way = Line | Arc
+Segment = Line | Arc
 
 
 def row_line(start: Sequence[float], state: State) -> Line:

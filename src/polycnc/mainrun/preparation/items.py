@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.intervention import TakesBack
-    from polycnc.mainrun.motion.geometry import Way
+    from polycnc.mainrun.motion.geometry import Segment
     from polycnc.toolpath import Context, Event
     from polycnc.toolpath.motion_settings import DryRun
 
@@ -78,7 +78,7 @@ class Row:
         largest_override: The largest feed override of a tap.
     """
 
-    way: Way
+    way: Segment
     row: float
     kind: int
     context: Context

@@ -12,7 +12,8 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.intervention import NOTHING_BACK, TYPED_IN, MovedByHand
+from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
+from polycnc.channel.stack import LevelKind
 from polycnc.channel.waits import PREPROCESSING, TYPED_BLOCKS_DONE, Wait, Why
 from polycnc.mainrun.motion.geometry import row_arc, row_line, turn_arc
 from polycnc.mainrun.preparation.items import Block, BlockEnd, Happening, Item, Move, Piece, Rates, Standing
@@ -164,7 +165,7 @@ class Preprocessing:
 
     def _suffices(self, items: int, *, one_block: bool) -> bool:
         """Whether so much is prepared, and enough for bounds that reach back; or where single block will halt."""
-        typed_in = self.channel.stack and self.channel.level.kind == TYPED_IN
+        typed_in = self.channel.stack and self.channel.level.kind is LevelKind.TYPED_IN
         if one_block and not typed_in and any(isinstance(item, BlockEnd) for item in self.items):
             return True
         return len(self.items) > items and (len(self.items) > MOST or self._buffer.reaches)
@@ -182,7 +183,7 @@ class Preprocessing:
     def intervene(self, program: Program) -> None:
         """Blocks that were typed in come before what the waiting program does next, of which nothing is prepared."""
         self.items.clear()
-        self.channel.push(program, kind=TYPED_IN, local=self.channel.level.locals)
+        self.channel.push(program, kind=LevelKind.TYPED_IN, local=self.channel.level.locals)
 
     @property
     def typed_blocks_end(self) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from polycnc.control.syntec.motion.planes import geometry_axes, settled_plane
+from polycnc.control.syntec.motion.planes import geometry_axes, same_plane
 from tests.support import run
 
 XY, ZX, YZ = (0, 1), (2, 0), (1, 2)
@@ -41,4 +41,4 @@ def test_a_direction_without_an_axis_takes_what_is_left() -> None:
 def test_a_plane_written_again_changes_nothing_only_where_every_axis_has_its_place(
     machine: str, settled: bool
 ) -> None:
-    assert settled_plane(run("G1 X1. F100\nM30\n", "syntec-mill", machine=machine)) is settled
+    assert same_plane(run("G1 X1. F100\nM30\n", "syntec-mill", machine=machine)) is settled

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
+from polycnc.channel.stack import LevelKind
 from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES, HINTED_WORDS
 from polycnc.control.fanuc.code_calls import PROGRAM_M, registered_codes
 from polycnc.control.fanuc.lathe import auxiliary, balance
@@ -71,7 +72,7 @@ class FanucTurning(CustomMacroControl):
     default_machine: ClassVar[str] = "lathe2"
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
     only_context: ClassVar[frozenset[Handler]] = CustomMacroControl.only_context | {auxiliary.surface_speed}
-    settled_codes: ClassVar[Mapping[str, Condition]] = systems.SETTLED
+    repeated_codes: ClassVar[Mapping[str, Condition]] = systems.REPEATED
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = {
@@ -266,15 +267,15 @@ class FanucTurning(CustomMacroControl):
 
     # ---- motion ----------------------------------------------------------------------------------------------
 
-    def check_nesting(self, channel: LatheChannel, kind: str) -> None:
+    def check_nesting(self, channel: LatheChannel, kind: LevelKind) -> None:
         """As everywhere; the shape that G70 runs calls no program at all (II.4.2.8)."""
-        if channel.level.kind == modal.SHAPE_KIND:
+        if channel.level.kind == LevelKind.SHAPE:
             raise self.fail("shape_command", address="P")
         super().check_nesting(channel, kind)
 
     def end_of_program(self, channel: LatheChannel) -> None:
         """The shape of G70 ends with its last block; every other text as usual."""
-        if channel.level.kind == modal.SHAPE_KIND:
+        if channel.level.kind == LevelKind.SHAPE:
             repetitive.end_of_shape(channel)
         else:
             super().end_of_program(channel)

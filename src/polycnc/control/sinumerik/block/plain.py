@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik.block.positions import AxisTerm, Way
+from polycnc.control.sinumerik.block.positions import AxisTerm, Dimension
 from polycnc.control.sinumerik.limits.working_area import MACHINE, Ranges
 from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
 from polycnc.language.bulk import (
@@ -48,14 +48,14 @@ SPELLING = Spelling(
 
 def targets(terms: Sequence[AxisTerm]) -> tuple[Target, ...] | None:
     """Axis words as data; None for the ways of rotary axes and coded positions."""
-    if any(term.coded or term.way not in (Way.ABSOLUTE, Way.INCREMENTAL) for term in terms):
+    if any(term.coded or term.way not in (Dimension.ABSOLUTE, Dimension.INCREMENTAL) for term in terms):
         return None
     return tuple(
         Target(
             term.position,
             Conversion(Scaling.TIMES, 1.0, term.factor),
             term.column,
-            term.way is Way.INCREMENTAL,
+            term.way is Dimension.INCREMENTAL,
         )
         for term in terms
     )

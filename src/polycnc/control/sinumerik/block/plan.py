@@ -216,9 +216,9 @@ def _enter(mode: Mode, modal: list[tuple[str, str]], *, changes: bool) -> Step:
 
 def _effect(effects: Mapping[str, Step], before: Mode, name: str, code: str) -> Step:
     """What a modal function does beside being active; one that is in force already may change nothing."""
-    if before[name] != code or name not in SETTLED:
+    if before[name] != code or name not in REPEATED:
         return effects[name]
-    return declare(partial(effects[name]), Idle(SETTLED[name]))
+    return declare(partial(effects[name]), Idle(REPEATED[name]))
 
 
 def _own_function(draft: Draft) -> Step | None:
@@ -368,34 +368,34 @@ def _rules(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 -
     stages.changed_rules(channel)
 
 
-def _lengths_are_settled(channel: SinumerikChannel) -> bool:
+def _lengths_are_in_force(channel: SinumerikChannel) -> bool:
     """The plane gives the tool the lengths that it has."""
     tools, data = channel.memory.tools, channel.memory.data
     before = tools.lengths
     tools.assign_lengths(channel.mode["plane"], data)
     after, tools.lengths = tools.lengths, before
-    return bool(after == before) and frames.is_settled(channel)
+    return bool(after == before) and frames.is_in_force(channel)
 
 
-def _feed_is_settled(channel: SinumerikChannel) -> bool:
+def _feed_is_in_force(channel: SinumerikChannel) -> bool:
     """The kind of feed is the one in force, its spindle has what it needs and no speed to keep from G96."""
     code = channel.mode["feed"]
     feed = tables.feed_type(channel.mode)
     in_force = feed.mode is PathFeed.of(channel).mode
-    return in_force and spindle_speed.is_settled(channel, feed.surface_speed, code)
+    return in_force and spindle_speed.is_in_force(channel, feed.surface_speed, code)
 
 
-def _contour_is_settled(channel: SinumerikChannel) -> bool:
+def _contour_is_in_force(channel: SinumerikChannel) -> bool:
     """No compensation is active."""
     return stages.active_cutter(channel) is None
 
 
 #: When functions of a group that are in force already change nothing.
-SETTLED: dict[str, Condition] = {
-    "zero_offset": frames.is_settled,
-    "plane": _lengths_are_settled,
-    "feed": _feed_is_settled,
-    **dict.fromkeys(("approach", "corner", "side"), _contour_is_settled),
+REPEATED: dict[str, Condition] = {
+    "zero_offset": frames.is_in_force,
+    "plane": _lengths_are_in_force,
+    "feed": _feed_is_in_force,
+    **dict.fromkeys(("approach", "corner", "side"), _contour_is_in_force),
 }
 #: Right after the modal state has changed.
 EFFECTS: dict[str, Step] = {

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 TURN = 360.0
 
 
-class Way(Enum):
+class Dimension(Enum):
     """How the value of an axis word leads to a target."""
 
     ABSOLUTE = "AC"
@@ -47,23 +47,23 @@ class AxisTerm(NamedTuple):
 
     position: int
     column: int
-    way: Way
+    way: Dimension
     factor: float
     coded: str = ""
 
 
 #: For each modifier: the way it asks for, and whether the value is a diameter (None: as the modal state
 #: says).
-_MODIFIERS: dict[str, tuple[Way, bool | None]] = {
-    "AC": (Way.ABSOLUTE, None),
-    "IC": (Way.INCREMENTAL, None),
-    "DC": (Way.SHORTEST, None),
-    "ACP": (Way.POSITIVE, None),
-    "ACN": (Way.NEGATIVE, None),
-    "DAC": (Way.ABSOLUTE, True),
-    "DIC": (Way.INCREMENTAL, True),
-    "RAC": (Way.ABSOLUTE, False),
-    "RIC": (Way.INCREMENTAL, False),
+_MODIFIERS: dict[str, tuple[Dimension, bool | None]] = {
+    "AC": (Dimension.ABSOLUTE, None),
+    "IC": (Dimension.INCREMENTAL, None),
+    "DC": (Dimension.SHORTEST, None),
+    "ACP": (Dimension.POSITIVE, None),
+    "ACN": (Dimension.NEGATIVE, None),
+    "DAC": (Dimension.ABSOLUTE, True),
+    "DIC": (Dimension.INCREMENTAL, True),
+    "RAC": (Dimension.ABSOLUTE, False),
+    "RIC": (Dimension.INCREMENTAL, False),
 }
 #: Alarm for a modifier of rotary axes on an axis that has none of their ways.
 _ROTARY_ONLY = {"DC": "16800", "ACP": "16810", "ACN": "16820"}
@@ -93,10 +93,10 @@ def diameter_function(mode: Mode, column: int, transverse: int) -> str:
     return own_diameter(mode, column) or (mode["diameter"] if column == transverse else "DIAMOF")
 
 
-def is_diameter(mode: Mode, way: Way, column: int, transverse: int) -> bool:
+def is_diameter(mode: Mode, way: Dimension, column: int, transverse: int) -> bool:
     """Whether a value of an axis is a diameter."""
     function = diameter_function(mode, column, transverse)
-    return function == "DIAMON" or (function == "DIAM90" and way is not Way.INCREMENTAL)
+    return function == "DIAMON" or (function == "DIAM90" and way is not Dimension.INCREMENTAL)
 
 
 def axis_term(
@@ -112,7 +112,7 @@ def axis_term(
     axis = channel.axis_data[column]
     diameter: bool | None = None
     if not modifier:
-        way = Way.INCREMENTAL if mode["dimensions"] == "G91" else Way.ABSOLUTE
+        way = Dimension.INCREMENTAL if mode["dimensions"] == "G91" else Dimension.ABSOLUTE
     elif modifier in _MODIFIERS:
         way, diameter = _MODIFIERS[modifier]
     elif modifier in indexing.WAYS:
@@ -122,8 +122,8 @@ def axis_term(
     if modifier in _ROTARY_ONLY and not axis.rotary:
         raise WordAlarm(_ROTARY_ONLY[modifier], position, axis=channel.axes[column])
     if axis.rotary:
-        if way is Way.ABSOLUTE and axis.modulo:
-            way = Way.MODULO
+        if way is Dimension.ABSOLUTE and axis.modulo:
+            way = Dimension.MODULO
         return AxisTerm(position, column, way, 1.0)
     factor = length_factor(mode)
     if diameter is None:
@@ -153,9 +153,9 @@ def target(channel: SinumerikChannel, terms: Sequence[AxisTerm], values: tuple[A
         column = term.column
         if term.coded:
             value = indexing.position(channel, column, term.coded, number(values, term.position))
-        if term.way is Way.ABSOLUTE:
+        if term.way is Dimension.ABSOLUTE:
             end[column] = value
-        elif term.way is Way.INCREMENTAL:
+        elif term.way is Dimension.INCREMENTAL:
             end[column] += owed[column] + value
         else:
             end[column] = _rotary_target(end[column], value, term)
@@ -170,12 +170,12 @@ def _rotary_target(now: float, value: float, term: AxisTerm) -> float:
         WordAlarm: 16830 for an angle outside 0 to 360 with DC, ACP or ACN.
     """
     base = now - now % TURN
-    if term.way is Way.MODULO:
+    if term.way is Dimension.MODULO:
         return base + value
     if not 0.0 <= value < TURN:
         raise WordAlarm("16830", term.position)
     way = (value - now) % TURN
-    if (term.way is Way.SHORTEST and way > TURN / 2) or (term.way is Way.NEGATIVE and way > 0.0):
+    if (term.way is Dimension.SHORTEST and way > TURN / 2) or (term.way is Dimension.NEGATIVE and way > 0.0):
         way -= TURN
     return now + way
 
@@ -185,6 +185,6 @@ def shown(channel: SinumerikChannel, column: int, value: float, *, work: bool = 
     axis = channel.axis_data[column]
     if axis.rotary:
         return value % 360.0 if axis.modulo else value
-    if work and is_diameter(channel.mode, Way.ABSOLUTE, column, channel.memory.transverse):
+    if work and is_diameter(channel.mode, Dimension.ABSOLUTE, column, channel.memory.transverse):
         value *= 2.0
     return value / INCH_MM if channel.mode["units"] == "G700" else value

@@ -11,6 +11,7 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.stack import LevelKind
 from polycnc.channel.state import Lifetime, State
 from polycnc.channel.waits import Wait, Why
 
@@ -53,7 +54,7 @@ def _runs_through(channel: SinumerikChannel) -> bool:
     """MD20117, while an interrupt routine runs."""
     if not channel.memory.data.integer("$MC_IGNORE_SINGLEBLOCK_ASUP"):
         return False
-    return any(level.kind == "interrupt" for level in channel.stack)
+    return any(level.kind is LevelKind.INTERRUPT for level in channel.stack)
 
 
 def halts(channel: SinumerikChannel, level: Level) -> bool:

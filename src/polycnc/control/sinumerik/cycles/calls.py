@@ -10,7 +10,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.stack import Level
+from polycnc.channel.stack import Level, LevelKind
 from polycnc.control.sinumerik import auxiliary
 from polycnc.control.sinumerik.block.single_block import RunningBlock
 from polycnc.control.sinumerik.cycles.arguments import Arguments
@@ -101,7 +101,7 @@ def start(channel: SinumerikChannel, name: str, values: tuple[Any, ...], column:
     channel.flush()
     caller = channel.level
     code = CycleProgram(channel, cycle, arguments, column)
-    level = Level(code, program_number=caller.program_number, kind="cycle", locals=caller.locals)
+    level = Level(code, program_number=caller.program_number, kind=LevelKind.CYCLE, locals=caller.locals)
     level.data["single_block"] = False
     level.data["sblof_in_proc"] = caller.data.get("single_block", True)
     if cycle.saves:

@@ -6,6 +6,7 @@ from dataclasses import replace
 from math import radians, sin
 from typing import TYPE_CHECKING
 
+from polycnc.channel.stack import LevelKind
 from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.errors import not_supported
@@ -117,7 +118,7 @@ def milling_levels(moves: Moves, a: Arguments, base_allowance: float, infeed: st
 def reference_point(moves: Moves, a: Arguments) -> Point:
     """PA, PO; where the cycle is modal and both are 0, the position that was reached."""
     given = a["_PA"], a["_PO"]
-    return moves.point if moves.channel.level.kind == "modal" and given == (0.0, 0.0) else given
+    return moves.point if moves.channel.level.kind is LevelKind.MODAL and given == (0.0, 0.0) else given
 
 
 # ---- pockets

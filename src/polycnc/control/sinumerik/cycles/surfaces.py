@@ -23,7 +23,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.milling import contour as path_milling
 from polycnc.cycles.milling import facing, spigots
 from polycnc.cycles.milling import thread as thread_milling
-from polycnc.cycles.milling.contour import Approach, PathMilling, Way
+from polycnc.cycles.milling.contour import Approach, ApproachShape, PathMilling
 from polycnc.cycles.milling.stroke import Place, steps
 from polycnc.cycles.turning.contour import parallel, turned_round
 from polycnc.geometry.tolerances import NO_WAY
@@ -171,11 +171,12 @@ def _approach(a: Arguments, mode: str, size: str, side: float) -> Approach:
     Raises:
         AlarmError: 61115 for a mode that does not exist, or arcs on the contour; 61116 for a way of no length.
     """
-    kinds = {way.value: way for way in Way}
+    kinds = {way.value: way for way in ApproachShape}
     way = kinds.get(a.digit(mode, 0))
-    if way is None or a.digit(mode, 1) not in (0, 1) or (way in (Way.QUARTER, Way.HALF) and not side):
+    needs_side = way in (ApproachShape.QUARTER, ApproachShape.HALF)
+    if way is None or a.digit(mode, 1) not in (0, 1) or (needs_side and not side):
         raise AlarmError("61115")
-    if way is not Way.DIRECT and not abs(a[size]):
+    if way is not ApproachShape.DIRECT and not abs(a[size]):
         raise AlarmError("61116")
     return Approach(way, abs(a[size]), a.digit(mode, 1) == 1)
 

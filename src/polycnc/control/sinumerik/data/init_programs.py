@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.channel.stack import LevelKind
 from polycnc.language.sinumerik.names.frame import NEUTRAL
 from polycnc.program.names import WORKING_MEMORY, WORKPIECE
 
@@ -30,7 +31,7 @@ def call(channel: SinumerikChannel) -> None:
     if any(program.name == INITIAL for program in programs):
         _standard_values(channel)
     for program in reversed(programs):
-        channel.push(program, kind="sub", local=[])
+        channel.push(program, kind=LevelKind.SUBPROGRAM, local=[])
 
 
 def _of_workpiece(channel: SinumerikChannel) -> Iterator[Program]:

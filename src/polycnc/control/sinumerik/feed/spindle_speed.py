@@ -66,7 +66,7 @@ def turning_speed(memory: Memory, spindle: Spindle, feed: str) -> float:
     return min(max(spindle.speed, lowest), highest(memory, spindle, feed)) if spindle.speed > 0.0 else 0.0
 
 
-def is_settled(channel: SinumerikChannel, surface_speed: bool, code: str) -> bool:
+def is_in_force(channel: SinumerikChannel, surface_speed: bool, code: str) -> bool:
     """Whether the kind of feed that is in force would change nothing and not alarm when it is written again.
 
     S words under G97 do not change a cutting speed, so what holds stays.

@@ -69,7 +69,7 @@ class Frames:
         self.active_global_base = list(self.global_base)
 
     @property
-    def is_settled(self) -> bool:
+    def is_in_force(self) -> bool:
         """Whether `select` with the active number would change nothing."""
         active = self.active_settable, list(self.active_base), list(self.active_global_base)
         return active == (self.settable[self.number], list(self.base), list(self.global_base))
@@ -139,10 +139,10 @@ def apply(channel: SinumerikChannel, suppression: str = "", *, travelled: bool =
         channel.context_changed()
 
 
-def is_settled(channel: SinumerikChannel) -> bool:
+def is_in_force(channel: SinumerikChannel) -> bool:
     """Whether a zero offset that is in force would change nothing now: G500, G54 ... once more."""
     frames, c = channel.memory.frames, channel.coordinates
-    return frames.is_settled and _to_machine(channel, "") == (c.zero, c.offsets)
+    return frames.is_in_force and _to_machine(channel, "") == (c.zero, c.offsets)
 
 
 def _to_machine(channel: SinumerikChannel, suppression: str) -> tuple[Frame, list[float]]:

@@ -12,9 +12,9 @@ from itertools import pairwise
 from math import inf, isnan, nan
 from typing import TYPE_CHECKING
 
+from polycnc.channel.move_path import MovePath
 from polycnc.channel.path import Rank, Recorder, Stage
 from polycnc.channel.state import Lifetime, State
-from polycnc.channel.way import Way
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.cycles.contour import sent_away, without_away
@@ -281,7 +281,7 @@ class Guard(Stage):
     def move(self, move: Move) -> None:
         """Pass a move on; 10700 or 10701 for one that leads into a zone."""
         channel = self._channel
-        way = Way(move, channel.coordinates.geometry)
+        way = MovePath(move, channel.coordinates.geometry)
         parts = [k / PIECES for k in range(PIECES + 1)] if move.is_arc else [0.0, 1.0]
         points = [channel.coordinates.to_machine(way.at(part)) for part in parts]
         placed = list(Protection.of(channel).placed(channel))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import plain
-from polycnc.control.sinumerik.block.positions import Way, is_diameter, number, target
+from polycnc.control.sinumerik.block.positions import Dimension, is_diameter, number, target
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.limits.working_area import Ranges
 from polycnc.control.sinumerik.motion import moves
@@ -194,7 +194,7 @@ def centre_words(draft: Draft, letters: str) -> list[tuple[int, int, str]]:
 def absolute_factor(channel: SinumerikChannel, draft: Draft, column: int) -> float:
     """From an absolute coordinate to mm: diameters of the transverse axis included."""
     factor = length_factor(draft.mode)
-    if is_diameter(draft.mode, Way.ABSOLUTE, column, channel.memory.transverse):
+    if is_diameter(draft.mode, Dimension.ABSOLUTE, column, channel.memory.transverse):
         factor *= 0.5
     return factor
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import plain
-from polycnc.control.sinumerik.block.positions import AxisTerm, Way, axis_term, number, target
+from polycnc.control.sinumerik.block.positions import AxisTerm, Dimension, axis_term, number, target
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.limits.working_area import Ranges
@@ -87,7 +87,7 @@ def _plain_linear(draft: Draft) -> Step | None:
     terms = draft.take_axes()
     if not terms:
         return None
-    if any(term.way is not Way.ABSOLUTE or term.coded for term in terms):
+    if any(term.way is not Dimension.ABSOLUTE or term.coded for term in terms):
         return _incremental_linear(terms)
     places = [(term.position, term.column, term.factor) for term in terms]
     own_feed = draft.take_plain("F") if draft.mode["feed"] != "G931" else None
@@ -184,7 +184,7 @@ def goal_of(draft: Draft) -> Goal | None:
         return _polar(draft, terms, angle, radius)
     if not terms:
         return None
-    if all(term.way is Way.ABSOLUTE and not term.coded for term in terms):
+    if all(term.way is Dimension.ABSOLUTE and not term.coded for term in terms):
         return _absolute([(term.position, term.column, term.factor) for term in terms])
 
     def goal(channel: SinumerikChannel, values: Values) -> list[float]:

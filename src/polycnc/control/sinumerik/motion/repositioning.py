@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from math import hypot, isnan, nan
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.stack import LevelKind
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.motion import circles, moves
@@ -26,7 +27,7 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.way import Way
+    from polycnc.channel.move_path import MovePath
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.arcs import Point
@@ -94,10 +95,10 @@ def reposition(draft: Draft) -> Step:
 
 
 def _in_routine(channel: SinumerikChannel) -> bool:
-    return any(level.kind == interrupts.LEVEL for level in channel.stack)
+    return any(level.kind is LevelKind.INTERRUPT for level in channel.stack)
 
 
-def _part(way: Way, point: str, interrupted_at: float, position: list[float]) -> float:
+def _part(way: MovePath, point: str, interrupted_at: float, position: list[float]) -> float:
     """The part of the way that RMB, RMI, RME or RMN chooses."""
     if point == "RMN":
         return way.nearest(position)
@@ -105,7 +106,7 @@ def _part(way: Way, point: str, interrupted_at: float, position: list[float]) ->
 
 
 def _touching_arc(
-    channel: SinumerikChannel, way: Way, part: float, plane: Plane, radius: float, *, half: bool
+    channel: SinumerikChannel, way: MovePath, part: float, plane: Plane, radius: float, *, half: bool
 ) -> Arc | None:
     """The quarter or half circle that touches the contour; None without DISR or a direction in the plane.
 

@@ -11,9 +11,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.move_path import MovePath
 from polycnc.channel.path import Rank, Stage
+from polycnc.channel.stack import LevelKind
 from polycnc.channel.state import Lifetime, State
-from polycnc.channel.way import Way
 from polycnc.control.sinumerik.block import arguments, single_block
 from polycnc.control.sinumerik.signals import retraction
 from polycnc.language.sinumerik.statements.calls import call_without_arguments, named_program
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     from polycnc.program import Program
 
 INPUTS, PRIORITIES = range(1, 9), range(1, 129)
-LEVEL = "interrupt"
 
 
 @dataclass(slots=True)
@@ -63,7 +63,7 @@ class Interrupted:
         resume_at: Part of the way at which REPOS has come back; None before.
     """
 
-    way: Way | None
+    way: MovePath | None
     part: float
     priority: int
     level: Level
@@ -82,7 +82,7 @@ class Watch(Stage):
         self.came: set[int] = set()
         self.running: list[Interrupted] = []
         self._channel = channel
-        self._cut: tuple[Way, float] | None = None
+        self._cut: tuple[MovePath, float] | None = None
         self._pending: list[tuple[Interrupt, Assignment]] = []
         self._held: list[Move] = []
         self._stands: list[float] | None = None
@@ -100,7 +100,7 @@ class Watch(Stage):
         if self._cut is not None:
             self._held.append(move)
             return
-        way = Way(move, self._channel.coordinates.geometry)
+        way = MovePath(move, self._channel.coordinates.geometry)
         part = self._first_input(way) if not self._lifts else None
         if part is None:
             self.after.move(move)
@@ -109,7 +109,7 @@ class Watch(Stage):
         if part > 0.0:
             self.after.move(way.until(part) if part < 1.0 else move)
 
-    def _first_input(self, way: Way) -> float | None:
+    def _first_input(self, way: MovePath) -> float | None:
         """The part of a way at which the first inputs come that call a routine; they become pending."""
         found: list[tuple[float, int, Interrupt]] = []
         for number, interrupt in enumerate(self._channel.setup.switches.interrupts):
@@ -192,7 +192,7 @@ class Watch(Stage):
                     self._call(None, 1.0, [], position.copy())
                     return
 
-    def _interrupt(self, way: Way, part: float) -> None:
+    def _interrupt(self, way: MovePath, part: float) -> None:
         channel = self._channel
         self.after.flush()
         rest, self._held = self._held, []
@@ -201,7 +201,7 @@ class Watch(Stage):
         channel.coordinates.arrive(stands)
         self._call(way, part, rest, end)
 
-    def _call(self, way: Way | None, part: float, rest: list[Move], end: list[float]) -> None:
+    def _call(self, way: MovePath | None, part: float, rest: list[Move], end: list[float]) -> None:
         """Call the pending routine of the highest priority."""
         channel = self._channel
         _, assignment = self._pending.pop(0)
@@ -212,7 +212,7 @@ class Watch(Stage):
         if assignment.program is None:
             channel.stop("LIFTFAST")
             raise AlarmError("PC0004")
-        call_without_arguments(channel, assignment.program, LEVEL)
+        call_without_arguments(channel, assignment.program, LevelKind.INTERRUPT)
         single_block.begin_routine(channel, channel.level)
         self.running.append(Interrupted(way, part, assignment.priority, channel.level, rest, end))
 
@@ -236,7 +236,7 @@ class Watch(Stage):
             single_block.halt_behind_rest(channel)
         channel.coordinates.arrive(interrupted.end)
 
-    def _finish(self, way: Way, part: float, stands: list[float]) -> None:
+    def _finish(self, way: MovePath, part: float, stands: list[float]) -> None:
         """The rest of the interrupted move, from where REPOS has come back; other inputs may still come."""
         if part < 1.0 or way.move.end != stands:
             self.move(self._renewed(way.beyond(part, stands)))

@@ -11,9 +11,9 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.move_path import MovePath
 from polycnc.channel.path import Move, Rank, Stage
 from polycnc.channel.state import Lifetime, State
-from polycnc.channel.way import Way
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
 from polycnc.language.sinumerik.names.values import Axis, Type
@@ -106,11 +106,11 @@ class Prober(Stage):
             if part is None:
                 self.after.move(move)
             elif part > 0.0:
-                self.after.move(Way(move, self._channel.coordinates.geometry).until(part))
+                self.after.move(MovePath(move, self._channel.coordinates.geometry).until(part))
 
     def follow(self, move: Move) -> float | None:
         """Let probes switch along a move; the part of it at which the distance to go is deleted."""
-        way = Way(move, self._channel.coordinates.geometry)
+        way = MovePath(move, self._channel.coordinates.geometry)
         for part, probe, edge in sorted(self._edges_on(way), key=lambda each: each[0]):
             self._edges[probe].pop(0)
             self.deflected[probe] = edge.rising
@@ -122,7 +122,7 @@ class Prober(Stage):
                 return part
         return None
 
-    def _edges_on(self, way: Way) -> Iterator[tuple[float, int, ProbeEdge]]:
+    def _edges_on(self, way: MovePath) -> Iterator[tuple[float, int, ProbeEdge]]:
         """The edges that come on a way, each probe's own in their order."""
         memory = self._channel.memory
         for probe, edges in self._edges.items():
@@ -324,7 +324,7 @@ def _positioned(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG
     move = Move(Kind.FEED, start, end)
     part = prober.follow(move)
     if part is not None:
-        channel.coordinates.arrive(Way(move, channel.coordinates.geometry).at(part))
+        channel.coordinates.arrive(MovePath(move, channel.coordinates.geometry).at(part))
         prober.stopped = None
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.stack import LevelKind
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.syntec.builder import CALLS, SyntecBuilder
 from polycnc.control.syntec.macros import interrupts
@@ -39,19 +40,23 @@ REGISTERED_G = {
 NEVER_REGISTERED = frozenset({0, 1, 2, 30, 96, 97, 98, 99})
 
 
+#: Levels of programs that a registered code calls.
+CODE_KINDS = (LevelKind.G_MACRO, LevelKind.M_MACRO, LevelKind.T_MACRO)
+
+
 @dataclass(frozen=True, slots=True)
 class CodeMacro:
     """A program that a code calls.
 
     Attributes:
         program: The program.
-        kind: Kind of its level: `macro`, or `g`, `m`, `t` for a registered code, inside which it is plain.
+        kind: Kind of its level; inside that of a registered code the code is plain.
         takes: Addresses that it takes whether it reads them or not.
         shares: It shares the caller's local variables.
     """
 
     program: Program
-    kind: str
+    kind: LevelKind
     takes: frozenset[str] = frozenset()
     shares: bool = False
 
@@ -155,11 +160,11 @@ def _plan_modal_call(builder: Builder, plan: Plan) -> Step | None:
 
     def follow(channel: SyntecChannel, values: list[Any]) -> None:
         calls = ModalMacroState.of(channel).calls
-        if not calls or any(level.kind == "modal" for level in channel.stack):
+        if not calls or any(level.kind is LevelKind.MODAL for level in channel.stack):
             return
         modal = calls[-1]
         modal.local.trapped = words_of(builder, values)
-        enter_macro(channel, modal.program, modal.local, modal.repeats, kind="modal")
+        enter_macro(channel, modal.program, modal.local, modal.repeats, kind=LevelKind.MODAL)
 
     return follow
 
@@ -175,7 +180,7 @@ def end_modal_call(channel: SyntecChannel, _words: Words) -> None:
 def _code_macro(builder: SyntecBuilder) -> CodeMacro | None:
     """The macro that the codes of a block call: the last G macro, else a registered G, M or T code."""
     if builder.g_macros:
-        return CodeMacro(builder.g_macros[-1], "macro", frozenset("L"))
+        return CodeMacro(builder.g_macros[-1], LevelKind.MACRO, frozenset("L"))
     return _registered_g(builder) or _registered_m(builder) or _registered_t(builder)
 
 
@@ -189,7 +194,7 @@ def _registered_g(builder: SyntecBuilder) -> CodeMacro | None:
     motion = builder.mode["motion"]
     if not own and motion in registered and builder.moves_by_words():
         own = [motion]
-    return None if not own else CodeMacro(builder.code_program(_file_of(own[-1])), "g")
+    return None if not own else CodeMacro(builder.code_program(_file_of(own[-1])), LevelKind.G_MACRO)
 
 
 def _file_of(code: str) -> str:
@@ -206,32 +211,32 @@ def _registered_m(builder: SyntecBuilder) -> CodeMacro | None:
         return None
     builder.called_m = code
     takes = frozenset(address for address, _, _ in builder.typed if address != "T") | {"M"}
-    return CodeMacro(builder.code_program(f"M{code:04d}"), "m", takes)
+    return CodeMacro(builder.code_program(f"M{code:04d}"), LevelKind.M_MACRO, takes)
 
 
 def _registered_t(builder: SyntecBuilder) -> CodeMacro | None:
     how = builder.channel.memory.parameter(3215)
     if how not in (1, 2) or not builder.has("T"):
         return None
-    return CodeMacro(builder.code_program("T0000"), "t", frozenset("T"), shares=how == 1)
+    return CodeMacro(builder.code_program("T0000"), LevelKind.T_MACRO, frozenset("T"), shares=how == 1)
 
 
 def _plan_code_macro(builder: SyntecBuilder, plan: Plan, macro: CodeMacro) -> Step:
     """A block whose code calls a macro; inside a macro of a registered code these codes are plain."""
     settings = _settings(builder, plan)
-    mode = builder.mode if macro.kind != "g" else builder.before
-    first = builder.called_m if macro.kind == "m" else next(iter(builder.m_codes), None)
+    mode = builder.mode if macro.kind is not LevelKind.G_MACRO else builder.before
+    first = builder.called_m if macro.kind is LevelKind.M_MACRO else next(iter(builder.m_codes), None)
     others = tuple(f"M{code}" for code in builder.m_codes if code != first)
 
     def call(channel: SyntecChannel, values: list[Any]) -> None:
-        if macro.kind in "gmt" and any(level.kind == macro.kind for level in channel.stack):
+        if macro.kind in CODE_KINDS and any(level.kind is macro.kind for level in channel.stack):
             builder.plain_plan(channel).run(channel, values)
             return
         channel.mode = mode
         for step in settings:
             step(channel, values)
         words = words_of(builder, values)
-        count = _count(words, builder) if macro.kind == "macro" else 1
+        count = _count(words, builder) if macro.kind is LevelKind.MACRO else 1
         local = Locals(words, returns_words=True)
         local.taken |= macro.takes
         local.other_codes = others
@@ -257,7 +262,11 @@ def _settings(builder: SyntecBuilder, plan: Plan) -> list[Step]:
 def finish_macro(channel: SyntecChannel, ended: Level) -> None:
     """What a macro has left of its block acts now, in the caller."""
     local = ended.data.get("rest", ended.locals)
-    if ended.kind not in ("macro", "g", "m", "t") or not isinstance(local, Locals) or not local.returns_words:
+    if (
+        ended.kind not in (LevelKind.MACRO, *CODE_KINDS)
+        or not isinstance(local, Locals)
+        or not local.returns_words
+    ):
         return
     words = {address: value for address, value in local.remaining().items() if address not in "NO"}
     codes = list(local.other_codes)
@@ -272,7 +281,7 @@ def finish_macro(channel: SyntecChannel, ended: Level) -> None:
 
 
 def enter_shared(
-    channel: SyntecChannel, program: Program, kind: str, count: int = 1, sequence: int | None = None
+    channel: SyntecChannel, program: Program, kind: LevelKind, count: int = 1, sequence: int | None = None
 ) -> None:
     """Put a program on the stack that works on the caller's local variables."""
     channel.control.check_nesting(channel, kind)
@@ -304,7 +313,7 @@ def _enter_subprogram(channel: SyntecChannel, words: Words, program: Program) ->
     count = _whole(words, "L", "repeat_count") if "L" in words else 1
     sequence = _whole(words, "H", "program_number") if "H" in words else None
     if count > 0:
-        enter_shared(channel, program, "sub", count, sequence)
+        enter_shared(channel, program, LevelKind.SUBPROGRAM, count, sequence)
 
 
 def _whole(words: Words, address: str, mistake: str) -> int:
@@ -340,7 +349,7 @@ def leave_program(channel: SyntecChannel, *, jumps: bool = False) -> None:
     elif level.repeats > 0 and not jumps:
         level.repeats -= 1
         level.index = level.entry
-        if isinstance(level.locals, Locals) and level.kind == "macro":
+        if isinstance(level.locals, Locals) and level.kind is LevelKind.MACRO:
             level.locals.fill()
     else:
         channel.control.leave(channel)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.channel.stack import LevelKind
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.syntec.spindles import SpindleState
 from polycnc.control.word_address.block.rules import Rule
@@ -125,14 +126,14 @@ def _call(channel: SyntecChannel, program: Program) -> None:
     """Call the subprogram; the block that runs will be read again."""
     caller = channel.level
     caller.index = caller.current
-    channel.control.check_nesting(channel, "interrupt")
-    level = channel.push(program, kind="interrupt", local=caller.locals)
+    channel.control.check_nesting(channel, LevelKind.INTERRUPT)
+    level = channel.push(program, kind=LevelKind.INTERRUPT, local=caller.locals)
     level.data["break"] = channel.coordinates.position[:]
 
 
 def go_back(channel: SyntecChannel, ended: Level) -> None:
     """M99 of the interrupt subprogram: rapid to where the block was interrupted."""
-    if ended.kind == "interrupt":
+    if ended.kind is LevelKind.INTERRUPT:
         channel.straight(Kind.RAPID, ended.data["break"][:], nan)
 
 

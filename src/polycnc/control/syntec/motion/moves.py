@@ -14,7 +14,7 @@ from polycnc.control.syntec.macros.calls import ModalMacroState
 from polycnc.control.syntec.motion import planes
 from polycnc.control.syntec.spindles import SpindleState
 from polycnc.control.word_address.auxiliary import functions
-from polycnc.control.word_address.block import settled
+from polycnc.control.word_address.block import repeated_codes
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path, skip
 from polycnc.control.word_address.motion.arcs import emit_arc
@@ -170,19 +170,19 @@ def change_feed_mode(channel: SyntecChannel, words: Words) -> None:
     channel.context_changed()
 
 
-def _feed_is_settled(channel: SyntecChannel) -> bool:
+def _feed_is_in_force(channel: SyntecChannel) -> bool:
     """G93 to G95: the feed in force is that of the code."""
     return bool(FeedState.of(channel).mode == channel.mode["feed"])
 
 
-def _frame_is_settled(channel: SyntecChannel) -> bool:
+def _frame_is_in_force(channel: SyntecChannel) -> bool:
     """G69: nothing is rotated or tilted."""
     return channel.coordinates.direct and TurnState.of(channel).tilt is IDENTITY
 
 
-def _length_is_settled(channel: SyntecChannel) -> bool:
+def _length_is_in_force(channel: SyntecChannel) -> bool:
     """G49: as on every control; no direction is led to the path either."""
-    return channel.path.find(NormalStage) is None and settled.length(channel)
+    return channel.path.find(NormalStage) is None and repeated_codes.length(channel)
 
 
 def _has_no_modal_call(channel: SyntecChannel) -> bool:
@@ -195,15 +195,15 @@ def _surface_axis_is_linear(channel: SyntecChannel) -> bool:
     return not channel.axis_data[SpindleState.of(channel).surface_axis].rotary
 
 
-#: Codes that change nothing where they are in force already; see `word_address.settled`.
-SETTLED: dict[str, Condition] = {
-    **settled.MILLING,
-    "G49": _length_is_settled,
+#: Codes that change nothing where they are in force already; see `word_address/block/repeated_codes.py`.
+REPEATED: dict[str, Condition] = {
+    **repeated_codes.MILLING,
+    "G49": _length_is_in_force,
     "G67": _has_no_modal_call,
     "G96": _surface_axis_is_linear,
-    "G69": _frame_is_settled,
-    **dict.fromkeys(("G17", "G18", "G19"), planes.settled_plane),
-    **dict.fromkeys(("G93", "G94", "G95"), _feed_is_settled),
+    "G69": _frame_is_in_force,
+    **dict.fromkeys(("G17", "G18", "G19"), planes.same_plane),
+    **dict.fromkeys(("G93", "G94", "G95"), _feed_is_in_force),
 }
 
 

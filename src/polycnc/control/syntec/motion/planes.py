@@ -33,7 +33,7 @@ def select_plane(channel: SyntecChannel, words: Words) -> None:
     channel.context_changed()
 
 
-def settled_plane(channel: SyntecChannel) -> bool:
+def same_plane(channel: SyntecChannel) -> bool:
     """Whether the plane that is in force may be written again with any axes: each of them has its place already."""
     memory, basic = channel.memory, channel.memory.basic_geometry
     return (

@@ -2,5 +2,5 @@
 
 `rules` says what acts on a block beside its own codes and words, and when; each control declares its tuple of them.
 `codes` has the rows of the code tables, `words` the words as a handler sees them, `numbers` their units and decimal
-points. `plain`, `words_as_data` and `settled` tell the same as data, for the bulk scanner.
+points. `plain`, `words_as_data` and `repeated_codes` tell the same as data, for the bulk scanner.
 """

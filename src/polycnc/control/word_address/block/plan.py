@@ -246,8 +246,8 @@ class Builder:
             return step
         if handler in control.only_context:
             return declare(step, Note())
-        if self._in_force(row) and row.code in control.settled_codes:
-            return declare(step, Idle(control.settled_codes[row.code]))
+        if self._in_force(row) and row.code in control.repeated_codes:
+            return declare(step, Idle(control.repeated_codes[row.code]))
         return step
 
     def axis_words(self) -> tuple[AxisWord, ...]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.stack import LevelKind
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.auxiliary.interlocks import note_tool_number
 from polycnc.control.word_address.block.codes import GCode, MCode, Order
@@ -60,10 +61,10 @@ def _g_row(code: str, call: CodeCall) -> GCode:
         repeats = words.integer("L") if "L" in words else 1
         program = channel.control.find_program(channel, call.program)
         if call.kind == "sub":
-            subprograms.enter_subprogram(channel, program, repeats or 0, None, kind="g-sub")
+            subprograms.enter_subprogram(channel, program, repeats or 0, None, kind=LevelKind.G_SUBPROGRAM)
         elif call.kind == "macro":
             macro_calls.enter_macro(
-                channel, program, macro_calls.arguments_of(words, "LG"), repeats or 0, kind="g-macro"
+                channel, program, macro_calls.arguments_of(words, "LG"), repeats or 0, kind=LevelKind.G_MACRO
             )
         else:
             macro_calls.start_modal(
@@ -97,7 +98,7 @@ def m_row(builder: Builder, number: int) -> MCode | None:
 
     def act(channel: MacroChannel, _words: Words) -> None:
         program = channel.control.find_program(channel, call.program)
-        subprograms.enter_subprogram(channel, program, 1, None, kind="m-sub")
+        subprograms.enter_subprogram(channel, program, 1, None, kind=LevelKind.M_SUBPROGRAM)
         macro_calls.note_level(channel)
 
     return MCode(number, after=True, handler=act, silent=True)
@@ -121,7 +122,7 @@ def plan_m_macro(builder: Builder, plan: Plan) -> Step | None:
         repeats = words.integer("L") if "L" in words else 1
         arguments = macro_calls.arguments_of(words, "LG", without_m=number)
         program = channel.control.find_program(channel, call.program)
-        macro_calls.enter_macro(channel, program, arguments, repeats or 0, kind="m-macro")
+        macro_calls.enter_macro(channel, program, arguments, repeats or 0, kind=LevelKind.M_MACRO)
         macro_calls.note_level(channel)
 
     return act
@@ -143,7 +144,7 @@ def plan_tool_call(builder: Builder, _plan: Plan) -> Step | None:
         assert call is not None
         channel.memory.write(TOOL_VARIABLE, values[slot])
         program = channel.control.find_program(channel, call.program)
-        subprograms.enter_subprogram(channel, program, 1, None, kind="t-sub")
+        subprograms.enter_subprogram(channel, program, 1, None, kind=LevelKind.T_SUBPROGRAM)
         macro_calls.note_level(channel)
 
     return act

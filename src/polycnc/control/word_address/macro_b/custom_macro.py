@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
+from polycnc.channel.stack import LevelKind
 from polycnc.control.word_address.auxiliary import overrides
 from polycnc.control.word_address.block.numbers import NumberRules
 from polycnc.control.word_address.control import WordAddressControl
@@ -28,7 +29,13 @@ if TYPE_CHECKING:
     from polycnc.program import Program
     from polycnc.toolpath import Context
 
-_MACRO_KINDS = ("macro", "modal", "g-macro", "m-macro", "b-macro")
+_MACRO_KINDS = (
+    LevelKind.MACRO,
+    LevelKind.MODAL,
+    LevelKind.G_MACRO,
+    LevelKind.M_MACRO,
+    LevelKind.EVERY_BLOCK,
+)
 #: Levels of macros, of subprograms, and together (FANUC macro B reference §5.1).
 MACRO_LEVELS, SUBPROGRAM_LEVELS, LEVELS = 5, 10, 15
 #: Letters of 1022: the basic axes X, Y, Z; their parallels count four more.
@@ -124,7 +131,7 @@ class CustomMacroControl(WordAddressControl):
         """Eight-digit program numbers (11304#3)."""
         return bool(channel.setup.parameters.bit(11304, 3))
 
-    def check_nesting(self, channel: Channel, kind: str) -> None:
+    def check_nesting(self, channel: Channel, kind: LevelKind) -> None:
         """Alarm for one level of calls too many."""
         macros = sum(1 for level in channel.stack if level.kind in _MACRO_KINDS)
         others = len(channel.stack) - 1 - macros
@@ -138,7 +145,7 @@ class CustomMacroControl(WordAddressControl):
         ended = channel.pop()
         channel.memory.locals = channel.level.locals
         macro_calls.note_level(channel)
-        if ended.kind == interruption.LEVEL:
+        if ended.kind is LevelKind.INTERRUPT:
             interruption.finish(channel, jumps=jumps)
 
     def start(self, channel: Channel) -> None:

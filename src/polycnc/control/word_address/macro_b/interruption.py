@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from polycnc.channel.stack import LevelKind
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.block.codes import MCode
 from polycnc.control.word_address.block.rules import Rule
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     from polycnc.program import Program
 
 #: Kind of an interruption program's level.
-LEVEL = "interrupt"
 #: 6003: types of the interruption.
 OWN_LOCALS_BIT, BLOCK_FIRST_BIT, ENABLED_BIT = 5, 2, 7
 
@@ -140,7 +140,7 @@ def _call(channel: MacroChannel, program: Program) -> None:
     memory = channel.memory
     if not memory.parameters.bit(6003, OWN_LOCALS_BIT):
         memory.locals = [None] * LOCALS
-    channel.push(program, kind=LEVEL, local=memory.locals)
+    channel.push(program, kind=LevelKind.INTERRUPT, local=memory.locals)
 
 
 def finish(channel: MacroChannel, *, jumps: bool) -> None:

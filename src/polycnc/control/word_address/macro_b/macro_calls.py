@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from polycnc.channel.stack import LevelKind
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.block.rules import Rule
@@ -137,7 +138,7 @@ def enter_macro(
     local: object,
     repeats: int = 1,
     *,
-    kind: str = "macro",
+    kind: LevelKind = LevelKind.MACRO,
 ) -> None:
     """Put a macro on the stack with local variables of its own, as its language has them; nothing for no repeats."""
     if repeats < 1:
@@ -161,10 +162,10 @@ def plan_modal_call(builder: Builder, plan: Plan) -> Step | None:
 
     def follow(channel: MacroChannel, _values: list[float]) -> None:
         calls = ModalCallState.of(channel).calls
-        inside = sum(1 for level in channel.stack if level.kind in ("modal", "b-macro"))
+        inside = sum(1 for level in channel.stack if level.kind in (LevelKind.MODAL, LevelKind.EVERY_BLOCK))
         if inside < len(calls):
             call = calls[-1 - inside]
-            enter_macro(channel, call.program, list(call.arguments), call.repeats, kind="modal")
+            enter_macro(channel, call.program, list(call.arguments), call.repeats, kind=LevelKind.MODAL)
 
     return follow
 
@@ -179,7 +180,7 @@ def plan_argument_block(builder: Builder, plan: Plan) -> Step | None:
     def call(channel: MacroChannel, values: list[float]) -> None:
         modal = ModalCallState.of(channel).calls[-1]
         arguments = _block_arguments(Words(plan, values), builder)
-        enter_macro(channel, modal.program, arguments, modal.repeats, kind="b-macro")
+        enter_macro(channel, modal.program, arguments, modal.repeats, kind=LevelKind.EVERY_BLOCK)
         note_level(channel)
 
     return call
@@ -203,7 +204,7 @@ def note_level(channel: MacroChannel) -> None:
     """
     if "calls" not in channel.mode.codes:
         return
-    callers = {level.kind[0].upper() for level in channel.stack if level.kind[1:2] == "-"}
+    callers = {level.kind.code_letter for level in channel.stack if level.kind.code_letter}
     by_code = callers - {"B"}
     if not by_code:
         letters = "GMT"

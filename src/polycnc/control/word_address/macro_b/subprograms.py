@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
+from polycnc.channel.stack import LevelKind
+
 if TYPE_CHECKING:
     from polycnc.channel.stack import Level
     from polycnc.control.word_address.block.words import Words
@@ -51,16 +53,21 @@ def call_external_subprogram(channel: MacroChannel, words: Words) -> None:
     number, repeats = _program_and_repeats(channel, words)
     if number is None:
         raise words.fail("no_program", "M198")
-    if any(level.kind == "external" for level in channel.stack):
+    if any(level.kind is LevelKind.EXTERNAL for level in channel.stack):
         raise words.fail("external_nested", "M198")
     program = channel.store.find_external_number(number)
     if program is None:
         raise words.fail("no_program", "P")
-    enter_subprogram(channel, program, repeats, None, kind="external")
+    enter_subprogram(channel, program, repeats, None, kind=LevelKind.EXTERNAL)
 
 
 def enter_subprogram(
-    channel: MacroChannel, program: Program, repeats: int, sequence: int | None, *, kind: str = "sub"
+    channel: MacroChannel,
+    program: Program,
+    repeats: int,
+    sequence: int | None,
+    *,
+    kind: LevelKind = LevelKind.SUBPROGRAM,
 ) -> None:
     """Put a subprogram on the stack: it shares the caller's local variables; nothing for no repeats."""
     if repeats < 1:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.stack import LevelKind
 from polycnc.language.expressions.code import Code, assigned, attribute, constant, quoted, sequence
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import provide
@@ -70,7 +71,7 @@ def call_program(
     args: tuple[Any, ...],
     given: tuple[bool, ...],
     passes: int,
-    kind: str = "sub",
+    kind: LevelKind = LevelKind.SUBPROGRAM,
 ) -> None:
     """Go on with a subprogram. Its level keeps in `data` what belongs to this call.
 
@@ -228,7 +229,9 @@ def call_named(channel: Channel, name: str) -> None:
     call_without_arguments(channel, named_program(channel, name))
 
 
-def call_without_arguments(channel: Channel, program: Program, kind: str = "sub") -> None:
+def call_without_arguments(
+    channel: Channel, program: Program, kind: LevelKind = LevelKind.SUBPROGRAM
+) -> None:
     """Call a program with all its parameters left out; alarm 14010 if it has one that must be written."""
     header = _header(channel, program)
     call_program(channel, program, header.arguments_left_out(), (False,) * len(header.parameters), 1, kind)
@@ -297,7 +300,7 @@ def modal_program(
     program: Program, args: tuple[Any, ...], given: tuple[bool, ...]
 ) -> Callable[[Channel], None]:
     """A modal call of a program: the parameters were handed over once."""
-    return lambda channel: call_program(channel, program, args, given, 1, "modal")
+    return lambda channel: call_program(channel, program, args, given, 1, LevelKind.MODAL)
 
 
 def modal_cycle(name: str, args: tuple[Any, ...], column: int) -> Callable[[Channel], None]:
@@ -307,7 +310,7 @@ def modal_cycle(name: str, args: tuple[Any, ...], column: int) -> Callable[[Chan
         caller = channel.level
         channel.control.procedure(channel, name, args, column)
         if channel.level is not caller:
-            channel.level.kind = "modal"
+            channel.level.kind = LevelKind.MODAL
 
     return run
 
@@ -315,7 +318,7 @@ def modal_cycle(name: str, args: tuple[Any, ...], column: int) -> Callable[[Chan
 def call_modal(channel: Channel) -> None:
     """A block with path motion has ended: run what MCALL has set, unless it is running."""
     modal = channel.memory.language.modal_call
-    if modal is not None and all(level.kind != "modal" for level in channel.stack):
+    if modal is not None and all(level.kind is not LevelKind.MODAL for level in channel.stack):
         modal(channel)
 
 
@@ -331,7 +334,7 @@ def call_external(channel: Channel, name: str) -> None:
     setting = control.system_variable("$SC_EXT_PROG_PATH").read(channel, ())
     program = channel.store.find_external(name, str(setting))
     if program is not None:
-        call_without_arguments(channel, program, "external")
+        call_without_arguments(channel, program, LevelKind.EXTERNAL)
     else:
         call_named(channel, name)
 

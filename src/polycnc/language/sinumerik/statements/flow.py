@@ -6,6 +6,7 @@ import ast
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from polycnc.channel.stack import LevelKind
 from polycnc.language.expressions.code import (
     Code,
     assigned,
@@ -40,7 +41,7 @@ JUMPS = ("GOTO", "GOTOF", "GOTOB", "GOTOC")
 
 def _refuse_external(compiler: BlockCompiler, word: Token) -> None:
     """12500: a program that EXTCALL runs from outside can only be read once, from start to end (1.25.3.10)."""
-    if compiler.channel.level.kind == "external":
+    if compiler.channel.level.kind is LevelKind.EXTERNAL:
         raise NcSyntaxError("12500", word.column, word.text)
 
 
@@ -276,7 +277,7 @@ def repeat_section(channel: Channel, program: SinumerikProgram, first: str, last
             current=start,
             entry=start,
             repeats=passes - 1,
-            kind="repeat",
+            kind=LevelKind.SECTION,
             scanner=None,
         )
     )

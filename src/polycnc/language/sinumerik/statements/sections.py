@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.channel.stack import LevelKind
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ class Section:
 
 def count_levels(channel: Channel) -> None:
     """Alarm 14012 if no further program level is possible."""
-    interrupts = any(level.kind == "interrupt" for level in channel.stack)
+    interrupts = any(level.kind is LevelKind.INTERRUPT for level in channel.stack)
     if len(channel.stack) > MAX_LEVELS + (INTERRUPT_LEVELS if interrupts else 0):
         raise AlarmError("14012")
 
@@ -72,7 +73,7 @@ def count_levels(channel: Channel) -> None:
 def leave(channel: Channel) -> None:
     """End the running level; a subprogram with SAVE brings back the modal functions of its call."""
     level = channel.pop()
-    if level.kind != "repeat" and "saved" in level.data:
+    if level.kind is not LevelKind.SECTION and "saved" in level.data:
         channel.control.restore(channel, level.data["saved"])
 
 
@@ -84,7 +85,7 @@ def end_of_subprogram(channel: Channel) -> None:
     """
     level = channel.level
     section = level.code
-    aborted = isinstance(section, Section) and level.kind == "repeat" and not section.is_through
+    aborted = isinstance(section, Section) and level.kind is LevelKind.SECTION and not section.is_through
     if level.repeats > 0 and not aborted:
         level.repeats -= 1
         level.index = level.entry

@@ -11,7 +11,7 @@ from polycnc.channel.state import Lifetime, State
 from polycnc.control.fanuc.lathe.cycles.modal import SingleCycleState
 from polycnc.control.fanuc.lathe.motion.corners import corner_waits
 from polycnc.control.fanuc.lathe.tools.offsets import refresh
-from polycnc.control.word_address.block import settled
+from polycnc.control.word_address.block import repeated_codes
 from polycnc.control.word_address.coordinates import systems
 from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.motion import planes
@@ -186,31 +186,31 @@ def keep_feed_number(channel: LatheChannel, words: Words) -> None:
     channel.context_changed()
 
 
-def _feed_is_settled(channel: LatheChannel) -> bool:
+def _feed_is_in_force(channel: LatheChannel) -> bool:
     """G98, G99: F has been typed under this code."""
     return CodeState.of(channel).feed == channel.mode["feed"]
 
 
-def _plane_is_settled(channel: LatheChannel) -> bool:
+def _plane_is_in_force(channel: LatheChannel) -> bool:
     """G17 to G19: as on every control; no corner waits for its next block, and no single cycle has words."""
     same_plane = CodeState.of(channel).plane == channel.mode["plane"]
     unchanged = same_plane and not SingleCycleState.of(channel).has_words
-    return channel.path.head is None and unchanged and settled.plane(channel)
+    return channel.path.head is None and unchanged and repeated_codes.plane(channel)
 
 
-def _length_is_settled(channel: LatheChannel) -> bool:
+def _length_is_in_force(channel: LatheChannel) -> bool:
     """G49: the lathe has no offsets by code (5040#3)."""
     return not channel.memory.parameters.TCT
 
 
-#: Codes that change nothing where they are in force already; see `word_address.settled`.
-SETTLED = {
-    **dict.fromkeys(("G17", "G18", "G19"), _plane_is_settled),
-    **dict.fromkeys(("G54", "G55", "G56", "G57", "G58", "G59"), settled.work_offset),
-    **dict.fromkeys(("G98", "G99"), _feed_is_settled),
-    "G49": _length_is_settled,
-    "G67": settled.modal_call,
-    "G69.1": settled.frame,
+#: Codes that change nothing where they are in force already; see `word_address/block/repeated_codes.py`.
+REPEATED = {
+    **dict.fromkeys(("G17", "G18", "G19"), _plane_is_in_force),
+    **dict.fromkeys(("G54", "G55", "G56", "G57", "G58", "G59"), repeated_codes.work_offset),
+    **dict.fromkeys(("G98", "G99"), _feed_is_in_force),
+    "G49": _length_is_in_force,
+    "G67": repeated_codes.modal_call,
+    "G69.1": repeated_codes.frame,
 }
 
 

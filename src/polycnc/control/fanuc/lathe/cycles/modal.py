@@ -13,7 +13,6 @@ if TYPE_CHECKING:
 #: Group and codes of the modal state in which the blocks of a shape are read for a cycle, or run by G70.
 GROUP, READING, FINISHING = "shape", "reading", "finishing"
 #: Kind of the level in which G70 runs the blocks of a shape.
-SHAPE_KIND = "shape"
 
 
 def is_reading(channel: LatheChannel) -> bool:

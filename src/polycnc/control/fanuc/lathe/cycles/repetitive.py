@@ -10,11 +10,10 @@ from itertools import groupby
 from math import copysign, nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.intervention import TYPED_IN
-from polycnc.channel.stack import Level
+from polycnc.channel.stack import Level, LevelKind
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes, set_rotation, without_rotation
 from polycnc.control.fanuc.lathe.cycles.drilling import is_series_15
-from polycnc.control.fanuc.lathe.cycles.modal import FINISHING, GROUP, SHAPE_KIND, ThreadDepthState
+from polycnc.control.fanuc.lathe.cycles.modal import FINISHING, GROUP, ThreadDepthState
 from polycnc.control.fanuc.lathe.cycles.shape import (
     Section,
     contour_of,
@@ -97,7 +96,7 @@ def finish(channel: LatheChannel, words: Words) -> None:
     begin, end = section_steps(channel, code, first, last)
     level = channel.level
     section = Level(
-        Section(code, begin, end), begin, begin, level.program_number, 0, begin, SHAPE_KIND, level.locals
+        Section(code, begin, end), begin, begin, level.program_number, 0, begin, LevelKind.SHAPE, level.locals
     )
     section.data["rotation"] = set_rotation(channel, IDENTITY)
     section.data["start"] = channel.coordinates.position
@@ -265,7 +264,7 @@ def _shape_numbers(channel: LatheChannel, words: Words) -> tuple[int, int]:
     first, last = words.integer("P"), words.integer("Q")
     if first is None or last is None:
         raise words.fail("no_shape_numbers", "P" if first is None else "Q")
-    if channel.setup.switches.mode == "mdi" and channel.level.kind in ("main", TYPED_IN):
+    if channel.setup.switches.mode == "mdi" and channel.level.kind in (LevelKind.MAIN, LevelKind.TYPED_IN):
         raise words.fail("cycle_in_mdi", "P")
     return first, last
 

@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.path import Recorder
 from polycnc.channel.snapshot import Snapshot
+from polycnc.channel.stack import LevelKind
 from polycnc.channel.state import Lifetime, State
 from polycnc.compensation import CutterCompensation, Plane
 from polycnc.control.fanuc.code_calls import PROGRAM_M
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
-from polycnc.control.fanuc.lathe.cycles.modal import FINISHING, GROUP, READING, SHAPE_KIND
+from polycnc.control.fanuc.lathe.cycles.modal import FINISHING, GROUP, READING
 from polycnc.control.fanuc.lathe.motion.corners import corner_waits
 from polycnc.control.fanuc.lathe.motion.drawing import DrawingState
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
@@ -115,7 +116,7 @@ def section_steps(channel: LatheChannel, code: WordAddressProgram, first: int, l
 
     A shape holds no further cycle: its blocks might lead back into it without end.
     """
-    if channel.level.kind == SHAPE_KIND:
+    if channel.level.kind is LevelKind.SHAPE:
         raise channel.control.fail("shape_command", address="P")
     begin = code.find_sequence(first, channel.level.current, "no_shape_start")
     end = code.find_sequence(last, begin - 1, "no_shape_end")
@@ -259,7 +260,7 @@ def interruptible(builder: Builder, plan: Plan, motion: Step | None) -> Step | N
         return motion
 
     def move(channel: LatheChannel, values: list[float]) -> None:
-        (motion if channel.level.kind == SHAPE_KIND else cut)(channel, values)
+        (motion if channel.level.kind is LevelKind.SHAPE else cut)(channel, values)
 
     return move
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from polycnc.channel.stack import LevelKind
 from polycnc.compensation.policy import Approach, Policy
-from polycnc.control.fanuc.lathe.cycles.modal import SHAPE_KIND, is_reading
+from polycnc.control.fanuc.lathe.cycles.modal import is_reading
 from polycnc.control.fanuc.lathe.motion import corners
 from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
 from polycnc.control.word_address.block.rules import Rule
@@ -86,7 +87,7 @@ def _takes(channel: LatheChannel, words: Words, *, starts: bool) -> bool:
     """
     parameters, level = channel.memory.parameters, channel.level
     finishing = not is_reading(channel)
-    if finishing and level.kind != SHAPE_KIND:
+    if finishing and level.kind is not LevelKind.SHAPE:
         return True
     if finishing and parameters.NT2:
         if starts and (level.current != level.entry or level.data["compensated"]):

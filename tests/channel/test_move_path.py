@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from polycnc.channel.move_path import MovePath
 from polycnc.channel.path import Move
-from polycnc.channel.way import Way
 from polycnc.toolpath import Kind
 
 GEOMETRY = (0, 1, 2)
@@ -17,12 +17,12 @@ coordinate = st.floats(-100.0, 100.0)
 part = st.floats(0.0, 1.0)
 
 
-def line(start: list[float], end: list[float]) -> Way:
-    return Way(Move(Kind.FEED, start, end), GEOMETRY)
+def line(start: list[float], end: list[float]) -> MovePath:
+    return MovePath(Move(Kind.FEED, start, end), GEOMETRY)
 
 
-def arc(kind: Kind, start: list[float], end: list[float], turns: float = 0.0) -> Way:
-    return Way(Move(kind, start, end, center=(0.0, 0.0, start[2]), turns=turns), GEOMETRY)
+def arc(kind: Kind, start: list[float], end: list[float], turns: float = 0.0) -> MovePath:
+    return MovePath(Move(kind, start, end, center=(0.0, 0.0, start[2]), turns=turns), GEOMETRY)
 
 
 def test_a_quarter_counts_by_its_angle() -> None:

@@ -25,7 +25,7 @@ PIECES = 720
 _NARROWINGS = 60
 
 
-class Way:
+class MovePath:
     """The way of one move.
 
     Args:
