@@ -19,8 +19,10 @@ from hypothesis import strategies as st
 from polycnc.channel.channel import Channel
 from polycnc.channel.group import ChannelGroup
 from polycnc.channel.snapshot import Snapshot, SnapshotError
+from polycnc.channel.state import plain_states
 from polycnc.channel.waits import Wait
 from polycnc.control.registry import control
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.language.bulk.kernels import scan
 from polycnc.language.bulk.scanner import Bulk
 from polycnc.machine import load_machine, parse_setup
@@ -54,6 +56,8 @@ MILL = Language(
         "#101=0\nWHILE[#101LT3]DO1\nG1 X#101\n#101=#101+1\nEND1", "G68 X0 Y0 R30.", "G69", "M0", "M1",
         "G10 L2 P1 X1.", "G55", "G54", "G52 X1.", "G92 X3.", "G16\nG1 X10. Y30.\nG15", "G28 Z0", "G95 F.2", "G94 F100.",
         "G9 G1 X3.", "G4 P100", "G20\nX.5\nG21", "#3001=0", "M8", "N5 G1 X[#100]", "G51 X0 Y0 P2.", "G50",
+        "G54.1 P3 G0 X1.", "G44 H1\nZ9.", "H2\nZ7.", "D2", "#1=#1+2.", "#500=#500+1.", "G10 L10 P2 R25.", "G51.1 X2.",
+        "G50.1", "G31 X20. F100.",
     ),
     files=MILL_FILES,
     setup={
@@ -120,7 +124,26 @@ SYNTEC = replace(
     blocks=(
         *(each for each in MILL.blocks if not each.startswith(("G20", "G68"))),
         "@1=@1+2",
+        "#401=#401+1",
+        "#2001=#2001+1",
+        "#1080=3",
         "G70\nX.5\nG71",
+        "G54 P17 G0 X1.",
+        "G92.1 X1. R30.",
+        "G68.2 X1. Z2. K10.\nG53.1",
+        "G69",
+        "G2.4 X5. Y5.\nX9. Y0",
+        "G31.10 X3. F50.\nG31.11",
+        "G10 L1000 P6000 R7",
+        "G93 G1 X3. F2.\nG94",
+        "G10 L801 P400 Q100",
+        "A5.",
+        "G54.4 P1",
+        "S1=200",
+        "G10.9 X1",
+        "G81 X3. Z-5. R2. F90. F2=200",
+        "G12.1",
+        "G52 Y2.",
     ),
 )
 SINUMERIK_FILES = {
@@ -189,6 +212,7 @@ def state_of(group: ChannelGroup) -> list[object]:
             channel.toolpath.contexts[:],
             {name: repr(channel.control.read_variable(channel, name)) for name in names},
             [repr(alarm) for alarm in channel.alarms],
+            plain_states(channel),
             (channel.blocks, channel.coordinates.machine, channel.mode.codes, repr(channel.feed)),
             [(level.index, level.kind, level.repeats) for level in channel.stack],
             getattr(channel.memory, "waited", 0.0),
@@ -235,6 +259,30 @@ def test_a_snapshot_of_one_channel_covers_those_that_run_beside_it(blocks: int) 
     check_from(group_of("sinumerik-840d", first, language), blocks)
 
 
+@pytest.mark.parametrize("blocks", range(12))
+def test_a_snapshot_of_an_axis_group_covers_registers_and_axes_that_groups_share(blocks: int) -> None:
+    text = """$1
+@1=1
+G52.2 P100
+G4.1 P1
+G0 X3.
+@2=@2+@1
+G4.1 P2
+G52.1 P100
+M30
+$2
+@1=@1+1
+G4.1 P1
+#1=@2
+G4.1 P2
+G52.2 P100
+G0 X7.
+M30
+"""
+    setup = {"parameters": {"742": 1, "701": 3, "702": 3}}
+    check_from(group_of("syntec-mill", text, Language("", (), setup=setup, machine="mill2-2ch")), blocks)
+
+
 @pytest.mark.parametrize("blocks", [0, 1, 2])
 def test_rows_that_were_scanned_in_bulk_come_again(blocks: int) -> None:
     lines = [f"G1 X{i / 7:.3f} Y{i % 5}." for i in range(60)]
@@ -259,6 +307,21 @@ def test_rows_that_were_scanned_in_bulk_come_again(blocks: int) -> None:
 def test_a_generator_in_flight_is_refused() -> None:
     with pytest.raises(SnapshotError, match="generator in flight"):
         Snapshot(SimpleNamespace(blocks=(number for number in range(3))))
+
+
+def test_a_state_made_since_comes_back_as_the_same_object_as_it_begins() -> None:
+    group: ChannelGroup = group_of("fanuc-m", "O1\nM30\n", MILL)._group  # type: ignore[attr-defined]
+    without = Snapshot(group)
+    state = RadiusState.of(group.first)
+    state.number = 3
+    with_it = Snapshot(group)
+    without.restore()
+    assert RadiusState not in group.first.states
+    with_it.restore()
+    assert RadiusState.of(group.first).number == 3
+    without.restore()
+    assert RadiusState.of(group.first) is state
+    assert state.number == 0
 
 
 # ---- what objects may look like ----------------------------------------------------------------------------------

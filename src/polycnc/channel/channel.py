@@ -19,7 +19,7 @@ from polycnc.channel.mode import Mode, ModeTable
 from polycnc.channel.path import Move, Path, PlacedEvent, is_way, points_of_arc
 from polycnc.channel.run import Run
 from polycnc.channel.stack import Executable, Level, LevelKind
-from polycnc.channel.state import Lifetime, State, end_of
+from polycnc.channel.state import Lifetime, States, end_of
 from polycnc.channel.view import Prepared
 from polycnc.channel.waits import (
     BLOCK,
@@ -127,7 +127,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         self._level: Level
         self.path = Path(self)
         self.memory: MemoryT_co = None  # type: ignore[assignment]  # made by `Control.start`
-        self.states: dict[type[State], State] = {}
+        self.states = States()
         self.alarms: list[Alarm] = []
         self._finished = False
         self.attention = False

@@ -3,7 +3,8 @@
 From its root a snapshot follows every reference to objects that can change and notes the contents of each one, not
 deep: which objects a list or a field refers to. To restore is to put these contents back into the very same objects.
 So whatever refers to them stays right: closures, bound methods, a stage that knows its channel, a second name for one
-list. Objects made since are simply no longer referred to.
+list. Objects made since are simply no longer referred to. Only the states of
+features stay the same objects also then: a cache may have them at hand.
 
 Where it ends is said here and by `unchanging`: values; what is only worked out once and kept (plans, compiled
 programs); and what is outside of the channel (its control, its machine, the main run). `UNFOLLOWED` of a class names
@@ -29,6 +30,7 @@ from random import Random
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from polycnc.channel.mode import Mode
+from polycnc.channel.state import States
 from polycnc.geometry.frames import Frame
 from polycnc.machine.model import Machine
 from polycnc.machine.setup.values import Parameters, Setup
@@ -136,6 +138,11 @@ def _dict(thing: dict[object, object], undo: list[Undo]) -> Iterable[object]:
     return (*contents.keys(), *contents.values())
 
 
+def _states(thing: States, undo: list[Undo]) -> Iterable[object]:
+    undo.append(partial(thing.put_back, dict(thing)))
+    return thing.values()
+
+
 def _put_set(thing: set[object], contents: set[object]) -> None:
     thing.clear()
     thing.update(contents)
@@ -209,6 +216,7 @@ def _partial(thing: partial[object], _undo: list[Undo]) -> Iterable[object]:
 
 _OF_BUILTIN: dict[type, Walker] = {
     list: _list, dict: _dict, set: _set, deque: _deque, array: _buffer, bytearray: _buffer, Random: _random,
+    States: _states,
     tuple: _tuple, frozenset: _tuple, types.FunctionType: _function, types.CellType: _cell,
     types.MethodType: _method, types.BuiltinMethodType: _method, types.MethodWrapperType: _method,
     partial: _partial,

@@ -106,13 +106,38 @@ class State:
         """The one of a channel."""
         state = channel.states.get(cls)
         if state is None:
-            state = channel.states[cls] = cls.first(channel)
+            state = channel.states.make(cls, channel)
         return state  # type: ignore[return-value]  # the key says the class
 
     @classmethod
     def first(cls, channel: Channel) -> Self:
         """One with the values that it begins with."""
         return cls(**{name: table.of(channel) for name, table in tables(cls).items()})
+
+
+class States(dict[type[State], State]):
+    """The states of a channel. One that a snapshot takes away comes back as the same object when it is asked for."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._taken: dict[type[State], State] = {}
+
+    def make(self, cls: type[State], channel: Channel) -> State:
+        """The state of a class that there is none of, with its first values."""
+        state = fresh = cls.first(channel)
+        taken = self._taken.pop(cls, None)
+        if taken is not None:
+            for each in fields(fresh):  # type: ignore[arg-type]  # every state is a dataclass
+                setattr(taken, each.name, getattr(fresh, each.name))
+            state = taken
+        self[cls] = state
+        return state
+
+    def put_back(self, there: dict[type[State], State]) -> None:
+        """These are the states again; others are taken away."""
+        self._taken = {cls: state for cls, state in {**self._taken, **self}.items() if cls not in there}
+        self.clear()
+        self.update(there)
 
 
 def lifetimes(cls: type[State]) -> dict[str, Lifetime]:
