@@ -69,7 +69,7 @@ R_PARAMETERS = 1000
 _T = TypeVar("_T")
 _R_PARAMETER = re.compile(r"\s*R(\d+|\[.*\])\s*", re.IGNORECASE)
 #: Number of every settable zero offset in its group.
-ZERO_OFFSETS = {word: gcodes.number_of(word) for word in gcodes.BY_NAME["zero_offset"].words}
+ZERO_OFFSETS = {word: gcodes.number_of(word) for word in gcodes.BY_NAME["wcs"].words}
 
 
 @unchanging
@@ -115,7 +115,7 @@ class Sinumerik:
         channel.memory = memory
         channel.mode = channel.modes.mode(start_codes(channel, memory.data))
         PathFeed.of(channel).mode = tables.feed_type(channel.mode).mode
-        memory.frames.select(gcodes.number_of(channel.mode["zero_offset"]) - 1)
+        memory.frames.select(gcodes.number_of(channel.mode["wcs"]) - 1)
         if channel.number == 1:
             memory.tools.stand_in(channel.setup.spindle_tool)
         frames.apply(channel)
@@ -284,7 +284,7 @@ class Sinumerik:
 
     def reads_inches(self, channel: SinumerikChannel) -> bool:
         """Whether the program reads and writes values with units of length in inches now (G700)."""
-        return channel.mode["units"] == "G700"
+        return channel.mode["unit"] == "G700"
 
     def restore_setting(self, channel: SinumerikChannel, name: str) -> None:
         """Give a setting or machine datum the values of the setup."""
@@ -314,8 +314,8 @@ class Sinumerik:
             return
         channel.mode = mode
         memory.frames.programmable = programmable
-        if mode["zero_offset"] != before["zero_offset"]:
-            memory.frames.select(gcodes.number_of(mode["zero_offset"]) - 1)
+        if mode["wcs"] != before["wcs"]:
+            memory.frames.select(gcodes.number_of(mode["wcs"]) - 1)
         if mode["feed"] != before["feed"]:
             PathFeed.of(channel).mode = tables.feed_type(mode).mode
         memory.tools.assign_lengths(mode["plane"], memory.data)
@@ -337,7 +337,7 @@ class Sinumerik:
         spindle = memory.spindles.all.get(leading)
         shown = (positions.diameter_function(mode, i, memory.transverse) for i in range(len(channel.axes)))
         diameters = sum(1 << i for i, function in enumerate(shown) if function in positions.SHOWS_DIAMETERS)
-        side = stages.SIDES.get(mode["side"], 0)
+        side = stages.SIDES.get(mode["compensation"], 0)
         return Context(
             plane=mode["plane"],
             inch=False,
@@ -355,11 +355,11 @@ class Sinumerik:
             spindle_limit_rpm=_limit(memory, spindle, mode["feed"]),
             corner_mode=_corner_mode(channel, mode),
             stop_window=tables.STOP_WINDOWS[mode["exact_stop"]],
-            tolerance_mm=_tolerance(channel, mode["path_mode"]),
+            tolerance_mm=_tolerance(channel, mode["path"]),
             acceleration=tables.ACCELERATION_MODES[mode["acceleration"]],
             rapid_by_axis=mode["rapid"] == "RTLIOF",
             diameter_axes=diameters,
-            wcs=mode["zero_offset"],
+            wcs=mode["wcs"],
             part=chain(memory.frames.inner()).frame,
             transformation=coordinates.transformation,
             pace=pace.pace(channel, side),
@@ -428,7 +428,7 @@ def _machine_data(channel: SinumerikChannel) -> MachineData:
 
 def _corner_mode(channel: SinumerikChannel, mode: Mode) -> CornerMode:
     """G9 holds for its block, else group 10."""
-    return CornerMode.EXACT_STOP if ExactStop.of(channel).block else tables.CORNER_MODES[mode["path_mode"]]
+    return CornerMode.EXACT_STOP if ExactStop.of(channel).block else tables.CORNER_MODES[mode["path"]]
 
 
 def _tolerance(channel: SinumerikChannel, path_mode: str) -> float:

@@ -5,7 +5,7 @@ tuple is number 1 of the group. A group that is not modal acts in its block only
 
 Where a function acts: groups 1 and 2 in the tables of `plan`, frames of group 3 in `frame_codes`, what else has an
 effect of its own when its block runs in `EFFECTS` and `LATE_EFFECTS` of `plan`. The other groups are read by those who
-follow them, under the group's name: `mode["path_mode"]`.
+follow them, under the group's name: `mode["path"]`.
 """
 
 from __future__ import annotations
@@ -64,14 +64,14 @@ GROUPS: tuple[Group, ...] = (
     ),
     _group(4, "fifo", "STARTFIFO STOPFIFO FIFOCTRL", "STARTFIFO"),
     _group(6, "plane", "G17 G18 G19", "G17"),
-    _group(7, "side", "G40 G41 G42", "G40"),
-    Group(8, "zero_offset", _ZERO_OFFSETS, "G500"),
+    _group(7, "compensation", "G40 G41 G42", "G40"),
+    Group(8, "wcs", _ZERO_OFFSETS, "G500"),
     _group(9, "suppression", "G53 SUPA G153"),
-    _group(10, "path_mode", "G60 G64 G641 G642 G643 G644 G645", "G60"),
+    _group(10, "path", "G60 G64 G641 G642 G643 G644 G645", "G60"),
     _group(11, "block_exact_stop", "G9"),
     _group(12, "exact_stop", "G601 G602 G603", "G601"),
-    _group(13, "units", "G70 G71 G700 G710", "G71"),
-    _group(14, "dimensions", "G90 G91", "G90"),
+    _group(13, "unit", "G70 G71 G700 G710", "G71"),
+    _group(14, "distance", "G90 G91", "G90"),
     _group(15, "feed", "G93 G94 G95 G96 G97 G931 G961 G971 G942 G952 G962 G972 G973", "G94"),
     _group(16, "curve_feed", "CFC CFTCP CFIN", "CFC"),
     _group(17, "approach", "NORM KONT KONTT KONTC", "NORM"),

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.memory import Memory
 
 #: Groups that a bit of MD20110 keeps over a reset.
-KEPT_BY_MASK = {4: "plane", 5: "zero_offset"}
+KEPT_BY_MASK = {4: "plane", 5: "wcs"}
 KEEPS_EDGE = 6
 
 
@@ -87,7 +87,7 @@ def reset(channel: SinumerikChannel) -> None:
     memory.language.modal_call = None
     PathFeed.of(channel).mode = tables.feed_type(channel.mode).mode
     memory.frames.programmable = NEUTRAL
-    memory.frames.select(gcodes.number_of(channel.mode["zero_offset"]) - 1)
+    memory.frames.select(gcodes.number_of(channel.mode["wcs"]) - 1)
     frames.apply(channel)
     working_area.refresh(channel)
     channel.context_changed()

@@ -70,7 +70,7 @@ SURFACE_SPEEDS = frozenset(("G96", "G961", "G962"))
 
 def length_factor(mode: Mode) -> float:
     """From a programmed length to mm."""
-    return INCH_MM if mode["units"] in ("G70", "G700") else 1.0
+    return INCH_MM if mode["unit"] in ("G70", "G700") else 1.0
 
 
 def feed_type(mode: Mode) -> FeedType:

@@ -112,8 +112,12 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     moving = _motion(draft) if own is None and "frame" not in codes and "block_motion" not in codes else None
     ends = _words(draft)
     # A retraction ends compensation itself, behind its line or arc.
-    leaves = codes.get("block_motion") in smooth_approach.RETRACTIONS and codes.get("side") == "G40"
-    late = [(name, code) for name, code in modal if name in LATE_EFFECTS and not (leaves and name == "side")]
+    leaves = codes.get("block_motion") in smooth_approach.RETRACTIONS and codes.get("compensation") == "G40"
+    late = [
+        (name, code)
+        for name, code in modal
+        if name in LATE_EFFECTS and not (leaves and name == "compensation")
+    ]
     draft.steps += [_effect(LATE_EFFECTS, channel.mode, name, code) for name, code in late]
     measures = measuring.measure(draft) if draft.has(*measuring.WORDS) else None
     if measures is not None:
@@ -256,10 +260,10 @@ def _may_move(draft: Draft) -> bool:
 
 def _check_side(draft: Draft) -> None:
     """G41, G42 and G40 stand in blocks with G0 or G1 (10753, 10754), if the block moves at all."""
-    side = draft.codes.get("side")
+    side = draft.codes.get("compensation")
     if side is None or draft.mode["motion"] in LINEAR or not _may_move(draft):
         return
-    active = draft.channel.mode["side"] != "G40"
+    active = draft.channel.mode["compensation"] != "G40"
     if side != "G40" and not active:
         raise AlarmError("10753")
     if side == "G40" and active:
@@ -319,9 +323,9 @@ def _exact_stop(on: bool) -> Step:
 def _zero_offset(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """G500, G54 …: the stored frame becomes active."""
     memory = channel.memory
-    number = gcodes.number_of(channel.mode["zero_offset"]) - 1
+    number = gcodes.number_of(channel.mode["wcs"]) - 1
     if number >= len(memory.frames.settable):
-        raise AlarmError("12470", text=channel.mode["zero_offset"])
+        raise AlarmError("12470", text=channel.mode["wcs"])
     memory.frames.select(number)
     frames.changed(channel)
 
@@ -349,7 +353,7 @@ def _diameter(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG00
 
 
 def _side(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
-    if channel.mode["side"] == "G40":
+    if channel.mode["compensation"] == "G40":
         stages.leave_contour(channel)
     else:
         stages.select_side(channel)
@@ -392,14 +396,14 @@ def _contour_is_in_force(channel: SinumerikChannel) -> bool:
 
 #: When functions of a group that are in force already change nothing.
 REPEATED: dict[str, Condition] = {
-    "zero_offset": frames.is_in_force,
+    "wcs": frames.is_in_force,
     "plane": _lengths_are_in_force,
     "feed": _feed_is_in_force,
-    **dict.fromkeys(("approach", "corner", "side"), _contour_is_in_force),
+    **dict.fromkeys(("approach", "corner", "compensation"), _contour_is_in_force),
 }
 #: Right after the modal state has changed.
 EFFECTS: dict[str, Step] = {
-    "zero_offset": _zero_offset,
+    "wcs": _zero_offset,
     "plane": _plane,
     "feed": _feed_type,
     "diameter": _diameter,
@@ -410,20 +414,20 @@ EFFECTS: dict[str, Step] = {
 LATE_EFFECTS: dict[str, Step] = {
     "approach": _rules,
     "corner": _rules,
-    "side": _side,
+    "compensation": _side,
     "constant_side": _constant_side,
 }
 #: Groups that a context of the toolpath tells of.
 IN_CONTEXT = frozenset(
     (
         "plane",
-        "zero_offset",
-        "units",
+        "wcs",
+        "unit",
         "feed",
         "diameter",
-        "path_mode",
+        "path",
         "exact_stop",
-        "side",
+        "compensation",
         "dynamics",
         "acceleration",
         "rapid",

@@ -112,7 +112,7 @@ def axis_term(
     axis = channel.axis_data[column]
     diameter: bool | None = None
     if not modifier:
-        way = Dimension.INCREMENTAL if mode["dimensions"] == "G91" else Dimension.ABSOLUTE
+        way = Dimension.INCREMENTAL if mode["distance"] == "G91" else Dimension.ABSOLUTE
     elif modifier in _MODIFIERS:
         way, diameter = _MODIFIERS[modifier]
     elif modifier in indexing.WAYS:
@@ -187,4 +187,4 @@ def shown(channel: SinumerikChannel, column: int, value: float, *, work: bool = 
         return value % 360.0 if axis.modulo else value
     if work and is_diameter(channel.mode, Dimension.ABSOLUTE, column, channel.memory.transverse):
         value *= 2.0
-    return value / INCH_MM if channel.mode["units"] == "G700" else value
+    return value / INCH_MM if channel.mode["unit"] == "G700" else value

@@ -74,7 +74,7 @@ def _travel_time(position: int) -> Step:
 def axis_feed(draft: Draft, position: int, shape: WordShape) -> Step:
     """FA[axis]: feed of a positioning axis, modal; alarm 10861 for zero, 14810 below."""
     column = axis_column(draft, position, shape)
-    factor = (INCH_MM if draft.mode["units"] == "G700" else 1.0) / tables.MINUTE
+    factor = (INCH_MM if draft.mode["unit"] == "G700" else 1.0) / tables.MINUTE
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position) * factor

@@ -66,7 +66,7 @@ class Arguments:
         self._signature = signature
         self._length = length_factor(channel.mode)
         self._feed = tables.feed_type(channel.mode).factor
-        if channel.mode["units"] == "G700":
+        if channel.mode["unit"] == "G700":
             self._feed *= INCH_MM
         self._values: dict[str, Any] = {
             name: value for name, value in zip(signature, values, strict=False) if value is not None

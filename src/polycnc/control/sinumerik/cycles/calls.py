@@ -117,7 +117,7 @@ def _planned(channel: SinumerikChannel, cycle: Cycle, arguments: Arguments) -> M
         channel.mode = channel.mode.with_code("plane", plane)
         stages.change_plane(channel)
         auxiliary.tool_changed(channel)
-    if cycle.saves and channel.mode["side"] != "G40":
+    if cycle.saves and channel.mode["compensation"] != "G40":
         raise AlarmError("61815", text=arguments.cycle)
     LastMove.of(channel).forget()
     moves = Moves(channel, arguments.integer("_AXN"))

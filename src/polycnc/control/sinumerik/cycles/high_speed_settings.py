@@ -22,7 +22,7 @@ KINDS = {1: ("DYNFINISH", 0.01), 2: ("DYNSEMIFIN", 0.05), 3: ("DYNROUGH", 0.1)}
 ON = {
     "acceleration": "SOFT",
     "feedforward": "FFWON",
-    "path_mode": "G645",
+    "path": "G645",
     "compressor": "COMPCAD",
     "path_reference": "UPATH",
 }
@@ -90,7 +90,7 @@ def _older(channel: SinumerikChannel, a: Arguments) -> None:
     feedforward, acceleration = OLD_DYNAMICS[digit[4]]
     codes = {
         "dynamics": dynamics,
-        "path_mode": OLD_PATH_MODES[digit[3]],
+        "path": OLD_PATH_MODES[digit[3]],
         "feedforward": feedforward,
         "acceleration": acceleration,
         "compressor": OLD_COMPRESSORS[digit[5]],

@@ -49,7 +49,7 @@ def calculate(channel: SinumerikChannel, args: tuple[Any, ...]) -> int:
     in_basic_system, tested = (*args[4:], None, None)[:2]
     if any(value < 0.0 for value in clearances[:5]):
         return NEGATIVE_CLEARANCE
-    inches = channel.mode["units"] in ("G70", "G700") and not in_basic_system
+    inches = channel.mode["unit"] in ("G70", "G700") and not in_basic_system
     factor = INCH_MM if inches else 1.0
     first, last = _machine_ways(channel, [v * factor for v in start[:3]], [v * factor for v in way[:3]])
     margins = [value * factor for value in clearances[:5]]

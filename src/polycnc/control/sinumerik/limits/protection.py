@@ -131,8 +131,8 @@ def begin(kind: str) -> Callable[[SinumerikChannel, Arguments], None]:
         memory = channel.memory
         if state.open is not None:
             raise AlarmError("PC0009", text=f"{kind}PROTDEF")
-        if channel.mode["side"] != "G40":
-            raise AlarmError("PC0009", text=channel.mode["side"])
+        if channel.mode["compensation"] != "G40":
+            raise AlarmError("PC0009", text=channel.mode["compensation"])
         if _is_shifted(memory.frames.total()):
             raise AlarmError("PC0009", text="FRAME")
         channel.flush()

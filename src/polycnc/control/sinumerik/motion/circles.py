@@ -258,7 +258,7 @@ def through_point(draft: Draft) -> Step | None:
     terms = draft.take_axes()
     if not terms and not middle:
         return None
-    incremental = draft.mode["dimensions"] == "G91"
+    incremental = draft.mode["distance"] == "G91"
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         start = channel.coordinates.position

@@ -140,7 +140,7 @@ def _incremental_linear(terms: list[AxisTerm]) -> Step:
 
 def feed_factor(draft: Draft) -> float:
     """From a programmed feed to internal units, for the feed type and units of the block."""
-    inch = INCH_MM if draft.mode["units"] == "G700" else 1.0
+    inch = INCH_MM if draft.mode["unit"] == "G700" else 1.0
     return tables.feed_type(draft.mode).factor * inch
 
 
@@ -236,7 +236,7 @@ def polar_point(
             radius.
     """
     polar = Polar.of(channel)
-    incremental = draft.mode["dimensions"] == "G91"
+    incremental = draft.mode["distance"] == "G91"
     if angle is not None:
         value = number(values, angle[0])
         if abs(value) > tables.TURN:

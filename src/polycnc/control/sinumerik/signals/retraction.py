@@ -77,7 +77,7 @@ def _along(channel: SinumerikChannel, tangent: Vector) -> list[float] | None:
     if direction == 0:
         return None
     if (
-        direction in INTO_CONTOUR.get(channel.mode["side"], ())
+        direction in INTO_CONTOUR.get(channel.mode["compensation"], ())
         and channel.mode["retraction_plane"] == "LFTXT"
     ):
         raise AlarmError("12560", text="ALF")

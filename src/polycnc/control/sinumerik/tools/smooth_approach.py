@@ -128,7 +128,7 @@ def approach(draft: Draft) -> Step | None:
     def run(channel: SinumerikChannel, values: Values) -> None:
         start = channel.coordinates.position
         end = target(channel, terms, values)
-        compensation = stages.SIDES.get(draft.mode["side"], 0)
+        compensation = stages.SIDES.get(draft.mode["compensation"], 0)
         if draft.mode["smooth_approach_side"] == "G143":
             raise not_supported("G143")
         shape = words.shape(draft, channel, values, compensation, 0)
@@ -182,7 +182,7 @@ def retract(draft: Draft) -> Step | None:
             moves.line(channel, Kind.FEED, point, moves.checked_feed(old))
         else:
             circles.arc(channel, columns, axes, point, center, moves.checked_feed(old), shape.ccw)
-        if draft.codes.get("side") == "G40":
+        if draft.codes.get("compensation") == "G40":
             stages.leave_contour(channel)
             channel.context_changed()
         _away(channel, draft, third, point, end if names_point else None, height, end, words, values)

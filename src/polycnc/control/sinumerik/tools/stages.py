@@ -157,7 +157,7 @@ def select_side(channel: SinumerikChannel) -> None:
         raise AlarmError("10750")
     stage = cutter(channel)
     stage.policy = policy(channel)
-    stage.engage(SIDES[channel.mode["side"]], radius(channel), tip(channel))
+    stage.engage(SIDES[channel.mode["compensation"]], radius(channel), tip(channel))
 
 
 def leave_contour(channel: SinumerikChannel) -> None:
@@ -170,7 +170,7 @@ def leave_contour(channel: SinumerikChannel) -> None:
 def changed_radius(channel: SinumerikChannel) -> None:
     """Another edge, TOFFR or OFFN while compensation is active."""
     stage = active_cutter(channel)
-    if stage is not None and channel.mode["side"] != "G40":
+    if stage is not None and channel.mode["compensation"] != "G40":
         stage.change_radius(radius(channel), tip(channel))
 
 
