@@ -6,7 +6,7 @@ families, `hartford` is a machining centre that FANUC and MELDAS drive. From a c
 `gcodes.py` has the groups, `block/plan.py` the functions), then the handler that its row names, whose docstring begins
 with the code. The head of its module names the manual's section.
 
-`registry` finds a control by its id, `interface` says what all of them offer, `modal_groups` names their
-groups; `alarm_text`, `data_files` and `tool_change` serve every family, as does `parameters` (values by mnemonic, from the list in a `parameters.toml`;
-`parameter_module` writes the module that names them).
+`registry` finds a control by its id, `interface` says what all of them offer, `modal_groups` names their groups;
+`alarm_text`, `data_files` and `tool_change` serve every family, as does `parameters` (values by mnemonic, from the list
+in a `parameters.toml`; `parameter_module` writes the module that names them).
 """
