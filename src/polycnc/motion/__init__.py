@@ -6,6 +6,7 @@ same chunk by chunk while the toolpath grows.
     columns     limits (machine and settings as the kernels read them), pace (what a program says beside F), settings
     the path    row_path, frames, transformed (the real axes under a transformation), pole (through that of G12.1)
     planning    planner over `kernels/`, compiled or as they are (`compiled`), waits (tool changes, dwells), plan
+    averaging   limited jerk: from the motion of the interpolator to that of the axes
     sampling/   where the axes are at even times
 """
 

@@ -19,7 +19,7 @@ ENDLESS = 1e6
 class Hand:
     """What an operator moves of an axis.
 
-    With limited jerk the axis follows what leads it as an average over `2·a/j` (`motion/follower.py`): so long takes
+    With limited jerk the axis follows what leads it as an average over `2·a/j` (`motion/averaging.py`): so long takes
     the acceleration a to change its sign. Places are machine positions; the share of the setpoint is how far the axis
     is from where it would be without the hand.
 
@@ -78,7 +78,7 @@ class Hand:
             return 0.0
         if self._ramp == 0.0:
             return self._lead.after(time)[1]
-        return (self._law.at(time) - self._law.at(time - self._ramp)) / self._ramp
+        return self._law.mean_speed(time, self._ramp)
 
     # ---- commands ------------------------------------------------------------------------------------------
 

@@ -7,6 +7,7 @@ from math import copysign
 
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.mainrun.motion.speed import Phase, Profile, straight_profile
+from polycnc.motion.averaging import way_after
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +39,7 @@ class AxisMove:
         for phase in self.phases:
             if seconds < phase.seconds:
                 velocity = phase.speed + phase.pull * seconds
-                return position + (phase.speed + 0.5 * phase.pull * seconds) * seconds, velocity
+                return position + way_after(seconds, phase.speed, phase.pull), velocity
             seconds -= phase.seconds
             position += phase.way
         return self.target, 0.0

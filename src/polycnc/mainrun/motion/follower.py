@@ -2,7 +2,7 @@
 
 The interpolator runs along the path with steps of acceleration; overrides and feed hold change only what it does from
 now on. The axes are where its way, averaged over RAMP, was BLEND ago, and their positions are averaged over BLEND twice
-(`motion/kernels/jerk.py`). So whatever an operator does, no axis gets a jerk that the planner has not allowed for:
+(`motion/averaging.py`). So whatever an operator does, no axis gets a jerk that the planner has not allowed for:
 an acceleration that steps by 2·u gives at most a jerk of 2·u/RAMP. The axes come to rest RAMP + 2·BLEND behind the
 interpolator.
 """
@@ -13,15 +13,15 @@ from bisect import bisect_right
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.motion.averaging import PARTS, TENT, area_after, average, way_after
+from polycnc.motion.kernels.jerk import window_s
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from polycnc.mainrun.motion.speed import Phase
     from polycnc.mainrun.preparation.items import Piece
 
-#: Parts of each half of the window over which positions are averaged.
-PARTS = 8
-TENT = tuple((PARTS - abs(k)) / PARTS**2 for k in range(-PARTS, PARTS + 1))
 #: Phases that are kept before old ones are dropped.
 KEPT = 256
 
@@ -72,13 +72,17 @@ class Law:
         """The place at a time."""
         start, place, speed, pull, _ = self._rows[max(bisect_right(self._rows, (time, inf)) - 1, 0)]
         seconds = max(time - start, 0.0)
-        return place + (speed + 0.5 * pull * seconds) * seconds
+        return place + way_after(seconds, speed, pull)
 
     def mean(self, time: float, window: float) -> float:
         """The average place over the time `window` before."""
         if window <= 0.0:
             return self.at(time)
-        return self._origin + (self._area(time) - self._area(time - window)) / window
+        return self._origin + average(self._area(time - window), self._area(time), window)
+
+    def mean_speed(self, time: float, window: float) -> float:
+        """The average speed over the time `window` before, which is not nothing."""
+        return average(self.at(time - window), self.at(time), window)
 
     def _area(self, time: float) -> float:
         """The integral of the places, counted from the origin, over the time before."""
@@ -88,7 +92,7 @@ class Law:
     def _below(self, row: tuple[float, ...], seconds: float) -> float:
         """The area below a phase after some seconds of it."""
         _, place, speed, pull, _ = row
-        return seconds * (place - self._origin + seconds * (0.5 * speed + pull * seconds / 6.0))
+        return area_after(seconds, place - self._origin, speed, pull)
 
 
 class Follower:
@@ -115,7 +119,7 @@ class Follower:
 
     def begin(self, time: float, ramp: float, blend: float) -> None:
         """The axes stand, and a run begins whose averages are over these times."""
-        self._ramp, self._blend, self.window = ramp, blend, ramp + 2.0 * blend
+        self._ramp, self._blend, self.window = ramp, blend, window_s(ramp, blend)
         self._law, self._alone, self._ways, self._pieces = Law(time, 0.0), [], [], []
         if self._before is not None:
             self._before.let_rest(time)
@@ -162,18 +166,11 @@ class Follower:
         places = self._places(time)
         return [sum(w * p for w, p in zip(TENT, axis, strict=True)) for axis in zip(*places, strict=True)]
 
-    def acceleration(self, time: float) -> list[float]:
-        """Acceleration of the axes while their positions are averaged."""
-        places = self._places(time)
-        first, middle, last = places[0], places[PARTS], places[-1]
-        square = self._blend * self._blend
-        return [(a - 2.0 * b + c) / square for a, b, c in zip(first, middle, last, strict=True)]
-
     def speed(self, time: float) -> float:
         """Speed along the path, or of the fastest axis where each runs by itself."""
         middle = time - self._blend
         laws = self._alone or [self._law]
-        return max(abs(law.at(middle) - law.at(middle - self._ramp)) for law in laws) / self._ramp
+        return max(abs(law.mean_speed(middle, self._ramp)) for law in laws)
 
     def _places(self, time: float) -> list[list[float]]:
         step = self._blend / PARTS

@@ -12,6 +12,7 @@ from array import array
 from math import inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.motion.averaging import way_after
 from polycnc.motion.kernels.columns import Form, PieceRecord
 from polycnc.motion.kernels.columns import Limits as MachineLimits
 from polycnc.motion.kernels.speeds import bound2, curved_time
@@ -60,7 +61,7 @@ class Profile(NamedTuple):
         for phase in self.phases:
             if seconds < phase.seconds:
                 speed = phase.speed + phase.pull * seconds
-                return way + (phase.speed + 0.5 * phase.pull * seconds) * seconds, max(speed, 0.0)
+                return way + way_after(seconds, phase.speed, phase.pull), max(speed, 0.0)
             seconds -= phase.seconds
             way += phase.way
         return way, sqrt(self.end2)

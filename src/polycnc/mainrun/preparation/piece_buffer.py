@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.motion.compiled import PLAIN, compiled_kernels, ready
 from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.columns import Form, Limits, PieceRecord, Rows, new_state, piece_width
+from polycnc.motion.kernels.jerk import window_s
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -188,7 +189,7 @@ class PieceBuffer:
             at = self._taken * width
             self._rests += self._records[at + PieceRecord.PAUSE] == 0.0
             self._records[at + PieceRecord.ENTRY2] = 0.0
-            window = self._records[at + PieceRecord.RAMP] + 2.0 * self._records[at + PieceRecord.BLEND]
+            window = window_s(self._records[at + PieceRecord.RAMP], self._records[at + PieceRecord.BLEND])
             self._records[at + PieceRecord.PAUSE] = max(self._records[at + PieceRecord.PAUSE], window)
         self._drop_taken()
         self._records[0:0] = records

@@ -8,7 +8,7 @@ from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.alone import pays_to_rest
 from polycnc.motion.kernels.columns import SMOOTH_COS, SPLINE, ContextRecord, Limits, State
 from polycnc.motion.kernels.feeds import is_rapid
-from polycnc.motion.kernels.jerk import corner_hold2
+from polycnc.motion.kernels.jerk import corner_hold2, window_s
 
 #: Directions that differ by less count as one; a path whose turn has a cosine below this turns back.
 SAME_DIRECTION, TURNS_BACK = 1e-9, -0.999999
@@ -33,7 +33,7 @@ def join(
     until the averages have come to rest; it also rests where that takes less time (`alone.py`).
     """
     ramp = contexts[record + ContextRecord.RAMP_S]
-    state.run.window = ramp + 2.0 * contexts[record + ContextRecord.BLEND_S]
+    state.run.window = window_s(ramp, contexts[record + ContextRecord.BLEND_S])
     state.joint.ramp, state.joint.blend = ramp, contexts[record + ContextRecord.BLEND_S]
     state.joint.rest, state.joint.pull = 0.0, state.run.exit_pull
     stopped = state.run.stop != 0.0 or state.run.metric != weight

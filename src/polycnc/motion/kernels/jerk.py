@@ -28,6 +28,11 @@ STRAY_CORNER, STRAY_CURVE = 0.5, 0.5
 NO_TURN = 1e-9
 
 
+def window_s(ramp: float, blend: float) -> float:
+    """Seconds by which the axes rest later than what their averages follow: all of them, one behind the other."""
+    return ramp + 2.0 * blend
+
+
 def axis_pull(ramp: float, limits: Limits, i: int) -> float:
     """Acceleration of an axis that neither exceeds its own limit nor, averaged over `ramp` seconds, that of jerk."""
     pull = limits.acceleration[i]

@@ -49,7 +49,7 @@ from polycnc.motion.kernels.feeds import (
     place,
 )
 from polycnc.motion.kernels.hold import hold
-from polycnc.motion.kernels.jerk import axis_pull, line_pull
+from polycnc.motion.kernels.jerk import axis_pull, line_pull, window_s
 from polycnc.motion.kernels.speeds import straight_time
 
 
@@ -184,8 +184,8 @@ def overlap(contexts: Floats, record: int, pieces: Floats, first: int, n: int, s
     meets = state.run.overlap == OVERLAPS and contexts[record + ContextRecord.OVERLAP] != 0.0
     if meets and first > 0 and contexts[record + ContextRecord.STATION] == state.run.station:
         before = (first - 1) * width
-        pieces[first * width + PieceRecord.EARLY] = (
-            pieces[before + PieceRecord.RAMP] + 2.0 * pieces[before + PieceRecord.BLEND]
+        pieces[first * width + PieceRecord.EARLY] = window_s(
+            pieces[before + PieceRecord.RAMP], pieces[before + PieceRecord.BLEND]
         )
     state.run.overlap = contexts[record + ContextRecord.OVERLAP]
 

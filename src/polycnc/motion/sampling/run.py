@@ -1,10 +1,7 @@
 """A run: what the axes do from one standstill to the next, as a function of time.
 
-A run is made of planned pieces. Its time law along the path is exact: speeds are piecewise linear in time, so the
-way is piecewise quadratic and its integral piecewise cubic. The average of the way over RAMP_S is therefore the
-difference of two values of that integral. The average of an axis's position over BLEND_S, twice, has a second
-derivative that is a plain second difference of positions on the path (`kernels/jerk.py` says what the two
-averages are for).
+A run is made of planned pieces. Its time law along the path is exact, and so is the average of the way over RAMP_S; the
+average of an axis's position over BLEND_S, twice, is a sum over moments (`averaging.py`).
 """
 
 from __future__ import annotations
@@ -14,7 +11,9 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from polycnc.motion.averaging import HALF, PARTS, TENT, area_after, average, tent_acceleration, way_after
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord
+from polycnc.motion.kernels.jerk import window_s
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,9 +23,6 @@ if TYPE_CHECKING:
 Numbers: TypeAlias = "NDArray[np.float64]"
 #: Position, velocity and acceleration, or what stands for them along the path.
 Moved: TypeAlias = "tuple[Numbers, Numbers, Numbers]"
-
-#: Parts of each half of the window over which positions are averaged by Simpson's rule; even.
-PARTS = 8
 
 
 class TimeLaw:
@@ -42,9 +38,9 @@ class TimeLaw:
         keep = seconds > 0.0
         speed, rate, seconds = speed[keep], rate[keep], seconds[keep]
         self._start: Numbers = np.concatenate([[0.0], np.cumsum(seconds)])
-        ways = seconds * (speed + 0.5 * rate * seconds)
+        ways = way_after(seconds, speed, rate)
         self._way: Numbers = np.concatenate([[0.0], np.cumsum(ways)])
-        sums = seconds * (self._way[:-1] + seconds * (0.5 * speed + rate * seconds / 6.0))
+        sums = area_after(seconds, self._way[:-1], speed, rate)
         self._sum: Numbers = np.concatenate([[0.0], np.cumsum(sums)])
         # At rest behind the last phase.
         self._speed: Numbers = np.append(speed, 0.0)
@@ -61,8 +57,9 @@ class TimeLaw:
         time = np.maximum(time, 0.0)
         k = np.searchsorted(self._start, time, "right") - 1
         dt, speed, rate = time - self._start[k], self._speed[k], self._rate[k]
-        way = self._way[k] + dt * (speed + 0.5 * rate * dt)
-        total = self._sum[k] + dt * (self._way[k] + dt * (0.5 * speed + rate * dt / 6.0))
+        place = self._way[k]
+        way = place + way_after(dt, speed, rate)
+        total = self._sum[k] + area_after(dt, place, speed, rate)
         return total, way, np.where(inside, speed + rate * dt, 0.0), np.where(inside, rate, 0.0)
 
     def when(self, way: float) -> float:
@@ -83,7 +80,11 @@ class TimeLaw:
             return self.at(time)[1:]
         total, way, speed, _ = self.at(time - 0.5 * window)
         later, way_later, speed_later, _ = self.at(time + 0.5 * window)
-        return (later - total) / window, (way_later - way) / window, (speed_later - speed) / window
+        return (
+            average(total, later, window),
+            average(way, way_later, window),
+            average(speed, speed_later, window),
+        )
 
 
 class Run:
@@ -124,7 +125,7 @@ class Run:
     @property
     def seconds(self) -> float:
         """Duration, until the averages have come to rest."""
-        return self.law.seconds + self._ramp + 2.0 * self._blend
+        return self.law.seconds + window_s(self._ramp, self._blend)
 
     @property
     def end(self) -> Numbers:
@@ -164,12 +165,10 @@ class Run:
             return self._on_path(time)
         steps = blend / PARTS
         places = np.stack([self._on_path(time + k * steps)[0] for k in range(-PARTS, PARTS + 1)])
-        simpson = np.array([1.0] + [4.0, 2.0] * (PARTS // 2 - 1) + [4.0, 1.0]) / (3.0 * PARTS)
-        before, after = (np.tensordot(simpson, places[k : k + PARTS + 1], 1) for k in (0, PARTS))
-        tent = np.concatenate([np.arange(PARTS), np.arange(PARTS, -1, -1)]) / PARTS**2
-        position = np.tensordot(tent, places, 1)
-        acceleration = (places[0, ...] - 2.0 * places[PARTS, ...] + places[-1, ...]) / blend**2
-        return position, (after - before) / blend, acceleration
+        before, after = (np.tensordot(HALF, places[k : k + PARTS + 1], 1) for k in (0, PARTS))
+        position = np.tensordot(TENT, places, 1)
+        acceleration = tent_acceleration(places[0, ...], places[PARTS, ...], places[-1, ...], blend)
+        return position, average(before, after, blend), acceleration
 
     def on_path(self, time: Numbers) -> Numbers:
         """Positions on the path itself, before they are averaged, at times from the start of the run, (k, n)."""
