@@ -180,3 +180,13 @@ def test_every_channel_has_a_result_of_its_own() -> None:
     assert second.alarms
     assert first.alarms == []
     assert result.alarms == second.alarms
+
+
+@pytest.mark.parametrize("line", ["R9=1/0", 'SETAL(65000,"WORN")'])
+def test_channels_that_run_the_same_subprogram_do_not_share_its_alarms(line: str) -> None:
+    main = 'INIT(2,"B")\nSUB\nSTART(2)\nWAITE(2)\nM30\n'
+    files = {"B.MPF": "R1=2\nSUB\nM30\n", "SUB.SPF": f"IF R1<>2 GOTOF DONE\n{line}\nDONE: M17\n"}
+    result = open_session(main, control="sinumerik-840d", machine="mill3-2ch", files=files).run()
+    assert [(alarm.program, alarm.channel) for alarm in result.alarms] == [("_N_SUB_SPF", 2)]
+    assert result.channels[2].alarms == result.alarms
+    assert result.channels[1].alarms == []

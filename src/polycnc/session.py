@@ -105,9 +105,8 @@ class ChannelResult:
 
     @property
     def alarms(self) -> list[Alarm]:
-        """The alarms of its programs, in order."""
-        names = {program.name for program in self.channel.programs}
-        return [alarm for alarm in self.channel.alarms if alarm.program in names]
+        """Its own alarms, in order."""
+        return [alarm for alarm in self.channel.alarms if alarm.channel == self.number]
 
     @property
     def toolpath(self) -> Toolpath:

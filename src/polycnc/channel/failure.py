@@ -76,4 +76,5 @@ def _alarm(channel: Channel, error: AlarmError) -> Alarm:
         detail=error.detail,
         file=str(program.path or "") if program else "",
         call_chain=tuple((lv.code.program.name, lv.code.line(lv.current)) for lv in channel.stack[:-1]),
+        channel=channel.number,
     )

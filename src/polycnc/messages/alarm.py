@@ -53,7 +53,22 @@ class AlarmError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Alarm:
-    """An alarm with its place; `line` and `column` count from 1, 0 is unknown."""
+    """An alarm with its place.
+
+    Attributes:
+        control: Id of the control.
+        code: The control's own code.
+        program: Name of the program; empty where none runs.
+        line: Line of the program, from 1; 0 is unknown.
+        column: Column of the line, from 1; 0 is unknown.
+        block: Text of the block.
+        args: Values for the placeholders of the text.
+        hint: Message id of what the user can do about this very case.
+        detail: Free text that replaces the catalogue's.
+        file: Path of the program's file; empty where it came as a text.
+        call_chain: Programs that have called this one, from outside in, and the lines where they did.
+        channel: Number of the channel that raises it; 0 where the control or the machine does.
+    """
 
     control: str
     code: str
@@ -66,3 +81,4 @@ class Alarm:
     detail: str = ""
     file: str = ""
     call_chain: tuple[tuple[str, int], ...] = ()
+    channel: int = 0

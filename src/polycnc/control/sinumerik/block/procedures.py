@@ -69,6 +69,7 @@ def set_alarm(channel: SinumerikChannel, args: Arguments) -> None:
             channel.line,
             detail=text,
             file=str(program.path or ""),
+            channel=channel.number,
         )
     )
     channel.event(Raised(code=str(number), line=channel.line, column=0, program=program.name))
