@@ -43,6 +43,74 @@ def test_the_clock_says_what_the_planner_says(path: Path) -> None:
     assert end == pytest.approx(planned.total_s, rel=1e-6, abs=parallel)
 
 
+ARC = {"sinumerik-840d": "CR=10."}
+#: A dwell of half a second.
+DWELL = {"sinumerik-840d": "G4 F0.5"}
+METRIC = {"sinumerik-840d": "G71 G90", "syntec-mill": "G71 G90", "fanuc-0i-tf": "G21 G98"}
+#: Control and, on SINUMERIK, the acceleration mode.
+LEADS = [
+    *((control, "") for control in CONTROLS if control != "sinumerik-840d"),
+    ("sinumerik-840d", "BRISK"),
+    ("sinumerik-840d", "SOFT"),
+]
+SAME_TIME = {
+    "line": "G1 X50. F1500.\nM30\n",
+    "corner": "G1 X25. F1500.\nZ25.\nM30\n",
+    "facets": "G1 F3000.\nX5. Z0.2\nX10. Z0.8\nX15. Z1.8\nX20. Z3.2\nM30\n",
+    "rapid and cut": "G0 X50. Z20.\nG1 Z-5. F300.\nX80. F2000.\nG0 Z50.\nM30\n",
+    "exact stop": "G9 G1 X10. F2000.\nZ10.\nM30\n",
+    "dwell": "G1 X10. F1000.\n{dwell}\nX20.\nM30\n",
+    "arc between lines": "G1 X20. F1500.\nG3 X30. Y10. {r}\nG1 Y40.\nM30\n",
+}
+#: What overrides may still change: with limited jerk these are laid out for any speed (`docs/virtual-control.md`).
+OTHER_TIME = {
+    "arc from rest to rest": "G3 X10. Y10. {r} F1500.\nM30\n",
+    "lines in one direction": "G1 X25. F1500.\nX50.\nM30\n",
+    "another feed": "G1 X20. F1500.\nX40. F3000.\nM30\n",
+}
+#: So much may each of them differ, s.
+OTHER_S = 0.05
+
+
+def times(control: str, mode: str, body: str) -> tuple[float, float]:
+    """Planned time, and that of the main run."""
+    head = METRIC.get(control, "G21 G90")
+    text = (
+        f"{head} G64 {mode}\n{body.format(r=ARC.get(control, 'R10.'), dwell=DWELL.get(control, 'G4 P500'))}"
+    )
+    virtual = power_on(text, control)
+    records = recorded(virtual)
+    assert run_through(virtual) is State.READY
+    end = next(record.time for record in reversed(records) if record.what == "state")
+    return polycnc.run(text.encode(), control=control).time, end
+
+
+def lacks_axis(body: str, control: str) -> bool:
+    """Whether a program moves Y on a lathe, which has none."""
+    return "Y" in body and control == "fanuc-0i-tf"
+
+
+@pytest.mark.parametrize(("control", "mode"), LEADS)
+@pytest.mark.parametrize("body", SAME_TIME.values(), ids=SAME_TIME)
+def test_a_program_takes_the_planned_time_on_every_control(control: str, mode: str, body: str) -> None:
+    if lacks_axis(body, control):
+        pytest.skip("a lathe has no Y")
+    planned, run = times(control, mode, body)
+    assert run == pytest.approx(planned, rel=1e-6)
+    assert planned > 0.1
+
+
+@pytest.mark.parametrize(("control", "mode"), LEADS)
+@pytest.mark.parametrize("body", OTHER_TIME.values(), ids=OTHER_TIME)
+def test_what_overrides_may_still_change_differs_little_from_the_plan(
+    control: str, mode: str, body: str
+) -> None:
+    if lacks_axis(body, control):
+        pytest.skip("a lathe has no Y")
+    planned, run = times(control, mode, body)
+    assert run == pytest.approx(planned, abs=1e-6 if mode == "BRISK" else OTHER_S)
+
+
 def after_reference(virtual: VirtualControl) -> list[tuple[float, str, object]]:
     """Run the program from the reference point; what it prints may count the runs."""
     virtual.select_mode("reference")
