@@ -16,7 +16,7 @@ from polycnc.channel.failure import end_run, stand_at_last_row, take_back
 from polycnc.channel.family import ControlT_co, MemoryT_co
 from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.mode import Mode, ModeTable
-from polycnc.channel.path import Move, Path, PlacedEvent, is_way, points_of_arc
+from polycnc.channel.path import Move, Path, PlacedEvent, points_of_arc
 from polycnc.channel.run import Run
 from polycnc.channel.stack import Executable, Level, LevelKind
 from polycnc.channel.state import Lifetime, States, end_of
@@ -30,6 +30,7 @@ from polycnc.channel.waits import (
     Wait,
     Why,
 )
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.memory.retained import InMemoryStore
 from polycnc.messages import AlarmError
 from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
@@ -387,6 +388,8 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
 
     def flush(self) -> None:
         """Pass on every move that a stage still holds back."""
+        if self.path.head is None:
+            return
         try:
             self.path.flush()
         except AlarmError as error:
@@ -433,7 +436,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         """Move to `end` (absolute display, all axes) in a straight line. No way, no row."""
         coordinates = self.coordinates
         start = coordinates.position
-        if end != start and is_way(start, end):
+        if end != start and _is_way(start, end):
             level = self._level
             context = self._context if not self._context_changed else self.context_number()
             if self._limits or self.stroke_zone is not None:
@@ -538,3 +541,11 @@ def _travel(axes: Sequence[Axis]) -> tuple[tuple[float, float], ...]:
     """The limits of every axis; nothing where no axis has any."""
     limits = tuple((axis.limit_minus, axis.limit_plus) for axis in axes)
     return limits if any(low > -inf or high < inf for low, high in limits) else ()
+
+
+def _is_way(start: list[float], end: list[float]) -> bool:
+    """Whether two positions differ by more than rounding."""
+    for a, b in zip(start, end, strict=True):  # noqa: SIM110 - a generator costs more than the comparison
+        if abs(a - b) > NO_WAY:
+            return True
+    return False

@@ -16,16 +16,20 @@ if TYPE_CHECKING:
 class Mode:
     """The active code of every modal group, as an interned value. Compare modes with `is`."""
 
-    __slots__ = ("_table", "_transitions", "codes", "plans")
+    __slots__ = ("__getitem__", "_table", "_transitions", "codes", "plans")
 
     def __init__(self, table: ModeTable, codes: dict[str, str]) -> None:
         self._table = table
         self._transitions: dict[tuple[str, str], Mode] = {}
         self.codes = codes
+        # `mode["plane"]` is the mapping's own method, without a step in between: every plan asks many times.
+        self.__getitem__ = codes.__getitem__  # type: ignore[method-assign]  # a slot
         self.plans: dict[Any, Any] = {}
 
-    def __getitem__(self, group: str) -> str:
-        return self.codes[group]
+    if TYPE_CHECKING:
+
+        def __getitem__(self, group: str) -> str:
+            """The active code of a group."""
 
     def with_code(self, group: str, code: str) -> Mode:
         """The mode that differs in one group."""

@@ -18,7 +18,6 @@ from math import nan
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from polycnc.geometry import arcs
-from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, Kind
 
 if TYPE_CHECKING:
@@ -111,14 +110,6 @@ class EndOfBlock:
 
 #: What a stage may hold back.
 Item = Move | PlacedEvent | EndOfBlock
-
-
-def is_way(start: list[float], end: list[float]) -> bool:
-    """Whether two positions differ by more than rounding."""
-    for a, b in zip(start, end, strict=True):  # noqa: SIM110 - a generator costs more than the comparison
-        if abs(a - b) > NO_WAY:
-            return True
-    return False
 
 
 class Stage:
