@@ -3,6 +3,7 @@ from __future__ import annotations
 import pytest
 
 from polycnc.program.names import (
+    bare_name,
     default_directory,
     program_name,
     split_stored_path,
@@ -19,6 +20,11 @@ def test_all_spellings_have_one_stored_name(name: str) -> None:
 @pytest.mark.parametrize("path", ["WKS.DIR/TEST.WPD", "/_N_WKS_DIR/_N_TEST_WPD/", "\\wks.dir\\test.wpd"])
 def test_all_spellings_have_one_stored_directory(path: str) -> None:
     assert stored_directory(path) == "/_N_WKS_DIR/_N_TEST_WPD"
+
+
+@pytest.mark.parametrize("name", ["_N_SUB1_SPF", "_N_SUB1_MPF", "_n_sub1_spf", "SUB1"])
+def test_a_call_without_type_finds_all_types_of_a_name(name: str) -> None:
+    assert bare_name(name) == "SUB1"
 
 
 def test_a_bare_name_has_no_directory() -> None:

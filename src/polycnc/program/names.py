@@ -35,6 +35,11 @@ def stored_name(name: str) -> str:
     return name.replace(".", "_")
 
 
+def bare_name(name: str) -> str:
+    """`_N_SUB1_SPF` is `SUB1`: as a call names it that does not say the type."""
+    return name.upper().removeprefix("_N_").removesuffix("_SPF").removesuffix("_MPF")
+
+
 def stored_directory(directory: str) -> str:
     """`WKS.DIR/TEST.WPD`, `/_n_wks_dir/_n_test_wpd/` are `/_N_WKS_DIR/_N_TEST_WPD`; nothing stays nothing."""
     parts = [part for part in directory.replace("\\", "/").split("/") if part.strip()]

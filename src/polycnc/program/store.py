@@ -89,6 +89,10 @@ class ProgramStore:
         self.search = [Path(path) for path in search]
         self.form = form
         self.encoding = encoding
+        self.reaches_host = bool(self.search)
+        """Calls look for programs among the files of the host too."""
+        self.bare_names: set[str] = set()
+        """Names under which programs have been added, in upper case and without SINUMERIK's prefix and type."""
         self.shadowed: list[Program] = []
         """Programs that no call reaches, because one added earlier has the same name or number."""
         self._directory = directory
@@ -129,6 +133,7 @@ class ProgramStore:
         programs = load_programs(str(path), self.encoding, self.form)
         if self._main is None:
             self._beside = Path(path).parent
+            self.reaches_host = True
         return self._add([self._placed(program, Path(path)) for program in programs])
 
     def _of_workpiece(self, path: Path) -> Path:
@@ -174,6 +179,7 @@ class ProgramStore:
         known = self._by_name.get(key)
         self._added = [each for each in self._added if each is not known] + [program]
         self._by_name[key] = program
+        self.bare_names.add(names.bare_name(program.name))
         self._removed.discard(key)
         if program.number is not None:
             self._by_number[program.directory, program.number] = program
@@ -188,6 +194,7 @@ class ProgramStore:
     def _add(self, programs: list[Program]) -> Program:
         for program in programs:
             known = self._by_name.setdefault(_key(program.directory, program.name), program)
+            self.bare_names.add(names.bare_name(program.name))
             if program.number is not None:
                 known = self._by_number.setdefault((program.directory, program.number), program)
             if known is not program:

@@ -42,8 +42,8 @@ class Operator(NamedTuple):
 class OperatorReader(ABC, Generic[M, V]):
     """Reads expressions; `M` is the operator's mark in the text, for alarms."""
 
-    def __init__(self) -> None:
-        self.depth = 0
+    #: How deep the part that is being read is nested.
+    depth = 0
 
     # ---- what a language says --------------------------------------------------------------------------------
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.language.expressions.code import Code, constant, quoted, sequence
@@ -10,7 +11,7 @@ from polycnc.language.sinumerik.emitter import Emitter, provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, syntax
 from polycnc.language.sinumerik.expressions import ExpressionReader
 from polycnc.language.sinumerik.lexer import Token, prefix_of, tokenize
-from polycnc.language.sinumerik.names import rights, vocabulary
+from polycnc.language.sinumerik.names import vocabulary
 from polycnc.language.sinumerik.names.places import SystemPlace
 from polycnc.language.sinumerik.names.values import INT_MAX, INT_MIN, Type
 from polycnc.language.sinumerik.names.variables import Array, Reference, define
@@ -52,8 +53,17 @@ class BlockCompiler(ExpressionReader):
         self.program = program
         self.index = index
         self.channel = channel
-        self.words = WordReader(self)
         self.marked = False
+
+    @cached_property
+    def words(self) -> WordReader:
+        """What reads the words of the block; a block of another kind has none."""
+        return WordReader(self)
+
+    @property
+    def columns(self) -> tuple[int, ...]:
+        """Column of every word, from 1."""
+        return self.words.columns if "words" in vars(self) else ()
 
     def statement(self) -> None:
         """Read the whole block."""
@@ -179,7 +189,7 @@ class BlockCompiler(ExpressionReader):
 
     def procedure(self, token: Token, letters: str) -> None:
         """A predefined procedure; its name has been read."""
-        rights.check_word(self, token)
+        self.scope.check_word(token)
         arguments = self.scope.arguments(self, token, letters)
         self.call_procedure(token, arguments)
 
@@ -248,7 +258,7 @@ def compile_block(program: SinumerikProgram, index: int, channel: Channel) -> Co
     if prefix.skip >= 0:
         compiler.emitter.add(quoted("if channel.control.skipped(channel, {0}): return", prefix.skip))
     compiler.statement()
-    return CompiledBlock(compiler.emitter.step(), compiler.emitter, compiler.words.columns)
+    return CompiledBlock(compiler.emitter.step(), compiler.emitter, compiler.columns)
 
 
 def compile_text(text: str, program: SinumerikProgram, index: int, channel: Channel) -> Step:

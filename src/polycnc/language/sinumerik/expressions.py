@@ -12,6 +12,7 @@ from polycnc.language.expressions.code import (
     negation,
     quoted,
     sequence,
+    unary,
 )
 from polycnc.language.expressions.cursor import Cursor
 from polycnc.language.expressions.operators import (
@@ -79,7 +80,6 @@ class ExpressionReader(Cursor[Token], OperatorReader[Token, Expr]):
 
     def __init__(self, tokens: list[Token], scope: Scope, emitter: Emitter) -> None:
         Cursor.__init__(self, tokens)
-        OperatorReader.__init__(self)
         self.scope = scope
         self.emitter = emitter
 
@@ -98,6 +98,16 @@ class ExpressionReader(Cursor[Token], OperatorReader[Token, Expr]):
         """Code of an expression converted to a type."""
         token = self.token
         return self.converted(self.expression(), type_, token)
+
+    def literal(self) -> Code | None:
+        """A number, with a minus or without, that is all of an argument; None, and nothing read, for anything else."""
+        minus = self.at("-")
+        token = self.ahead(minus)
+        if token.kind != "number" or self.ahead(minus + 1).text not in (",", ")"):
+            return None
+        self.place += minus + 1
+        number = self.emitter.number(token.value, token)
+        return unary(ast.USub, number) if minus else number
 
     def condition(self) -> Code:
         """Code of an expression as BOOL."""

@@ -9,7 +9,6 @@ from polycnc.language.expressions.operators import TIGHTEST
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import Execution, provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
-from polycnc.language.sinumerik.names import rights
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.words import WordAlarm, WordShape, block_of
 from polycnc.messages import AlarmError
@@ -81,7 +80,7 @@ class WordReader:
     # ---- G functions ---------------------------------------------------------------------------------------
 
     def _g_function(self, token: Token, code: str) -> None:
-        rights.check_word(self.compiler, token)
+        self.compiler.scope.check_word(token)
         group = self.compiler.scope.control.g_groups[code]
         if group in self.groups:
             raise NcSyntaxError("12060", token.column, token.text)

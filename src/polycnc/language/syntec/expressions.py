@@ -139,7 +139,6 @@ class Reader(Cursor[Token], OperatorReader[Token, Code]):
 
     def __init__(self, tokens: Sequence[Token], shapes: Shapes) -> None:
         Cursor.__init__(self, tokens)
-        OperatorReader.__init__(self)
         self.shapes = shapes
         self.literals: list[Value] = []
 

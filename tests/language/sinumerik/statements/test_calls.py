@@ -1,16 +1,38 @@
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from polycnc.session import open_session
 from tests.language.sinumerik.running import alarm, run, targets, value, values
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 COUNT = {"SUBB.SPF": "R1=R1+1\nM17", "L7.SPF": "R1=R1+10\nM17", "_N_L007_SPF": "R1=R1+100\nRET"}
 
 
 def test_programs_are_called_by_name_and_by_number() -> None:
     assert value("SUBB\nL7\nL007\nSUBB_SPF\n_N_SUBB_SPF\nsubb", files=COUNT) == 114
+
+
+def test_a_program_runs_in_place_of_the_cycle_whose_name_it_has() -> None:
+    assert (
+        value(
+            "CYCLE81(5,0,1,-4)", files={"CYCLE81.SPF": "PROC CYCLE81(REAL AA,REAL BB,REAL CC,REAL DD)\nR1=DD"}
+        )
+        == -4
+    )
+    written = 'DEF INT AA\nWRITE(AA,"/_N_SPF_DIR/_N_CYCLE83_SPF","R1=7")\nCYCLE83'
+    assert value(written) == 7
+
+
+def test_the_cycle_of_the_host_wins_over_that_of_the_control(tmp_path: Path) -> None:
+    (tmp_path / "MAIN.MPF").write_text("CYCLE83\nM30\n")
+    (tmp_path / "CYCLE83.SPF").write_text("R1=8\nM17\n")
+    result = open_session(tmp_path / "MAIN.MPF", control="sinumerik-840d").run()
+    assert (result.alarms, result.variables["R1"]) == ([], 8)
 
 
 def test_a_call_may_be_repeated() -> None:

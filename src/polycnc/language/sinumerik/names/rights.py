@@ -1,4 +1,4 @@
-"""Access rights: who may read, write and execute what (job planning 1.1.10).
+"""Access rights: who may read and write what (job planning 1.1.10); who may execute it, `Scope.check_word` says.
 
 A protection level is a number from 0 (system) to 7 (key switch position 0). A right names the level that a program must
 have at least, and a level is the higher the lower its number. A program has the level that is set on the control; one
@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.language.sinumerik.expressions import ExpressionReader
-    from polycnc.language.sinumerik.lexer import Token
 
 READ, WRITE = "read", "write"
 #: For each right: its keywords and the alarm. APR does not restrict programs, APW 0…7 is APWP.
@@ -34,10 +33,3 @@ def check(reader: ExpressionReader, name: str, rights: Mapping[str, int], right:
         level = rights.get(key, LOWEST)
         if level < _INTERFACE_LEVELS and reader.scope.level > level:
             raise NcSyntaxError(alarm, reader.token.column, name)
-
-
-def check_word(reader: ExpressionReader, token: Token) -> None:
-    """Raise PC0006 for a function, procedure or cycle that the program may not execute."""
-    rights = reader.scope.memory.rights.get(token.text)
-    if rights and reader.scope.level > rights.get("APX", LOWEST):
-        raise NcSyntaxError("PC0006", token.column, token.text)

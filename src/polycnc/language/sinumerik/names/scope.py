@@ -8,7 +8,6 @@ from polycnc.language.expressions.code import Code, constant, item, quoted, sequ
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
 from polycnc.language.sinumerik.expressions import Expr
-from polycnc.language.sinumerik.names import rights
 from polycnc.language.sinumerik.names.level_variables import LEVEL_VARIABLES
 from polycnc.language.sinumerik.names.places import (
     CharPlace,
@@ -19,6 +18,7 @@ from polycnc.language.sinumerik.names.places import (
     SinglePlace,
     SystemPlace,
 )
+from polycnc.language.sinumerik.names.rights import LOWEST
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 
@@ -72,6 +72,12 @@ class Scope:
         variable.slot = self.slots
         self.slots += 1
         self.variables[variable.name] = variable
+
+    def check_word(self, token: Token) -> None:
+        """Raise PC0006 for a function, procedure or cycle that the program may not execute (APX)."""
+        rights = self.memory.rights.get(token.text)
+        if rights and self.level > rights.get("APX", LOWEST):
+            raise NcSyntaxError("PC0006", token.column, token.text)
 
     def is_place(self, token: Token) -> bool:
         """Whether a token begins something that can be assigned to."""
@@ -156,7 +162,7 @@ class Scope:
         for caller, functions in _FUNCTION_CALLERS:
             function = functions.get(token.text)
             if function is not None:
-                rights.check_word(reader, token)
+                self.check_word(token)
                 arguments = self.arguments(reader, token, function.arguments)
                 reader.emitter.knows_place = True
                 column = reader.emitter.object(token.column)
@@ -200,6 +206,9 @@ class Scope:
 
     @staticmethod
     def _any(reader: ExpressionReader) -> Code:
+        literal = reader.literal()  # most arguments of cycles
+        if literal is not None:
+            return literal
         value = reader.expression()
         return quoted("chr({0})", value.code) if value.type is Type.CHAR else value.code
 

@@ -9,7 +9,6 @@ from polycnc.language.expressions.code import Code, assigned, attribute, constan
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, unknown
-from polycnc.language.sinumerik.names import rights
 from polycnc.language.sinumerik.names.places import ElementPlace
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.language.sinumerik.statements.sections import Section, count_levels, leave
@@ -47,6 +46,12 @@ def find_program(channel: Channel, name: str) -> Program | None:
     if directory.startswith(EXTERNAL):  # a program from outside calls as the selected program does
         directory = channel.stack[0].code.program.directory
     return channel.store.find_sinumerik(name, directory, (memory.call_path,) if memory.call_path else ())
+
+
+def _find_in_place_of_cycle(channel: Channel, cycle: str) -> Program | None:
+    """The program that runs instead of a cycle of the control; mostly none has its name, and none is searched for."""
+    store = channel.store
+    return find_program(channel, cycle) if store.reaches_host or cycle in store.bare_names else None
 
 
 def named_program(channel: Channel, name: str) -> Program:
@@ -108,11 +113,13 @@ def program_call(compiler: BlockCompiler) -> None:
     token = compiler.take()
     if token.kind == "word" and len(token.text) > 1 + MAX_DIGITS:
         raise compiler.error(token)
-    rights.check_word(compiler, token)
-    program = find_program(compiler.channel, token.text)
+    compiler.scope.check_word(token)
+    is_cycle = token.text in keywords.CYCLES
+    find = _find_in_place_of_cycle if is_cycle else find_program
+    program = find(compiler.channel, token.text)
     if program is None:
-        if token.text in keywords.CYCLES:
-            compiler.procedure(token, "*")
+        if is_cycle:
+            compiler.call_procedure(token, compiler.scope.arguments(compiler, token, "*"))
             return
         if token.kind == "word" or token.text in compiler.scope.externals:
             raise NcSyntaxError("14011", token.column, token.text)
