@@ -231,14 +231,15 @@ class Sinumerik:
         for step in steps:
             step(channel, values)
         if channel.attention:  # as wherever moves pass stages, and in single block operation
-            channel.path.relax()
+            if channel.path.head is not None:
+                channel.path.relax()
             if channel.single_block:
                 single_block.RunningBlock.of(channel).acted = acts
         for position in ends:
             if values[position] in (2, 30, 17):
                 self.end_of_program(channel)
                 return False
-        return calls
+        return calls and channel.memory.language.modal_call is not None
 
     def plan(self, channel: SinumerikChannel, block: Block) -> Plan:
         """Work out what a block does in the modal state that holds."""

@@ -102,8 +102,8 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
             executed, and what the functions find wrong with their words.
     """
     codes = _codes(block)
-    modal = [(name, code) for name, code in codes.items() if gcodes.BY_NAME[name].is_modal]
-    mode = _axis_diameters(channel, block, _kept_feed(channel.mode, channel.mode.with_codes(modal)), codes)
+    modal = [(name, code) for name, code in codes.items() if name in gcodes.START_CODES]
+    mode = _axis_diameters(channel, block, _mode_after(channel.mode, modal), codes)
     draft = Draft(channel, block, mode, codes)
     if mode is not channel.mode or any(name in IN_CONTEXT for name, _ in modal):
         draft.steps.append(_enter(mode, modal, changes=mode is not channel.mode))
@@ -164,8 +164,12 @@ AXIS_DIAMETERS = {
 }
 
 
-def _kept_feed(before: Mode, mode: Mode) -> Mode:
-    """The mode with the feed type that G962 and G972 keep."""
+def _mode_after(before: Mode, modal: list[tuple[str, str]]) -> Mode:
+    """The mode with the modal functions of a block, and with the feed type that G962 and G972 keep."""
+    changes = [(name, code) for name, code in modal if before[name] != code]
+    if not changes:
+        return before
+    mode = before.with_codes(changes)
     if mode["feed"] in tables.KEEP_FEED and before["feed"] not in tables.KEEP_FEED:
         return mode.with_code("feed_kept", before["feed"])
     return mode

@@ -119,7 +119,7 @@ def _planned(channel: SinumerikChannel, cycle: Cycle, arguments: Arguments) -> M
         auxiliary.tool_changed(channel)
     if cycle.saves and channel.mode["compensation"] != "G40":
         raise AlarmError("61815", text=arguments.cycle)
-    LastMove.of(channel).forget()
+    LastMove.of(channel).start = None
     moves = Moves(channel, arguments.integer("_AXN"))
     moves.plan(partial(cycle.plan, moves, arguments))
     return moves

@@ -31,12 +31,8 @@ class LastMove(State, lifetime=Lifetime.RESET):
 
     Attributes:
         start: Position of all axes at its beginning; None where no direction is known.
-        arc: None for a straight line.
+        arc: None for a straight line; without a start it means nothing.
     """
 
     start: list[float] | None = None
     arc: ArcOfMove | None = None
-
-    def forget(self) -> None:
-        """No direction is known any more."""
-        self.start = self.arc = None

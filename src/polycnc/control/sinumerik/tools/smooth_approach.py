@@ -140,7 +140,7 @@ def approach(draft: Draft) -> Step | None:
         feed = moves.checked_feed(channel.feed)
         touch = end if names_point else None
         waiting = Approach(shape, place, start, touch, height, feed, words.infeed_speed(draft, values))
-        LastMove.of(channel).forget()
+        LastMove.of(channel).start = None
         channel.coordinates.arrive(end)
         stages.approach(channel).waiting = waiting
 
