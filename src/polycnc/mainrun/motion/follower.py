@@ -47,7 +47,7 @@ class Law:
         area = self._area(time)
         for phase in phases:
             rows.append((time, place, phase.speed, phase.pull, area))
-            area += self._below(rows[-1], phase.seconds)
+            area += area_after(phase.seconds, place - self._origin, phase.speed, phase.pull)
             time, place = time + phase.seconds, place + phase.way
         rows.append((time, place, 0.0, 0.0, area))
 
@@ -86,13 +86,8 @@ class Law:
 
     def _area(self, time: float) -> float:
         """The integral of the places, counted from the origin, over the time before."""
-        row = self._rows[max(bisect_right(self._rows, (time, inf)) - 1, 0)]
-        return row[4] + self._below(row, max(time - row[0], 0.0))
-
-    def _below(self, row: tuple[float, ...], seconds: float) -> float:
-        """The area below a phase after some seconds of it."""
-        _, place, speed, pull, _ = row
-        return area_after(seconds, place - self._origin, speed, pull)
+        start, place, speed, pull, area = self._rows[max(bisect_right(self._rows, (time, inf)) - 1, 0)]
+        return area + area_after(max(time - start, 0.0), place - self._origin, speed, pull)
 
 
 class Follower:
