@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, ClassVar, Generic
 
 from polycnc.channel.coordinates import Coordinates
 from polycnc.channel.failure import end_run, stand_at_last_row, take_back
-from polycnc.channel.family import ControlT_co, MemoryT_co
+from polycnc.channel.family import ControlT_co, MemoryT_co, ProgramT_co
 from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.mode import Mode, ModeTable
 from polycnc.channel.path import Move, Path, PlacedEvent, points_of_arc
 from polycnc.channel.run import Run
-from polycnc.channel.stack import Executable, Level, LevelKind
+from polycnc.channel.stack import Level, LevelKind
 from polycnc.channel.state import Lifetime, States, end_of
 from polycnc.channel.view import Prepared
 from polycnc.channel.waits import (
@@ -59,7 +59,7 @@ DEFAULT_BLOCK_LIMIT = 100_000_000
 BURST = range(4096)
 
 
-class Channel(Generic[ControlT_co, MemoryT_co]):
+class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
     """One channel of a control: state, program stack, and the way of its moves.
 
     Attributes:
@@ -71,7 +71,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         start_position: Position at power-on, all axes.
         path: The stages that moves pass on their way to the toolpath.
         mark: Rows of the chunk when the running block began.
-        control: The control. Handlers of a family know its class: `Channel[ThatControl, ThatMemory]`.
+        control: The control. Handlers of a family know its class: `channel.family`.
         single_block: Hand over behind every block at which single block operation halts.
         inner_halts: Blocks at which single block halts inside the block that runs, before its end.
         takes_back: What the running block takes back of a manual intervention.
@@ -124,8 +124,8 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         self.modes = ModeTable()
         self.mode: Mode = self.modes.mode({})
         self.feed = nan
-        self.stack: list[Level] = []
-        self._level: Level
+        self.stack: list[Level[ProgramT_co]] = []
+        self._level: Level[ProgramT_co]
         self.path = Path(self)
         self.memory: MemoryT_co = None  # type: ignore[assignment]  # made by `Control.start`
         self.states = States()
@@ -152,14 +152,14 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
         self.optional_stop = setup.switches.optional_stop
         self._context, self._context_changed = 0, True
         self._limits = _travel(self.axis_data)
-        self._executables: dict[int, Executable] = {}
+        self._executables: dict[int, ProgramT_co] = {}
         self.bulk = bulk
         self._scanner: Scanner | None = None
 
     # ---- what the inner loop must notice --------------------------------------------------------------------------
 
     @property
-    def level(self) -> Level:
+    def level(self) -> Level[ProgramT_co]:
         """The running program level."""
         return self._level
 
@@ -190,11 +190,12 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
 
     # ---- program stack -------------------------------------------------------------------------------------------
 
-    def executable(self, program: Program) -> Executable:
+    def executable(self, program: Program) -> ProgramT_co:
         """The compiled form of a program; each program is compiled once."""
         key = id(program)
         if key not in self._executables:
-            self._executables[key] = self.control.compile(program)
+            code: ProgramT_co = self.control.compile(program)  # type: ignore[assignment]  # of its family
+            self._executables[key] = code
         return self._executables[key]
 
     @property
@@ -204,7 +205,7 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
 
     def push(
         self, program: Program, *, kind: LevelKind, repeats: int = 0, index: int = 0, local: object = None
-    ) -> Level:
+    ) -> Level[ProgramT_co]:
         """Call a program: it runs next, `repeats` more times after the first pass."""
         name = self.toolpath.program_number(program.name)
         code = self.executable(program)
@@ -220,9 +221,9 @@ class Channel(Generic[ControlT_co, MemoryT_co]):
             return None
         if self._scanner is None:
             self._scanner = self.bulk.scanner(self)
-        return self._scanner if hasattr(level.code, "step_of_line") else None
+        return self._scanner
 
-    def pop(self) -> Level:
+    def pop(self) -> Level[ProgramT_co]:
         """End the running level; the level below becomes the running one."""
         ended = self.stack.pop()
         if ended.kind is LevelKind.TYPED_IN:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Protocol
+
+from polycnc.channel.family import ProgramT_co
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -36,6 +38,9 @@ class Executable(Protocol):
 
     def column(self, index: int, address: str) -> int:
         """The column of an address or a code in the block of a step, from 1; 0 when unknown."""
+
+    def counts(self, index: int) -> bool:
+        """Whether a step is a block for stages that look ahead (a macro statement is none)."""
 
 
 class LevelKind(StrEnum):
@@ -71,40 +76,35 @@ class LevelKind(StrEnum):
         return self[0].upper() if self[1:2] == "-" else ""
 
 
-def _always(_index: int) -> bool:
-    """Every step of most languages is a block."""
-    return True
-
-
 @dataclass(slots=True)
-class Level:
+class Level(Generic[ProgramT_co]):
     """One level of the program stack: where a program stands, and what belongs to this call of it.
 
     Attributes:
-        code: The program.
-        steps: Kept steps of the program, and `line_of` its `line`: at hand, because every block asks.
+        code: The program, of the class that the channel's family knows.
+        steps: Kept steps of the program; `line_of` and `counts` are its methods: at hand, because every block asks.
         index: The step that runs next.
         current: The step that is running.
         program_number: Number of the program in the toolpath.
         repeats: How often the program is still to be run after this pass.
         entry: Step at which each pass begins.
         kind: How the level came about.
-        locals: Local variables, shared with the caller or its own, as the kind of call has it.
+        locals: Local variables, shared with the caller or its own, as the kind of call has it. A family knows their
+            form, and reads them with a function of its own.
         data: What the control's language keeps for this level.
-        counts: Whether a step is a block for stages that look ahead (a macro statement is none).
         scanner: What scans the plain blocks of the program, if anything does.
     """
 
     UNFOLLOWED: ClassVar = frozenset({"steps", "line_of", "counts"})  # those of the program
 
-    code: Executable
+    code: ProgramT_co
     index: int = 0
     current: int = 0
     program_number: int = 0
     repeats: int = 0
     entry: int = 0
     kind: LevelKind = LevelKind.MAIN
-    locals: Any = None
+    locals: object = None
     data: dict[Any, Any] = field(default_factory=dict)
     scanner: Scanner | None = None
     steps: Sequence[Step | None] | FewSteps = field(init=False)
@@ -114,4 +114,4 @@ class Level:
     def __post_init__(self) -> None:
         self.steps = self.code.steps
         self.line_of = self.code.line
-        self.counts = getattr(self.code, "counts", _always)
+        self.counts = self.code.counts

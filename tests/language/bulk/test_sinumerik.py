@@ -131,7 +131,7 @@ M30
 def test_plain_blocks_are_scanned_and_not_interpreted() -> None:
     bulk = Bulk(fewest_lines=0, scan=plain_scan, most_patience=1)
     channel = run(PLAIN_BLOCKS, CONTROL, bulk=bulk)
-    interpreted = [i for i, reached in enumerate(channel.executable(channel.programs[0])._reached) if reached]  # type: ignore[attr-defined]
+    interpreted = [i for i, reached in enumerate(channel.executable(channel.programs[0])._reached) if reached]
     assert differences(PLAIN_BLOCKS, CONTROL) == []
     # The first block opens the program, the last one ends it.
     assert interpreted == [0, 8]

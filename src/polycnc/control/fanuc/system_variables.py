@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.macro_b.subprograms import sequences_of
 from polycnc.control.word_address.macro_b.variables import Read, SystemRange, Write
 from polycnc.toolpath.events import Message
 
@@ -105,7 +104,7 @@ def _feed(m: MacroMemory, _i: int) -> float:
 
 
 def _sequence(m: MacroMemory, _i: int) -> float:
-    return float(sequences_of(m.channel.level).sequence(m.channel.level.current))
+    return float(m.channel.level.code.sequence(m.channel.level.current))
 
 
 def _program(m: MacroMemory, _i: int) -> float:

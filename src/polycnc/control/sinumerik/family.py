@@ -8,5 +8,6 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.control import Sinumerik
     from polycnc.control.sinumerik.memory import Memory
+    from polycnc.language.sinumerik.interface import NcExecutable
 
-SinumerikChannel: TypeAlias = "Channel[Sinumerik, Memory]"
+SinumerikChannel: TypeAlias = "Channel[Sinumerik, Memory, NcExecutable]"

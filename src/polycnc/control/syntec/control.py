@@ -18,7 +18,7 @@ from polycnc.control.syntec.coordinates import systems
 from polycnc.control.syntec.coordinates.systems import TurnState
 from polycnc.control.syntec.five_axes import normal_direction, spatial, tilted, tip_control
 from polycnc.control.syntec.macros import calls, interrupts
-from polycnc.control.syntec.macros.variables import SpaceState
+from polycnc.control.syntec.macros.variables import SpaceState, locals_of
 from polycnc.control.syntec.memory import SyntecMemory
 from polycnc.control.syntec.motion import arcs, moves, oscillation, polar, quiet
 from polycnc.control.syntec.motion.arcs import ArcState
@@ -205,7 +205,7 @@ class SyntecMill(WordAddressControl):
     def leave(self, channel: SyntecChannel) -> None:
         """End of a subprogram or macro: the caller's local variables return, words that were left act."""
         ended = channel.pop()
-        channel.memory.locals = channel.level.locals
+        channel.memory.locals = locals_of(channel.level)
         calls.finish_macro(channel, ended)
 
     def check_nesting(self, channel: SyntecChannel, _kind: LevelKind) -> None:

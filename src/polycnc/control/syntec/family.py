@@ -8,5 +8,6 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.syntec.control import SyntecMill
     from polycnc.control.syntec.memory import SyntecMemory
+    from polycnc.language.syntec.layout import NumberedProgram
 
-SyntecChannel: TypeAlias = "Channel[SyntecMill, SyntecMemory]"
+SyntecChannel: TypeAlias = "Channel[SyntecMill, SyntecMemory, NumberedProgram]"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from array import array
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 from polycnc.channel.snapshot import unchanging
 from polycnc.channel.stack import Executable
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterable, Sequence
 
     from polycnc.channel.channel import Channel
-    from polycnc.channel.stack import Level
     from polycnc.geometry.frames import Frame
     from polycnc.kernels.layout import Floats
     from polycnc.language.bulk.recipe import Recipe, Spelling
@@ -89,9 +88,8 @@ class Scannable(Executable, Protocol):
         """The line behind those that may be read as one block each, from a line of the text on."""
 
 
-def _scannable(level: Level) -> Scannable:
-    """The program of a level that has a scanner."""
-    return cast("Scannable", level.code)
+#: A channel whose programs are such.
+ScannedChannel: TypeAlias = "Channel[Any, Any, Scannable]"
 
 
 class Dialect(Protocol):
@@ -181,7 +179,7 @@ class Scanner:
         self._notes = array("q", bytes(8 * layout.NoteRecord.SIZE * MOST_NOTES))
         self._said = array("d", bytes(8 * (axes + 1) * MOST_NOTES))
 
-    def lead(self, channel: Channel) -> range:
+    def lead(self, channel: ScannedChannel) -> range:
         """Work off plain blocks; gives as many numbers as blocks are the interpreter's before the next try.
 
         Where hardly any block is plain, tries become rare.
@@ -190,17 +188,17 @@ class Scanner:
         self._patience = 1 if taken >= WORTHWHILE else min(2 * self._patience, self._most_patience)
         return range(self._patience)
 
-    def run(self, channel: Channel) -> int:
+    def run(self, channel: ScannedChannel) -> int:
         """Work off plain blocks from where the channel stands; gives their number."""
         blocks = channel.blocks
         while self._dialect.ready(channel) and self._some(channel):
             pass
         return channel.blocks - blocks
 
-    def _some(self, channel: Channel) -> bool:
+    def _some(self, channel: ScannedChannel) -> bool:
         """One call of the kernel; true if it may be called again at once."""
         level, window, at = channel.level, self._window, self._state.scan
-        code = _scannable(level)
+        code = level.code
         lines = code.program.lines
         line = code.line_of_step(level.index)
         if not window.stand_at(lines, line, code.scannable_to(line)):
@@ -228,7 +226,7 @@ class Scanner:
 
     # ---- state ---------------------------------------------------------------------------------------------
 
-    def _put_state(self, channel: Channel) -> None:
+    def _put_state(self, channel: ScannedChannel) -> None:
         """Where the channel stands, as the kernel reads it."""
         dialect, state, at = self._dialect, self._state, self._state.scan
         generation = dialect.generation(channel)
@@ -263,11 +261,11 @@ class Scanner:
         _put(state.low, [low for low, _ in limits])
         _put(state.high, [high for _, high in limits])
 
-    def _take_rows(self, channel: Channel) -> None:
+    def _take_rows(self, channel: ScannedChannel) -> None:
         """Rows into the chunk; where a block has left a note, its steps act between them, as they would have there."""
         state, axes = self._state, self._axes
         channel.toolpath.chunk.add_curves(state.scan.curves, self._columns[-1])
-        code = _scannable(channel.level)
+        code = channel.level.code
         taken = 0
         for i in range(state.scan.notes):
             rows, line, rule = self._notes[layout.NoteRecord.SIZE * i : layout.NoteRecord.SIZE * (i + 1)]

@@ -10,7 +10,7 @@ import re
 from array import array
 from bisect import bisect_left
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from polycnc.channel.snapshot import unchanging
 from polycnc.channel.steps import forget_steps, kept_steps
@@ -33,7 +33,7 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
-    from polycnc.language.sinumerik.interface import LanguageControl, LanguageMemory
+    from polycnc.language.sinumerik.interface import LanguageControl, LanguageMemory, NcChannel
     from polycnc.program import Program
 
 _DEFINITION = re.compile(r"[ \t]*(?:DEF|REDEF|DEFINE|PROC|EXTERN)\b", re.IGNORECASE)
@@ -79,6 +79,11 @@ class SinumerikProgram:
         self._joins: dict[int, set[int]] = {}
         self._shapes = Shapes()
 
+    @property
+    def whole(self) -> SinumerikProgram:
+        """The program itself: only a section is a part of one."""
+        return self
+
     # ---- steps ---------------------------------------------------------------------------------------------
 
     def __len__(self) -> int:
@@ -91,6 +96,10 @@ class SinumerikProgram:
     def single_step(self, index: int) -> Step | None:
         """The step of one block alone, never joined with others; None behind the last one."""
         return self._singles.get(index) or self.step(index)
+
+    def counts(self, _index: int) -> bool:
+        """Every step is a block for stages that look ahead."""
+        return True
 
     def line_of_step(self, index: int) -> int:
         """Index of a step's line in the program's text; that behind the last line for no step."""
@@ -223,14 +232,14 @@ class SinumerikProgram:
 
     # ---- names ---------------------------------------------------------------------------------------------
 
-    def scope_of(self, channel: Channel) -> Scope:
+    def scope_of(self, channel: NcChannel) -> Scope:
         """What names mean in this program."""
         if self._scope is None:
             memory: LanguageMemory = channel.memory.language
             main = None
-            whole: Any = getattr(channel.stack[0].code, "whole", channel.stack[0].code)
-            if memory.main_variables_everywhere and whole is not self and isinstance(whole, SinumerikProgram):
-                main = whole.scope_of(channel)
+            main_program = channel.stack[0].code.whole
+            if memory.main_variables_everywhere and main_program is not self:
+                main = main_program.scope_of(channel)
             self._scope = Scope(memory, self.control, main)
             if not self.is_definition_file:
                 own = memory.directory_levels.get(self.program.directory, rights.LOWEST)

@@ -3,17 +3,38 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+
+from polycnc.channel.stack import Executable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from polycnc.channel.channel import Channel
     from polycnc.language.expressions.shapes import Shapes
+    from polycnc.language.sinumerik.executable import SinumerikProgram
     from polycnc.language.sinumerik.names.initialisation import FirstValues
     from polycnc.language.sinumerik.names.values import Axis, Type
     from polycnc.language.sinumerik.names.variables import Variable
     from polycnc.language.sinumerik.words import Block
+
+
+class NcExecutable(Executable, Protocol):
+    """What runs on a level: a program, a section of one, or a cycle of the control."""
+
+    @property
+    def whole(self) -> SinumerikProgram:
+        """The program whose names and labels hold: of a section the program that it stands in."""
+
+    def text(self, index: int) -> str:
+        """The line of a step; empty where it has none."""
+
+    def word_columns(self, channel: Channel, position: int) -> int:
+        """The column of a word of the running block."""
+
+
+#: A channel whose programs are such.
+NcChannel: TypeAlias = "Channel[Any, Any, NcExecutable]"
 
 
 class SystemVariable(Protocol):

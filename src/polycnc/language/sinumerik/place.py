@@ -10,16 +10,14 @@ from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.language.sinumerik.interface import NcChannel
 
 
-def fail(error: Exception, channel: Channel) -> NoReturn:
+def fail(error: Exception, channel: NcChannel) -> NoReturn:
     """Raise what a block ran into as the control's alarm, at its place."""
     alarm = error if isinstance(error, AlarmError) else arithmetic()
-    code = channel.level.code
     if isinstance(alarm, WordAlarm) and not alarm.column:
-        columns = getattr(code, "word_columns", None)
-        if columns is not None:
-            alarm.column = columns(channel, alarm.position)
+        alarm.column = channel.level.code.word_columns(channel, alarm.position)
     hide_levels(alarm, channel)
     raise alarm from None
 

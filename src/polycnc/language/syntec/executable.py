@@ -66,6 +66,10 @@ class MacroProgram:
         text = self.program.lines[self.line(index) - self.program.first_line].upper()
         return text.find(address) + 1 if address else 0
 
+    def counts(self, _index: int) -> bool:
+        """Every step is a block for stages that look ahead."""
+        return True
+
     def line_of_step(self, index: int) -> int:
         """Index of a step's line in the program's text; that behind the last line for no step."""
         lines = self._layout.lines

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from copy import copy
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Protocol, cast
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from polycnc.channel.stack import Executable
 from polycnc.language.syntec.values import Text, Vacant, is_true, storable, whole
@@ -205,18 +205,17 @@ class NumberedProgram(Executable, Protocol):
         """The first step of a line of the file, or of the next line that has one."""
 
 
-def numbered(code: Executable) -> NumberedProgram:
-    """A program of the control."""
-    return cast("NumberedProgram", code)
+#: A channel whose programs are such.
+NumberedChannel: TypeAlias = "Channel[Any, Any, NumberedProgram]"
 
 
 def goto(target: Evaluate) -> Step:
     """`GOTO e`: to a sequence number of the same file."""
 
-    def go(channel: Channel) -> None:
+    def go(channel: NumberedChannel) -> None:
         number = whole(target(channel), NO_SEQUENCE)
         level = channel.level
-        level.index = numbered(level.code).find_sequence(number, level.current)
+        level.index = level.code.find_sequence(number, level.current)
 
     return go
 

@@ -8,5 +8,6 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.fanuc.lathe.control import FanucTurning
     from polycnc.control.fanuc.lathe.memory import TurningMemory
+    from polycnc.language.word_address import WordAddressProgram
 
-LatheChannel: TypeAlias = "Channel[FanucTurning, TurningMemory]"
+LatheChannel: TypeAlias = "Channel[FanucTurning, TurningMemory, WordAddressProgram]"

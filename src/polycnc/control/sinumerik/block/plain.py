@@ -7,7 +7,7 @@ does (`language.bulk.declare`): the motion functions and dimensions of its head,
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block.positions import AxisTerm, Dimension
 from polycnc.control.sinumerik.limits.working_area import MACHINE, Ranges
@@ -96,7 +96,7 @@ class SinumerikPlainBlocks:
 
     def ready(self, channel: SinumerikChannel) -> bool:
         """Nothing watches single blocks, holds moves back or follows a block, and the program has been opened."""
-        c, code = channel.coordinates, channel.level.code
+        c = channel.coordinates
         return (
             channel.path.head is None
             and not channel.single_block
@@ -104,20 +104,19 @@ class SinumerikPlainBlocks:
             and c.direct
             and c.transformation is None
             and channel.memory.language.modal_call is None
-            and getattr(code, "is_open", False)
+            and channel.level.code.whole.is_open
         )
 
     def generation(self, channel: SinumerikChannel) -> Hashable:
         """Changes when plans are forgotten, with names that a program gives a meaning, and with conditions."""
-        code: Any = channel.level.code
-        language, scope = channel.memory.language, code.scope_of(channel)
+        language, scope = channel.memory.language, channel.level.code.whole.scope_of(channel)
         macros = len(language.macros), len(scope.macros)
         names = macros, len(scope.variables), len(language.global_variables)
         return channel.modes.generation, names, self._conditions.hold(channel)
 
     def state(self, channel: SinumerikChannel) -> tuple[Mode, object]:
         """The modal state in the running program."""
-        return channel.mode, channel.level.code
+        return channel.mode, channel.level.code.whole
 
     def enter(self, channel: SinumerikChannel, state: tuple[Mode, object]) -> None:
         """Another modal state."""
@@ -157,7 +156,7 @@ class SinumerikPlainBlocks:
 
     def recipe(self, channel: SinumerikChannel, keys: Sequence[int], _line: str) -> Recipe | None:
         """What the plan of a shape does, if all of it can be told."""
-        code: Any = channel.level.code
+        code = channel.level.code.whole
         try:
             block = _block(code, channel, keys)
             if block is None:

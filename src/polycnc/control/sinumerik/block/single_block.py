@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.state import Lifetime, State
@@ -18,6 +18,7 @@ from polycnc.channel.waits import Wait, Why
 if TYPE_CHECKING:
     from polycnc.channel.stack import Level
     from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.language.sinumerik.interface import NcExecutable
 
 #: MD10702 bit 1: interrupt routines of the user run through, until SBLON.
 IGNORE_ROUTINES = 1 << 1
@@ -57,7 +58,7 @@ def _runs_through(channel: SinumerikChannel) -> bool:
     return any(level.kind is LevelKind.INTERRUPT for level in channel.stack)
 
 
-def halts(channel: SinumerikChannel, level: Level) -> bool:
+def halts(channel: SinumerikChannel, level: Level[NcExecutable]) -> bool:
     """Whether single block halts behind the block that a level has just run."""
     block = RunningBlock.of(channel)
     acted, block.acted = block.acted, False
@@ -71,6 +72,5 @@ def halts(channel: SinumerikChannel, level: Level) -> bool:
         return False
     if kind not in ("SBL2", "SBL3"):
         return acted
-    code: Any = getattr(level.code, "whole", level.code)
     ignores = channel.memory.data.integer("$MN_IGNORE_SINGLEBLOCK_MASK") & IGNORE_SBLON
-    return not (ignores and _SBLON.search(code.text(level.current)))
+    return not (ignores and _SBLON.search(level.code.text(level.current)))

@@ -25,6 +25,7 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
     from polycnc.control.sinumerik.cycles.table import Cycle
     from polycnc.control.sinumerik.family import SinumerikChannel
@@ -46,6 +47,7 @@ class CycleProgram:
     def __init__(self, channel: SinumerikChannel, cycle: Cycle, arguments: Arguments, column: int) -> None:
         caller = channel.level
         self.program = caller.code.program
+        self.whole = caller.code.whole
         self.steps: Sequence[Step | None] = ()
         self._line = channel.line
         self._column = column
@@ -63,6 +65,14 @@ class CycleProgram:
         return self._line
 
     def column(self, index: int, address: str) -> int:  # noqa: ARG002 - there is no text
+        """The column of the call."""
+        return self._column
+
+    def counts(self, index: int) -> bool:  # noqa: ARG002 - all are blocks
+        """Every step is a block for stages that look ahead."""
+        return True
+
+    def word_columns(self, channel: Channel, position: int) -> int:  # noqa: ARG002 - there is no text
         """The column of the call."""
         return self._column
 

@@ -77,8 +77,7 @@ def _main_program(channel: SinumerikChannel) -> Iterator[SinumerikProgram]:
     """While it lasts, names and local variables are those of the main program."""
     running = channel.level
     channel.level = channel.stack[0]
-    code: Any = channel.level.code
     try:
-        yield getattr(code, "whole", code)
+        yield channel.level.code.whole
     finally:
         channel.level = running

@@ -17,7 +17,6 @@ from polycnc.control.syntec.macros.variables import INDEXED_LETTERS, Locals
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b.macro_calls import enter_macro
 from polycnc.language.syntec.blocks import FORMS
-from polycnc.language.syntec.layout import numbered
 from polycnc.language.syntec.values import Text, Value
 from polycnc.language.word_address import WordBlock
 
@@ -285,7 +284,7 @@ def enter_shared(
 ) -> None:
     """Put a program on the stack that works on the caller's local variables."""
     channel.control.check_nesting(channel, kind)
-    code = numbered(channel.executable(program))
+    code = channel.executable(program)
     index = 0 if sequence is None else code.find_sequence(sequence)
     channel.push(program, kind=kind, repeats=count - 1, index=index, local=channel.level.locals)
 
@@ -334,9 +333,9 @@ def return_from_program(channel: SyntecChannel, words: Words) -> None:
     leave_program(channel, jumps=sequence is not None or line is not None)
     level = channel.level
     if sequence is not None:
-        level.index = numbered(level.code).find_sequence(sequence)
+        level.index = level.code.find_sequence(sequence)
     elif line is not None:
-        level.index = numbered(level.code).find_line(line)
+        level.index = level.code.find_line(line)
     if is_main:
         channel.begin_again()
 

@@ -25,7 +25,6 @@ from polycnc.control.syntec.parameters import WORK_SYSTEMS
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL, ToolOffsets
 from polycnc.geometry.units import INCH_MM
-from polycnc.language.syntec.layout import numbered
 from polycnc.language.syntec.values import VACANT, Value, number, to_long, whole
 from polycnc.messages import AlarmError
 
@@ -77,7 +76,7 @@ def _work_system(memory: SyntecMemory, _offset: int) -> Value:
 def _sequence(memory: SyntecMemory, _offset: int) -> Value:
     """#1042: the last N number at or before the running block."""
     level = memory.channel.level
-    return numbered(level.code).sequence_at(level.current)
+    return level.code.sequence_at(level.current)
 
 
 def _line(memory: SyntecMemory, _offset: int) -> Value:

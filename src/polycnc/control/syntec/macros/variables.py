@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from typing import Self
 
+    from polycnc.channel.stack import Level
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.syntec.memory import SyntecMemory
 
@@ -108,6 +109,11 @@ class LocalState(State, lifetime=Lifetime.RESET):
     """#1 to #400 of the main program."""
 
     main: dict[int, Value] = field(default_factory=dict)
+
+
+def locals_of(level: Level) -> dict[int, Value]:
+    """#1 to #400 of a level; vacant ones where it has none."""
+    return level.locals if isinstance(level.locals, dict) else {}
 
 
 @dataclass(slots=True)

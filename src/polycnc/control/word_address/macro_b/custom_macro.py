@@ -9,7 +9,7 @@ from polycnc.control.word_address.auxiliary import overrides
 from polycnc.control.word_address.block.numbers import NumberRules
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.macro_b import code_calls, interruption, macro_calls
-from polycnc.control.word_address.macro_b.subprograms import sequences_of
+from polycnc.control.word_address.macro_b.variables import locals_of
 from polycnc.control.word_address.transformations.normal_line import NormalLineParameters
 from polycnc.language.word_address.executable import SkippedBlock
 from polycnc.messages import AlarmError
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
     from polycnc.geometry.arcs import Point
+    from polycnc.language.word_address import WordAddressProgram
     from polycnc.program import Program
     from polycnc.toolpath import Context
 
@@ -143,7 +144,7 @@ class CustomMacroControl(WordAddressControl):
     def leave(self, channel: Channel, *, jumps: bool = False) -> None:
         """End of a subprogram or macro: the caller's local variables return; `jumps` for M99 P."""
         ended = channel.pop()
-        channel.memory.locals = channel.level.locals
+        channel.memory.locals = locals_of(channel.level)
         macro_calls.note_level(channel)
         if ended.kind is LevelKind.INTERRUPT:
             interruption.finish(channel, jumps=jumps)
@@ -157,7 +158,7 @@ class CustomMacroControl(WordAddressControl):
         """A main program begins: it has the local variables."""
         channel.level.locals = channel.memory.locals
 
-    def halts(self, channel: Channel, level: Level, step: ProgramStep) -> bool:
+    def halts(self, channel: Channel, level: Level[WordAddressProgram], step: ProgramStep) -> bool:
         """Single block halts behind blocks of words, and with 6000#5 behind macro statements; never under #3003 bit 0.
 
         Calls and returns do not count, and no block that block skip leaves out; the program end does.
@@ -171,7 +172,7 @@ class CustomMacroControl(WordAddressControl):
             return False
         if not level.counts(level.current):
             return bool(memory.parameters.bit(6000, 5) or memory.parameters.bit(6000, 7))
-        return sequences_of(level).has_words(level.current)
+        return level.code.has_words(level.current)
 
     def context(self, channel: Channel) -> Context:
         """The context that holds now, with what the operator's switches may do."""

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
-from polycnc.control.word_address.macro_b.subprograms import sequences_of
 from polycnc.control.word_address.memory import ParameterTable
 from polycnc.machine.setup.values import ParameterKey
 
@@ -46,7 +45,7 @@ def plan_parameter_block(builder: Builder, plan: Plan) -> Step | None:
     def act(channel: MacroChannel, values: list[float]) -> None:
         words = Words(plan, values)
         level = channel.level
-        number, value = sequences_of(level).sequence(level.current), words.typed("R")
+        number, value = level.code.sequence(level.current), words.typed("R")
         axis = words.integer("P") if "P" in words else None
         bit = words.integer("Q") if "Q" in words else None
         if not number or value is None:

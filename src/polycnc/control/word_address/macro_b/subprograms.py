@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 
 if TYPE_CHECKING:
-    from polycnc.channel.stack import Level
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel
-    from polycnc.language.word_address import WordAddressProgram
     from polycnc.program import Program
 
 #: Five and more digits of P hold the number of repeats in front of a four-digit program number.
@@ -76,12 +74,7 @@ def enter_subprogram(
     local = channel.level.locals
     level = channel.push(program, kind=kind, repeats=repeats - 1, local=local)
     if sequence is not None:
-        level.index = level.entry = sequences_of(level).find_sequence(sequence, -1, "no_return_sequence")
-
-
-def sequences_of(level: Level) -> WordAddressProgram:
-    """The program of a level as what knows sequence numbers: on these controls every program does."""
-    return cast("WordAddressProgram", level.code)
+        level.index = level.entry = level.code.find_sequence(sequence, -1, "no_return_sequence")
 
 
 def _program_and_repeats(channel: MacroChannel, words: Words) -> tuple[int | None, int]:
@@ -102,9 +95,7 @@ def return_from_subprogram(channel: MacroChannel, words: Words) -> None:
     sequence = words.integer("P") if "P" in words else None
     if len(channel.stack) == 1:
         level.index = (
-            0
-            if sequence is None
-            else sequences_of(level).find_sequence(sequence, level.current, "no_return_sequence")
+            0 if sequence is None else level.code.find_sequence(sequence, level.current, "no_return_sequence")
         )
         level.data.clear()
         channel.begin_again()
@@ -120,4 +111,4 @@ def return_from_subprogram(channel: MacroChannel, words: Words) -> None:
     channel.control.leave(channel, jumps=sequence is not None)
     if sequence is not None:
         caller = channel.level
-        caller.index = sequences_of(caller).find_sequence(sequence, caller.current, "no_return_sequence")
+        caller.index = caller.code.find_sequence(sequence, caller.current, "no_return_sequence")

@@ -22,6 +22,7 @@ from polycnc.toolpath.events import Print
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from polycnc.channel.stack import Level
     from polycnc.control.word_address.family import MacroChannel
     from polycnc.messages import AlarmError
 
@@ -81,6 +82,11 @@ class LocalState(State, lifetime=Lifetime.RESET):
     """#1 to #33 of the main program (index 0 is #0, vacant)."""
 
     main: list[float | None] = field(default_factory=lambda: [None] * LOCALS)
+
+
+def locals_of(level: Level) -> list[float | None]:
+    """#1 to #33 of a level; vacant ones where it has none."""
+    return level.locals if isinstance(level.locals, list) else [None] * LOCALS
 
 
 @dataclass(slots=True)

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Level
+    from polycnc.language.sinumerik.interface import NcChannel, NcExecutable
 
 
 class LevelVariable(NamedTuple):
@@ -43,7 +44,7 @@ def _given(channel: Channel, indices: tuple[Any, ...]) -> bool:
     return bool(given[indices[0] - 1])
 
 
-def _level(channel: Channel, indices: tuple[Any, ...]) -> Level:
+def _level(channel: NcChannel, indices: tuple[Any, ...]) -> Level[NcExecutable]:
     number = indices[0] if indices else len(channel.stack) - 1
     if not 0 <= number < len(channel.stack):
         raise AlarmError("17020", text="$P_PROG", index=number)
@@ -58,7 +59,7 @@ def _directory(channel: Channel, indices: tuple[Any, ...]) -> str:
     return _level(channel, indices).code.program.directory
 
 
-def _path(channel: Channel, _: tuple[Any, ...]) -> str:
+def _path(channel: NcChannel, _: tuple[Any, ...]) -> str:
     return channel.level.code.program.directory + "/"
 
 

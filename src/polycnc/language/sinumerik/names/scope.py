@@ -20,6 +20,7 @@ from polycnc.language.sinumerik.names.places import (
 )
 from polycnc.language.sinumerik.names.rights import LOWEST
 from polycnc.language.sinumerik.names.values import Type
+from polycnc.language.sinumerik.names.variables import locals_of
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -143,7 +144,7 @@ class Scope:
         if variable.store is not None:
             return variable.store[0]
         level = channel.level if self.variables.get(variable.name) is variable else channel.stack[0]
-        return level.locals[variable.slot]
+        return locals_of(level)[variable.slot]
 
     def word_operand(self, reader: ExpressionReader, token: Token) -> Expr:
         """A letter with a number as an operand: an R parameter, or an axis or spindle name."""

@@ -100,11 +100,16 @@ class Reference:
         self.store[self.key] = self.variable.checked(value)
 
 
+def locals_of(level: Level) -> list[Any]:
+    """The local variables of a level, each in its slot; a new list where it has none yet."""
+    if not isinstance(level.locals, list):
+        level.locals = []
+    return level.locals
+
+
 def define(level: Level, slot: int, value: Any) -> None:
     """Give a local variable of the running level its first value."""
-    local = level.locals
-    if local is None:
-        local = level.locals = []
+    local = locals_of(level)
     if slot < len(local):
         local[slot] = value
     else:

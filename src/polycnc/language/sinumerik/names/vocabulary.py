@@ -12,6 +12,7 @@ from polycnc.program.names import CYCLE_DIRS
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.language.sinumerik.interface import NcChannel
     from polycnc.language.sinumerik.names.scope import Scope
 
 #: Results of STRINGIS.
@@ -123,8 +124,7 @@ def is_variable(scope: Scope, text: str) -> bool:
     )
 
 
-def name_function(channel: Channel, name: str, args: tuple[Any, ...]) -> int | bool:
+def name_function(channel: NcChannel, name: str, args: tuple[Any, ...]) -> int | bool:
     """The value of STRINGIS or ISVAR where the channel stands."""
-    code: Any = getattr(channel.level.code, "whole", channel.level.code)
-    scope = code.scope_of(channel)
+    scope = channel.level.code.whole.scope_of(channel)
     return string_is(channel, scope, args[0]) if name == "STRINGIS" else is_variable(scope, args[0])

@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Level
     from polycnc.language.sinumerik.blocks import BlockCompiler
-    from polycnc.language.sinumerik.executable import SinumerikProgram
-    from polycnc.language.sinumerik.interface import LanguageMemory
+    from polycnc.language.sinumerik.interface import LanguageMemory, NcChannel
     from polycnc.language.sinumerik.lexer import Token
     from polycnc.language.sinumerik.names.variables import Variable
     from polycnc.language.sinumerik.statements.definitions import Header
@@ -62,9 +61,8 @@ def named_program(channel: Channel, name: str) -> Program:
     return program
 
 
-def _header(channel: Channel, program: Program) -> Header:
-    code: SinumerikProgram = channel.executable(program)  # type: ignore[assignment]
-    return code.header(channel)
+def _header(channel: NcChannel, program: Program) -> Header:
+    return channel.executable(program).whole.header(channel)
 
 
 # ---- calls -------------------------------------------------------------------------------------------------
@@ -244,10 +242,10 @@ def call_without_arguments(
     call_program(channel, program, header.arguments_left_out(), (False,) * len(header.parameters), 1, kind)
 
 
-def call_section(channel: Channel, name: str, start: str, end: str) -> None:
+def call_section(channel: NcChannel, name: str, start: str, end: str) -> None:
     """CALL … BLOCK: run a program from one label to another; alarm 14082 if one is missing."""
     program = named_program(channel, name) if name else channel.level.code.program
-    code: SinumerikProgram = channel.executable(program)  # type: ignore[assignment]
+    code = channel.executable(program).whole
     first = code.find_label(start, 0)
     ends = code.section_ends(first, end, 0) if first >= 0 else set()
     if not ends:
@@ -403,7 +401,7 @@ def return_(compiler: BlockCompiler) -> None:
     compiler.emitter.run(quoted("return_to(channel, {0}, {1}, {2}, {3})", *codes))
 
 
-def return_to(channel: Channel, target: str, after: int, levels: int, to_start: bool) -> None:
+def return_to(channel: NcChannel, target: str, after: int, levels: int, to_start: bool) -> None:
     """Return over several levels, and go on at a place of the program there; alarm 14080 if it has none.
 
     A repeated section is a level of its own (1.11).
@@ -416,8 +414,7 @@ def return_to(channel: Channel, target: str, after: int, levels: int, to_start: 
         return
     if target:
         level = channel.level
-        code: Any = getattr(level.code, "whole", level.code)
-        index = code.find_return_target(target, level.current)
+        index = level.code.whole.find_return_target(target, level.current)
         if index < 0:
             raise AlarmError("14080", text=target)
         level.index = index + 1 if after > 0 else index

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
+    from polycnc.language.sinumerik.interface import NcChannel
 
 OK, BAD_PATH, NO_PATH, NO_FILE, WRONG_TYPE, FULL, IN_USE, NO_RIGHT = 0, 1, 2, 3, 4, 10, 11, 13
 NO_LINE, RESULT_TOO_SMALL, RANGE_TOO_LARGE = 21, 22, 23
@@ -172,15 +173,14 @@ def is_file(channel: Channel, name: str) -> bool:
     return True
 
 
-def checksum(channel: Channel, result: Reference, name: str, first: int | None, last: int | None) -> int:
+def checksum(channel: NcChannel, result: Reference, name: str, first: int | None, last: int | None) -> int:
     """CHECKSUM: 16 hexadecimal digits for the content of an array, or of some of its columns.
 
     Returns:
         0, 1 no such variable, 2 no array, 3 first column beyond it, 4 last column beyond it, 5 type, 10 the
         result is too short for it.
     """
-    code: Any = getattr(channel.level.code, "whole", channel.level.code)
-    scope = code.scope_of(channel)
+    scope = channel.level.code.whole.scope_of(channel)
     variable = scope.find(name.strip().upper())
     if variable is None:
         return 1

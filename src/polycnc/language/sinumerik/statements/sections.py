@@ -54,6 +54,14 @@ class Section:
         """The line of a step, from 1."""
         return self.whole.line(index)
 
+    def counts(self, index: int) -> bool:
+        """Whether a step is a block for stages that look ahead."""
+        return self.whole.counts(index)
+
+    def text(self, index: int) -> str:
+        """The line of a step."""
+        return self.whole.text(index)
+
     def column(self, index: int, address: str) -> int:
         """The column of an address in a step."""
         return self.whole.column(index, address)

@@ -33,7 +33,6 @@ from polycnc.control.fanuc.lathe.cycles.strokes import (
 from polycnc.control.fanuc.lathe.motion.threads import CHAMFERS, lead_in_force, refuse_corners, start_angle
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.block.rules import Rule
-from polycnc.control.word_address.macro_b.subprograms import sequences_of
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
 from polycnc.cycles.turning.contour import points, reversal, swapped, swapped_stroke
 from polycnc.cycles.turning.pattern import repeat_pattern as pattern_strokes
@@ -92,7 +91,7 @@ def finish(channel: LatheChannel, words: Words) -> None:
     """G70 P Q: run the shape once as it is written, then back to where the cycle began."""
     _refuse_points(words)
     first, last = _shape_numbers(channel, words)
-    code = sequences_of(channel.level)
+    code = channel.level.code
     begin, end = section_steps(channel, code, first, last)
     level = channel.level
     section = Level(

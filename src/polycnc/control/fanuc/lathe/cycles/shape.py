@@ -24,7 +24,6 @@ from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.offsets import nose_radius, nose_tip
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b import interruption
-from polycnc.control.word_address.macro_b.subprograms import sequences_of
 from polycnc.control.word_address.tools.radius import RadiusState, violation_codes
 from polycnc.cycles.turning.contour import Contour, Piece
 from polycnc.geometry.planes import PLANES
@@ -129,7 +128,7 @@ def section_steps(channel: LatheChannel, code: WordAddressProgram, first: int, l
 def read_shape(channel: LatheChannel, first: int, last: int) -> Shape:
     """Read the blocks from sequence number `first` to `last` of the running program."""
     level = channel.level
-    code = sequences_of(level)
+    code = level.code
     begin, end = section_steps(channel, code, first, last)
     shape, recorder = Shape(start=channel.coordinates.programmed[:], end=end), Recorder()
     state = ShapeState.of(channel)
@@ -151,8 +150,8 @@ def _not_put_back(channel: LatheChannel) -> tuple[object, ...]:
     return (channel.toolpath, *variables, memory.work_offsets, OffsetMemory.of(channel))
 
 
-def _run_blocks(channel: LatheChannel, level: Level, begin: int, end: int) -> None:
-    code = sequences_of(level)
+def _run_blocks(channel: LatheChannel, level: Level[WordAddressProgram], begin: int, end: int) -> None:
+    code = level.code
     level.index = begin
     for _ in range(MAX_SHAPE_BLOCKS):
         index = level.index
