@@ -310,13 +310,16 @@ def test_a_generator_in_flight_is_refused() -> None:
 
 
 def test_a_state_made_since_comes_back_as_the_same_object_as_it_begins() -> None:
-    group: ChannelGroup = group_of("fanuc-m", "O1\nM30\n", MILL)._group  # type: ignore[attr-defined]
+    run = group_of("fanuc-m", "O1\nG0 X1.\nM30\n", MILL)
+    next(run)
+    group: ChannelGroup = run._group  # type: ignore[attr-defined]
     without = Snapshot(group)
+    assert RadiusState not in group.first.states
     state = RadiusState.of(group.first)
     state.number = 3
     with_it = Snapshot(group)
     without.restore()
-    assert RadiusState not in group.first.states
+    assert state.number == 0
     with_it.restore()
     assert RadiusState.of(group.first).number == 3
     without.restore()

@@ -128,7 +128,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self._level: Level[ProgramT_co]
         self.path = Path(self)
         self.memory: MemoryT_co = None  # type: ignore[assignment]  # made by `Control.start`
-        self.states = States()
+        self.states = States(self)
         self.alarms: list[Alarm] = []
         self._finished = False
         self.attention = False

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import plain, plain_states
+from polycnc.channel.state import plain, plain_states, plain_tables
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -64,5 +64,5 @@ def _state(channel: Channel) -> tuple[object, ...]:
     return (
         id(channel.mode), channel.level.index, repr(channel.feed), list(c.position), list(c.programmed),
         list(c.pending), list(c.offsets), repr(c.zero), repr(c.programming),
-        named, plain(memory), plain_states(channel), plain(channel.level.locals),
+        named, plain(memory), plain_states(channel), plain_tables(channel), plain(channel.level.locals),
     )  # fmt: skip

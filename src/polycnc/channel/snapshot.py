@@ -30,7 +30,7 @@ from random import Random
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from polycnc.channel.mode import Mode
-from polycnc.channel.state import States
+from polycnc.channel.state import State, States
 from polycnc.geometry.frames import Frame
 from polycnc.machine.model import Machine
 from polycnc.machine.setup.values import Parameters, Setup
@@ -82,6 +82,7 @@ class Snapshot:
 
     def __init__(self, root: object, beside: Iterable[object] = ()) -> None:
         self._undo: list[Undo] = []
+        self._states: list[tuple[States, frozenset[type[State]]]] = []
         atoms, walkers, undo = _ATOMS, _WALKERS, self._undo
         seen: dict[int, object] = {id(thing): thing for thing in beside}
         ahead: list[object] = [root]
@@ -91,6 +92,8 @@ class Snapshot:
             if cls in atoms or id(thing) in seen:
                 continue
             seen[id(thing)] = thing
+            if isinstance(thing, States):
+                self._states.append((thing, frozenset(thing)))
             walker = walkers.get(cls) or _walker_of(cls)
             if walker is not None:
                 ahead.extend([each for each in walker(thing, undo) if type(each) not in atoms])
@@ -99,6 +102,8 @@ class Snapshot:
         """Put everything back as it was. The snapshot stays good for another time."""
         for undo in self._undo:
             undo()
+        for states, there in self._states:
+            states.begin_anew(there)
 
 
 def _walker_of(cls: type) -> Walker | None:
@@ -138,8 +143,7 @@ def _dict(thing: dict[object, object], undo: list[Undo]) -> Iterable[object]:
     return (*contents.keys(), *contents.values())
 
 
-def _states(thing: States, undo: list[Undo]) -> Iterable[object]:
-    undo.append(partial(thing.put_back, dict(thing)))
+def _states(thing: States, _undo: list[Undo]) -> Iterable[object]:
     return thing.values()
 
 

@@ -106,7 +106,7 @@ class State:
         """The one of a channel."""
         state = channel.states.get(cls)
         if state is None:
-            state = channel.states.make(cls, channel)
+            state = channel.states.make(cls)
         return state  # type: ignore[return-value]  # the key says the class
 
     @classmethod
@@ -116,28 +116,31 @@ class State:
 
 
 class States(dict[type[State], State]):
-    """The states of a channel. One that a snapshot takes away comes back as the same object when it is asked for."""
+    """The states of a channel: one object of a class, made when it is first asked for, and never another one."""
 
-    def __init__(self) -> None:
+    def __init__(self, channel: Channel) -> None:
         super().__init__()
-        self._taken: dict[type[State], State] = {}
+        self._channel = channel
 
-    def make(self, cls: type[State], channel: Channel) -> State:
+    def make(self, cls: type[State]) -> State:
         """The state of a class that there is none of, with its first values."""
-        state = fresh = cls.first(channel)
-        taken = self._taken.pop(cls, None)
-        if taken is not None:
-            for each in fields(fresh):  # type: ignore[arg-type]  # every state is a dataclass
-                setattr(taken, each.name, getattr(fresh, each.name))
-            state = taken
-        self[cls] = state
+        state = self[cls] = cls.first(self._channel)
         return state
 
-    def put_back(self, there: dict[type[State], State]) -> None:
-        """These are the states again; others are taken away."""
-        self._taken = {cls: state for cls, state in {**self._taken, **self}.items() if cls not in there}
-        self.clear()
-        self.update(there)
+    def begin_anew(self, others: frozenset[type[State]]) -> None:
+        """All but `others` begin anew, as the same objects: what was worked out meanwhile may hold them."""
+        channel = self._channel
+        if channel.memory is None:
+            # Before power-on there is nothing that first values could be taken from, so nothing may hold them.
+            channel.modes.forget_plans()
+            for cls in self.keys() - others:
+                del self[cls]
+            return
+        for cls, state in self.items():
+            if cls not in others:
+                fresh = cls.first(channel)
+                for each in fields(fresh):  # type: ignore[arg-type]  # every state is a dataclass
+                    setattr(state, each.name, getattr(fresh, each.name))
 
 
 def lifetimes(cls: type[State]) -> dict[str, Lifetime]:
@@ -178,6 +181,15 @@ def plain_states(channel: Channel) -> dict[str, Any]:
         cls.__qualname__: (plain(state), plain(cls.first(channel))) for cls, state in channel.states.items()
     }
     return {name: now for name, (now, first) in found.items() if now != first}
+
+
+def plain_tables(channel: Channel) -> dict[str, object]:
+    """The tables of retained memory that states of a channel have, as plain values."""
+    return {
+        f"{cls.__qualname__}.{name}": plain(getattr(state, name))
+        for cls, state in channel.states.items()
+        for name in tables(cls)
+    }
 
 
 def plain(value: object) -> object:

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from polycnc.language.expressions.code import Lifted, assigned, attribute, call, dotted, name
+
+if TYPE_CHECKING:
+    from polycnc.channel.steps import Step
 
 #: How many steps are joined at the most.
 MAX_JOINED = 200
@@ -23,3 +28,9 @@ MARK = assigned(attribute(CHANNEL, "mark"), call("len", dotted("channel.toolpath
 def lifted_object(place: int) -> Lifted:
     """An object that the code has as a parameter."""
     return Lifted("o", place)
+
+
+def led_by(first: Step, joined: Step) -> Step:
+    """A joined step that knows its first one: single block operation runs that alone."""
+    joined.__dict__["alone"] = first
+    return joined

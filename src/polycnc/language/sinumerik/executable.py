@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.snapshot import unchanging
 from polycnc.channel.steps import forget_steps, kept_steps
+from polycnc.language.expressions.joined import led_by
 from polycnc.language.sinumerik.blocks import CompiledBlock, compile_block, compile_text, expanded
 from polycnc.language.sinumerik.emitter import Emitter
 from polycnc.language.sinumerik.errors import NcSyntaxError
@@ -188,7 +189,7 @@ class SinumerikProgram:
             # A branch that had never been run when blocks were joined has become alive: join anew.
             del self._joins[join]
             self.steps[join] = None
-        if channel.setup.switches.single_block or channel.setup.switches.interrupts:
+        if channel.setup.switches.interrupts:
             return None
 
         def source(at: int) -> Emitter | None:
@@ -202,9 +203,10 @@ class SinumerikProgram:
 
         joiner = Joiner(source, self.structures, index, self._singles[index])
         step = joiner.step(self.control.shapes)
-        if step is not None:
-            self._joins[index] = joiner.exits
-        return step
+        if step is None:
+            return None
+        self._joins[index] = joiner.exits
+        return led_by(self._singles[index], step)
 
     def run_definitions(self, channel: Channel) -> None:
         """Run the blocks of the definition section for the running level, whose first block is another one."""

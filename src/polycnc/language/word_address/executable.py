@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.snapshot import unchanging
 from polycnc.channel.steps import kept_steps, several
 from polycnc.language.expressions.code import listed
-from polycnc.language.expressions.joined import MAX_JOINED
+from polycnc.language.expressions.joined import MAX_JOINED, led_by
 from polycnc.language.word_address.joining import JOINABLE, join, join_loop
 from polycnc.language.word_address.macro_b import Lifting, Reader, macro_shapes
 from polycnc.language.word_address.statements import KEYWORD, LoopEnd, parse_statement
@@ -70,12 +70,6 @@ def empty_block(_channel: Channel) -> None:
     """The step of a line without a block."""
 
 
-def _led_by(first: Step, joined: Step) -> Step:
-    """A joined step that knows its first one: single block operation runs that alone."""
-    joined.__dict__["alone"] = first
-    return joined
-
-
 @unchanging
 class WordAddressProgram:
     """The steps of one program. A line is a step; a line with several `;` keeps its blocks in one step.
@@ -116,11 +110,11 @@ class WordAddressProgram:
         for i in range(index + 1, min(index + MAX_JOINED, len(self.lines))):
             following = self.compile(self.lines[i], i) if self._reached[i] else None
             if isinstance(following, LoopEnd):
-                return _led_by(first, join_loop(self.grammar.shapes, stretch, i, following))
+                return led_by(first, join_loop(self.grammar.shapes, stretch, i, following))
             if not isinstance(following, JOINABLE):
                 break
             stretch.append((i, following))
-        return _led_by(first, join(self.grammar.shapes, stretch)) if len(stretch) > 1 else first
+        return led_by(first, join(self.grammar.shapes, stretch)) if len(stretch) > 1 else first
 
     def line_of_step(self, index: int) -> int:
         """Index of a step's line in the program's text."""
