@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from importlib.resources import files
 from pathlib import Path
@@ -27,17 +28,13 @@ from polycnc.control.parameters import {names}
 _CLASS = '''
 
 class {prefix}AxisParameters(AxisParameters):
-    """The parameters that every axis has."""
-
-{of_axis}
+    """The parameters that every axis has."""{of_axis}
 
 
 class {prefix}Parameters(ControlParameters["{prefix}AxisParameters"]):
     """The parameters of the control."""
 
-    axis_class = {prefix}AxisParameters
-
-{of_control}
+    axis_class = {prefix}AxisParameters{of_control}
 '''
 #: Width of a comment.
 _WIDTH = 110
@@ -61,21 +58,28 @@ def module_text(file: str, prefix: str) -> str:
 
 
 def _lines(parameters: Iterable[KnownParameter]) -> str:
-    return "\n".join(line for parameter in parameters for line in _attribute(parameter)) or "    pass"
+    """The attributes, behind an empty line where there are any."""
+    found = "\n".join(line for parameter in parameters for line in _attribute(parameter))
+    return f"\n\n{found}" if found else ""
 
 
 def _attribute(parameter: KnownParameter) -> Iterator[str]:
     unit = f" [{parameter.unit}]" if parameter.unit else ""
     comment = f"{parameter.number}: {parameter.texts['en']}{unit}."
     yield from wrap(comment, _WIDTH, initial_indent="    #: ", subsequent_indent="    #: ")
-    number, kind = parameter.key.id, _kind(parameter)
+    number, kind = json.dumps(parameter.key.id), _kind(parameter)
     bit = "" if parameter.key.bit is None else f", {parameter.key.bit}"
-    yield f"    {parameter.name} = {kind}({number!r}{bit}, delivered={_delivered(parameter, kind)})"
+    count = "" if parameter.count == 1 else f", {parameter.count}"
+    yield f"    {parameter.name} = {kind}({number}{bit}{count}, delivered={_delivered(parameter, kind)})"
 
 
 def _kind(parameter: KnownParameter) -> str:
-    """The class of the attribute: a value with a unit is any number, one without is a whole number."""
-    return "Bit" if parameter.key.bit is not None else "Number" if parameter.unit else "Whole"
+    """The class of the attribute."""
+    if parameter.key.bit is not None:
+        return "Bit"
+    if not parameter.whole:
+        return "Number"
+    return "Whole" if parameter.count == 1 else "WholeRun"
 
 
 def _delivered(parameter: KnownParameter, kind: str) -> str:

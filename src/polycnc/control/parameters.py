@@ -42,6 +42,8 @@ class KnownParameter:
         unit: Unit of the value, empty for bits and whole numbers.
         delivered: Value that a control has without a setup; None where it depends on the machine.
         by_axis: Every axis has its own value.
+        whole: The value is a whole number; as a rule one without a unit is.
+        count: How many numbers it takes from `number` on, with a value each.
         read: `by name` as an attribute; `by number` in what several controls share; `not yet` where it is only listed.
     """
 
@@ -52,11 +54,26 @@ class KnownParameter:
     delivered: float | None
     by_axis: bool
     read: str
+    whole: bool
+    count: int = 1
 
     @property
     def key(self) -> ParameterKey:
         """The parameter as setups name it, without an axis."""
         return parameter_key(self.number)
+
+    @property
+    def keys(self) -> tuple[ParameterKey, ...]:
+        """The parameter as setups name it, and those of the numbers behind it that it takes."""
+        first = self.key
+        if isinstance(first.id, str):
+            return (first,)
+        return tuple(first._replace(id=first.id + place) for place in range(self.count))
+
+    @property
+    def numbers(self) -> str:
+        """Its number, or the first and the last one."""
+        return self.number if self.count == 1 else f"{self.number}-{self.keys[-1].id}"
 
     @property
     def mnemonic(self) -> str:
@@ -77,16 +94,18 @@ def load_parameters(name: str) -> tuple[KnownParameter, ...]:
     content = files("polycnc.control").joinpath(name).read_text(encoding="utf-8")
     found = []
     for number, entry in tomllib.loads(content).items():
-        delivered = entry.get("delivered", 0)
+        delivered, unit = entry.get("delivered", 0), entry.get("unit", "")
         found.append(
             KnownParameter(
                 number,
                 entry["name"],
                 {"en": entry["en"], "zh-TW": entry["zh-TW"]},
-                entry.get("unit", ""),
+                unit,
                 None if delivered == MACHINE else delivered,
                 by_axis=entry.get("axis", False),
                 read=entry.get("read", BY_NAME),
+                whole=entry.get("whole", not unit),
+                count=entry.get("count", 1),
             )
         )
     return tuple(found)
@@ -176,6 +195,22 @@ class Number(Parameter[float | D]):
         """The value, else the delivered one. Text and lists count as not given."""
         value = given.get(self.key.id, axis)
         return float(value) if isinstance(value, int | float) else self.delivered
+
+
+class WholeRun(Parameter[tuple[int | D, ...]]):
+    """Whole numbers under numbers that follow each other: one for each axis, or a list."""
+
+    __slots__ = ("_values", "delivered", "numbers")
+
+    def __init__(self, number: int, count: int, *, delivered: D) -> None:
+        super().__init__(number)
+        self.numbers = range(number, number + count)
+        self._values = [Whole(each, delivered=delivered) for each in self.numbers]
+        self.delivered = delivered
+
+    def read(self, given: Parameters, axis: str | None) -> tuple[int | D, ...]:
+        """The value of each number, else the delivered one."""
+        return tuple(value.read(given, axis) for value in self._values)
 
 
 class AxisParameters:

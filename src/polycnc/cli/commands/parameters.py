@@ -37,7 +37,7 @@ def list_parameters(
     values = _values(setup)
     for parameter in known:
         shown = " ".join(_shown(parameter, values))
-        say(f"{parameter.number:9} {shown:12} {_meaning(parameter)}")
+        say(f"{parameter.numbers:9} {shown:12} {_meaning(parameter)}")
     return 0
 
 
@@ -54,13 +54,16 @@ def show_parameter(
         return known
     wanted = number.strip().upper()
     found = [
-        p for p in known if wanted in (p.number, p.number.partition("#")[0], p.number.zfill(len(wanted)))
+        p
+        for p in known
+        if wanted in (p.number, p.number.partition("#")[0], p.number.zfill(len(wanted)))
+        or (p.count > 1 and wanted in {str(key.id) for key in p.keys})
     ]
     if not found:
         return fail(text("parameters.unknown", control=control, number=number), 2)
     values = _values(setup)
     for parameter in found:
-        say(f"{parameter.number} {_meaning(parameter)}")
+        say(f"{parameter.numbers} {_meaning(parameter)}")
         if parameter.delivered is not None:
             say(f"  {text('parameters.delivered')}: {parameter.delivered:g}")
         given = list(_given(parameter, values))
@@ -86,7 +89,7 @@ def set_parameters(
     path = setup or Path("setup.yaml")
     if not edit.is_writable(path):
         return fail(text("data.setup-form", setup=path), 2)
-    names = {parameter.key for parameter in known}
+    names = {key for parameter in known for key in parameter.keys}
     values: dict[str, float] = {}
     for word in assignments:
         name, equals, value = (part.strip() for part in word.partition("="))
@@ -158,9 +161,13 @@ def _shown(parameter: KnownParameter, values: Parameters) -> Iterator[str]:
 
 
 def _given(parameter: KnownParameter, values: Parameters) -> Iterator[str]:
-    """The values that a setup gives, with the axis in front where it names one."""
+    """The values that a setup gives, with the axis in front where it names one, or the number of several."""
     wanted = parameter.key
     for key, value in values.items():
+        if parameter.count > 1:
+            if key in parameter.keys:
+                yield f"{key.id}={value}"
+            continue
         if key.id == wanted.id and key.bit == wanted.bit:
             yield f"{key.axis}={value}" if key.axis else str(value)
         elif key.id == wanted.id and key.bit is None and wanted.bit is not None and isinstance(value, int):

@@ -1,8 +1,8 @@
 """The SYNTEC milling control: what differs from the word-address base, and its macro language.
 
 `control` states what it is, `family` its channel, `codes` has its G and M tables, `builder` reads a block's shape,
-`plain` tells plain blocks to the scanner; `memory`, `parameters`, `alarm_codes`, `cycles` (drilling, hole patterns),
-`spindles`.
+`plain` tells plain blocks to the scanner; `memory`, `parameters`, `units` (least input units), `alarm_codes`,
+`cycles` (drilling, hole patterns), `spindles`.
 
     motion/        moves, arcs, planes, polar plane, skips, smoothing, oscillation
     coordinates/   G52 to G59, G68, G10; length; tool setting

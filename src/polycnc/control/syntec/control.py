@@ -17,14 +17,15 @@ from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.coordinates import systems
 from polycnc.control.syntec.coordinates.systems import TurnState
 from polycnc.control.syntec.five_axes import normal_direction, spatial, tilted, tip_control
-from polycnc.control.syntec.macros import calls, interrupts
+from polycnc.control.syntec.macros import calls, interrupts, machine_parameters
 from polycnc.control.syntec.macros.variables import SpaceState, locals_of
 from polycnc.control.syntec.memory import SyntecMemory
 from polycnc.control.syntec.motion import arcs, moves, oscillation, polar, quiet
 from polycnc.control.syntec.motion.arcs import ArcState
 from polycnc.control.syntec.motion.moves import FeedState
-from polycnc.control.syntec.parameters import decimals, parameter
+from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.syntec.plain import SyntecPlainBlocks
+from polycnc.control.syntec.units import decimals, least_unit
 from polycnc.control.word_address.auxiliary.overrides import in_tapping_mode
 from polycnc.control.word_address.block.numbers import NumberRules
 from polycnc.control.word_address.control import WordAddressControl
@@ -59,10 +60,20 @@ if TYPE_CHECKING:
     from polycnc.toolpath.motion_settings import MotionSettings
 
 
+#: Parameters of the reference points behind the first, by number of the point.
+REFERENCE_POINTS = {
+    2: SyntecParameters.reference_points_2,
+    3: SyntecParameters.reference_points_3,
+    4: SyntecParameters.reference_points_4,
+}
+
+
 class SyntecMill(WordAddressControl):
     """SYNTEC milling controls of the 900M … 220MA-5 family."""
 
     id: ClassVar[str] = "syntec-mill"
+    parameter_file: ClassVar[str] = machine_parameters.FILE
+    parameter_class: ClassVar = SyntecParameters
     alarm_series: ClassVar[Mapping[str, str] | None] = {"MAR": "MACRO"}
     NORMAL_LINE_RULES: ClassVar[normal_line.NormalLineRules] = normal_direction.RULES
     alarm_files: ClassVar[tuple[str, ...]] = ("syntec/alarms.toml", "syntec/alarms_special.toml")
@@ -125,20 +136,20 @@ class SyntecMill(WordAddressControl):
 
     def motion_settings(self, channel: SyntecChannel) -> MotionSettings:
         """Pr411: each axis runs a rapid by itself; Pr405, Pr406, Pr461 on, Pr621 on: speeds in mm/min, 0 for none."""
-        given = channel.setup.parameters
+        given = SyntecParameters.naming(channel.setup.parameters)
 
-        def caps(first: int) -> dict[str, float]:
+        def caps(speeds: tuple[int, ...]) -> dict[str, float]:
             """Caps of the axes that have one, by their names."""
-            numbers = {name: parameter(given, first + axis) for axis, name in enumerate(channel.axes)}
-            return {name: number / 60.0 for name, number in numbers.items() if number > 0}
+            numbers = zip(channel.axes, speeds, strict=False)
+            return {name: number / 60.0 for name, number in numbers if number > 0}
 
         return replace(
             super().motion_settings(channel),
-            rapid_by_axis=parameter(given, 411) == 1,
-            path_feed=(parameter(given, 405) or inf) / 60.0,
-            corner_speed=(parameter(given, 406) or inf) / 60.0,
-            rapid_caps=caps(461),
-            feed_caps=caps(621),
+            rapid_by_axis=given.rapids_by_axis == 1,
+            path_feed=(given.path_feed or inf) / 60.0,
+            corner_speed=(given.corner_feed or inf) / 60.0,
+            rapid_caps=caps(given.rapid_speeds),
+            feed_caps=caps(given.cutting_speeds),
         )
 
     def make_memory(self, channel: SyntecChannel) -> SyntecMemory:
@@ -152,11 +163,11 @@ class SyntecMill(WordAddressControl):
         feed = FeedState.of(channel).mode = channel.mode["feed"]
         if feed == "G95":
             channel.feed = moves.DEFAULT_FEED["G95"]
-        for number in range(3601, 3611):
-            if memory.parameter(number) in calls.NEVER_REGISTERED - {0}:
+        for number, code in zip(SyntecParameters.m_macros.numbers, memory.parameters.m_macros, strict=True):
+            if code in calls.NEVER_REGISTERED - {0}:
                 raise self.fail("registered_m", number=number)
         self.begin(channel)
-        if memory.parameter(3838) == 1:
+        if memory.parameters.travel_2_at_start == 1:
             channel.mode = channel.mode.with_code("stroke", "G22")
 
     def begin(self, channel: SyntecChannel) -> None:
@@ -172,7 +183,7 @@ class SyntecMill(WordAddressControl):
     def start_codes(self, channel: SyntecChannel) -> dict[str, str]:
         """Power-on codes; Pr3836 chooses between G94 and G95."""
         codes = super().start_codes(channel)
-        if parameter(channel.setup.parameters, 3836) == 1:
+        if SyntecParameters.naming(channel.setup.parameters).feed_per_revolution == 1:
             codes["feed"] = "G95"
         return codes
 
@@ -182,9 +193,9 @@ class SyntecMill(WordAddressControl):
         normal_line.end(channel)
         spatial.end(channel)
         polar.leave_plane(channel)
-        if not parameter(channel.setup.parameters, 413):
+        if not channel.memory.parameters.keeps_preset_turn:
             systems.forget_preset_turn(channel.memory)
-        kept = TurnState.of(channel).tilt if parameter(channel.setup.parameters, 3014) else IDENTITY
+        kept = TurnState.of(channel).tilt if channel.memory.parameters.keeps_tilt else IDENTITY
         super().reset(channel)
         tilted.set_tilt(channel, kept)
 
@@ -245,11 +256,11 @@ class SyntecMill(WordAddressControl):
 
     def number_rules(self, channel: SyntecChannel) -> NumberRules:
         """Least input units by Pr17; Pr3241 = 1 makes numbers without a point whole units."""
-        parameters = channel.setup.parameters
+        parameters = SyntecParameters.naming(channel.setup.parameters)
         return NumberRules(
             decimals=decimals(parameters, inch=False),
             decimals_inch=decimals(parameters, inch=True),
-            calculator=parameter(parameters, 3241) == 1,
+            calculator=parameters.whole_units == 1,
             cuts_digits=False,
         )
 
@@ -268,7 +279,7 @@ class SyntecMill(WordAddressControl):
         self, channel: SyntecChannel, address: str, builder: Builder
     ) -> tuple[int, bool] | None:
         """U, V, W are increments of X, Y, Z only with Pr3809 = 1."""
-        if address in self.INCREMENTAL_ADDRESSES and parameter(channel.setup.parameters, 3809) == 1:
+        if address in self.INCREMENTAL_ADDRESSES and channel.memory.parameters.uvw_increments == 1:
             index = channel.axis_index.get(self.INCREMENTAL_ADDRESSES[address])
             return None if index is None else (index, True)
         index = channel.axis_index.get(address)
@@ -278,8 +289,8 @@ class SyntecMill(WordAddressControl):
 
     def arc_tolerance(self, channel: SyntecChannel) -> float:
         """Allowed distance of an arc's end from its circle (Pr3807), mm."""
-        parameters = channel.setup.parameters
-        return parameter(parameters, 3807) * 10.0 ** -decimals(parameters, inch=False)
+        parameters = channel.memory.parameters
+        return parameters.arc_tolerance * least_unit(parameters)
 
     def check_arc(self, channel: SyntecChannel, start: Point, end: Point, center: Point) -> None:
         """COR-006 for an end point that is not on the circle, or an arc without radius."""
@@ -301,16 +312,15 @@ class SyntecMill(WordAddressControl):
         delivered = channel.axis_data[axis].reference_points[number - 1]
         if number == 1:
             return delivered
-        value: Any = channel.setup.parameters.get(2801 + 20 * (number - 2) + axis)
-        if value is None:
-            return delivered
-        return float(value) * 10.0 ** -decimals(channel.setup.parameters, inch=False)
+        parameters = channel.memory.parameters
+        value = parameters.value(REFERENCE_POINTS[number])[axis]
+        return delivered if value is None else value * least_unit(parameters)
 
     # ---- offsets -----------------------------------------------------------------------------------------
 
     def compensation_policy(self, channel: SyntecChannel) -> Policy:
         """Radius compensation; Pr3819 = 1 checks for overcut."""
-        checked = parameter(channel.setup.parameters, 3819) == 1
+        checked = channel.memory.parameters.overcut_check == 1
         return Policy(checks_direction=checked)
 
     # ---- reports -----------------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.syntec.five_axes import spatial
-from polycnc.control.syntec.parameters import decimals, parameter
+from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.cycles.drilling import (
     CycleState,
@@ -66,16 +66,15 @@ class RetractState(State, lifetime=Lifetime.POWER):
 
 def relief(channel: SyntecChannel, code: str) -> float:
     """Pr4002 between drilling pecks; between tapping pecks Pr4004, or out to R where Pr4001 is 0."""
-    parameters = channel.setup.parameters
-    if code in TAPPING and parameter(parameters, 4001) != 1:
-        return 0.0
-    number = 4004 if code in TAPPING else 4002
-    return parameter(parameters, number) * 10.0 ** -decimals(parameters, inch=False)
+    parameters = channel.memory.parameters
+    if code not in TAPPING:
+        return parameters.peck_retract * least_unit(parameters)
+    return parameters.tap_peck_retract * least_unit(parameters) if parameters.tap_fast_pecks == 1 else 0.0
 
 
 def shift_off_wall(channel: SyntecChannel, data: CycleData, plane: tuple[int, int]) -> tuple[float, float]:
     """Q in the direction of Pr4020; G87 shifts against it."""
-    axis, sense = SHIFT_DIRECTIONS.get(parameter(channel.setup.parameters, 4020), (0, 1.0))
+    axis, sense = SHIFT_DIRECTIONS.get(channel.memory.parameters.bore_shift, (0, 1.0))
     if axis not in plane:
         raise AlarmError("COR-023", address="Q", word="Q", hint="hint.syntec.shift-direction")
     amount = abs(data.amount("Q")) * sense
@@ -134,7 +133,7 @@ def _with_cycle_words(builder: Builder, _plan: Plan, step: Step | None) -> Step 
         if retract is not None and code == "G81":
             if values[retract] != int(values[retract]):
                 raise control.fail("retract_feed", address="F2")
-            fast = parameter(channel.setup.parameters, 4008) == 1
+            fast = channel.memory.parameters.fast_drilling == 1
             state.feed = values[retract] * unit if fast else 0.0
         if threads is not None and code in TAPPING and not builder.has("F"):
             _feed_by_threads(channel, values[threads])

@@ -8,7 +8,7 @@ from polycnc.control.syntec.coordinates.systems import DiameterState
 from polycnc.control.syntec.macros import functions
 from polycnc.control.syntec.macros.system_variables import SYSTEM_VARIABLES
 from polycnc.control.syntec.macros.variables import GlobalState, Locals, LocalState, is_local, put
-from polycnc.control.syntec.parameters import decimals, is_diameter, parameter
+from polycnc.control.syntec.units import decimals, least_unit
 from polycnc.control.word_address.memory import Memory
 from polycnc.language.syntec.expressions import NO_SUCH_VARIABLE
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, whole
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.control.syntec.family import SyntecChannel
+    from polycnc.control.syntec.parameters import SyntecParameters
 
 
 class SyntecMemory(Memory):
@@ -29,6 +30,8 @@ class SyntecMemory(Memory):
         globals: `@` variables and R registers.
         functions: The functions of the macro language, by name.
     """
+
+    parameters: SyntecParameters
 
     def __init__(self, channel: SyntecChannel) -> None:
         super().__init__(channel)
@@ -88,16 +91,12 @@ class SyntecMemory(Memory):
     @property
     def least_angle(self) -> float:
         """Least input unit of angles and times (#1602)."""
-        return float(10.0 ** -decimals(self.parameters, inch=False))
-
-    def parameter(self, number: int) -> int:
-        """A machine parameter as a Long."""
-        return parameter(self.parameters, number)
+        return least_unit(self.parameters)
 
     def is_diameter(self, axis: int) -> bool:
         """Whether an axis is programmed in diameters now (Pr281~, G10.9)."""
         switched = DiameterState.of(self.channel).switched.get(axis)
-        return is_diameter(self.parameters, axis) if switched is None else switched
+        return self.parameters.diameter_axes[axis] == 1 if switched is None else switched
 
     # ---- levels ------------------------------------------------------------------------------------------
 

@@ -27,7 +27,7 @@ AXIS_LETTERS = "XYZABCUVW"
 ACTIVE_SPINDLE = 791
 SPINDLES = range(1, 7)
 #: Pr of base and sync spindle of each group K.
-PAIR_PARAMETERS = {1: (4021, 4022), 2: (4023, 4024), 3: (4025, 4026)}
+PAIRS = (1, 2, 3)
 LARGEST_RATIO = 999
 
 
@@ -160,7 +160,7 @@ def _ratio_part(words: Words, address: str) -> int:
 def _group(words: Words) -> int:
     group = words.typed("K")
     group = 1 if group is None else group
-    if group not in PAIR_PARAMETERS:
+    if group not in PAIRS:
         raise words.fail("spindle_group", "K")
     return int(group)
 
@@ -169,7 +169,7 @@ def _couple(channel: SyntecChannel, words: Words, ratio: float, *, adds: bool = 
     state = SpindleState.of(channel)
     memory: SyntecMemory = channel.memory
     group = _group(words)
-    base, sync = (memory.parameter(number) for number in PAIR_PARAMETERS[group])
+    base, sync = memory.parameters.spindle_pairs[2 * group - 2 : 2 * group]
     if base not in SPINDLES:
         raise words.fail("base_spindle")
     if sync not in SPINDLES or sync == base:

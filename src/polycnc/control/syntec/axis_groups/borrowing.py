@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
 
 HOLDERS = "roaming_axes"
-ROAMING, GROUPS = 742, 701
+ROAMING = 1
 WAITS, ALARMS, GOES_ON = 0, 1, 2
 RESULTS = range(27, 401)
 LONGEST_WAIT_S = 9999.999
@@ -38,10 +38,10 @@ class BorrowingState(State, lifetime=Lifetime.POWER):
 
 def roams(channel: SyntecChannel, axis: int) -> bool:
     """Whether an axis belongs to whoever borrows it."""
-    memory = channel.memory
-    if memory.parameter(ROAMING) != 1:
+    parameters = channel.memory.parameters
+    if parameters.shared_axes != ROAMING:
         return False
-    mask = memory.parameter(GROUPS + axis)
+    mask = parameters.axis_groups[axis]
     return mask & (mask - 1) != 0 and bool(mask >> (channel.number - 1) & 1)
 
 

@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from polycnc.program import Program
 
 MEETINGS = "meetings"
-CNC_GROUPS = 731
 
 
 @dataclass(slots=True, eq=False)
@@ -50,7 +49,7 @@ def meet(channel: SyntecChannel, words: Words) -> None:
     existing = {each.number for each in channel.machine.channels}
     if mark is None or mark < 0 or mark != int(mark):
         raise words.fail("meeting_mark", "P" if mark is not None else "G4.1")
-    last = channel.memory.parameter(CNC_GROUPS)
+    last = channel.memory.parameters.cnc_groups
     named = {number for number in existing if number <= last} if last > 0 else existing
     if groups is not None:
         if groups <= 0 or groups != int(groups):

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
 
-AXIS_NAMES, CODES = 321, range(100, 1000)
+CODES = range(100, 1000)
 #: Hundreds of a name code.
 LETTERS = {letter: 100 * (i + 1) for i, letter in enumerate("XYZABCUVW")}
 
@@ -27,9 +27,9 @@ class VirtualAxisState(State, lifetime=Lifetime.POWER):
 
 def name_code(channel: SyntecChannel, axis: int) -> int:
     """The code of an axis: Pr321 on, or what its name stands for."""
-    told: int = channel.memory.parameter(AXIS_NAMES + axis)
     name = channel.axes[axis]
-    return told or LETTERS.get(name[0], 0) + int(name[1:] if name[1:].isdigit() else 0)
+    index = int(name[1:]) if name[1:].isdigit() else 0
+    return channel.memory.parameters.axis_names[axis] or LETTERS.get(name[0], 0) + index
 
 
 def axis_of_code(channel: SyntecChannel, code: float) -> int:

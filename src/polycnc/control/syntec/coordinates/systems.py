@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.state import Lifetime, State, lasting
 from polycnc.control.syntec.axis_groups.names import map_virtual_axis
 from polycnc.control.syntec.five_axes.spatial import choose_corners
-from polycnc.control.syntec.parameters import WORK_SYSTEMS, decimals
+from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.stroke_check import StrokeZone
 from polycnc.control.word_address.coordinates.systems import ZeroState, go_to_reference, refresh_zero
@@ -26,6 +26,12 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.geometry.frames import Frame, Vector
 
+#: Names of the work coordinate systems G54 P1 … P100 in the memory of offsets.
+WORK_SYSTEMS = (
+    *(f"G{number}" for number in range(54, 60)),
+    *(f"G59.{number}" for number in range(1, 10)),
+    *(f"G54 P{number}" for number in range(16, 101)),
+)
 REFERENCE_POINTS = (1, 2, 3, 4)
 MACHINING_CONDITIONS = frozenset({*range(10), 21, 22, 23})
 WORK_OFFSET, SPATIAL_CORNERS, VIRTUAL_AXIS, REGISTER_INPUT = 2, 450, 801, 1000
@@ -78,7 +84,7 @@ def select_work_system(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("number", "P")
     else:
         state.system = WORK_SYSTEMS[int(number) - 1]
-    if memory.parameter(3229) == 1:
+    if memory.parameters.without_work_systems == 1:
         state.system = NO_WORK_SYSTEM
     refresh_zero(channel)
 
@@ -165,10 +171,9 @@ def stroke_limit_on(channel: SyntecChannel, words: Words) -> None:
     memory = channel.memory
     given = {axis: value for axis, value, _ in words.axes()}
     zones: dict[int, tuple[float, float]] = {}
-    unit = 10.0 ** -decimals(memory.parameters, inch=False)
+    unit, travel = least_unit(memory.parameters), memory.parameters.second_travel
     for axis in range(len(channel.axes)):
-        plus = memory.parameter(2501 + 2 * axis) * unit
-        minus = memory.parameter(2502 + 2 * axis) * unit
+        plus, minus = travel[2 * axis] * unit, travel[2 * axis + 1] * unit
         if plus > minus:
             zones[axis] = (minus, plus)
     for letter, axis in zip("IJK", channel.coordinates.geometry, strict=True):
@@ -190,7 +195,7 @@ def set_zone(channel: SyntecChannel, zones: dict[int, tuple[float, float]]) -> N
         channel.stroke_zone = None
         return
     axes = tuple(sorted(zones))
-    inside = channel.memory.parameter(2542) == 1
+    inside = channel.memory.parameters.travel_2_inside == 1
     lows, highs = tuple(zones[a][0] for a in axes), tuple(zones[a][1] for a in axes)
     channel.stroke_zone = StrokeZone(lows, highs, axes, inside)
 

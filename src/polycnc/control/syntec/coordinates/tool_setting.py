@@ -5,7 +5,9 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec.parameters import WORK_SYSTEMS, decimals
+from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS
+from polycnc.control.syntec.parameters import SyntecParameters
+from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL
@@ -20,8 +22,8 @@ if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
 
-#: Parameters that stand in for words: distance R, tolerance D, feed F, reference point P, place Z.
-DISTANCE, TOLERANCE, FEED, REFERENCE, PLACE = 4055, 4056, 4057, 4058, 4059
+#: Parameters that stand in for length words.
+STAND_INS = {"R": SyntecParameters.setting_distance, "D": SyntecParameters.setting_tolerance}
 REFERENCES = (1, 2, 3, 4)
 BLOW_ON, BLOW_OFF = 90, 91
 BACK_MM, SECOND_FEED_MM_S = 3.0, 50.0 / 60.0
@@ -39,7 +41,7 @@ def measure_length(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("setting_start", "Z")
     if not state.number:
         raise words.fail("setting_without_length", "G37")
-    distance, tolerance = _length(channel, words, "R", DISTANCE), _length(channel, words, "D", TOLERANCE)
+    distance, tolerance = _length(channel, words, "R"), _length(channel, words, "D")
     feed = _feed(channel, words)
     _go_to_reference(channel, words)
     _to(channel, Kind.RAPID, place + distance, nan)
@@ -89,12 +91,13 @@ def _measure_twice(channel: SyntecChannel, words: Words) -> float:
     """Over the sensor, blow it clean, probe, back, probe slowly, up again; gives the machine position of the signal."""
     c = channel.coordinates
     z = c.geometry[2]
-    unit = 10.0 ** -decimals(channel.memory.parameters, inch=False)
+    parameters = channel.memory.parameters
     place = next(
-        (value for axis, value, _ in words.axes() if axis == z), channel.memory.parameter(PLACE) * unit
+        (value for axis, value, _ in words.axes() if axis == z),
+        parameters.setting_place * least_unit(parameters),
     )
     safe = words.length("Q") or 0.0
-    distance, feed = _length(channel, words, "R", DISTANCE), _feed(channel, words)
+    distance, feed = _length(channel, words, "R"), _feed(channel, words)
     _to_machine(channel, safe)
     _go_to_reference(channel, words)
     channel.event(Auxiliary(BLOW_ON))
@@ -112,21 +115,20 @@ def _measure_twice(channel: SyntecChannel, words: Words) -> float:
     return machine
 
 
-def _length(channel: SyntecChannel, words: Words, address: str, number: int) -> float:
+def _length(channel: SyntecChannel, words: Words, address: str) -> float:
     """A length word, or the parameter that stands in for it (least units), mm."""
     value = words.length(address)
     if value is not None:
         return value
-    least: int = channel.memory.parameter(number)
-    return least * float(10.0 ** -decimals(channel.memory.parameters, inch=False))
+    parameters = channel.memory.parameters
+    return parameters.value(STAND_INS[address]) * least_unit(parameters)
 
 
 def _feed(channel: SyntecChannel, words: Words) -> float:
     """F of the block, of Pr4057, or the one in force, mm/s."""
     value = words.typed("F")
     if value is None:
-        told: float = channel.memory.parameter(FEED) / 60.0
-        return told or channel.feed
+        return channel.memory.parameters.setting_feed / 60.0 or channel.feed
     return value * (INCH_MM if words.plan.inch else 1.0) / 60.0
 
 
@@ -134,7 +136,7 @@ def _go_to_reference(channel: SyntecChannel, words: Words) -> None:
     """X and Y to the reference point that P or Pr4058 names; nowhere without one."""
     c = channel.coordinates
     number = words.typed("P")
-    number = channel.memory.parameter(REFERENCE) if number is None else number
+    number = channel.memory.parameters.setting_reference if number is None else number
     if number not in REFERENCES:
         return
     machine = c.machine

@@ -10,7 +10,7 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.systems import TurnState, renew_preset_frame
-from polycnc.control.syntec.parameters import decimals
+from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 SHORTEST = 0
 #: Sense of the first rotary axis by P: the shortest way, up, down.
 SENSES: dict[float | None, int] = {SHORTEST: 0, 1: 1, 2: -1}
-#: Pr3009, Pr3010: travel of the first rotary axis from and to; Pr3011, Pr3012 of the second one.
-TRAVEL = 3009
 Angles = dict[str, float]
 
 
@@ -144,10 +142,10 @@ def _angles(channel: SyntecChannel, words: Words, code: str) -> Angles:
 
 def _reachable(channel: SyntecChannel, names: list[str], near: Angles, solution: Angles) -> bool:
     """Whether the angles and the way to them lie within the travel of the rotary axes."""
-    unit = 10.0 ** -decimals(channel.memory.parameters, inch=False)
+    parameters = channel.memory.parameters
+    unit, travel = least_unit(parameters), parameters.rotary_travel
     for i, name in enumerate(names[:2]):
-        low = channel.memory.parameter(TRAVEL + 2 * i) * unit
-        high = channel.memory.parameter(TRAVEL + 2 * i + 1) * unit
+        low, high = travel[2 * i] * unit, travel[2 * i + 1] * unit
         if low != high and not all(
             choice.is_within(angle, low, high) for angle in (solution[name], near[name])
         ):

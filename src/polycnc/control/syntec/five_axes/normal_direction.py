@@ -10,7 +10,6 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.systems import TurnState
-from polycnc.control.syntec.parameters import has_option
 from polycnc.control.word_address.transformations.normal_line import GROUP, LEFT, NormalLineRules, end
 from polycnc.control.word_address.transformations.normal_stage import Direction, NormalStage
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
@@ -21,9 +20,8 @@ if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
 
-OPTION = 59
-AXIS, DIRECTION, POSITION, NOSE, SHORTEST, LONGEST = 5801, 5802, 5803, (5804, 5805, 5806), 5809, 5810
-AXIS_TYPE, ROTARY_TYPES = 221, (2, 5)
+#: Types of axes (Pr221 on) that may follow the cuts.
+ROTARY_TYPES = (2, 5)
 #: Ranges of E and R in the program's unit.
 SHORTEST_RANGE, LONGEST_RANGE = (0.001, 10.0), (0.001, 999_999.0)
 #: Control plane of an axis along X, Y or Z, and the angle of the shape vector from its first axis at machine zero.
@@ -46,7 +44,7 @@ def start(channel: SyntecChannel, words: Words) -> None:
     """G41.1, G42.1 [Q] [P] [E] [R]: from here on the axis follows the cuts."""
     memory, mode = channel.memory, channel.mode
     code = mode[GROUP]
-    if not has_option(memory.parameters, OPTION) or channel.number != 1:
+    if not memory.parameters.option_normal_direction or channel.number != 1:
         raise words.fail("option", code)
     if mode["compensation"] != "G40" or mode["length"] in ("G43.4", "G43.5"):
         raise words.fail("normal_compensation", code)
@@ -80,19 +78,21 @@ def _rotary_axis(channel: SyntecChannel, words: Words, code: str) -> tuple[int, 
     memory = channel.memory
     if -1 in channel.coordinates.geometry:
         raise words.fail("normal_linear_axes", code)
-    axis = memory.parameter(AXIS) - 1
+    parameters = memory.parameters
+    axis = parameters.normal_axis - 1
     if not 0 <= axis < len(channel.axes):
         raise words.fail("normal_rotary_axis", code)
-    kind = memory.parameters.get(AXIS_TYPE + axis)
+    kind = parameters.axis_types[axis]
     if kind not in ROTARY_TYPES if kind is not None else not channel.axis_data[axis].rotary:
         raise words.fail("normal_axis_type", code)
-    told = [memory.parameters.get(number) for number in (DIRECTION, POSITION)]
+    at = (parameters.normal_axis_direction, parameters.normal_axis_place)
     joints = [
         j for j in (*channel.machine.tool_chain, *channel.machine.work_chain) if j.axis == channel.axes[axis]
     ]
-    if 0 in told or not joints:
+    if 0 in at or not joints:
         raise words.fail("normal_not_set", code)
-    if joints[0] not in channel.machine.tool_chain or any(memory.parameters.get(number) for number in NOSE):
+    nose = (parameters.normal_nose_x, parameters.normal_nose_y, parameters.normal_nose_z)
+    if joints[0] not in channel.machine.tool_chain or any(nose):
         raise channel.control.not_yet("G41.1 Pr5804", code)
     along = [abs(component) > 1.0 - 1e-9 for component in joints[0].direction]
     if True not in along:
@@ -111,14 +111,10 @@ def _words(channel: SyntecChannel, words: Words) -> tuple[float, bool, float, fl
             raise words.fail("normal_words", address)
     if not 0.0 <= angle <= 180.0 or way not in (0, 1):
         raise words.fail("normal_words", "P" if way not in (0, 1) else "Q")
-    shortest = _parameter(channel, SHORTEST, 0.0) if shortest is None else shortest
-    longest = _parameter(channel, LONGEST, inf) if longest is None else longest
+    parameters = channel.memory.parameters
+    shortest = max(parameters.normal_shortest, 0.0) if shortest is None else shortest
+    if longest is None:
+        longest = parameters.normal_longest if parameters.normal_longest > 0.0 else inf
     if shortest >= longest:
         raise words.fail("normal_lengths", channel.mode[GROUP])
     return angle, way == 1, shortest, longest
-
-
-def _parameter(channel: SyntecChannel, number: int, default: float) -> float:
-    """A length of the parameters, mm; the default where it is not set."""
-    value = channel.setup.parameters.get(number)
-    return float(value) if isinstance(value, int | float) and value > 0 else default

@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 SIDES = {"G41.2": 1, "G42.2": -1, "G41.6": 1, "G42.6": -1}
 BY_VECTOR = ("G41.6", "G42.6")
 TIP_CODES = ("G43.4", "G43.5")
-#: Pr3991, Pr3992: corner angles at which intersections begin and arcs end, least units of angle.
-LEAST_INTERSECTION, MOST_ARC = 3991, 3992
 WORK_SYSTEMS = (*(f"G{i}" for i in range(54, 60)), *(f"G59.{i}" for i in range(1, 10)))
 #: What each code is called in the table of mistakes while the compensation is on.
 FORBIDDEN = {
@@ -94,7 +92,7 @@ def _check_start(channel: SyntecChannel, words: Words, code: str) -> None:
 def _corners(channel: SyntecChannel) -> Corners:
     memory = channel.memory
     unit: float = memory.least_angle
-    least, most = memory.parameter(LEAST_INTERSECTION), memory.parameter(MOST_ARC)
+    least, most = memory.parameters.least_intersection, memory.parameters.largest_arc
     return Corners(SpatialState.of(channel).corner_way, least * unit, most * unit if most else 180.0)
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.systems import TurnState, renew_preset_frame
-from polycnc.control.syntec.parameters import has_option
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.tools import length
@@ -23,8 +22,6 @@ if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
     from polycnc.geometry.frames import Vector
-
-OPTION_TOOL_PLANE = 13
 
 
 def tilt_by_angles(channel: SyntecChannel, words: Words) -> None:
@@ -40,7 +37,7 @@ def tilt_by_tool(channel: SyntecChannel, words: Words) -> None:
     P1 turns the plane with the rotary axes; otherwise its X axis is square on the Z axes of work and tool, and R
     turns it about the tool.
     """
-    if not has_option(channel.setup.parameters, OPTION_TOOL_PLANE):
+    if not channel.memory.parameters.option_tilted_plane:
         raise channel.control.fail("option", address="G68.3", code="G68.3")
     if TurnState.of(channel).by_table:
         raise words.fail("tool_plane", "G68.3")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.syntec.coordinates import length as tool_length
-from polycnc.control.syntec.parameters import parameter
+from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.transformations import normal_line, tool_center_point
@@ -32,7 +32,7 @@ class PostureState(State, lifetime=Lifetime.RESET):
     @classmethod
     def first(cls, channel: SyntecChannel) -> Self:
         """As Pr3057 has it."""
-        return cls(parameter(channel.setup.parameters, 3057) == 1)
+        return cls(SyntecParameters.naming(channel.setup.parameters).posture_in_work == 1)
 
 
 def is_on(channel: SyntecChannel) -> bool:

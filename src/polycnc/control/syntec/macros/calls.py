@@ -185,8 +185,7 @@ def _code_macro(builder: SyntecBuilder) -> CodeMacro | None:
 
 def _registered_g(builder: SyntecBuilder) -> CodeMacro | None:
     memory = builder.channel.memory
-    values = (memory.parameter(number) for number in range(3701, 3711))
-    registered = {REGISTERED_G[value] for value in values if value in REGISTERED_G}
+    registered = {REGISTERED_G[value] for value in memory.parameters.g_macros if value in REGISTERED_G}
     if not registered:
         return None
     own = [row.code for row in builder.codes if row.code in registered]
@@ -204,7 +203,7 @@ def _file_of(code: str) -> str:
 
 def _registered_m(builder: SyntecBuilder) -> CodeMacro | None:
     memory = builder.channel.memory
-    registered = {memory.parameter(number) for number in range(3601, 3611)} - {0}
+    registered = set(memory.parameters.m_macros) - {0}
     code = next((code for code in builder.m_codes if code in registered), None)
     if code is None:
         return None
@@ -214,7 +213,7 @@ def _registered_m(builder: SyntecBuilder) -> CodeMacro | None:
 
 
 def _registered_t(builder: SyntecBuilder) -> CodeMacro | None:
-    how = builder.channel.memory.parameter(3215)
+    how = builder.channel.memory.parameters.t_macro
     if how not in (1, 2) or not builder.has("T"):
         return None
     return CodeMacro(builder.code_program("T0000"), LevelKind.T_MACRO, frozenset("T"), shares=how == 1)

@@ -6,9 +6,9 @@ import re
 from functools import partial
 from typing import TYPE_CHECKING
 
+from polycnc.control.syntec.macros.machine_parameters import long_of
 from polycnc.control.syntec.macros.system_variables import system_variable
 from polycnc.control.syntec.macros.variables import BitState, FunctionState
-from polycnc.control.syntec.parameters import is_known
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, number, whole
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Message, Print
@@ -50,7 +50,7 @@ def _scaled(memory: SyntecMemory, value: Value, unit: float) -> Value:
         raise AlarmError(WRONG_TYPE)
     if not isinstance(value, int):
         return value
-    return float(value) if memory.parameter(3241) else value * unit
+    return float(value) if memory.parameters.whole_units else value * unit
 
 
 # ---- arguments, axes, parameters -------------------------------------------------------------------------
@@ -78,7 +78,8 @@ def machine_parameter(memory: SyntecMemory, index: Value, _group: Value = VACANT
     """PARAM(n): a parameter as a Long; VACANT where it is not supported."""
     if not isinstance(index, int):
         raise AlarmError(WRONG_TYPE)
-    return memory.parameter(index) if is_known(memory.parameters, index) else VACANT
+    found = long_of(memory.parameters, index)
+    return VACANT if found is None else found
 
 
 def random_number(memory: SyntecMemory) -> Value:
@@ -226,7 +227,7 @@ def _printed(memory: SyntecMemory, value: Value, decimals: str | None) -> str:
     if isinstance(value, Vacant):
         return ""
     if isinstance(value, float) or (decimals is not None and not isinstance(value, Text)):
-        places = int(decimals) if decimals is not None else max(memory.parameter(17) + 1, 0)
+        places = int(decimals) if decimals is not None else max(memory.parameters.input_unit + 1, 0)
         return f"{float(value):.{places}f}"
     return str(value)
 

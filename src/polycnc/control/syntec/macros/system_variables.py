@@ -5,8 +5,9 @@ from __future__ import annotations
 from math import isnan
 from typing import TYPE_CHECKING, cast
 
-from polycnc.control.syntec.coordinates.systems import TurnState, renew_preset_frame
+from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS, TurnState, renew_preset_frame
 from polycnc.control.syntec.five_axes.tip_control import PostureState
+from polycnc.control.syntec.macros.machine_parameters import long_of
 from polycnc.control.syntec.macros.variables import (
     BitState,
     FunctionState,
@@ -21,7 +22,6 @@ from polycnc.control.syntec.motion.arcs import ArcState
 from polycnc.control.syntec.motion.moves import SkipState
 from polycnc.control.syntec.motion.oscillation import check_frame
 from polycnc.control.syntec.motion.quiet import is_quiet, switch_quiet
-from polycnc.control.syntec.parameters import WORK_SYSTEMS
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL, ToolOffsets
 from polycnc.geometry.units import INCH_MM
@@ -275,7 +275,7 @@ def _write_modal_long(memory: SyntecMemory, offset: int, value: Value) -> None:
 
 
 def _parameter(first: int) -> Read:
-    return lambda memory, offset: memory.parameter(first + offset)
+    return lambda memory, offset: long_of(memory.parameters, first + offset) or 0
 
 
 def _skip_input(memory: SyntecMemory, offset: int) -> Value:
@@ -319,7 +319,7 @@ SYSTEM_VARIABLES = Registry(
         Space(1508, 1508, _channel_number),
         Space(1600, 1600, lambda memory, _offset: memory.least_unit),
         Space(1602, 1602, lambda memory, _offset: memory.least_angle),
-        Space(1604, 1604, lambda memory, _offset: memory.parameter(3809)),
+        Space(1604, 1604, lambda memory, _offset: memory.parameters.uvw_increments),
         Space(1606, 1606, lambda memory, _offset: len(FunctionState.of(memory.channel).stack)),
         Space(1608, 1608, lambda memory, _offset: SkipState.of(memory.channel).flags),
         Space(1616, 1616, _constant(0)),

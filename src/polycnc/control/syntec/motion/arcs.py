@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from polycnc.channel.state import Lifetime, State, lasting
 from polycnc.control.syntec.coordinates.systems import ScaleState
 from polycnc.control.syntec.five_axes.tip_control import TIP_CODES
-from polycnc.control.syntec.parameters import has_option
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words_as_data import targets_as_data, word_as_data
 from polycnc.control.word_address.motion import path
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
     from polycnc.geometry.frames import Frame, Vector
     from polycnc.language.bulk import Word
 
-OPTION_THREE_POINT_ARC = 19
 THREE_POINT_CODES = ("G2.4", "G3.4")
 
 
@@ -214,7 +212,7 @@ def plan_three_point_arc(builder: Builder, plan: Plan) -> Step | None:
     """G02.4/G03.4: a row with the mid point, then a row with the end point (2.3)."""
     control = builder.control
     channel = builder.channel
-    if not has_option(channel.setup.parameters, OPTION_THREE_POINT_ARC):
+    if not channel.memory.parameters.option_arc_in_space:
         raise control.fail("option", address=builder.mode["motion"], code=builder.mode["motion"])
     forbidden = next((word for word in (",A", ",C", ",R", "R") if builder.has(word)), "")
     if forbidden:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.state import Lifetime, State
 from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
-from polycnc.control.syntec.parameters import decimals, has_option
+from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.messages import AlarmError
@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
 
 OSCILLATION, OFF, SIMPLE, PRECISE = "oscillation", "G80.2", "G81.1", "G81.2"
-OPTION_PRECISE = 48
-STOP = 3957
 #: What changes the coordinates of an axis that oscillates.
 FRAME_CODES = frozenset(
     {
@@ -96,7 +94,7 @@ def start_precise(channel: SyntecChannel, words: Words) -> None:
     """G81.2 P Q [R] L: axis P between the vertices in registers Q and Q + 1, from R, at the speed in register L."""
     state = OscillationState.of(channel)
     memory = channel.memory
-    if not has_option(memory.parameters, OPTION_PRECISE):
+    if not memory.parameters.option_oscillation:
         raise words.fail("option", PRECISE)
     _refuse_transformations(channel, words, PRECISE)
     axis, places, speed = _axis(channel, words), words.integer("Q"), words.integer("L")
@@ -105,7 +103,7 @@ def start_precise(channel: SyntecChannel, words: Words) -> None:
     running: Oscillation | None = state.running
     if running is not None and not (state.precise and running.axis == axis):
         raise words.fail("oscillation_repeated", PRECISE)
-    unit = 10.0 ** -decimals(memory.parameters, inch=False)
+    unit = least_unit(memory.parameters)
     registers = memory.globals.registers
     vertices = (registers.get(places, 0) * unit, registers.get(places + 1, 0) * unit)
     told = words.length("R")
@@ -138,7 +136,7 @@ def end_precise(channel: SyntecChannel, words: Words) -> None:
         elif place is not None:
             _arrive(channel, state.precise_axis, place)
         return
-    if place is None and memory.parameter(STOP) == 1:
+    if place is None and memory.parameters.oscillation_stop == 1:
         # Where the axis is at that moment is known to the main run alone.
         raise AlarmError("PC0001", hint="hint.not-supported", address=OFF, code="G80.2 Pr3957=1")
     state.precise = False

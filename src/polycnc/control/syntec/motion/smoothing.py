@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.five_axes import tip_control
-from polycnc.control.syntec.parameters import has_option
 from polycnc.control.word_address.motion import nurbs
 from polycnc.control.word_address.motion.path_modes import PathModeState
 
@@ -17,7 +16,6 @@ if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
 
-OPTION_HIGH_PRECISION = 11
 ON = 10_000
 #: Smallest and largest tolerance of G05.1 Q5, in the program's unit.
 TOLERANCES = (0.001, 1.0)
@@ -50,7 +48,7 @@ def smooth_path(channel: SyntecChannel, words: Words) -> None:
 
 def high_precision(channel: SyntecChannel, words: Words) -> None:
     """G05 P10000 [E] [axes], G05 E: curve fitting on; G05 P0, G05: off."""
-    if not has_option(channel.setup.parameters, OPTION_HIGH_PRECISION):
+    if not channel.memory.parameters.option_path_fitting:
         raise words.fail("option", "G5")
     nurbs.check_complete(channel)
     switch = words.typed("P")
