@@ -55,3 +55,11 @@ def test_a_wrong_assignment_sets_nothing(console: Console) -> None:
 def test_a_control_without_a_list_says_so(console: Console) -> None:
     assert console("parameters", "list", "--control", "fanuc-m").status == 2
     assert console("parameters", "list").status == 2
+
+
+def test_a_name_with_several_numbers_is_shown_and_set_by_each_of_them(console: Console) -> None:
+    mill = ("--control", "syntec-mill")
+    assert console("parameters", "show", "283", *mill).out.startswith("281-300 ")
+    assert console("parameters", "set", "283=1", "--setup", "mill.yaml", *mill).status == 0
+    assert "283=1" in console("parameters", "list", "--setup", "mill.yaml", *mill).out
+    assert console("parameters", "set", "301=1", "--setup", "mill.yaml", *mill).status == 2
