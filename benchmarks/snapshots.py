@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from benchmarks.measure import Figure, best_of
 from polycnc.channel.channel import Channel
-from polycnc.channel.snapshot import Snapshot
+from polycnc.channel.states.snapshot import Snapshot
 from polycnc.control.registry import control
 from polycnc.machine import load_machine, parse_setup
 from polycnc.program import ProgramStore

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypedDict
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
 from polycnc.channel.group import ChannelGroup
-from polycnc.channel.passes import Passes
+from polycnc.channel.states.passes import Passes
 from polycnc.channel.waits import Why
 from polycnc.control.alarm_text import alarm_text
 from polycnc.language.bulk.scanner import Bulk

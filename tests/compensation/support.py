@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, TypeVar
 
-from polycnc.channel.path import Move, PlacedEvent, Sink, Stage
+from polycnc.channel.moves.path import Move, PlacedEvent, Sink, Stage
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane
 from polycnc.compensation.policy import Policy, Violation

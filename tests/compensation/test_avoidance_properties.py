@@ -14,7 +14,7 @@ from math import asin, atan2, ceil, cos, hypot, pi, sin, sqrt, tan
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from polycnc.channel.path import Move, PlacedEvent
+from polycnc.channel.moves.path import Move, PlacedEvent
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.policy import Policy
 from polycnc.geometry.offset import Joint, Outer

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from polycnc.channel.path import Move, PlacedEvent
+from polycnc.channel.moves.path import Move, PlacedEvent
 from polycnc.compensation.corner import (
     CornerPolicy,
     CornerStage,
@@ -25,7 +25,7 @@ from tests.compensation.policies import FANUC_A, FANUC_CORNERS, SINUMERIK_CORNER
 from tests.compensation.support import G17, Recorder, into
 
 if TYPE_CHECKING:
-    from polycnc.channel.path import Stage
+    from polycnc.channel.moves.path import Stage
 
 CODES = {CornerViolation.NO_NEXT_MOVE: "PS0051", CornerViolation.TOO_SHORT: "PS0055"}
 

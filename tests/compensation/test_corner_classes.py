@@ -11,7 +11,7 @@ from math import cos, hypot, pi, radians, sin
 
 import pytest
 
-from polycnc.channel.path import Move
+from polycnc.channel.moves.path import Move
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.policy import Policy
 from polycnc.geometry.offset import Joint, Outer

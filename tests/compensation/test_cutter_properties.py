@@ -11,7 +11,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from shapely.geometry import LineString, Point, Polygon
 
-from polycnc.channel.path import Move, PlacedEvent
+from polycnc.channel.moves.path import Move, PlacedEvent
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.policy import Policy, Violation
 from polycnc.geometry import arcs

@@ -10,9 +10,9 @@ import pytest
 from polycnc.cases.features import case_files
 from polycnc.cases.format import Case, case_id, parse_case
 from polycnc.cases.reading import read_cases
-from polycnc.channel.snapshot import Snapshot
+from polycnc.channel.states.snapshot import Snapshot
 from polycnc.session import open_session
-from tests.channel.test_snapshot import rest_of, state_of
+from tests.channel.states.test_snapshot import rest_of, state_of
 
 HERE = Path(__file__).parent
 #: One case in so many; all of them take minutes.

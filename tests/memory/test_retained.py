@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from polycnc.channel.channel import Channel
-from polycnc.channel.snapshot import Snapshot
-from polycnc.channel.state import State, tables
+from polycnc.channel.states.snapshot import Snapshot
+from polycnc.channel.states.state import State, tables
 from polycnc.control.registry import control
 from polycnc.machine import load_machine, parse_setup
 from polycnc.memory.retained import VARIABLES, WORK_OFFSETS, InMemoryStore

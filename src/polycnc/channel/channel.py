@@ -16,10 +16,10 @@ from polycnc.channel.failure import end_run, stand_at_last_row, take_back
 from polycnc.channel.family import ControlT_co, MemoryT_co, ProgramT_co
 from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.mode import Mode, ModeTable
-from polycnc.channel.path import Move, Path, PlacedEvent, points_of_arc
+from polycnc.channel.moves.path import Move, Path, PlacedEvent, points_of_arc
 from polycnc.channel.run import Run
 from polycnc.channel.stack import Level, LevelKind
-from polycnc.channel.state import Lifetime, States, end_of
+from polycnc.channel.states.state import Lifetime, States, end_of
 from polycnc.channel.view import Prepared
 from polycnc.channel.waits import (
     BLOCK,
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.group import ChannelGroup
     from polycnc.channel.interface import Bulk, MainRun, Scanner, Zone
-    from polycnc.channel.passes import Passes
+    from polycnc.channel.states.passes import Passes
     from polycnc.channel.steps import Step
     from polycnc.channel.view import View
     from polycnc.geometry.frames import Vector

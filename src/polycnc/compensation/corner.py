@@ -13,7 +13,7 @@ from enum import Enum
 from math import cos, degrees, hypot, isnan, nan, pi, radians
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
+from polycnc.channel.moves.path import EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError

@@ -27,7 +27,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
+from polycnc.channel.moves.path import EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.compensation import vectors
 from polycnc.compensation.ends import blind_end, end_before, square_ends, starts_blind
 from polycnc.compensation.interference import InterferenceCheck, Objections

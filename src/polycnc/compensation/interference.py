@@ -23,7 +23,7 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from polycnc.channel.path import Move
+    from polycnc.channel.moves.path import Move
     from polycnc.compensation.avoidance import Detour
     from polycnc.compensation.rows import RowWriter
     from polycnc.compensation.step import Step

@@ -11,7 +11,7 @@ from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.kinds import CCW_KINDS, Kind, arc_kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.path import Move
+    from polycnc.channel.moves.path import Move
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.frames import Vector
 

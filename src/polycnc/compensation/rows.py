@@ -13,7 +13,7 @@ from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.path import Move, Stage
+    from polycnc.channel.moves.path import Move, Stage
     from polycnc.compensation.plane import Plane
     from polycnc.compensation.step import Step
     from polycnc.geometry.arcs import Point

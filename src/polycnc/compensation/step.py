@@ -12,7 +12,7 @@ from polycnc.geometry.offset import Joint
 from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
-    from polycnc.channel.path import Item, Move
+    from polycnc.channel.moves.path import Item, Move
     from polycnc.compensation.policy import Policy
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.offset import Corner, Edge

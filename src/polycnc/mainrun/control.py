@@ -18,7 +18,7 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from polycnc.channel.snapshot import Snapshot as Checkpoint
+from polycnc.channel.states.snapshot import Snapshot as Checkpoint
 from polycnc.control.alarm_text import alarm_text
 from polycnc.mainrun.commands.hand import HandCommands
 from polycnc.mainrun.commands.permission import Permission

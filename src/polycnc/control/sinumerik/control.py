@@ -7,7 +7,7 @@ from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
-from polycnc.channel.snapshot import unchanging
+from polycnc.channel.states.snapshot import unchanging
 from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.sinumerik import gcodes, tables
 from polycnc.control.sinumerik.block import positions, procedures, single_block

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, end_of
+from polycnc.channel.states.state import Lifetime, end_of
 from polycnc.control.sinumerik import gcodes, tables
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.frames import memory as frames

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.five_axes import spatial
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.rules import Rule

@@ -7,8 +7,8 @@ from functools import cached_property
 from importlib import resources
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from polycnc.channel.snapshot import unchanging
 from polycnc.channel.stack import LevelKind
+from polycnc.channel.states.snapshot import unchanging
 from polycnc.compensation import Policy
 from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.word_address.block.codes import GCode, MCode

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State, retained
+from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.memory.retained import PARAMETERS, TOOL_OFFSETS, WORK_OFFSETS
 

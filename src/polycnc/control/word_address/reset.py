@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, end_of
+from polycnc.channel.states.state import Lifetime, end_of
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.transformations import (
     cylinder,

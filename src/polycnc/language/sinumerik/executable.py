@@ -12,7 +12,7 @@ from bisect import bisect_left
 from functools import partial
 from typing import TYPE_CHECKING
 
-from polycnc.channel.snapshot import unchanging
+from polycnc.channel.states.snapshot import unchanging
 from polycnc.channel.steps import forget_steps, kept_steps
 from polycnc.language.expressions.joined import led_by
 from polycnc.language.sinumerik.blocks import CompiledBlock, compile_block, compile_text, expanded

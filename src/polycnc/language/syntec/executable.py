@@ -7,7 +7,7 @@ from bisect import bisect_left, bisect_right
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
-from polycnc.channel.snapshot import unchanging
+from polycnc.channel.states.snapshot import unchanging
 from polycnc.channel.steps import several
 from polycnc.language.syntec.expressions import syntec_shapes
 from polycnc.language.syntec.layout import NO_SEQUENCE

@@ -7,7 +7,7 @@ from bisect import bisect_right
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from polycnc.channel.snapshot import unchanging
+from polycnc.channel.states.snapshot import unchanging
 from polycnc.channel.steps import kept_steps, several
 from polycnc.language.expressions.code import listed
 from polycnc.language.expressions.joined import MAX_JOINED, led_by

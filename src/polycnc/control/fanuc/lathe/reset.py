@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, end_of
+from polycnc.channel.states.state import Lifetime, end_of
 from polycnc.control.fanuc.lathe import balance
 from polycnc.control.fanuc.lathe.balance import BalanceState
 from polycnc.control.fanuc.lathe.coordinates import limits, systems

@@ -11,7 +11,7 @@ from functools import partial
 from math import nan
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import auxiliary, gcodes, tables
 from polycnc.control.sinumerik.block import words
 from polycnc.control.sinumerik.block.draft import Draft, Step

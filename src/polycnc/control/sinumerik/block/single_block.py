@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import Wait, Why
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from functools import partial
 from math import nan
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.channel.path import Recorder
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.moves.path import Recorder
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.last_move import LastMove
 from polycnc.cycles.turning.contour import Contour, Piece
@@ -26,7 +26,7 @@ from polycnc.toolpath.kinds import CCW_KINDS
 if TYPE_CHECKING:
     from collections.abc import Callable, Container
 
-    from polycnc.channel.path import Move
+    from polycnc.channel.moves.path import Move
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
     from polycnc.control.sinumerik.family import SinumerikChannel

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from math import inf, pi
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import gcodes, tables
 from polycnc.toolpath.context import Pace
 

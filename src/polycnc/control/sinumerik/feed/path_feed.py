@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import nan
 from typing import NamedTuple
 
-from polycnc.channel.state import Lifetime, State, lasting
+from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.toolpath.modes import FeedMode
 
 

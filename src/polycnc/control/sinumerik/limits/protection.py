@@ -12,9 +12,9 @@ from itertools import pairwise
 from math import inf, isnan, nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.move_path import MovePath
-from polycnc.channel.path import Rank, Recorder, Stage
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.moves.move_path import MovePath
+from polycnc.channel.moves.path import Rank, Recorder, Stage
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.cycles.contour import sent_away, without_away
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from polycnc.channel.channel import Channel
-    from polycnc.channel.path import Move
+    from polycnc.channel.moves.path import Move
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.arcs import Point
 

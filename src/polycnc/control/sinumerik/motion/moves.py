@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from math import cos, isnan, nan, radians, sin, tan
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import plain
 from polycnc.control.sinumerik.block.positions import AxisTerm, Dimension, axis_term, number, target

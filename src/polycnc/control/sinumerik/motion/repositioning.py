@@ -13,7 +13,7 @@ from math import hypot, isnan, nan
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import LevelKind
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.signals import interrupts
@@ -27,7 +27,7 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.move_path import MovePath
+    from polycnc.channel.moves.move_path import MovePath
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.arcs import Point

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import Rank, Stage
+from polycnc.channel.moves.path import Rank, Stage
 from polycnc.geometry.nurbs import nurbs_chords
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind
@@ -17,7 +17,7 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from polycnc.channel.path import Move, PlacedEvent
+    from polycnc.channel.moves.path import Move, PlacedEvent
     from polycnc.compensation.plane import Plane
 
 TOLERANCE_MM = 0.001

@@ -11,17 +11,17 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.move_path import MovePath
-from polycnc.channel.path import Rank, Stage
+from polycnc.channel.moves.move_path import MovePath
+from polycnc.channel.moves.path import Rank, Stage
 from polycnc.channel.stack import LevelKind
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments, single_block
 from polycnc.control.sinumerik.signals import retraction
 from polycnc.language.sinumerik.statements.calls import call_without_arguments, named_program
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.channel.path import Move
+    from polycnc.channel.moves.path import Move
     from polycnc.channel.stack import Level
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.machine.setup.values import Interrupt

@@ -11,9 +11,9 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.move_path import MovePath
-from polycnc.channel.path import Move, Rank, Stage
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.moves.move_path import MovePath
+from polycnc.channel.moves.path import Move, Rank, Stage
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
 from polycnc.language.sinumerik.names.values import Axis, Type

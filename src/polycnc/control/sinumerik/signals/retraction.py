@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from math import cos, nan, radians, sin
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import axis_term, number

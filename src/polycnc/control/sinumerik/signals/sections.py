@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.variables.row import RowWithStop
 from polycnc.language.sinumerik.names.values import Type

@@ -18,8 +18,8 @@ from dataclasses import dataclass
 from math import isnan, nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import Move
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.moves.path import Move
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block.positions import number, target
 from polycnc.control.sinumerik.errors import not_supported

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from math import isnan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import Move, Rank, Stage
+from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 

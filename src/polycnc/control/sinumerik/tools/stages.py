@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import Wait, Why
 from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
 from polycnc.control.syntec.coordinates.systems import TurnState

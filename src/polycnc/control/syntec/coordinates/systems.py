@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State, lasting
+from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.syntec.axis_groups.names import map_virtual_axis
 from polycnc.control.syntec.five_axes.spatial import choose_corners
 from polycnc.control.syntec.units import least_unit

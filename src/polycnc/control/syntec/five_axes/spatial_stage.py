@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from math import acos, degrees, sqrt
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import Move, PlacedEvent, Rank, Stage
+from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
 from polycnc.geometry.vectors import cross, dot, times
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import Kind

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.coordinates import length as tool_length
 from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.word_address.block.rules import Rule

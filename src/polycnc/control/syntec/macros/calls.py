@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import LevelKind
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.builder import CALLS, SyntecBuilder
 from polycnc.control.syntec.macros import interrupts
 from polycnc.control.syntec.macros.variables import INDEXED_LETTERS, Locals

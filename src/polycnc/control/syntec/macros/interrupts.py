@@ -11,7 +11,7 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.spindles import SpindleState
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path, skip

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.state import Lifetime, State, lasting, retained
+from polycnc.channel.states.state import Lifetime, State, lasting, retained
 from polycnc.language.syntec.expressions import LAST_LOCAL, NO_SUCH_VARIABLE
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, number, storable, to_long, whole
 from polycnc.memory.retained import REGISTERS, VARIABLES

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import hypot
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State, lasting
+from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.syntec.coordinates.systems import ScaleState
 from polycnc.control.syntec.five_axes.tip_control import TIP_CODES
 from polycnc.control.word_address.block.rules import Rule

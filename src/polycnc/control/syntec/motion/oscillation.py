@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.rules import Rule

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import Sink
+from polycnc.channel.moves.path import Sink
 
 if TYPE_CHECKING:
-    from polycnc.channel.path import PlacedEvent
+    from polycnc.channel.moves.path import PlacedEvent
     from polycnc.control.syntec.family import SyntecChannel
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.tool_change import check_change_points
 from polycnc.control.word_address.motion.path import FEED_MODES
 from polycnc.geometry.units import INCH_MM

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import hypot
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.motion.path import reach
 from polycnc.geometry.frames import IDENTITY, about, cos_sin_deg, rotation, scaling
 from polycnc.geometry.planes import PLANES

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State, lasting
+from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.word_address.auxiliary.interlocks import note_reference_return
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.radius import suspended

@@ -14,7 +14,7 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.intervention import TakesBack
-from polycnc.channel.state import Lifetime, State, lasting
+from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.word_address.auxiliary.functions import stand
 from polycnc.control.word_address.auxiliary.overrides import OverrideState
 from polycnc.control.word_address.block.numbers import length_converter

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words

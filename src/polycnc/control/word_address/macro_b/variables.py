@@ -11,8 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.snapshot import unchanging
-from polycnc.channel.state import Lifetime, State, retained
+from polycnc.channel.states.snapshot import unchanging
+from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.control.word_address.memory import Memory
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.word_address.functions import round_half_away

@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import dist
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path
 from polycnc.geometry.nurbs import nurbs_chords

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State, lasting
+from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:

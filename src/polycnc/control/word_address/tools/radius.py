@@ -6,8 +6,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import Move
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.moves.path import Move
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation import CutterCompensation, Plane, Violation
 from polycnc.control.word_address.motion import corners
 from polycnc.control.word_address.motion.arcs import mirrors_plane

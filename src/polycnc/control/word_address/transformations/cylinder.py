@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
 from polycnc.geometry.planes import PLANES

@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import Rank, Stage
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.moves.path import Rank, Stage
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.geometry import arcs
 from polycnc.toolpath import Kind
@@ -17,7 +17,7 @@ from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS
 from polycnc.transformation.standing import StandingAxes
 
 if TYPE_CHECKING:
-    from polycnc.channel.path import Move
+    from polycnc.channel.moves.path import Move
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
 

@@ -10,13 +10,13 @@ from dataclasses import dataclass, replace
 from math import atan2, degrees, hypot, inf
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import Rank, Stage
+from polycnc.channel.moves.path import Rank, Stage
 from polycnc.geometry import arcs
 from polycnc.geometry.angles import nearest_turn
 from polycnc.toolpath.kinds import CCW_KINDS, Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.path import Move, PlacedEvent
+    from polycnc.channel.moves.path import Move, PlacedEvent
     from polycnc.geometry.arcs import Point
 
 CUTS = frozenset((Kind.FEED, Kind.CW, Kind.CCW, Kind.HELIX_CW, Kind.HELIX_CCW))

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.radius import RadiusState

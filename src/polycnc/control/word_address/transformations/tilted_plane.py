@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.tools import length

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from math import inf
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.coordinates.barrier import barrier, is_described
 from polycnc.control.word_address.coordinates.stroke_check import StrokeZone
 

@@ -7,7 +7,7 @@ from functools import wraps
 from math import nan
 from typing import TYPE_CHECKING, TypeVar
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.cycles.modal import SingleCycleState
 from polycnc.control.fanuc.lathe.motion.corners import corner_waits
 from polycnc.control.fanuc.lathe.tools.offsets import refresh

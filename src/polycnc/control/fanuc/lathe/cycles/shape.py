@@ -10,10 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from polycnc.channel.path import Recorder
-from polycnc.channel.snapshot import Snapshot
+from polycnc.channel.moves.path import Recorder
 from polycnc.channel.stack import LevelKind
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.snapshot import Snapshot
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation import CutterCompensation, Plane
 from polycnc.control.fanuc.code_calls import PROGRAM_M
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
@@ -32,7 +32,7 @@ from polycnc.language.word_address.executable import WordAddressProgram
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from polycnc.channel.path import Move
+    from polycnc.channel.moves.path import Move
     from polycnc.channel.stack import Level
     from polycnc.channel.steps import Step as BlockStep
     from polycnc.control.fanuc.lathe.family import LatheChannel

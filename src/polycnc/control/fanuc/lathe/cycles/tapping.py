@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.cycles.drilling import CycleState

@@ -14,7 +14,7 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.path import Move
+    from polycnc.channel.moves.path import Move
     from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.control import WordAddressControl

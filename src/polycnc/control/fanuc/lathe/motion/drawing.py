@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from math import nan, radians, sin, tan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation.corner import Shape
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
 from polycnc.control.fanuc.lathe.motion.corners import LEAST_ANGLE_DEG, corner_stage, corner_waits

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from math import hypot
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.coordinates.systems import feed_number, plane_axes
 from polycnc.control.fanuc.lathe.motion import drawing
 from polycnc.control.fanuc.lathe.tools.offsets import THREADS

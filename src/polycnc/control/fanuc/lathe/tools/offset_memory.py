@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State, retained
+from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.memory.retained import TOOL_OFFSETS, WORK_SHIFT
 
 if TYPE_CHECKING:

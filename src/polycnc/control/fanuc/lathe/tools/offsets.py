@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation.tips import tip_direction
 from polycnc.control.fanuc.lathe.cycles.modal import is_reading
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory, y_offset_axis

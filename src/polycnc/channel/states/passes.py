@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.channel.state import plain, plain_states, plain_tables
+from polycnc.channel.states.state import plain, plain_states, plain_tables
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

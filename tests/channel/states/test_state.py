@@ -10,7 +10,7 @@ import pytest
 
 import polycnc.control
 from polycnc.channel.channel import Channel
-from polycnc.channel.state import (
+from polycnc.channel.states.state import (
     Lifetime,
     State,
     end_of,

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from polycnc.channel.move_path import MovePath
-from polycnc.channel.path import Move
+from polycnc.channel.moves.move_path import MovePath
+from polycnc.channel.moves.path import Move
 from polycnc.toolpath import Kind
 
 GEOMETRY = (0, 1, 2)

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from polycnc.channel.path import Rank, Recorder, Stage
+from polycnc.channel.moves.path import Rank, Recorder, Stage
 from polycnc.session import open_session
 
 if TYPE_CHECKING:
-    from polycnc.channel.path import Move, Path
+    from polycnc.channel.moves.path import Move, Path
 
 
 class _Tracing(Stage):

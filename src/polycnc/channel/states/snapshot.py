@@ -30,7 +30,7 @@ from random import Random
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from polycnc.channel.mode import Mode
-from polycnc.channel.state import State, States
+from polycnc.channel.states.state import State, States
 from polycnc.geometry.frames import Frame
 from polycnc.machine.model import Machine
 from polycnc.machine.setup.values import Parameters, Setup

@@ -15,7 +15,7 @@ from polycnc.toolpath.kinds import CCW_KINDS
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.channel.path import Move
+    from polycnc.channel.moves.path import Move
     from polycnc.geometry.frames import Vector
 
 #: Positions that differ by less (mm, degrees) are the same.

@@ -18,8 +18,8 @@ from hypothesis import strategies as st
 
 from polycnc.channel.channel import Channel
 from polycnc.channel.group import ChannelGroup
-from polycnc.channel.snapshot import Snapshot, SnapshotError
-from polycnc.channel.state import plain_states
+from polycnc.channel.states.snapshot import Snapshot, SnapshotError
+from polycnc.channel.states.state import plain_states
 from polycnc.channel.waits import Wait
 from polycnc.control.registry import control
 from polycnc.control.word_address.tools.radius import RadiusState
