@@ -5,21 +5,31 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 CONTROLS := syntec-mill fanuc-m meldas-m sinumerik-840d fanuc-0i-tf
 
-.PHONY: help demo test check bench features clean
+# What machine code is made of.
+KERNELS := $(wildcard build_kernels/*.py src/polycnc/kernels/*.py src/polycnc/motion/kernels/*.py \
+  src/polycnc/language/bulk/*.py src/polycnc/toolpath/*.py)
+
+.PHONY: help demo panel test kernels check fuzz bench features clean
 
 help:
 	@echo "make demo      install polycnc into $(VENV) and run every program of examples/"
+	@echo "make panel     install the panel and open an example in the browser"
 	@echo "make test      run all tests"
+	@echo "make kernels   compile the kernels of this source tree again, if they have changed"
 	@echo "make check     lint, formatting, types, direction of imports"
+	@echo "make fuzz      run COUNT mutated inputs on all cores, from number FIRST on (FIRST=0 COUNT=10000 SEED=1)"
 	@echo "make bench     run the benchmarks"
 	@echo "make features  renew the list of functions that work, in polycnc and in docs/controls"
 	@echo "make clean     remove $(VENV) and what tools have left behind"
 
-# One stamp for each set of extras: installed again when pyproject.toml has changed.
-$(VENV)/.installed-%: pyproject.toml
+# One stamp for each set of extras: installed again when pyproject.toml or what is compiled has changed.
+$(VENV)/.installed-%: pyproject.toml $(KERNELS)
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.$(if $(filter-out plain,$*),[$*])'
 	touch $@
+
+panel: $(VENV)/.installed-panel
+	$(BIN)/polycnc panel examples/fanuc-m-bracket.nc --control fanuc-m --setup examples/fanuc-m-bracket.setup.yaml
 
 # The name of an example begins with its control; a setup lies beside it.
 demo: $(VENV)/.installed-plain
@@ -35,12 +45,22 @@ demo: $(VENV)/.installed-plain
 test: $(VENV)/.installed-test
 	$(BIN)/python -m pytest -n 2
 
+kernels: $(VENV)/.installed-test
+	$(BIN)/python -m build_kernels
+
 check: $(VENV)/.installed-test $(VENV)/.installed-check
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy --any-exprs-report .mypy_cache/report
 	$(BIN)/python tests/any_exprs.py .mypy_cache/report/any-exprs.txt
 	$(BIN)/python -m pytest tests/test_imports.py
+
+FIRST ?= 0
+COUNT ?= 10000
+SEED ?= 1
+
+fuzz: kernels
+	$(BIN)/python -m tests.fuzz --seed $(SEED) --first $(FIRST) --count $(COUNT) $(FUZZ)
 
 bench: $(VENV)/.installed-bench
 	$(BIN)/python -m benchmarks
@@ -53,4 +73,4 @@ features: $(VENV)/.installed-plain
 	done
 
 clean:
-	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf src/polycnc/kernels/compiled.* $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -11,11 +11,19 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Figure:
-    """One result. `ratio` is how much better than asked (above 1 the goal is reached); None where a peer is missing."""
+    """One result.
+
+    Attributes:
+        name: What is measured.
+        said: The figure, and what was asked.
+        ratio: How much better than asked (above 1 the goal is reached); None where a peer is missing.
+        times: How many times as fast as the peer; None where there is none.
+    """
 
     name: str
     said: str
     ratio: float | None
+    times: float | None = None
 
 
 def best_of(action: Callable[[], object], runs: int = 3) -> float:
@@ -66,7 +74,7 @@ def rate(name: str, ours: float, limit: float, unit: str) -> Figure:
 def against(name: str, ours: float, peer: str, theirs: float, goal: float, unit: str) -> Figure:
     """A rate against a peer's; `goal` is how many times the peer's rate is asked."""
     said = f"{ours:,.0f} {unit}, {peer} {theirs:,.0f}: {ours / theirs:.1f} times, asked {goal:g}"
-    return Figure(name, said, ours / theirs / goal)
+    return Figure(name, said, ours / theirs / goal, ours / theirs)
 
 
 def skipped(name: str, why: str) -> Figure:

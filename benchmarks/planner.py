@@ -34,7 +34,7 @@ def segments_per_second(rows: int = 600_000, settings: Settings = DEFAULT) -> fl
     machine = load_machine("mill3")
 
     def planned_once() -> object:
-        return Planner(toolpath, machine, settings=settings, compiled=True).finish()
+        return Planner(toolpath, machine, settings=settings).finish()
 
     planned_once()
     return rows / best_of(planned_once)

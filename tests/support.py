@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from polycnc.channel.channel import Channel
@@ -11,6 +12,10 @@ from polycnc.machine import load_machine, parse_setup
 from polycnc.program import Form, ProgramStore
 from polycnc.toolpath import Row, Toolpath
 
+MACHINES = Path(__file__).parent / "conformance" / "machines"
+#: Hartford's rules on machines with rotary axes.
+HARTFORD_MILL4 = str(MACHINES / "hartford-mill4.toml")
+HARTFORD_MILL5 = str(MACHINES / "hartford-mill5-ac-table.toml")
 MAIN = "/_N_WKS_DIR/_N_TEST_WPD/_N_MAIN_MPF"
 
 

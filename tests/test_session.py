@@ -1,6 +1,11 @@
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import itertools
+import math
+import pickle
+import sys
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -8,8 +13,9 @@ import polycnc
 from polycnc.machine import FileError
 from polycnc.mainrun import VirtualControl
 from polycnc.mainrun.errors import CommandRefused
+from polycnc.messages.files import OutputError
 from polycnc.program import ProgramFileError
-from polycnc.session import SessionError, block_number, open_session
+from polycnc.session import SessionError, open_session
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -43,12 +49,119 @@ def test_the_moves_are_an_arrow_table() -> None:
     assert table.schema.metadata[b"machine"] == b"mill3"
 
 
+def test_moves_tell_tool_start_duration_length_and_feed_as_executed() -> None:
+    program = (
+        "G21 G90 G94\nT1 M6\nG0 X10.\nG1 Y30. F600\nG2 X20. Y40. R10.\nG4 X1.5\nT2 M6\nG1 X100. F1200\nM30\n"
+    )
+    result = polycnc.run(program, control="fanuc-m")
+    kinds = {"rapid", "feed", "cw", "dwell"}
+    rows: list[dict[str, Any]] = [row for row in result.moves.to_pylist() if row["type"] in kinds]
+    assert [row["tool"] for row in rows] == ["1", "1", "1", "1", "2"]
+    lengths = [10.0, 20.0 + 10.0, 5.0 * math.pi, 0.0, 80.0]
+    assert [row["length"] for row in rows] == pytest.approx(lengths, abs=1e-3)
+    for row, after in itertools.pairwise(rows):
+        assert row["start"] + row["duration"] + after["wait"] == pytest.approx(after["start"], abs=1e-9)
+    assert rows[0]["wait"] > 1.0  # the tool change
+    assert rows[3]["duration"] == pytest.approx(1.5)
+    assert rows[-1]["start"] + rows[-1]["duration"] == pytest.approx(result.time)
+    line = rows[1]
+    assert line["feed_executed"] == pytest.approx(60.0 * line["length"] / line["duration"])
+    assert 0.9 * 600.0 < line["feed_executed"] < 600.0
+
+
+@pytest.mark.parametrize("control", ["fanuc-m", "fanuc-0i-tf", "meldas-m", "syntec-mill", "sinumerik-840d"])
+def test_a_variable_that_does_not_exist_is_not_in_the_variables(control: str) -> None:
+    variables = polycnc.run("G0 X0\nM30\n", control=control).variables
+    for name in ("#999999", "foo", "", "#", " #1"):
+        assert name not in variables
+        with pytest.raises(KeyError):
+            variables[name]
+
+
+def test_one_folder_can_be_searched_without_a_list(tmp_path: Path) -> None:
+    (tmp_path / "O0002.nc").write_text("O2\nG0 X7.\nM99\n")
+    result = polycnc.run("O1\nM98 P2\nM30\n", control="fanuc-m", search=str(tmp_path))
+    assert result.final["work"]["X"] == 7.0
+
+
+@pytest.mark.parametrize("limit", [0, -3])
+def test_a_block_limit_below_one_is_refused(limit: int) -> None:
+    with pytest.raises(polycnc.SessionError, match=str(limit)):
+        polycnc.run("M30\n", control="fanuc-m", block_limit=limit)
+
+
 def test_an_alarm_is_a_value_with_its_text() -> None:
     result = polycnc.run("G999\n", control="fanuc-m")
     (alarm,) = result.alarms
     assert not result.ok
     assert (alarm.code, alarm.line) == ("PS0010", 1)
     assert result.alarm_text(alarm, "en") != result.alarm_text(alarm, "zh-TW")
+
+
+@pytest.mark.parametrize(
+    ("control", "program"),
+    [
+        ("fanuc-m", "G999\nM30\n"),
+        ("fanuc-0i-tf", "G999\nM30\n"),
+        ("meldas-m", "G999\nM30\n"),
+        ("syntec-mill", "M98 P77\nM30\n"),
+        ("sinumerik-840d", "R1=FOO\nM30\n"),
+    ],
+)
+def test_an_alarm_carries_place_text_and_remedy_in_both_languages(control: str, program: str) -> None:
+    (alarm,) = polycnc.run(program, control=control).alarms
+    assert alarm.line == 1
+    assert alarm.column > 0
+    assert alarm.text == alarm.text_in("en") != alarm.text_in("zh-TW")
+    assert alarm.remedy == alarm.note_in("remedy", "en") != alarm.note_in("remedy", "zh-TW") != ""
+    assert str(alarm).endswith(f":1:{alarm.column}: {alarm.code} {alarm.text}")
+
+
+def test_the_alarms_of_a_virtual_control_have_texts_too() -> None:
+    control = VirtualControl("fanuc-m")
+    control.load("O1\nG999\nM30\n")
+    control.cycle_start()
+    control.run()
+    assert control.alarms[0].text == control.alarm_text(control.alarms[0])
+    assert control.alarm_history[0].text
+
+
+def test_a_result_goes_to_another_process_as_a_record() -> None:
+    result = polycnc.run(PROGRAM, control="fanuc-m")
+    record = pickle.loads(pickle.dumps(result))
+    assert record == result.record
+    assert (record.ok, record.program, record.control) == (True, "O0007", "fanuc-m")
+    assert (record.final, record.time, record.rows) == (result.final, result.time, result.rows)
+    assert record.variables["#100"] == 4
+    bad = pickle.loads(pickle.dumps(polycnc.run("O1\nG999\n", control="fanuc-m")))
+    assert (bad.ok, bad.alarms[0].code) == (False, "PS0010")
+    assert bad.alarms[0].remedy
+
+
+def test_a_notebook_shows_alarms_time_and_tools() -> None:
+    assert "<td>T2</td>" in polycnc.run(PROGRAM, control="fanuc-m")._repr_html_()
+    shown = polycnc.run("O1\n(<B>) G999\nM30\n", control="fanuc-m")
+    assert "PS0010" in shown._repr_html_()
+    assert repr(shown) == "<Result of O0001 on fanuc-m, mill3: PS0010>"
+
+
+@pytest.mark.parametrize("library", ["pandas", "polars"])
+def test_tables_of_other_libraries_are_made_where_they_are_installed(
+    library: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    result = polycnc.run(PROGRAM, control="fanuc-m")
+    monkeypatch.setattr(
+        "polycnc.session.result.find_spec", lambda name: None if name == library else object()
+    )
+    with pytest.raises(SessionError, match=f"pip install {library}"):
+        getattr(result, f"to_{library}")()
+
+
+def test_polars_takes_the_arrow_table(monkeypatch: pytest.MonkeyPatch) -> None:
+    result = polycnc.run(PROGRAM, control="fanuc-m")
+    monkeypatch.setattr("polycnc.session.result.find_spec", lambda _name: object())
+    monkeypatch.setitem(sys.modules, "polars", SimpleNamespace(from_arrow=lambda table: table.num_rows))
+    assert result.to_polars() == len(result.rows)
 
 
 def test_a_setup_can_be_given_as_values_and_moves_the_machine() -> None:
@@ -88,6 +201,19 @@ def test_prints_go_to_a_file(tmp_path: Path) -> None:
     assert out.read_text(encoding="utf-8").startswith("X")
 
 
+def test_prints_replace_no_file_that_the_run_reads(tmp_path: Path) -> None:
+    program, called, setup = (tmp_path / name for name in ("O1.nc", "O2.nc", "setup.yaml"))
+    program.write_text("O1\nM98 P2\nM30\n", encoding="utf-8")
+    called.write_text("O2\nPOPEN\nDPRNT[X]\nPCLOS\nM99\n", encoding="utf-8")
+    setup.write_text("parameters: {}\n", encoding="utf-8")
+    for each in (program, called, setup):
+        before = each.read_bytes()
+        with pytest.raises(OutputError) as caught:
+            polycnc.run(program, control="fanuc-m", setup=setup, search=tmp_path, print_to=each)
+        assert caught.value.message == "output.is-input"
+        assert each.read_bytes() == before
+
+
 @pytest.mark.parametrize(
     ("options", "error"),
     [
@@ -111,11 +237,6 @@ def test_evidence_for_two_controls_is_told() -> None:
     with pytest.raises(SessionError) as caught:
         polycnc.run("#1:=5\nDEF REAL A\n")
     assert caught.value.message == "session.control-doubtful"
-
-
-def test_a_block_is_called_by_its_n_word_or_its_line() -> None:
-    program = open_session("N10 G0 X1.\n/2 N0020 G0\nG0\n", control="fanuc-m").result.program
-    assert [block_number(program, line) for line in (1, 2, 3, 9)] == ["N10", "N0020", "3", "9"]
 
 
 def test_the_package_hands_out_what_it_names() -> None:

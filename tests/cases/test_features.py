@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING
 
 import pytest
 
-from polycnc.cases.features import functions, in_manual_order, shipped
+from polycnc.cases.features import functions, in_manual_order, proved, shipped
 from polycnc.control.registry import ids
 from polycnc.messages.catalogue import LANGUAGES
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 HAN = re.compile(r"[\u4e00-\u9fff]")
 
@@ -33,3 +37,14 @@ def test_functions_stand_in_the_order_of_the_manual_and_unknown_ones_last() -> N
         "own.a",
         "own.b",
     ]
+
+
+def test_a_machine_file_is_found_from_the_case_file_that_names_it(tmp_path: Path) -> None:
+    (tmp_path / "machines").mkdir()
+    (tmp_path / "machines" / "own.toml").write_text('base = "mill4"\n')
+    (tmp_path / "mill").mkdir()
+    (tmp_path / "mill" / "table.yaml").write_text(
+        "- {id: turn, feature: own.a, control: fanuc-m, setup: {machine: ../machines/own.toml},"
+        ' program: "G0 A90.\\nM30", expect: {final: {work: {A: 90}}}}\n'
+    )
+    assert proved(tmp_path) == {"fanuc-m": {"own.a": 1}}

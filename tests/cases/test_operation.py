@@ -13,6 +13,7 @@ PROGRAM = "O1\nG90 G54 G94 G1 X60. F600.\nM30\n"
 
 def outcome(operate: list[Any], **expect: Any) -> Outcome:
     case = {"id": "one", "control": "fanuc-m", "program": PROGRAM, "operate": operate, "expect": expect}
+    case["setup"] = {"machine": "hartford"}
     return run_case(parse_case(case), Path())
 
 
@@ -52,6 +53,7 @@ def test_a_command_takes_a_mapping_a_list_or_one_value() -> None:
         ({"operate": ["dance"]}, "a step is one of"),
         ({"operate": [{"run": None, "reset": None}]}, "a step is one of"),
         ({"operate": ["run"], "expect": {"moves": []}}, "moves cannot be expected here"),
+        ({"operate": ["run"], "expect": {"stops_match": "exact"}}, "stops_match cannot be expected here"),
         ({"expect": {"panel": {"state": "hold"}}}, "panel cannot be expected here"),
     ],
 )
@@ -66,3 +68,16 @@ def test_a_command_that_does_not_take_what_it_is_given_makes_the_case_unreadable
     said = outcome([{"override": {"food": 1}}])
     assert not said.readable
     assert "operate.override" in said.message
+
+
+def test_variables_and_events_are_compared() -> None:
+    program = "O1\n#101=2.5\nM8\nG4 X1.\nM9\nM30\n"
+    case = {"id": "one", "control": "fanuc-m", "program": program, "operate": ["cycle_start", "run"]}
+
+    def said(**expect: Any) -> str:
+        return run_case(parse_case(case | {"expect": expect}), Path()).message
+
+    assert said(variables={"#101": 2.5, "#102": None}, events=[{"m": 8}, {"m": 9}]) == ""
+    assert "#101" in said(variables={"#101": 2})
+    assert "R1" in said(variables={"R1": 2})
+    assert "m: 8" in said(events=[{"m": 9}, {"m": 8}])

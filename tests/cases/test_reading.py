@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import pytest
@@ -8,6 +9,9 @@ from polycnc.cases.reading import UnreadableError, read_cases
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+#: Every alias doubles what the one before it brings in.
+BOMB = "".join(f"- &{b} [*{a}, *{a}]\n" for a, b in pairwise("abcdefghijklmnopqrstuvwxy"))
 
 
 def read(tmp_path: Path, text: str) -> list[object]:
@@ -55,6 +59,13 @@ def test_an_empty_file_has_no_cases(tmp_path: Path) -> None:
         ("a: 1\n", "case.no-list"),
         ("- [unclosed\n", "case.no-yaml"),
         ("- !!python/object:os.system x\n", "case.no-yaml"),
+        ("- {id: a, control: fanuc-m, control: syntec-mill}\n", "case.no-yaml"),
+        ("- " + "[" * 200 + "]" * 200 + "\n", "case.no-yaml"),
+        (
+            "- &a [x, x]\n"
+            + "".join(f"- &{b} [*{a}, *{a}]\n" for a, b in pairwise("abcdefghijklmnopqrstuvwxy")),
+            "case.no-yaml",
+        ),
     ],
 )
 def test_what_is_no_list_of_cases_is_unreadable(tmp_path: Path, text: str, message: str) -> None:

@@ -67,3 +67,27 @@ def test_axes_that_stand_for_others_leave_the_machine_where_it_is() -> None:
     assert c.machine == [100.0, 50.0, 0.0]
     c.transform(None, (0, 1, 2))
     assert (c.position, c.geometry) == ([80.0, 40.0, 0.0], (0, 1, 2))
+
+
+FAR = Frame(t=(0.0, 1e300, 0.0))
+HUGE = Frame(((1e200, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)))
+NOWHERE = Frame(t=(float("nan"), 0.0, 0.0))
+
+
+@pytest.mark.parametrize("frame", [FAR, HUGE, NOWHERE])
+def test_a_frame_that_leads_beyond_all_machines_is_refused(frame: Frame) -> None:
+    c = coordinates(1.0, 2.0, 3.0)
+    with pytest.raises(OverflowError):
+        c.set_zero(frame, [0.0, 0.0, 0.0])
+    with pytest.raises(OverflowError):
+        c.set_programming(frame)
+    assert (c.position, c.programmed, c.machine) == ([1.0, 2.0, 3.0],) * 3
+
+
+def test_shifts_that_lead_beyond_all_machines_are_refused() -> None:
+    c = coordinates(1.0, 2.0, 3.0)
+    with pytest.raises(OverflowError):
+        c.set_zero(IDENTITY, [0.0, -1e13, 0.0])
+    with pytest.raises(OverflowError):
+        c.set_programming(IDENTITY, [0.0, 0.0, float("inf")])
+    assert c.offsets == [0.0, 0.0, 0.0]

@@ -5,6 +5,8 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
@@ -14,8 +16,6 @@ from polycnc.cli.app import COMMANDS
 from tests.cli.console import BAD, GOOD
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from tests.cli.console import Console
 
 FOREVER = "O1\nN1 #100=#100+1\nGOTO 1\n"
@@ -37,6 +37,22 @@ def test_every_command_has_help(console: Console, command: str) -> None:
     said = console(command, "--help")
     assert said.status == 0
     assert "--lang" in said.out
+
+
+@pytest.mark.parametrize("words", [(), ("run",), ("check",)])
+def test_h_shows_the_same_help(console: Console, words: tuple[str, ...]) -> None:
+    assert console(*words, "-h").out == console(*words, "--help").out
+    assert console(*words, "-h", "--lang", "zh-TW").out == console(*words, "--help", "--lang", "zh-TW").out
+
+
+@pytest.mark.parametrize(
+    ("words", "offered"), [("run --control s", "sinumerik-840d"), ("run --machine lathe2", "lathe2-2path")]
+)
+def test_the_shell_is_offered_controls_and_machines(words: str, offered: str, tmp_path: Path) -> None:
+    environment = {"_POLYCNC_COMPLETE": "complete_bash", "COMP_WORDS": f"polycnc {words}", "COMP_CWORD": "3"}
+    process = _polycnc(cwd=tmp_path, stdout=subprocess.PIPE, env={**os.environ, **environment})
+    out, _ = process.communicate(timeout=30)
+    assert offered in out.decode().split()
 
 
 def test_help_comes_in_chinese_too(tmp_path: Path) -> None:
@@ -94,7 +110,7 @@ def test_a_file_that_may_not_be_read_is_told(console: Console) -> None:
     assert console("run", path, "--control", "fanuc-m").status == 2
 
 
-def _polycnc(*words: str, cwd: Path, **options: int) -> subprocess.Popen[bytes]:
+def _polycnc(*words: str, cwd: Path, **options: object) -> subprocess.Popen[bytes]:
     command = [sys.executable, "-m", "polycnc", *words]
     before = signal.getsignal(signal.SIGINT)
     # Who started the tests in the background may have told them, and what they start, to ignore Ctrl-C.
@@ -110,7 +126,7 @@ def test_ctrl_c_ends_a_long_run_with_one_line_and_leaves_no_half_written_file(tm
     words = ("run", "long.nc", "--control", "fanuc-m", "--trace", "out.jsonl")
     process = _polycnc(*words, cwd=tmp_path, stdout=subprocess.DEVNULL)
     deadline = time.monotonic() + 30
-    while not list(tmp_path.glob(".out.jsonl.*")) and time.monotonic() < deadline:
+    while not _is_writing(process.pid, tmp_path) and time.monotonic() < deadline:
         time.sleep(0.02)
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=30)
@@ -136,6 +152,16 @@ def test_an_alarm_is_status_1_and_its_line_can_be_clicked(console: Console) -> N
     assert "PS0010" in said.out
 
 
+def _is_writing(process: int, folder: Path) -> bool:
+    """Whether a process has an output file open: one beside its target, or one that has no name yet."""
+    if list(folder.glob(".out.jsonl.*")):
+        return True
+    opened = Path(f"/proc/{process}/fd")
+    with suppress(OSError):  # no such system, or a file has just been closed
+        return any(each.readlink().parent == folder.resolve() for each in opened.iterdir())
+    return False
+
+
 def test_a_run_that_is_told_to_end_leaves_no_half_written_file(tmp_path: Path) -> None:
     program = tmp_path / "loop.nc"
     program.write_text("O1\nG91\nN1 G0 X1.\nX-1.\nGOTO 1\n", encoding="utf-8")
@@ -151,8 +177,11 @@ def test_a_run_that_is_told_to_end_leaves_no_half_written_file(tmp_path: Path) -
         "out.jsonl",
     ]
     with subprocess.Popen(words, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as run:
-        while not list(tmp_path.glob(".out.jsonl.*")):
+        end = time.monotonic() + 60
+        while not _is_writing(run.pid, tmp_path):
             assert run.poll() is None
+            assert time.monotonic() < end
+            time.sleep(0.05)
         run.terminate()
         assert run.stderr is not None
         told = run.stderr.read()
@@ -163,3 +192,19 @@ def test_a_run_that_is_told_to_end_leaves_no_half_written_file(tmp_path: Path) -
 
 def test_the_list_of_alarms_shows_no_placeholders(console: Console) -> None:
     assert "{" not in console("alarms", "--control", "fanuc-m").out
+
+
+def test_a_mistake_of_polycnc_is_one_line_and_no_alarm(
+    console: Console, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fails(*_: object, **__: object) -> None:
+        raise ZeroDivisionError("of our own")
+
+    monkeypatch.setattr("polycnc.cli.options.Opening.session", fails)
+    said = console("run", "a.nc")
+    assert said.status == 2
+    assert said.err.startswith("polycnc: a mistake of polycnc itself: ZeroDivisionError: of our own (")
+    assert said.err.count("\n") == 1
+    monkeypatch.setenv("POLYCNC_TRACEBACK", "1")
+    with pytest.raises(ZeroDivisionError):
+        console("run", "a.nc")

@@ -10,10 +10,13 @@ from xml.etree import ElementTree
 import jsonschema
 import pytest
 
+from polycnc.cli.commands import check
+from polycnc.session import Session
 from tests.cli.console import BAD, GOOD
 from tests.cli.sarif_schema import SARIF
 
 if TYPE_CHECKING:
+    from polycnc.session import Result
     from tests.cli.console import Console
 
 MAIN = "O1\nG0 X1.\nM98 P9001\nM30\n"
@@ -39,15 +42,16 @@ def test_a_finding_is_one_line_with_its_place(console: Console) -> None:
     console.file("bad.nc", BAD)
     said = console("check", "bad.nc", *FANUC)
     assert said.status == 1
-    (line,) = said.out.splitlines()
+    line, remedy = said.out.splitlines()
     assert line.startswith("bad.nc:3:")
     assert ": PS0010 " in line
+    assert remedy.startswith("  remedy: ")
 
 
 def test_a_finding_in_a_called_file_names_that_file(console: Console) -> None:
     console.file("main.nc", MAIN)
     console.file("O9001.nc", SUB)
-    (line,) = console("check", "main.nc", *FANUC).out.splitlines()
+    line = console("check", "main.nc", *FANUC).out.splitlines()[0]
     assert line.startswith("O9001.nc:3:")
 
 
@@ -64,6 +68,58 @@ def test_one_unreadable_file_does_not_hide_the_findings_of_the_others(console: C
     assert said.status == 2
     assert "PS0010" in said.out
     assert "missing.nc" in said.err
+
+
+@pytest.mark.parametrize("form", ["json", "github", "sarif", "junit"])
+def test_every_format_tells_of_an_unreadable_file(console: Console, form: str) -> None:
+    console.file("good.nc", GOOD)
+    said = console("check", "missing.nc", "good.nc", *FANUC, "--format", form)
+    assert said.status == 2
+    assert "missing.nc" in said.out
+
+
+def test_junit_counts_an_unreadable_file_as_an_error(console: Console) -> None:
+    console.file("good.nc", GOOD)
+    suite = ElementTree.fromstring(console("check", "missing.nc", "good.nc", *FANUC, "--format", "junit").out)
+    assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("2", "0", "1")
+    assert [case.find("error") is not None for case in suite] == [True, False]
+
+
+def test_a_mistake_of_polycnc_in_one_file_leaves_the_others(
+    console: Console, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    console.file("bad.nc", BAD)
+    console.file("crash.nc", "O1\nG0 X4321.\nM30\n")
+
+    def run(session: Session, *watching: Any) -> Result:
+        if "X4321." in session.result.program.lines[1]:
+            raise RuntimeError("oops")
+        return run_session(session, *watching)
+
+    run_session = Session.run
+    monkeypatch.setattr(Session, "run", run)
+    said = console("check", "crash.nc", "bad.nc", *FANUC)
+    assert said.status == 2
+    assert "PS0010" in said.out
+    assert "crash.nc: a mistake of polycnc itself (RuntimeError: oops" in said.err
+
+
+def test_the_control_that_the_text_names_is_told(console: Console) -> None:
+    console.file("turn.nc", "O1\nG50 S2000\nM30\n")
+    console.file("mill.nc", "%@MACRO\nM30;\n")
+    said = console("check", "turn.nc", "mill.nc")
+    assert "checked as fanuc-0i-tf" in said.err
+    assert "(1: turn.nc)" in said.err
+    assert "checked as syntec-mill" in said.err
+    assert "checked as" not in console("check", "turn.nc", "--control", "fanuc-0i-tf").err
+
+
+def test_a_pattern_that_the_shell_has_left_is_resolved(console: Console) -> None:
+    console.file("one.nc", BAD)
+    console.file("two.nc", BAD)
+    said = console("check", "*.nc", *FANUC)
+    assert [line.split(":")[0] for line in said.out.splitlines() if "PS0010" in line] == ["one.nc", "two.nc"]
+    assert "none?.nc" in console("check", "none?.nc", *FANUC).err
 
 
 def test_standard_input_is_called_by_the_name_it_is_given(
@@ -172,3 +228,17 @@ def test_a_mistake_in_the_head_of_a_called_program_is_shown_there(console: Conso
     said = console("check", main, "--control", "sinumerik-840d")
     assert said.status == 1
     assert said.out.startswith(f"{called}:1:15: 12080 ")
+
+
+def test_many_files_are_checked_on_all_cores_in_their_order(
+    console: Console, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    names = [f"part{i:02d}.nc" for i in range(2 * check.SHARED)]
+    for i, name in enumerate(names):
+        console.file(name, BAD if i % 5 == 0 else GOOD)
+    monkeypatch.setattr(check, "_cores", lambda: 2)
+    shared = console("check", *names, *FANUC, "--lang", "zh-TW")
+    monkeypatch.setattr(check, "_cores", lambda: 1)
+    alone = console("check", *names, *FANUC, "--lang", "zh-TW")
+    assert shared == alone
+    assert [line[:9] for line in shared.out.splitlines() if line.startswith("part")] == names[::5]

@@ -24,7 +24,7 @@ def test_features_are_counted_for_every_control(console: Console) -> None:
 def test_features_of_a_folder_are_those_whose_cases_all_pass(console: Console) -> None:
     (console.folder / "cases").mkdir()
     case = (
-        "- {{id: {id}, feature: {feature}, control: fanuc-m, program: 'G0 X1.',"
+        '- {{id: {id}, feature: {feature}, control: fanuc-m, program: "G0 X1.\\nM30",'
         " expect: {{final: {{work: {{X: {x}}}}}}}}}\n"
     )
     console.file(

@@ -1,14 +1,20 @@
 from __future__ import annotations
 
+import os
+import signal
 import stat
+import subprocess
+import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
 from polycnc.cli.output import whole_file, write_whole
+from tests.cli.console import BAD, GOOD
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from tests.cli.console import Console
 
 
 def test_a_file_appears_only_when_it_is_complete(tmp_path: Path) -> None:
@@ -67,3 +73,72 @@ def test_a_missing_folder_is_named_as_the_user_wrote_it(
     with pytest.raises(FileNotFoundError) as caught:
         write_whole(Path("missing/out.txt"), "text")
     assert caught.value.filename == "missing/out.txt"
+
+
+def test_a_file_that_is_renewed_keeps_its_mode(tmp_path: Path) -> None:
+    path = tmp_path / "out.txt"
+    path.touch()
+    path.chmod(0o640)
+    write_whole(path, "text")
+    assert stat.S_IMODE(path.stat().st_mode) == 0o640
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from polycnc.cli.output import whole_file
+number = int(sys.argv[2])
+if number != signal.SIGKILL:  # `nohup` hands on an ignored signal
+    signal.signal(number, signal.SIG_DFL)
+with whole_file(Path(sys.argv[1])) as stream:
+    stream.write("half")
+    stream.flush()
+    os.kill(os.getpid(), number)
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "O_TMPFILE"), reason="files without a name are Linux's")
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGHUP, signal.SIGTERM])
+def test_nothing_is_left_of_a_process_that_is_killed(tmp_path: Path, number: int) -> None:
+    path = tmp_path / "out.txt"
+    path.write_text("old", encoding="utf-8")
+    subprocess.run([sys.executable, "-c", KILLED, str(path), str(number)], check=False)
+    assert [each.name for each in tmp_path.iterdir()] == ["out.txt"]
+    assert path.read_text(encoding="utf-8") == "old"
+
+
+@pytest.fixture
+def inputs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
+    """A program with a subprogram, another one, a setup, a machine and a case, and what stands in them."""
+    texts = {
+        "a.nc": GOOD.replace("M30", "M98 P7\nM30"), "O0007.nc": "O0007\nM99\n", "b.nc": BAD,
+        "s.yaml": "start: {X: 0}\n", "m.toml": 'base = "mill3"\n', "cases/c.yaml": "[]\n", "plot.svg": GOOD,
+    }  # fmt: skip
+    (tmp_path / "cases").mkdir()
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    return texts
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "run a.nc --print a.nc", "run a.nc --state a.nc", "run a.nc --setup s.yaml --state s.yaml",
+        "run a.nc --machine m.toml --print m.toml", "run a.nc --print O0007.nc", "run a.nc --state ./../LINK/a.nc",
+        "check -o a.nc a.nc", "check -o a.nc b.nc", "check b.nc --setup s.yaml -o s.yaml",
+        "test cases/c.yaml --report cases/c.yaml",
+        "plot plot.svg -o plot.svg", "features --from cases -o cases/c.yaml",
+        "data export programs a.nc b.nc -o b.nc",
+        "data import a.nc --setup a.nc --folder . --overwrite",
+    ],
+)  # fmt: skip
+def test_no_output_replaces_an_input(console: Console, inputs: dict[str, str], words: str) -> None:
+    Path("../LINK").symlink_to(Path.cwd())
+    control = [] if words.startswith(("test", "features", "data")) else ["--control", "fanuc-m"]
+    said = console(*words.split(), *control)
+    assert {name: Path(name).read_text(encoding="utf-8") for name in inputs} == inputs, said
+    if not words.startswith("data import"):
+        assert said.status == 2
+        assert "not overwritten" in said.err
+    Path("../LINK").unlink()

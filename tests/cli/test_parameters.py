@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import pytest
 import yaml
 
 if TYPE_CHECKING:
     from tests.cli.console import Console
 LATHE = ("--control", "fanuc-0i-tf")
+SINUMERIK = ("--control", "sinumerik-840d")
 
 
 def test_parameters_are_listed_with_their_meaning_in_both_languages(console: Console) -> None:
@@ -19,11 +21,57 @@ def test_parameters_are_listed_with_their_meaning_in_both_languages(console: Con
     assert len(chinese.splitlines()) == len(english.splitlines()) > 100
 
 
+@pytest.mark.parametrize(
+    ("control", "english", "chinese"),
+    [
+        ("fanuc-m", "19625     3            Blocks that compensation looks ahead", "補正的預讀單節數"),
+        (
+            "meldas-m",
+            "8012      0            G73 n: retract of high speed pecking [mm]",
+            "高速深孔鑽的退刀量",
+        ),
+    ],
+)
+def test_the_parameters_of_mills_are_listed(
+    console: Console, control: str, english: str, chinese: str
+) -> None:
+    assert english in console("parameters", "list", "--control", control).out.splitlines()
+    assert chinese in console("parameters", "list", "--control", control, "--lang", "zh-TW").out
+
+
+@pytest.mark.parametrize(
+    ("control", "known", "unknown"),
+    [
+        ("fanuc-m", "3404#7=1", "3404#0=1"),
+        ("meldas-m", "7213=8211", "7214=1"),
+        ("meldas-m", "1086=0", "6001#5=1"),
+    ],
+)
+def test_only_numbers_and_bits_of_the_list_are_set(
+    console: Console, control: str, known: str, unknown: str
+) -> None:
+    assert console("parameters", "set", known, "--control", control, "--setup", "mill.yaml").status == 0
+    refused = console("parameters", "set", unknown, "--control", control, "--setup", "mill.yaml")
+    assert refused.status == 2
+    assert unknown.partition("=")[0] in refused.err
+
+
 def test_values_of_a_setup_stand_in_the_list(console: Console) -> None:
     console.file("setup.yaml", 'parameters: {"5114": 0.5, "1241 X": 100, "3402": 80}\n')
     lines = console("parameters", "list", *LATHE, "--setup", "setup.yaml").out.splitlines()
     values = {line.split()[0]: line.split()[1] for line in lines}
     assert (values["5114"], values["1241"], values["3402#4"], values["3402#6"]) == ("0.5", "X=100", "1", "1")
+
+
+@pytest.mark.parametrize("control", ["fanuc-0i-tf", "fanuc-m"])
+def test_numbers_and_bits_of_a_setup_that_the_control_does_not_have_are_named(
+    console: Console, control: str
+) -> None:
+    console.file("setup.yaml", 'parameters: {"5114": 0.5, "6004": 1, "6004#7": 1, "1240 X": 5, "9999": 3}\n')
+    said = console("parameters", "list", "--control", control, "--setup", "setup.yaml")
+    assert said.status == 0
+    assert [line.split()[-1] for line in said.err.splitlines()] == ["6004#7", "9999"]
+    assert f"{control}: " in said.err
 
 
 def test_a_number_shows_all_its_bits(console: Console) -> None:
@@ -52,9 +100,54 @@ def test_a_wrong_assignment_sets_nothing(console: Console) -> None:
         assert not (console.folder / "setup.yaml").exists()
 
 
-def test_a_control_without_a_list_says_so(console: Console) -> None:
-    assert console("parameters", "list", "--control", "fanuc-m").status == 2
+def test_a_list_is_that_of_a_control(console: Console) -> None:
     assert console("parameters", "list").status == 2
+    assert console("parameters", "list", "--control", "no-such-control").status == 2
+
+
+def test_machine_data_are_listed_by_number_with_their_identifier(console: Console) -> None:
+    lines = console("parameters", "list", *SINUMERIK).out.splitlines()
+    largest = "largest difference of the radii at start and end of a circle"
+    assert f"21000     0.01         $MC_CIRCLE_ERROR_CONST: {largest} [mm]" in lines
+    assert next(line for line in lines if line.startswith("21010")).endswith(
+        "(kept only: nothing acts on it)"
+    )
+    assert "現用" in console("parameters", "show", "42940", *SINUMERIK, "--lang", "zh-TW").out
+
+
+def test_machine_data_are_shown_by_number_or_identifier(console: Console) -> None:
+    by_number, by_name = (
+        console("parameters", "show", name, *SINUMERIK).out for name in ("22560", "$MC_TOOL_CHANGE_M_CODE")
+    )
+    assert by_number == by_name
+    assert "delivered: 6" in by_name
+
+
+def test_machine_data_of_a_setup_are_shown_with_axis_element_and_bit(console: Console) -> None:
+    written = (
+        '"36110[X]": 500, "$MA_POS_LIMIT_PLUS[Y]": 400, "20150[7]": 2, "20110#6": 1, "20000": MILL, 77: 1'
+    )
+    console.file("setup.yaml", f"parameters: {{{written}}}\n")
+    said = console("parameters", "list", *SINUMERIK, "--setup", "setup.yaml")
+    values = {line.split()[0]: line.split("  $")[0].split()[1:] for line in said.out.splitlines()}
+    assert values["36110"][:2] == ["X=500", "Y=400"]
+    assert (values["20150"][0], values["20110"][0], values["20000"][0]) == ("[7]=2", "#6=1", "MILL")
+    assert [line.split()[-1] for line in said.err.splitlines()] == ["77"]
+
+
+def test_machine_data_are_set_by_number_or_identifier_and_a_run_has_them(console: Console) -> None:
+    words = ("36110[X]=30", "$MC_CHAN_NAME=MILL", "20110#6=1")
+    assert console("parameters", "set", *words, *SINUMERIK, "--setup", "setup.yaml").status == 0
+    setup = yaml.safe_load((console.folder / "setup.yaml").read_text())
+    assert setup == {"parameters": {"36110[X]": 30, "$MC_CHAN_NAME": "MILL", "20110#6": 1}}
+    console.file("part.mpf", "G0 X31\nM30\n")
+    said = console("run", "part.mpf", *SINUMERIK, "--setup", "setup.yaml")
+    assert "10720" in said.out + said.err
+
+
+@pytest.mark.parametrize("word", ["21000=wide", "21000#1=1", "20110#6=2", "$MC_NO_SUCH=1"])
+def test_what_a_datum_cannot_be_is_refused(console: Console, word: str) -> None:
+    assert console("parameters", "set", word, *SINUMERIK, "--setup", "setup.yaml").status == 2
 
 
 def test_a_name_with_several_numbers_is_shown_and_set_by_each_of_them(console: Console) -> None:

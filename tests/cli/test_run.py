@@ -15,6 +15,8 @@ from tests.cli.console import BAD, GOOD
 if TYPE_CHECKING:
     from tests.cli.console import Console
 
+FANUC = ("--control", "fanuc-m")
+
 
 def test_a_run_tells_time_travel_and_tools(console: Console) -> None:
     console.file("good.nc", GOOD)
@@ -38,6 +40,40 @@ def test_the_control_is_guessed_where_the_text_is_certain(console: Console) -> N
     console.file("part.mpf", "DEF REAL A=1\nIF A>0 GOTOF ENDE\nENDE: M30\n")
     said = console("check", "part.mpf")
     assert "--control" not in said.err
+
+
+def test_the_report_names_units_where_the_program_is_in_inches(console: Console) -> None:
+    console.file(
+        "inch.nc", "O1\nG20 G90 G94 G17 G54\nT1 M6\nS1200 M3\nG0 X1. Y0 Z.1\nG1 Z-.2 F10.\nX2.\nM30\n"
+    )
+    said = console("run", "inch.nc", *FANUC).out
+    assert "cuts, work (inch): X 1.000 … 2.000  Y 0.000  Z -0.200 … 0.100" in said
+    assert "cuts, machine (mm): X 25.400 … 50.800  Y 0.000  Z -5.080 … 2.540" in said
+    assert "machine positions of all moves (mm): X 25.400 … 50.800" in said
+
+
+def test_the_report_tells_extents_speeds_feeds_and_offsets(console: Console) -> None:
+    console.file(
+        "two.nc",
+        "O1\nG21 G90 G94 G17 G54\nT1 M6\nS1200 M3\nG0 X10. Y0 Z5.\nG1 Z-2. F100\nX60. F400\nG3 X60. Y40. R20.\n"
+        "G0 Z50.\nT2 M6\nG55 G0 X5. Y5.\nG1 Z-7. F80\nG0 Z20.\nM30\n",
+    )
+    console.file("two.setup.yaml", "work_offsets: {G54: {X: -300, Z: -400}}\n")
+    said = console("run", "two.nc", *FANUC, "--setup", "two.setup.yaml", "--state", "s.json").out
+    assert "S1200  F100–400 mm/min" in said
+    assert "cuts, work: X 10.000 … 80.000  Y 0.000 … 40.000  Z -2.000 … 5.000" in said
+    assert "cuts, machine: X -290.000 … -220.000  Y 0.000 … 40.000  Z -402.000 … -395.000" in said
+    assert "machine positions of all moves: X -290.000 … 5.000" in said
+    assert "work offsets used: G54, G55" in said
+    state = json.loads((console.folder / "s.json").read_text(encoding="utf-8"))
+    assert state["work_offsets"] == ["G54", "G55"]
+    assert state["extents"]["tools"][1]["work"]["Z"] == [-350.0, -7.0]
+    assert "work offsets" not in console("run", "two.nc", *FANUC, "--no-time").out
+
+
+def test_an_alarm_in_the_report_says_what_to_do(console: Console) -> None:
+    console.file("bad.nc", BAD)
+    assert "\n  remedy: " in console("run", "bad.nc", *FANUC).out
 
 
 def test_an_ambiguous_program_asks_for_the_control(console: Console) -> None:
@@ -108,6 +144,27 @@ def test_the_trace_of_an_alarm_ends_with_it_in_words(console: Console) -> None:
     last = json.loads((console.folder / "out.jsonl").read_text(encoding="utf-8").splitlines()[-1])
     assert (last["type"], last["code"], last["line"]) == ("alarm", "PS0010", 3)
     assert last["text"]
+
+
+def test_the_state_is_json_also_where_a_number_has_grown_beyond_all_bounds(console: Console) -> None:
+    console.file("grown.mpf", "R2=1EX300\nR1=R2*R2\nR3=2\nM30\n")
+    console("run", "grown.mpf", "--control", "sinumerik-840d", "--state", "s.json")
+    text = (console.folder / "s.json").read_text(encoding="utf-8")
+    state = json.loads(text, parse_constant=pytest.fail)
+    assert state["variables"]["R2"] == 1e300
+    assert state["variables"].get("R1") is None
+
+
+@pytest.mark.parametrize(
+    ("control", "code"), [("fanuc-m", "PS0003"), ("fanuc-0i-tf", "PS0003"), ("meldas-m", "P35")]
+)
+def test_a_number_in_an_expression_may_not_have_more_digits_than_any_number(
+    console: Console, control: str, code: str
+) -> None:
+    console.file("long.nc", f"O1\n#1={'9' * 310}\nM30\n")
+    said = console("run", "long.nc", "--control", control)
+    assert said.status == 1
+    assert f"long.nc:2:4: {code}" in said.out
 
 
 def test_the_state_holds_positions_modes_variables_and_times(console: Console) -> None:
@@ -200,3 +257,17 @@ def test_a_long_program_is_the_same_with_and_without_bulk(console: Console) -> N
     none = console("run", "long.nc", "--control", "fanuc-m", "--no-time", "--trace", "b.csv", "--no-bulk")
     assert bulk.out == none.out
     assert (console.folder / "a.csv").read_text() == (console.folder / "b.csv").read_text()
+
+
+def test_where_the_time_goes_is_told_where_one_asks(console: Console) -> None:
+    console.file("good.nc", GOOD)
+    said = console("run", "good.nc", "--explain-time", *FANUC)
+    assert "where the time goes:" in said.out
+    assert "at the programmed feed, over" in said.out
+    shares = [
+        float(line.split("%")[0])
+        for line in said.out.splitlines()
+        if line.startswith("  ") and " %  " in line
+    ]
+    assert sum(shares) == pytest.approx(100.0, abs=0.5)
+    assert "where the time goes:" not in console("run", "good.nc", *FANUC).out

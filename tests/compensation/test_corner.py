@@ -225,4 +225,4 @@ def test_discard_forgets_the_held_move() -> None:
 
 
 def test_policies_are_data() -> None:
-    assert replace(FANUC_CORNERS, idle_blocks=5, shrinks=True) == SINUMERIK_CORNERS
+    assert replace(FANUC_CORNERS, idle_blocks=1, shrinks=True) == SINUMERIK_CORNERS

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 import pytest
 
-from polycnc.control.parameters import AxisParameters, Bit, ControlParameters, Number, Whole
+from polycnc.control.parameters import (
+    AxisParameters,
+    Bit,
+    Constant,
+    ControlParameters,
+    Number,
+    Whole,
+    WholeRun,
+)
 from polycnc.machine.setup.values import ParameterKey, Parameters, Value, parameter_key
 
 
@@ -67,6 +75,43 @@ def test_a_value_is_looked_up_once() -> None:
 def test_the_class_has_the_parameter_itself() -> None:
     assert Values.CLR.key == ParameterKey(3402, 6)
     assert values({"3402#6": 1}).value(Values.CLR) is True
+
+
+def test_a_number_is_read_with_what_is_delivered() -> None:
+    found = values({"3402#6": 1, "5110": 68, "1430 Z": 2000, "9000#3": 1})
+    assert (found.at(5010), found.at(5110), found.at(1430, axis="Z"), found.at(1430)) == (
+        0.001,
+        68.0,
+        2000.0,
+        0.0,
+    )
+    assert (found.at(3402, 4), found.at(3402, 6), found.at(3402)) == (1.0, 1.0, 0b1010000)
+    assert (found.at(9000, 3), found.at(9000)) == (1.0, 8.0)
+
+
+def test_a_number_that_the_control_does_not_have_or_the_machine_says_is_none() -> None:
+    found = values({})
+    assert (found.at(1), found.at(3402, 5), found.at(1006, 3), found.at(1006)) == (None, None, None, None)
+
+
+def test_a_constant_of_a_control_has_no_number() -> None:
+    class Without(Values):
+        """A control that has no parameter for it."""
+
+        clamp_code = Constant(5)
+
+    assert Without({parameter_key("5110"): 7}).clamp_code == 5
+    assert Without().at(5110) is None
+
+
+def test_each_of_several_numbers_is_delivered() -> None:
+    class Several(Values):
+        """Two numbers, ten apart."""
+
+        codes = WholeRun(7001, 2, step=10, delivered=3)
+
+    found = Several({parameter_key("7011"): 9})
+    assert (found.codes, found.at(7001), found.at(7002), found.at(7011)) == ((3, 9), 3.0, None, 9.0)
 
 
 def test_a_name_that_is_not_in_the_list_is_no_attribute() -> None:

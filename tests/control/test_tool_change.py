@@ -38,7 +38,7 @@ def test_a_tool_is_changed_at_the_points_of_the_machine_file_only(
 
 
 def test_hartford_machines_have_alarms_of_their_own(tmp_path: Path) -> None:
-    machine = MILL.format(magazine="change_at = { Z = [1] }")
+    machine = 'rules = "hartford"\n' + MILL.format(magazine="change_at = { Z = [1] }")
     program = WORDS.format(way=SECOND)
     assert alarms(tmp_path, "fanuc-m", program, machine) == ["1046"]
     assert alarms(tmp_path, "meldas-m", program, machine) == ["3017"]

@@ -52,3 +52,10 @@ def weigh(columns: Columns, total: Total, i: int) -> None:
 def put(values: Floats, last: bool) -> None:
     """Mark a place."""
     values[Room.LAST if last else Room.FIRST] = 7.0
+
+
+def refuse(values: Floats) -> int:
+    """Does what machine code cannot."""
+    if values[0] < 0.0:
+        raise ValueError
+    return 1

@@ -1,8 +1,7 @@
-"""Kernels as machine code: how they are called, and where they are kept."""
+"""Kernels as machine code: how they are called, and when there are none."""
 
 from __future__ import annotations
 
-import os
 from array import array
 from ctypes import Structure
 from pathlib import Path
@@ -10,34 +9,44 @@ from typing import Annotated, NamedTuple
 
 import pytest
 
-from polycnc.kernels import library, store
+from polycnc.kernels import native
 from polycnc.kernels.layout import Bytes, Floats, Ints32, Kind, Places, arguments, place, record
 from polycnc.kernels.library import Library
+from polycnc.kernels.native import Lack
 from tests.kernels import sums
 
 
-def unwritable(_path: object, _mode: int) -> bool:
-    return False
-
-
-@pytest.fixture
-def numba(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Kernels can be compiled, and a folder of the test's own keeps them."""
+@pytest.fixture(scope="module")
+def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A shared object with the kernels of `sums`."""
     pytest.importorskip("numba")
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
-    monkeypatch.delenv(library.CHOICE, raising=False)
+    from build_kernels.compiler import object_code
+    from build_kernels.linker import link, system_linker
+
+    if system_linker() is None:
+        pytest.skip("no linker")
+    made = tmp_path_factory.mktemp("kernels") / native.FILE.name
+    link([object_code(library(made))], made)
+    return made
 
 
-def made() -> Library:
-    return Library("sums", (sums,), (sums.add, sums.put))
+@pytest.fixture(autouse=True)
+def wanted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nobody has chosen plain kernels."""
+    monkeypatch.delenv(native.CHOICE, raising=False)
+    native.load.cache_clear()
+
+
+def library(file: Path) -> Library:
+    return Library("sums", (sums,), (sums.add, sums.put), file=file)
 
 
 def given() -> tuple[sums.Columns, sums.Total]:
     return sums.Columns(array("d", [1.5, 2.25]), array("i", [3, 4])), sums.Total(1.0, 2)
 
 
-def test_a_kernel_gives_the_same_compiled_and_plain(numba: None) -> None:
-    compiled = made().compiled(sums.add)
+def test_a_kernel_gives_the_same_compiled_and_plain(file: Path) -> None:
+    compiled = library(file).compiled(sums.add)
     assert compiled is not None
     (columns, total), (others, other) = given(), given()
     assert compiled(columns, total, 0.5) == sums.add(others, other, 0.5) == 2
@@ -46,78 +55,72 @@ def test_a_kernel_gives_the_same_compiled_and_plain(numba: None) -> None:
     assert total.parts[1] == 4.0
 
 
-def test_a_kernel_that_gives_nothing_can_be_called(numba: None) -> None:
-    compiled = made().compiled(sums.put)
+def test_a_kernel_that_gives_nothing_can_be_called(file: Path) -> None:
+    compiled = library(file).compiled(sums.put)
     values = array("d", [0.0, 0.0, 0.0])
     assert compiled is not None
     compiled(values, True)
     assert list(values) == [0.0, 7.0, 0.0]
 
 
-def test_the_second_time_nothing_is_compiled(numba: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    first = made()
-    assert not first.ready
-    assert first.compiled(sums.add) is not None
-    again = made()
-    monkeypatch.setattr(again, "object_code", None)
-    assert again.ready
-    assert again.compiled(sums.add) is not None
+def test_nothing_but_kernels_and_their_digest_can_be_seen_from_outside(file: Path) -> None:
+    """Two objects with the same helper of Numba would not link."""
+    seen = file.read_bytes()
+    assert b"digest_of_sums" in seen
+    assert b"NumbaEnv" not in seen
 
 
-def test_the_environment_chooses_plain_kernels(numba: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(library.CHOICE, "python")
-    assert made().compiled(sums.add) is None
-    assert not made().ready
+def test_the_environment_chooses_plain_kernels(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(native.CHOICE, "python")
+    native.load.cache_clear()
+    assert library(file).compiled(sums.add) is None
+    assert library(file).lack is Lack.CHOSEN
 
 
-def test_an_array_of_other_items_is_refused(numba: None) -> None:
-    compiled = made().compiled(sums.put)
+def test_an_installation_without_machine_code_has_plain_kernels(tmp_path: Path) -> None:
+    assert library(tmp_path / "none.so").compiled(sums.add) is None
+    assert library(tmp_path / "none.so").lack is Lack.MISSING
+
+
+def test_a_file_that_cannot_be_loaded_is_none(tmp_path: Path) -> None:
+    """Such as one of another platform."""
+    damaged = tmp_path / "damaged.so"
+    damaged.write_bytes(b"code")
+    assert library(damaged).lack is Lack.MISSING
+
+
+def test_machine_code_of_other_sources_is_not_run(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert library(file).lack is None
+    monkeypatch.setattr(sums, "HALF", 0.25)
+    assert library(file).lack is Lack.STALE
+    assert library(file).compiled(sums.add) is None
+
+
+def test_a_library_that_is_newer_than_the_machine_code_has_none(file: Path) -> None:
+    assert Library("others", (sums,), (sums.add,), file=file).lack is Lack.STALE
+
+
+def test_a_number_of_the_sources_changes_their_digest(monkeypatch: pytest.MonkeyPatch) -> None:
+    digests = {library(native.FILE).digest}
+    monkeypatch.setattr(sums, "HALF", 0.25)
+    digests.add(library(native.FILE).digest)
+    monkeypatch.setattr(sums.Room, "LAST", 2)
+    assert len({*digests, library(native.FILE).digest}) == 3
+
+
+def test_an_array_of_other_items_is_refused(file: Path) -> None:
+    compiled = library(file).compiled(sums.put)
     assert compiled is not None
-    with pytest.raises(AssertionError, match="f is not d"):
+    with pytest.raises(TypeError, match="arrays of f, not of d"):
         compiled(array("f", [0.0, 0.0]), False)
 
 
-def test_a_kernel_with_another_constant_is_another_file(numba: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    before = made()._file
-    monkeypatch.setattr(sums, "HALF", 0.25)
-    after = made()._file
-    monkeypatch.setattr(sums.Room, "LAST", 2)
-    assert len({before, after, made()._file, None}) == 4
+def test_a_kernel_that_can_raise_is_not_compiled() -> None:
+    pytest.importorskip("numba")
+    from build_kernels.compiler import object_code
 
-
-def test_the_folder_that_the_user_names_for_numba_comes_first(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("NUMBA_CACHE_DIR", "/some/where")
-    assert store.folder() == Path("/some/where")
-
-
-def test_an_installation_that_cannot_be_written_uses_the_cache_of_the_user(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    monkeypatch.setattr(os, "access", unwritable)
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    assert store.folder() == tmp_path / "polycnc"
-
-
-def test_a_user_without_a_home_has_no_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
-    def homeless() -> Path:
-        raise RuntimeError
-
-    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
-    monkeypatch.setattr(os, "access", unwritable)
-    monkeypatch.setattr(Path, "home", homeless)
-    assert store.folder() is None
-    assert made().compiled(sums.add) is None
-    assert not made().ready
-
-
-def test_a_damaged_file_is_no_kernel(tmp_path: Path) -> None:
-    file = tmp_path / "sums.kernel"
-    store.write(file, b"code")
-    assert store.read(file) == b"code"
-    file.write_bytes(file.read_bytes()[:-1])
-    assert store.read(file) is None
+    with pytest.raises(TypeError, match="can raise"):
+        object_code(Library("sums", (sums,), (sums.refuse,)))
 
 
 def test_places_are_numbered_in_their_order() -> None:

@@ -9,14 +9,16 @@ from typing import cast
 
 import pytest
 
-from polycnc.machine.check import contradictions, gaps
+from polycnc.machine.builder import BUILDERS
+from polycnc.machine.check import conditions, contradictions, gaps
 from polycnc.machine.load import BUILTIN, builtin_ids, load_machine
 from polycnc.machine.render import fields, machine_toml
-from polycnc.machine.schema import field_names, mistakes
-from polycnc.machine.tables import MachineData
+from polycnc.machine.schema import BuilderTable, field_names, mistakes
+from polycnc.machine.tables import BuilderData, MachineData
 
 AXES = {
     "mill3": "X Y Z",
+    "hartford": "X Y Z",
     "mill3-2ch": "X Y Z",
     "mill3-4ch": "X Y Z",
     "mill2-2ch": "X Y",
@@ -58,6 +60,13 @@ def test_every_machine_of_the_case_format_is_there_and_no_other() -> None:
 @pytest.mark.parametrize("path", FILES, ids=[path.stem for path in FILES])
 def test_shipped_file_follows_the_schema(path: Path) -> None:
     assert list(mistakes(tomllib.loads(path.read_text(encoding="utf-8")))) == []
+
+
+@pytest.mark.parametrize("path", sorted(BUILDERS.glob("*/*.toml")), ids=lambda path: path.stem)
+def test_shipped_builder_follows_the_schema(path: Path) -> None:
+    data = tomllib.loads(path.read_text(encoding="utf-8"))
+    assert list(mistakes(data, BuilderTable)) == []
+    assert list(conditions(cast("BuilderData", data))) == []
 
 
 @pytest.mark.parametrize(("machine_id", "axes"), AXES.items())

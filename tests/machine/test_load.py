@@ -159,3 +159,23 @@ def test_every_message_exists_in_both_languages() -> None:
         entry = catalogue().entry(key)
         assert set(entry) == {"en", "zh-TW"}
         assert entry["en"] != entry["zh-TW"]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ('[channel.2]\naxes = ["X", "Y", "Z"]\n', "channel 1 is missing"),
+        (f'base = "{"9" * 400}"\n', "there is no machine"),
+        ("a = " + "[" * 5000, "nested too deep"),
+        ("a = " + "9" * 5000, "very many digits"),
+    ],
+)
+def test_a_file_beyond_all_bounds_is_refused(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "machine.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(MachineFileError, match=message):
+        load_machine(path)
+
+
+def test_a_machine_that_comes_with_polycnc_is_read_once() -> None:
+    assert load_machine("mill3") is load_machine("mill3")

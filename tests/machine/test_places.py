@@ -2,6 +2,7 @@
 
 import pytest
 
+from polycnc.machine.documents import DocumentError, yaml_values
 from polycnc.machine.places import toml_place, yaml_place
 
 TOML = """\
@@ -62,3 +63,13 @@ def test_a_yaml_key_is_found(path: tuple[str | int, ...], place: tuple[int, int]
     if path == ("list", 1):
         text = "start: {X: 1}\ntools:\n  1: {length: 3}\nlist: [1,\n    2]\n"
     assert yaml_place(text, path) == place
+
+
+def test_a_place_is_found_in_whatever_the_parser_of_values_takes() -> None:
+    for text in ("ab: 1\n\ufeff", "ab\t: 1\n"):
+        try:
+            values = yaml_values(text)
+        except DocumentError:
+            continue
+        assert values
+        assert yaml_place(text, ("ab",)) == (1, 1)

@@ -31,6 +31,13 @@ def power_on(text: str = MILL, control: str = "fanuc-m", **more: Any) -> Virtual
     return virtual
 
 
+def hartford(
+    text: str = MILL, control: str = "fanuc-m", machine: str = "hartford", **more: Any
+) -> VirtualControl:
+    """The same on a Hartford machining centre."""
+    return power_on(text, control, machine=machine, **more)
+
+
 def execution_of(virtual: VirtualControl) -> Execution:
     """What executes the program of the first channel."""
     return virtual._operation.runs.first.execution

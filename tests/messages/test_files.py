@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from polycnc.messages.catalogue import messages, set_language
-from polycnc.messages.files import read_utf_8, reason_of
+from polycnc.messages.files import read_regular, read_utf_8, reason_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -32,7 +32,7 @@ def test_a_byte_order_mark_is_no_text(tmp_path: Path) -> None:
 def test_a_device_without_an_end_is_not_read() -> None:
     with pytest.raises(OSError, match="/dev/zero") as refused:
         read_utf_8("/dev/zero")
-    assert reason_of(refused.value) == "it is a device, no file"
+    assert reason_of(refused.value) == "it is a device or a pipe, no file"
 
 
 def test_a_directory_is_called_one(tmp_path: Path) -> None:
@@ -57,3 +57,36 @@ def test_a_rare_reason_is_told_in_the_words_of_the_system() -> None:
 def test_every_reason_is_named_as_the_system_names_it() -> None:
     named = {key.removeprefix("reason.") for key in messages() if key.startswith("reason.")}
     assert named - {"not-utf-8"} <= set(errno.errorcode.values())
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="Windows")
+def test_a_pipe_that_nobody_writes_to_is_not_waited_for(tmp_path: Path) -> None:
+    path = tmp_path / "pipe"
+    os.mkfifo(path)
+    with pytest.raises(OSError, match="pipe") as refused:
+        read_regular(path)
+    assert reason_of(refused.value) == "it is a device or a pipe, no file"
+
+
+def test_what_looks_like_a_file_and_waits_is_not_waited_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "kmsg").touch()
+    ends = os.pipe()
+    monkeypatch.setattr(os, "open", lambda _path, flags: _reading(ends[0], flags))
+    with pytest.raises(BlockingIOError) as refused:
+        read_regular(tmp_path / "kmsg")
+    assert reason_of(refused.value) == "nothing can be read from it now"
+    os.close(ends[1])
+
+
+def _reading(handle: int, flags: int) -> int:
+    os.set_blocking(handle, not flags & os.O_NONBLOCK)
+    return handle
+
+
+def test_at_most_so_many_bytes_are_read(tmp_path: Path) -> None:
+    path = tmp_path / "long"
+    path.write_bytes(b"12345")
+    assert read_regular(path, 3) == b"123"
+    assert read_regular(path) == b"12345"

@@ -55,7 +55,7 @@ def named_in(path: Path) -> set[str]:
     return found
 
 
-@pytest.mark.parametrize("folder", ["cli", "cases", "mainrun", "panel", "session.py"])
+@pytest.mark.parametrize("folder", ["cli", "cases", "mainrun", "panel", "session"])
 def test_every_text_that_a_folder_asks_for_exists(folder: str) -> None:
     paths = [SOURCE / folder] if folder.endswith(".py") else sorted((SOURCE / folder).rglob("*.py"))
     named = set().union(*map(named_in, paths))
@@ -78,8 +78,16 @@ def test_every_own_text_is_asked_for() -> None:
     assert [key for key in OWN if not asked.fullmatch(key)] == []
 
 
-def test_a_placeholder_without_a_value_is_shown_as_it_stands() -> None:
-    assert fill("{code} at {line}", {"line": 3}) == "{code} at 3"
+def test_a_value_that_is_not_given_is_left_open() -> None:
+    assert fill("{code} at {line}", {"line": 3}) == "… at 3"
+
+
+@pytest.mark.parametrize(
+    ("args", "shown"),
+    [({"text": "X"}, "Error at X"), ({"text": ""}, "Error at the end"), ({}, "Error at the end")],
+)
+def test_a_text_has_a_form_for_a_missing_value(args: dict[str, object], shown: str) -> None:
+    assert fill("Error <at {text}|at the end>", args) == shown
 
 
 def test_a_language_that_polycnc_does_not_speak_is_refused() -> None:
@@ -91,3 +99,11 @@ def test_a_missing_id_is_a_mistake_of_polycnc() -> None:
     catalogue = Catalogue(SOURCE / "messages" / "messages.toml")
     with pytest.raises(KeyError):
         catalogue.text("no such id")
+
+
+def test_catalogues_over_the_same_file_read_it_once(tmp_path: Path) -> None:
+    file = tmp_path / "texts.toml"
+    file.write_text('[a]\nen = "one"\n', encoding="utf-8")
+    assert Catalogue(file).text("a", "en") == "one"
+    file.unlink()
+    assert Catalogue(file).text("a", "en") == "one"

@@ -54,7 +54,7 @@ def test_a_peck_that_overlaps_its_retract_falls_short_of_its_depth() -> None:
 
 
 def test_a_stroke_waits_where_the_next_move_is_none_of_the_cycle() -> None:
-    assert motion(pecks(OVERLAPS, NO_OVERLAP))[0] > motion(pecks(OVERLAPS, STROKE))[0] + 0.02
+    assert motion(pecks(OVERLAPS, NO_OVERLAP))[0] > motion(pecks(OVERLAPS, STROKE))[0] + 0.015
 
 
 def test_a_dwell_between_two_strokes_keeps_them_apart() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import replace
-from math import cos, hypot, sin
+from math import cos, hypot, sin, sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -208,12 +208,10 @@ def test_limited_jerk_never_saves_time(
 
 
 def test_a_long_way_takes_its_ramps_longer() -> None:
-    """From rest to rest: as without limited jerk, at the acceleration that the average allows, and the average."""
+    """From rest to rest: as without limited jerk, and the time in which the acceleration is built up."""
     rows = Build(context=Context(corner_mode=CornerMode.EXACT_STOP)).rapid(400.0, 0.0, 0.0)
     x = MILL.axis["X"]
-    ramp = min(2.0 * x.acceleration / x.jerk, (2.0 * x.rapid / x.jerk) ** 0.5)
-    pull = min(x.acceleration, 0.5 * x.jerk * ramp)
-    expected = 400.0 / x.rapid + x.rapid / pull + ramp
+    expected = 400.0 / x.rapid + x.rapid / x.acceleration + x.acceleration / x.jerk
     assert rows.plan(MILL, settings=SOFT).total_s == pytest.approx(expected)
 
 
@@ -285,12 +283,55 @@ def test_the_pieces_of_a_cut_line_make_up_the_line() -> None:
     assert sum(lengths) == pytest.approx(30.0 + hypot(30.0, 4.0))
 
 
-@pytest.mark.parametrize("length", [0.05, 0.5, 2.0])
-def test_a_line_from_rest_to_rest_takes_a_fifth_longer_than_anything_could(length: float) -> None:
-    """Least time within a jerk j alone: a quarter of it each way up, down, down, up, ∛(32·L/j)."""
-    rows = Build(context=Context(corner_mode=CornerMode.EXACT_STOP)).feed(length, 0.0, 0.0, feed=1e4)
-    least = (32.0 * length / MILL.axis["X"].jerk) ** (1.0 / 3.0)
-    assert least < rows.plan(MILL, settings=SOFT).total_s < 1.2 * least
+def least_seconds(length: float, top: float, pull: float, jerk: float) -> float:
+    """Least time from rest to rest within speed, acceleration and jerk: seven phases, some of them empty.
+
+    Up to a speed v it takes `v/pull + pull/jerk` on half of that at v on average, or `2·√(v/jerk)` where v is too small
+    to reach the acceleration; v is the highest speed that leaves room for getting up to it and down again.
+    """
+
+    def rise(speed: float) -> float:
+        return speed / pull + pull / jerk if speed * jerk >= pull * pull else 2.0 * sqrt(speed / jerk)
+
+    slow, fast = 0.0, top
+    if top * rise(top) > length:
+        for _ in range(200):
+            middle = 0.5 * (slow + fast)
+            slow, fast = (middle, fast) if middle * rise(middle) <= length else (slow, middle)
+    return length / fast + rise(fast)
+
+
+@given(
+    st.floats(0.001, 2000.0), st.floats(1.0, 1000.0), st.floats(100.0, 20_000.0), st.floats(1e3, 1e6)
+)  # fmt: skip
+def test_a_line_from_rest_to_rest_takes_the_least_time(
+    length: float, top: float, pull: float, jerk: float
+) -> None:
+    axes = tuple(replace(a, acceleration=pull, rapid=top, max_feed=top, jerk=jerk) for a in MILL.axes)
+    machine = replace(MILL, axes=axes)
+    least = least_seconds(length, top, pull, jerk)
+    rest = Context(corner_mode=CornerMode.EXACT_STOP)
+    for lead in (SOFT, replace(SOFT, rapid_by_axis=True)):
+        assert Build(context=rest).rapid(length, 0.0, 0.0).plan(
+            machine, settings=lead
+        ).total_s == pytest.approx(least, rel=1e-6)
+    cut = Build(context=rest).feed(length, 0.0, 0.0, feed=0.5 * top)
+    assert cut.plan(machine, settings=SOFT).total_s == pytest.approx(
+        least_seconds(length, 0.5 * top, pull, jerk), rel=1e-6
+    )
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.tuples(st.floats(-60.0, 60.0), st.floats(-60.0, 60.0), st.floats(-60.0, 60.0)))
+def test_a_rapid_of_each_axis_alone_takes_as_long_as_its_slowest_axis(
+    way: tuple[float, float, float],
+) -> None:
+    least = max(
+        least_seconds(abs(part), axis.rapid, axis.acceleration, axis.jerk)
+        for part, axis in zip(way, UNEVEN.axes, strict=True)
+    )
+    lead = replace(SOFT, rapid_by_axis=True)
+    assert Build().rapid(*way).plan(UNEVEN, settings=lead).total_s == pytest.approx(least, rel=1e-6)
 
 
 @pytest.mark.parametrize("pieces", [2, 20, 1000])

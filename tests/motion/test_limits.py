@@ -15,7 +15,7 @@ from polycnc.motion import Settings
 from polycnc.motion.kernels.columns import Limits
 from polycnc.motion.limits import axis_limits
 from polycnc.toolpath import Context, Kind
-from polycnc.toolpath.modes import CornerMode
+from polycnc.toolpath.modes import AccelerationMode, CornerMode
 from tests.motion.paths import MILL, MILL4, Build, Piece, pieces_of
 
 coordinate = st.floats(-50.0, 50.0).map(lambda x: round(x, 3))
@@ -203,3 +203,29 @@ def test_a_control_may_cap_what_the_machine_can_do() -> None:
         3.0, rel=0.02
     )
     assert rapid.plan(MILL, settings=Settings(path_feed=10.0)).total_s == rapid.plan(MILL).total_s
+
+
+@pytest.mark.parametrize("kind", ["lines", "arcs", "spline"])
+@pytest.mark.parametrize("acceleration", [AccelerationMode.CONSTANT, AccelerationMode.JERK_LIMITED])
+def test_no_cut_lasts_less_than_the_control_takes_for_a_block(
+    kind: str, acceleration: AccelerationMode
+) -> None:
+    rows = Build(context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.1))
+    for k in range(1, 31):
+        if kind == "arcs":
+            rows.arc(20.0 * sin(0.01 * k), 20.0 - 20.0 * cos(0.01 * k), 0.0, center=(0.0, 20.0), feed=200.0)
+        elif kind == "spline":
+            rows.row(Kind.SPLINE, 0.2 * k, 0.001 * k * k, 0.0, feed=200.0)
+        else:
+            rows.feed(0.2 * k, 0.0, 0.0, feed=200.0)
+    lead = Settings(acceleration=acceleration)
+    slow = replace(MILL, block_time_s=0.02)
+    plan = rows.plan(slow, settings=lead)
+    assert min(plan.row_s) >= 0.02 * (1.0 - 1e-9)
+    assert plan.total_s > rows.plan(MILL, settings=lead).total_s
+
+
+def test_a_rapid_and_a_tap_wait_for_no_processing() -> None:
+    rows = Build(context=Context(spindle_rpm=600.0, spindle_direction=1)).rapid(0.1, 0.0, 0.0)
+    rows.row(Kind.TAP, 0.1, 0.0, -1.0, curve=(1.0, 0.0))
+    assert rows.plan(replace(MILL, block_time_s=5.0)).total_s == rows.plan(MILL).total_s

@@ -7,6 +7,7 @@ from math import pi, sqrt
 
 import pytest
 
+import polycnc
 from polycnc.geometry.frames import rotation, scaling
 from polycnc.motion import Settings, plan
 from polycnc.toolpath import Context, Kind
@@ -209,6 +210,12 @@ def test_feed_per_revolution_follows_the_spindle() -> None:
     assert result.rows_without_feed == 0
 
 
+def test_surface_speeds_count_feet_where_the_program_is_in_inches() -> None:
+    inch = polycnc.run("O1\nG20 G99 G18\nG0 X1. Z0\nG96 S100 M3\nG1 Z-1. F.01\nM30\n", control="fanuc-0i-tf")
+    # 12 * 100 / (pi * 1) rpm, 0.01 inch a turn.
+    assert inch.plan.times.cutting_s == pytest.approx(60 / (12 * 100 / pi * 0.01), rel=0.01)
+
+
 def test_facing_under_constant_surface_speed_takes_the_integral_over_the_radius() -> None:
     context = Context(
         feed_mode=FeedMode.PER_REVOLUTION,
@@ -307,3 +314,8 @@ def test_a_circular_thread_is_as_long_as_its_arc(sense: float) -> None:
     rows.row(Kind.THREAD, 0.0, 20.0, 0.0, feed=2.0, curve=curve)
     quarters = 1.0 if sense > 0.0 else 3.0
     assert rows.plan(MACHINE).times.cutting_mm == pytest.approx(20.0 + quarters * 10.0 * pi, rel=1e-9)
+
+
+def test_an_arc_that_goes_out_and_hardly_turns_is_as_long_as_it_is() -> None:
+    result = Build().feed(1.2, 1.6, 0.0).arc(6.0, 8.0000000001, 0.0, center=(0.0, 0.0)).plan(MACHINE)
+    assert result.times.cutting_mm == pytest.approx(10.0, abs=1e-6)

@@ -12,6 +12,7 @@ import pytest
 
 from polycnc.motion import Plan, Settings
 from polycnc.motion import planner as planner_module
+from polycnc.motion.compiled import LIBRARY
 from polycnc.motion.planner import Planner
 from polycnc.toolpath import Context, Kind, Toolpath
 from polycnc.toolpath.events import Auxiliary
@@ -72,8 +73,8 @@ def test_the_room_for_pieces_does_not_change_the_result(monkeypatch: pytest.Monk
     assert bits(varied(1500).plan(compiled=False)) == bits(whole)
 
 
+@pytest.mark.skipif(LIBRARY.lack is not None, reason="needs compiled kernels")
 def test_compiled_kernels_give_the_same_bits(monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("numba")
     monkeypatch.setattr(planner_module, "FULL_ROOM", 256)
     build = varied(1500)
     assert bits(build.plan(compiled=True)) == bits(build.plan(compiled=False))

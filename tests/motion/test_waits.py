@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from polycnc.machine import MFunction
-from polycnc.machine.model import Text
+from polycnc.machine.text import Text
 from polycnc.motion import Settings
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.events import Auxiliary, Message, ToolSelection
@@ -178,7 +178,7 @@ def test_the_spindle_follows_a_cut_under_constant_surface_speed_without_a_wait()
     rows = Build(axes=("X", "Z")).rapid(30.0, 0.0)
     rows.set(surface_speed=True, spindle_rpm=188.49555921538757, spindle_direction=1).feed(30.0, -1.0)
     # 1000 rpm at 30 mm, 500 at 60 mm: reached on the way; then 500 rpm on, reversed.
-    rows.set(inch=True).feed(60.0, -1.0).set(surface_speed=False, spindle_rpm=500.0).feed(60.0, -2.0)
+    rows.set(tolerance_mm=0.01).feed(60.0, -1.0).set(surface_speed=False, spindle_rpm=500.0).feed(60.0, -2.0)
     rows.set(spindle_direction=-1).feed(60.0, -3.0)
     ramp = LATHE.spindles[0].acceleration_rpm_s
     assert rows.plan(LATHE).times.spindle_s == pytest.approx((1000.0 + 1000.0) / ramp)

@@ -40,6 +40,13 @@ def guess(text: str, name: str = "PART.NC") -> Guess:
         (None, "G71\nG0 X0"),
         (None, "(R1=5 CYCLE800(1) G71 P10 Q20)\nM30 ; R1=5"),
         (None, 'MSG("x")\nG50 S2000\nR1=5'),
+        (None, "(T1  D=10. CR=0. - ZMIN=-5. - FLAT END MILL)\nG0 X0"),
+        (None, "(T2 (D=10.) CR=0. TAPER)\nG0 X0"),
+        (None, "(T3 CR=1.5 WITHOUT END\nG0 X0"),
+        (None, "; G71 U1 R1 then G71 P10 Q20, #1 := 2\nG0 X0"),
+        (None, "o100 while [#1 lt 3]\n#1=[#1+1]\no100 endwhile\no<a> ENDIF\nG0 X0"),
+        ("sinumerik-840d", "R1=(R2+(R3*2)) ; (G50 S100)"),
+        ("sinumerik-840d", "IF R1==1\nG0 X0\nENDIF"),
         (None, ""),
     ],
 )

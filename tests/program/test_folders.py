@@ -40,7 +40,7 @@ def test_a_file_that_may_not_be_read_says_why(tmp_path: Path, monkeypatch: pytes
 
     path = tmp_path / "secret.nc"
     path.write_bytes(b"M30")
-    monkeypatch.setattr(Path, "open", refuse)
+    monkeypatch.setattr(os, "open", refuse)
     with pytest.raises(ProgramFileError) as error:
         read_file(str(path))
     assert error.value.message == "program.unreadable"
@@ -95,3 +95,24 @@ def test_the_most_exact_file_of_a_number_is_taken(tmp_path: Path) -> None:
 )
 def test_files_of_a_pc_have_a_name_on_the_control(name: str, stored: str) -> None:
     assert stored_name_of_file(Path(name)) == stored
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="Windows")
+def test_pipes_and_links_that_lead_nowhere_beside_a_program_are_passed_over(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "O0007.nc")
+    (tmp_path / "loop.nc").symlink_to(tmp_path / "loop.nc")
+    (tmp_path / "other.nc").write_text("O0008\nM99\n", encoding="utf-8")
+    folder = Folder(tmp_path)
+    assert folder.numbered(7, 4) is None
+    assert folder.named("loop", (".nc",)) is None
+    assert [path.name for path in folder.headed(8)] == ["other.nc"]
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="Windows")
+def test_a_program_is_not_read_from_a_pipe_or_a_device(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.nc")
+    for path in (str(tmp_path / "pipe.nc"), "/dev/zero"):
+        with pytest.raises(ProgramFileError, match="is a device or a pipe, not a program"):
+            read_file(path)
+    with pytest.raises(ProgramFileError, match="director"):
+        read_file(str(tmp_path))

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from polycnc.program import Form, ProgramFileError, load_programs, long_text
 from polycnc.program.long_text import LongText, read_long
+from polycnc.program.text import split_lines
 
 PIECES = (
     b"%\n", b"O0001\n", b"N10 G1 X1.\n", b"\n", b" G1\n", b"(\xe7\xa8\x8b)\n", b"(\xb5{\xa6\xa1)\n", b"G1 X2.\r\n",
@@ -79,8 +80,7 @@ def test_a_line_too_long_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(long_text, "MAX_LINE", 30)
     with pytest.raises(ProgramFileError) as error:
         long(tmp_path / "part.nc", ["G1 X1."] * 20 + ["G1 " + "X" * 40, "M30"], monkeypatch)
-    named = error.value.args_by_name
-    assert (named["line"], named["length"]) == (21, 43)
+    assert error.value.args_by_name["line"] == 21
 
 
 def test_a_file_that_shrinks_is_no_traceback(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -90,3 +90,8 @@ def test_a_file_that_shrinks_is_no_traceback(tmp_path: Path, monkeypatch: pytest
     path.write_text("G1", encoding="ascii")
     with pytest.raises(ProgramFileError):
         text[99]
+
+
+def test_the_first_line_that_is_too_long_is_told() -> None:
+    with pytest.raises(ProgramFileError, match="line 2 is longer than 65536 characters"):
+        split_lines("G0\n" + "X" * 70_000 + "\n" + "Y" * 80_000 + "\n", "long.nc")

@@ -255,6 +255,21 @@ def test_definition_files_may_lie_beside_the_main_program(tmp_path: Path) -> Non
     ]
 
 
+def test_a_file_beside_the_program_is_no_definition_file_for_its_suffix_alone(tmp_path: Path) -> None:
+    write(tmp_path, part_mpf="N10 M30", parts_def="DEF NCK REAL X", DEF_DIR__own_def="DEF NCK REAL Y")
+    write(tmp_path, lib__gud4_def="DEF NCK REAL A", lib__tools_def="DEF NCK REAL B")
+    store = ProgramStore(form=Form.SINUMERIK, search=[tmp_path / "lib"])
+    store.add_file(tmp_path / "part.mpf")
+    assert [p.name for p in store.programs_in("/_N_DEF_DIR")] == ["_N_GUD4_DEF", "_N_OWN_DEF"]
+
+
+def test_a_search_folder_may_be_the_definition_directory_itself(tmp_path: Path) -> None:
+    write(tmp_path, nc__part_mpf="N10 M30", archive__DEF_DIR__own_def="DEF NCK REAL Y")
+    store = ProgramStore(form=Form.SINUMERIK, search=[tmp_path / "archive" / "DEF.DIR"])
+    store.add_file(tmp_path / "nc" / "part.mpf")
+    assert [p.name for p in store.programs_in("/_N_DEF_DIR")] == ["_N_OWN_DEF"]
+
+
 def test_a_deleted_host_file_stays_on_the_host_but_is_not_found(tmp_path: Path) -> None:
     write(tmp_path, part_mpf="N10 M30", A_SPF="; A")
     store = ProgramStore(form=Form.SINUMERIK)
@@ -284,9 +299,13 @@ def test_a_search_folder_that_is_none_is_an_error_value(tmp_path: Path) -> None:
 
 def test_an_unreadable_subprogram_is_an_error_value(tmp_path: Path) -> None:
     write(tmp_path, main_nc="M30")
-    (tmp_path / "O0010").symlink_to(tmp_path / "O0010")
+    subprogram = tmp_path / "O0010"
+    subprogram.write_text("M99")
     store = ProgramStore()
     store.add_file(tmp_path / "main.nc")
+    assert store.find_number(11) is None, "the folder has been looked through"
+    subprogram.unlink()
+    subprogram.symlink_to(subprogram)
     with pytest.raises(ProgramFileError) as error:
         store.find_number(10)
     assert error.value.message == "program.unreadable"

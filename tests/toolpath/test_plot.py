@@ -101,3 +101,21 @@ def test_points_that_nobody_could_tell_apart_are_left_out() -> None:
     path = max(paths(drawing(Stroke("T1", rapid=False, points=points)), TOOL_COLOURS[0]), key=len)
     assert 1000 < len(ends(path)) < 5000 + 2
     assert len(ends(path)) < len(points)
+
+
+HOLES = (
+    Stroke("T2", rapid=False, points=[(10, 10, 2), (10, 10, -8)]),
+    Stroke("T2", rapid=False, points=[(90, 40, 2), (90, 40, -8)]),
+)
+
+
+def test_a_drilled_hole_is_a_circle_where_it_is_seen_along_the_drill() -> None:
+    root = drawing(CUT, *HOLES, HOLES[0], view="xy")
+    circles = list(root.iter(f"{SVG}circle"))
+    assert len(circles) == 2
+    assert {circle.get("stroke") for circle in circles} == {TOOL_COLOURS[1]}
+    assert list(drawing(CUT, *HOLES, view="xz").iter(f"{SVG}circle")) == []
+
+
+def test_a_rapid_along_the_view_is_no_hole() -> None:
+    assert list(drawing(CUT, FAST, view="xy").iter(f"{SVG}circle")) == []

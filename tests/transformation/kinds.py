@@ -7,15 +7,17 @@ from typing import TYPE_CHECKING
 
 from hypothesis import strategies as st
 
-from polycnc.geometry.frames import rotation, translation
+from polycnc.geometry.frames import IDENTITY, rotation, translation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.machine.model import Joint
 from polycnc.transformation.chain import Chain
 from polycnc.transformation.cylinder import Cylinder
 from polycnc.transformation.feature import FeatureFrame
+from polycnc.transformation.groove import GrooveCylinder
 from polycnc.transformation.inclined import InclinedAxis
 from polycnc.transformation.parallel import ParallelAxes
 from polycnc.transformation.polar import PolarPlane
+from polycnc.transformation.seated import Seated
 from polycnc.transformation.tool_centre import ToolCentrePoint
 
 if TYPE_CHECKING:
@@ -76,6 +78,7 @@ polars = st.builds(
     st.sampled_from([1.0, -1.0]),
 )
 cylinders = st.builds(Cylinder.of_radius, st.just(4), st.floats(0.5, 500.0), st.just((0, 4, 2)))
+grooves = st.builds(GrooveCylinder, st.just(4), st.just(1), st.floats(0.05, 10.0), st.just(XYZ))
 inclined = st.builds(InclinedAxis, st.just(0), st.just(2), st.floats(-80.0, 80.0), st.just(XYZ))
 tips = st.builds(
     ToolCentrePoint,
@@ -86,14 +89,21 @@ tips = st.builds(
     st.tuples(places, places, places),
 )
 features = st.builds(FeatureFrame, frames, st.just(XYZ))
-single: st.SearchStrategy[Transformation] = st.one_of(polars, cylinders, inclined, tips, features)
+single: st.SearchStrategy[Transformation] = st.one_of(polars, cylinders, grooves, inclined, tips, features)
 chains: st.SearchStrategy[Transformation] = st.one_of(
     st.builds(lambda *links: Chain(links), polars, inclined),
     st.builds(lambda *links: Chain(links), cylinders, features),
     st.builds(lambda *links: Chain(links), features, tips),
     st.builds(lambda *links: Chain(links), inclined, features, tips),
 )
-every: st.SearchStrategy[Transformation] = st.one_of(single, chains, st.just(ParallelAxes((1, 0, 2))))
+_shifts = st.just(()) | st.tuples(*[places] * 3, st.just(0.0), *[angles] * 3)
+seated: st.SearchStrategy[Transformation] = st.one_of(
+    st.builds(Seated, tips, frames, _shifts, st.just(())),
+    st.builds(Seated, cylinders, st.just(IDENTITY), st.just(()), _shifts),
+    st.builds(Seated, inclined, frames, _shifts, _shifts),
+    st.builds(Seated, polars, st.builds(lambda shift: translation(*shift), offsets), st.just(()), _shifts),
+)
+every: st.SearchStrategy[Transformation] = st.one_of(single, chains, seated, st.just(ParallelAxes((1, 0, 2))))
 
 
 def away_from_pole(transformation: Transformation, point: tuple[float, ...]) -> float:

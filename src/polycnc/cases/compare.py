@@ -24,6 +24,7 @@ EVENT_FIELDS = {
     "m": "code",
     "h": "code",
     "b": "code",
+    "g": "code",
     "d": "code",
     "s": "speed",
     "t": "tool",
@@ -199,6 +200,8 @@ def _event_fits(event: ExpectedEvent, record: Record, tolerance: float) -> bool:
     for key, value in wanted.items():
         if key == "spindle":
             fits = values_equal(value, record.get("spindle", 1), 0)
+        elif key == "words":
+            fits = value == record.get("words")
         elif key == "stop":
             fits = record["type"] == "stop" and _label(value) == _label(record["code"])
         else:

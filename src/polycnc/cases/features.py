@@ -81,4 +81,4 @@ def claimed(cases: Iterable[Mapping[str, Any]]) -> Features:
 
 def _outcomes(folder: Path) -> Iterator[Outcome]:
     for path in case_files(folder):
-        yield from run_cases(read_cases(path), Selection(), folder)
+        yield from run_cases(read_cases(path), Selection(), path.parent)

@@ -23,7 +23,7 @@ COMMANDS = frozenset({
     "run",
 })  # fmt: skip
 #: Expectations that a case with an operator cannot have: they are of the calculated run.
-CALCULATED = frozenset({"moves", "variables", "events", "stops", "no_stop"})
+CALCULATED = frozenset({"moves", "moves_match", "stops", "stops_match", "no_stop"})
 
 
 def _is_command(step: str | dict[str, object]) -> str | dict[str, object]:
@@ -75,7 +75,7 @@ class ExpectedPosition(_Strict):
 
 
 class ExpectedEvent(_Strict):
-    """An event; exactly one of the keys beside `spindle` says which."""
+    """An event; exactly one of the keys beside `spindle` and `words` says which."""
 
     m: int | str | None = None
     s: Number | None = None
@@ -83,6 +83,8 @@ class ExpectedEvent(_Strict):
     h: Number | None = None
     d: int | str | None = None
     b: Number | None = None
+    g: str | None = None
+    words: dict[str, Number] | None = None
     spindle: int | None = None
     message: str | Number | None = None
     print: str | Number | None = None

@@ -12,12 +12,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One test case of a suite; `failures` are messages, `skipped` says why it did not run."""
+    """One test case of a suite; `failures` are messages, `errors` why it could not run, `skipped` why it need not."""
 
     name: str
     group: str
     failures: tuple[str, ...] = ()
     skipped: str = ""
+    errors: tuple[str, ...] = ()
 
 
 def as_xml(suite_name: str, entries: Sequence[Entry]) -> str:
@@ -27,6 +28,7 @@ def as_xml(suite_name: str, entries: Sequence[Entry]) -> str:
         name=suite_name,
         tests=str(len(entries)),
         failures=str(sum(bool(entry.failures) for entry in entries)),
+        errors=str(sum(bool(entry.errors) for entry in entries)),
         skipped=str(sum(bool(entry.skipped) for entry in entries)),
     )
     for entry in entries:
@@ -35,6 +37,8 @@ def as_xml(suite_name: str, entries: Sequence[Entry]) -> str:
         )
         for message in entry.failures:
             ElementTree.SubElement(case, "failure", message=_clean(message))
+        for message in entry.errors:
+            ElementTree.SubElement(case, "error", message=_clean(message))
         if entry.skipped:
             ElementTree.SubElement(case, "skipped", message=_clean(entry.skipped))
     ElementTree.indent(suite)

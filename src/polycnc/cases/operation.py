@@ -14,16 +14,17 @@ from typing import TYPE_CHECKING, cast
 from polycnc.cases import compare
 from polycnc.cases.format import CaseError
 from polycnc.control import registry
-from polycnc.control.alarm_text import alarm_text
 from polycnc.mainrun import CommandRefused, VirtualControl
-from polycnc.messages import text
+from polycnc.messages import AlarmError, text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
     from polycnc.cases.format import Case, Step
+    from polycnc.mainrun import Record
     from polycnc.messages import Alarm
+    from polycnc.toolpath import trace
 
 #: A run that has not come to an end after this simulated time is given up, s.
 LIMIT_S = 3600.0
@@ -36,10 +37,17 @@ class Operator:
     Attributes:
         control: The control, with the case's program loaded.
         refused: Names of the commands that were refused, in order.
+        events: What the programs have put out, as the trace has it.
     """
 
     control: VirtualControl
     refused: list[str] = field(default_factory=list)
+    events: list[trace.Record] = field(default_factory=list)
+
+    def hears(self, record: Record) -> None:
+        """Keep the events among what happens."""
+        if record.what == "event":
+            self.events.append(cast("trace.Record", record.data))
 
     def does(self, step: Step) -> None:
         """Give one command; a refusal is remembered.
@@ -73,6 +81,7 @@ def operated(case: Case, folder: Path) -> list[str]:
     control = VirtualControl(case.control, setup=_beside(case.setup, folder), files=case.files)
     control.load(case.program.removesuffix("\n") + "\n")
     operator = Operator(control)
+    control.listeners.append(operator.hears)
     for step in case.operate:
         operator.does(step)
     expect = case.expect
@@ -87,7 +96,21 @@ def operated(case: Case, folder: Path) -> list[str]:
         shown = control.positions
         positions = compare.Positions(expect.tolerance)
         differences += compare.compare_final(expect.final, shown.work, shown.machine, positions)
+    differences += compare.compare_variables(expect.variables, _reader(control), expect.tolerance)
+    differences += compare.compare_events(expect.events, operator.events, expect.tolerance)
     return differences + _panel_differences(case, operator)
+
+
+def _reader(control: VirtualControl) -> Callable[[str], object]:
+    """Reads a variable as programs name it; `KeyError` for a name that is none."""
+
+    def read(name: str) -> object:
+        try:
+            return control.read_variable(name)
+        except AlarmError:
+            raise KeyError(name) from None
+
+    return read
 
 
 def _panel_differences(case: Case, operator: Operator) -> list[str]:
@@ -117,4 +140,4 @@ def _beside(setup: dict[str, object], folder: Path) -> dict[str, object]:
 
 
 def _shown(control: VirtualControl, alarm: Alarm) -> str:
-    return f"{alarm.code} {alarm_text(control.control, alarm)} ({alarm.program}:{alarm.line})"
+    return f"{alarm.code} {control.alarm_text(alarm)} ({alarm.program}:{alarm.line})"

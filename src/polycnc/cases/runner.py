@@ -9,8 +9,9 @@ from polycnc.cases import compare
 from polycnc.cases.format import Case, CaseError, case_id, parse_case
 from polycnc.machine.errors import FileError
 from polycnc.messages import text
+from polycnc.messages.errors import place_of_failure
 from polycnc.program import ProgramFileError
-from polycnc.session import Result, SessionError, block_number, open_session
+from polycnc.session import Result, SessionError, open_session
 from polycnc.toolpath.kinds import TYPE_NAMES, Kind
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from polycnc.messages import Alarm
 
 Status = Literal["passed", "failed", "skipped"]
-#: A case that runs longer than this has got into a loop.
+#: As many blocks as no case needs.
 CASE_BLOCK_LIMIT = 1_000_000
 _MOVES = frozenset(TYPE_NAMES) - {TYPE_NAMES[Kind.EVENT]}
 
@@ -58,27 +59,18 @@ def _skipped(case: Case) -> Outcome:
     )
 
 
-def run_case(case: Case, folder: Path) -> Outcome:
-    """Run one case."""
+def run_case(case: Case, folder: Path, block_limit: int = CASE_BLOCK_LIMIT) -> Outcome:
+    """Run one case; one that runs longer than `block_limit` blocks has got into a loop."""
     try:
-        differences = _operated(case, folder) if case.operate else _differences(case, folder)
+        differences = _operated(case, folder) if case.operate else _differences(case, folder, block_limit)
     except (CaseError, SessionError, FileError, ProgramFileError) as error:
         return Outcome(case.id, "failed", str(error), case.feature, case.control, readable=False)
     except Exception as error:  # noqa: BLE001 - a mistake of polycnc in one case must not end all others
-        where = _where(error)
+        where = place_of_failure(error)
         message = text("case.internal", error=f"{type(error).__name__}: {error}", where=where)
         return Outcome(case.id, "failed", message, case.feature, case.control)
     status: Status = "failed" if differences else "passed"
     return Outcome(case.id, status, "; ".join(differences), case.feature, case.control)
-
-
-def _where(error: BaseException) -> str:
-    trace = error.__traceback__
-    while trace is not None and trace.tb_next is not None:
-        trace = trace.tb_next
-    if trace is None:
-        return ""
-    return f"{trace.tb_frame.f_code.co_filename.rpartition('polycnc/')[2]}:{trace.tb_lineno}"
 
 
 def _operated(case: Case, folder: Path) -> list[str]:
@@ -87,7 +79,7 @@ def _operated(case: Case, folder: Path) -> list[str]:
     return operated(case, folder)
 
 
-def _differences(case: Case, folder: Path) -> list[str]:
+def _differences(case: Case, folder: Path, block_limit: int) -> list[str]:
     # A text without a line end would be taken for the name of a file.
     session = open_session(
         case.program.removesuffix("\n") + "\n",
@@ -95,7 +87,7 @@ def _differences(case: Case, folder: Path) -> list[str]:
         setup=case.setup,
         files=case.files,
         folder=folder,
-        block_limit=CASE_BLOCK_LIMIT,
+        block_limit=block_limit,
     )
     result = session.run()
     expect = case.expect
@@ -126,7 +118,7 @@ def _block(result: Result, alarm: Alarm) -> str:
     if alarm.block:
         return alarm.block
     program = result.program_of(alarm)
-    return block_number(program, alarm.line) if program is not None else ""
+    return program.block_name(alarm.line) if program is not None else ""
 
 
 def _shown(result: Result, alarm: Alarm) -> str:

@@ -7,8 +7,7 @@ language compiled, and what differs between controls lies behind `Control`.
 
 from __future__ import annotations
 
-import re
-from math import inf, nan
+from math import nan
 from typing import TYPE_CHECKING, ClassVar, Generic
 
 from polycnc.channel.coordinates import Coordinates
@@ -16,7 +15,8 @@ from polycnc.channel.failure import end_run, stand_at_last_row, take_back
 from polycnc.channel.family import ControlT_co, MemoryT_co, ProgramT_co
 from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.mode import Mode, ModeTable
-from polycnc.channel.moves.path import Move, Path, PlacedEvent, points_of_arc
+from polycnc.channel.moves.path import Move, Path, PlacedEvent
+from polycnc.channel.moves.travel import TravelGuard, check_straight, check_travel, limits_of
 from polycnc.channel.run import Run
 from polycnc.channel.stack import Level, LevelKind
 from polycnc.channel.states.state import Lifetime, States, end_of
@@ -24,13 +24,14 @@ from polycnc.channel.view import Prepared
 from polycnc.channel.waits import (
     BLOCK,
     CHUNK,
+    CLOCK,
     PREPROCESSING,
     TYPED_BLOCKS_DONE,
     PreprocessingStop,
     Wait,
     Why,
 )
-from polycnc.geometry.tolerances import NO_WAY
+from polycnc.geometry.tolerances import FARTHEST, NO_WAY
 from polycnc.memory.retained import InMemoryStore
 from polycnc.messages import AlarmError
 from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
@@ -41,8 +42,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.channel.group import ChannelGroup
-    from polycnc.channel.interface import Bulk, MainRun, Scanner, Zone
+    from polycnc.channel.interface import Boundary, Bulk, MainRun, Scanner
+    from polycnc.channel.interpolator import Interpolator
     from polycnc.channel.states.passes import Passes
+    from polycnc.channel.states.standstill import Standstill
     from polycnc.channel.steps import Step
     from polycnc.channel.view import View
     from polycnc.geometry.frames import Vector
@@ -52,9 +55,13 @@ if TYPE_CHECKING:
     from polycnc.messages import Alarm
     from polycnc.program import Program
     from polycnc.program.store import ProgramStore
+    from polycnc.transformation.turning import Turning
 
-_SEQUENCE = re.compile(r"\s*(?:/\d*\s*)?([N:]\d+)", re.IGNORECASE)
 DEFAULT_BLOCK_LIMIT = 100_000_000
+#: A simulated control prepares a block as a whole; one with more rows is taken for a mistake.
+MOST_ROWS_OF_A_BLOCK = 1_000_000
+#: More turns than any control can be told to make by one word (SINUMERIK: 999).
+MOST_TURNS = 1_000
 #: Blocks that run between two looks at the block limit.
 BURST = range(4096)
 
@@ -75,23 +82,40 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         single_block: Hand over behind every block at which single block operation halts.
         inner_halts: Blocks at which single block halts inside the block that runs, before its end.
         takes_back: What the running block takes back of a manual intervention.
+        off_path: The running block is a call or a return and nothing else, or block skip leaves it out: for stages
+            that look ahead it is no block.
         moved_by_hand: The last intervention in front of a block that was not prepared yet.
         block_by_block: With it, behind every other block too.
         main_run: What executes the rows while the channel runs; None where nobody waits for that.
         actual: Where its axes are now.
         share_after: The share of a skip move to an end, at a feed, that is done after some seconds (None: all of it);
             None where a clock runs, which knows.
+        turning: How the rotary axes go along the moves of the running block; None where they go evenly. A stage of
+            the path must lead them (`moves/turning.py`).
         group: The channels of the control, which the first one belongs to as well; None where it runs alone.
+        boundary: What moves must keep to beside the travel of the axes; None for nothing.
         memory: The control's own state (variables, offsets, tools), set by `Control.start`.
         retained: What outlives the channel; a new one in memory where nobody gives another.
         states: The states that features own, one of each class; see `State.of`.
         passes: What ends a main program that would begin again for ever; None where somebody else ends it.
+        standstill: What ends a loop that waits for ever; None where somebody else ends it.
         bulk: Whether and how plain blocks are scanned in bulk; None interprets every block.
     """
 
     #: A snapshot of the channel does not go on to these: they are none of its state.
     UNFOLLOWED: ClassVar = frozenset(
-        {"axis_data", "bulk", "control", "actual", "machine", "main_run", "setup", "share_after"}
+        {
+            "axis_data",
+            "blocks",
+            "bulk",
+            "control",
+            "actual",
+            "machine",
+            "main_run",
+            "mark",
+            "setup",
+            "share_after",
+        }
     )
 
     def __init__(
@@ -126,7 +150,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.feed = nan
         self.stack: list[Level[ProgramT_co]] = []
         self._level: Level[ProgramT_co]
-        self.path = Path(self)
+        self.path = Path(self, TravelGuard(self))
         self.memory: MemoryT_co = None  # type: ignore[assignment]  # made by `Control.start`
         self.states = States(self)
         self.alarms: list[Alarm] = []
@@ -138,20 +162,23 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.joined_below = block_limit - 2 * len(BURST)
         self._wait: Wait | None = None
         self.running: Run | None = None
+        self.turning: Turning | None = None
         self.group: ChannelGroup | None = None
-        self.stroke_zone: Zone | None = None
+        self.boundary: Boundary | None = None
         self.single_block = bool(setup.switches.single_block)
         self.inner_halts: list[str] = []
         self.takes_back = NOTHING_BACK
+        self.off_path = False
         self.moved_by_hand: MovedByHand | None = None
         self.block_by_block = False
         self.main_run: MainRun | None = None
         self.actual: View = Prepared(self.coordinates)
         self.share_after: Callable[[Channel, list[float], float, float], float | None] | None = None
         self.passes: Passes | None = None
+        self.standstill: Standstill | None = None
         self.optional_stop = setup.switches.optional_stop
         self._context, self._context_changed = 0, True
-        self._limits = _travel(self.axis_data)
+        self._limits = limits_of(self.axis_data)
         self._executables: dict[int, ProgramT_co] = {}
         self.bulk = bulk
         self._scanner: Scanner | None = None
@@ -243,6 +270,18 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         if self.main_run is not None and not self.main_run.has_caught_up:
             raise PreprocessingStop
 
+    def on_clock(self) -> Interpolator:
+        """What executes the rows in time: the running block, which has done nothing yet, waits until something does.
+
+        Raises:
+            PreprocessingStop: Nobody executes them so far.
+        """
+        clocked = self.actual.clocked
+        if clocked is None:
+            self.wait = CLOCK
+            raise PreprocessingStop
+        return clocked
+
     @property
     def row_position(self) -> list[float]:
         """The position as a row would hold it: that of the axes where the path leads them."""
@@ -261,7 +300,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
 
         Where a stage has changed the path (compensation that is still on) the tool stands where that has led it.
         """
-        is_changed = self.path.head is not None
+        is_changed = not self.path.is_idle
         self.flush()
         if is_changed:
             stand_at_last_row(self)
@@ -284,14 +323,16 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.stack.clear()
         self.finished = False
         self.push(program, kind=LevelKind.MAIN)
-        end_of(self, Lifetime.POWER if power_on else Lifetime.PROGRAM)
         try:
+            end_of(self, Lifetime.POWER if power_on else Lifetime.PROGRAM)
             if power_on:
                 self.control.start(self)
             else:
                 self.control.begin(self)
         except AlarmError as error:
             self.fail(error)
+        except ArithmeticError as error:
+            self.fail(self.control.arithmetic_alarm(error))
 
     def advance(self) -> Wait | None:
         """Run blocks until the channel has to hand over; None where it has finished, or was stopped by an alarm."""
@@ -313,7 +354,8 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             self.fail(error)
         except PreprocessingStop:
             self._level.index = self._level.current
-            return PREPROCESSING
+            wait, self._wait = self._wait or PREPROCESSING, None
+            return wait
         except ArithmeticError as error:
             take_back(self)
             self.fail(self.control.arithmetic_alarm(error))
@@ -354,8 +396,9 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
 
     def _look_up(self, level: Level, step: Step | None) -> None:
         """What must be seen to between bursts: stages that count blocks, single block, the block limit."""
-        if self.path.head is not None and level.counts(level.current):
+        if self.path.head is not None and not self.off_path and level.counts(level.current):
             self.path.head.block()
+        self.off_path = False
         if self.single_block and step is not None:
             if self.control.halts(self, level, step):
                 self._wait = self._wait or Wait(Why.SINGLE_BLOCK, self.sequence_of(level))
@@ -364,11 +407,34 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.mark = self.toolpath.mark()
         if self.blocks >= self.block_limit:
             raise self.control.block_limit()
+        if self.standstill is not None and self.blocks >= self.standstill.next_look:
+            self.standstill.look(self)
 
     def _burst(self, level: Level) -> range:
         """Scan plain blocks; gives as many numbers as blocks are to be interpreted now."""
         burst = BURST if level.scanner is None else level.scanner.lead(self)
         return burst[: self.block_limit - self.blocks]
+
+    def once_more(self) -> None:
+        """A block does its work once more (a hole, some pecks, a pass, a turn): that counts as a block.
+
+        So a limit of blocks holds inside a block too, and the rows of a block need not fit into memory: where they
+        fill a chunk, what is done is handed on and stays, as on the machine.
+
+        Raises:
+            AlarmError: The block limit is reached.
+        """
+        self.blocks += 1
+        if self.blocks >= self.block_limit:
+            raise self.control.block_limit()
+        rows = len(self.toolpath.chunk.kind)
+        if self.main_run is not None and rows >= MOST_ROWS_OF_A_BLOCK:
+            raise self.control.block_limit()
+        if rows >= CHUNK_ROWS and self.main_run is None:
+            self.keep_rows()
+            self.toolpath.block_boundary()
+            self.mark = 0
+            self.attention = True
 
     def halt_inside(self, line: int = 0) -> None:
         """Single block halts here, inside the block; `line` is that of another block that it executes."""
@@ -377,10 +443,8 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
 
     def sequence_of(self, level: Level, line: int = 0) -> str:
         """The block that a level runs, or that at a line of its program, as its sequence number or else its line."""
-        line = line or level.line_of(level.current)
-        program = level.code.program
-        match = _SEQUENCE.match(program.lines[line - program.first_line])
-        return match[1].upper() if match else str(line)
+        program: Program = level.code.program
+        return program.block_name(line or level.line_of(level.current))
 
     def keep_rows(self) -> None:
         """What the running block has written stays even if it alarms from here on."""
@@ -422,31 +486,42 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         """Something that a context holds has changed; the next row gets a new context."""
         self._context_changed = True
 
+    @property
+    def context(self) -> Context:
+        """The context that holds now; an alarm of the setup comes before there is a state that one could tell of."""
+        return Context() if self.memory is None else self.control.context(self)
+
     def context_number(self) -> int:
         """Number of the context that holds now."""
         if self._context_changed:
-            # An alarm of the setup comes before there is a state that a context could tell of.
-            context = Context() if self.memory is None else self.control.context(self)
-            self._context = self.toolpath.context_number(context)
+            self._context = self.toolpath.context_number(self.context)
             self._context_changed = False
         return self._context
 
     def straight(
         self, kind: Kind, end: list[float], feed: float, programmed: list[float] | None = None
     ) -> None:
-        """Move to `end` (absolute display, all axes) in a straight line. No way, no row."""
+        """Move to `end` (absolute display, all axes) in a straight line. No way, no row.
+
+        Raises:
+            OverflowError: The end is beyond all machines.
+        """
         coordinates = self.coordinates
         start = coordinates.position
         if end != start and _is_way(start, end):
+            if not -FARTHEST < sum(end) < FARTHEST:
+                raise OverflowError("a target that no machine has")
             level = self._level
             context = self._context if not self._context_changed else self.context_number()
-            if self._limits or self.stroke_zone is not None:
-                self._check_limits(end, straight=True)
             line, head = level.line_of(level.current), self.path.head
             if head is None:
+                if self._limits or self.boundary is not None:
+                    check_straight(self, kind, start, end)
                 self.toolpath.chunk.add(kind, level.program_number, line, context, feed, end, NO_CURVE)
             else:
-                head.move(Move(kind, start, end, feed, level.program_number, line, context))
+                move = Move(kind, start, end, feed, level.program_number, line, context)
+                move.turning = self.turning
+                head.move(move)
         if programmed is None and coordinates.direct:
             coordinates.position = coordinates.programmed = end
         else:
@@ -464,7 +539,16 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         parameters: Sequence[float] = (),
         programmed: list[float] | None = None,
     ) -> None:
-        """Move along an arc, or make another move with curve parameters (thread, tap, dwell)."""
+        """Move along an arc, or make another move with curve parameters (thread, tap, dwell).
+
+        Raises:
+            AlarmError: PC0002 for more full turns than a program can mean.
+            OverflowError: The end or the centre is beyond all machines.
+        """
+        if turns > MOST_TURNS:
+            raise AlarmError("PC0002", hint="hint.turns")
+        if not -FARTHEST < sum(end) + (0.0 if center is None else sum(center)) < FARTHEST:
+            raise OverflowError("a target that no machine has")
         level = self._level
         line = level.code.line(level.current)
         start = self.coordinates.position
@@ -480,13 +564,10 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             normal,
             turns,
             tuple(parameters),
+            self.turning,
         )
-        if (self._limits or self.stroke_zone is not None) and kind != Kind.DWELL:
-            self._check_limits(end, straight=center is None)
-            if center is not None and self.stroke_zone is not None:
-                for point in points_of_arc(move, self.coordinates.geometry):
-                    self.stroke_zone.check_point(self, self.coordinates.to_machine(point))
         if self.path.head is None:
+            check_travel(self, move)
             self.write(move)
         else:
             self.path.head.move(move)
@@ -526,27 +607,10 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             position = self.coordinates.position
             self.curve(Kind.DWELL, position, nan, parameters=(seconds, revolutions))
 
-    def _check_limits(self, end: list[float], *, straight: bool = False) -> None:
-        """Refuse a target outside the machine's travel before anything moves."""
-        machine = self.coordinates.to_machine(end)
-        for i, (low, high) in enumerate(self._limits):
-            if machine[i] < low - 1e-9:
-                raise self.control.over_travel(self.axes[i], -1)
-            if machine[i] > high + 1e-9:
-                raise self.control.over_travel(self.axes[i], 1)
-        if self.stroke_zone is not None:
-            self.stroke_zone.check(self, machine, straight=straight)
-
-
-def _travel(axes: Sequence[Axis]) -> tuple[tuple[float, float], ...]:
-    """The limits of every axis; nothing where no axis has any."""
-    limits = tuple((axis.limit_minus, axis.limit_plus) for axis in axes)
-    return limits if any(low > -inf or high < inf for low, high in limits) else ()
-
 
 def _is_way(start: list[float], end: list[float]) -> bool:
     """Whether two positions differ by more than rounding."""
     for a, b in zip(start, end, strict=True):  # noqa: SIM110 - a generator costs more than the comparison
-        if abs(a - b) > NO_WAY:
+        if not abs(a - b) <= NO_WAY:  # also where one is no number
             return True
     return False

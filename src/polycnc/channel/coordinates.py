@@ -17,8 +17,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.geometry.frames import IDENTITY, Frame
+from polycnc.geometry.tolerances import FARTHEST
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from polycnc.transformation.contract import Transformation
 
 
@@ -103,17 +106,23 @@ class Coordinates:
         self.arrive(self.from_machine(machine))
 
     def transform(
-        self, transformation: Transformation | None, geometry: tuple[int, int, int] | None = None
+        self,
+        transformation: Transformation | None,
+        geometry: tuple[int, int, int] | None = None,
+        zero: tuple[Frame, list[float]] | None = None,
     ) -> None:
         """Let axes stand for others, or (None) for themselves again. The machine stays, the display follows.
 
         Args:
             transformation: How the real axes follow the displayed position.
             geometry: New columns of X, Y and Z in displayed positions; None keeps them.
+            zero: What lies between it and the machine from here on, as for `set_zero`; None keeps it.
         """
         machine = self.machine
         self.transformation = transformation
         self.geometry = geometry or self.geometry
+        if zero is not None:
+            self.zero, self.offsets = zero
         self.arrive_machine(machine)
 
     def set_programming(self, frame: Frame, shift: list[float] | None = None, *, stays: bool = True) -> None:
@@ -124,7 +133,11 @@ class Coordinates:
             shift: Shift of every axis, for those beside the geometry.
             stays: The position stays and the programmed point follows; else the programmed point stays, and the
                 next move goes where it now lies.
+
+        Raises:
+            OverflowError: It leads beyond all machines.
         """
+        _check(frame, shift or ())
         self.programming = frame
         self.shift = shift
         self.direct = frame is IDENTITY and shift is None
@@ -140,9 +153,13 @@ class Coordinates:
             frame: Zero frame of the geometry axes.
             offsets: Shift of every axis, tool included.
             travelled: The next incremental word of an axis travels the change as well (tool lengths).
+
+        Raises:
+            OverflowError: It leads beyond all machines; everything stays as it was.
         """
         if self.direct and frame == self.zero and offsets == self.offsets:
             return  # or the way to the machine and back would leave rounding noise
+        _check(frame, offsets)
         machine = self.machine
         before = self.position
         self.zero = frame
@@ -153,3 +170,15 @@ class Coordinates:
                 owed + old - new for owed, old, new in zip(self.pending, before, self.position, strict=True)
             ]
             self.owes = any(self.pending)
+
+
+def _check(frame: Frame, shifts: Iterable[float]) -> None:
+    """Whether what lies behind a frame and shifts is on a machine that can be.
+
+    Raises:
+        OverflowError: It is not.
+    """
+    if frame is not IDENTITY:
+        shifts = (*shifts, *frame.t, *frame.m[0], *frame.m[1], *frame.m[2])
+    if not all(-FARTHEST < shift < FARTHEST for shift in shifts):
+        raise OverflowError("a shift that no machine has")

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from polycnc.messages import Alarm, AlarmError
+from polycnc.program.heads import after_head
 from polycnc.toolpath.events import Raised
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Level
+    from polycnc.program import Program
 
 
 def take_back(channel: Channel, *, found_ahead: bool = False) -> None:
@@ -33,8 +37,12 @@ def stand_at_last_row(channel: Channel) -> None:
     """The channel knows itself where its last row has led it."""
     c, toolpath = channel.coordinates, channel.toolpath
     context, end = toolpath.last_context(), toolpath.last_end() or list(channel.start_position)
-    if context is not None and (context.frame != c.zero or context.offsets != tuple(c.offsets)):
-        # The block has changed offsets before it alarmed: the axes stand, what is displayed follows.
+    if context is not None and (
+        context.frame != c.zero
+        or context.offsets != tuple(c.offsets)
+        or context.transformation is not toolpath.contexts[channel.context_number()].transformation
+    ):
+        # Offsets or the transformation have changed behind that row: the axes stand, what is displayed follows.
         c.arrive_machine(toolpath.to_machine(end, context, c.geometry))
         return
     if channel.path.leads_axes and c.transformation is not None:
@@ -62,15 +70,13 @@ def _alarm(channel: Channel, error: AlarmError) -> Alarm:
     if error.program is not None:
         name = channel.toolpath.programs[error.program]
         program = next((each for each in channel.programs if each.name == name), program)
-    column = error.column
-    if level and error.address and not column and not error.line:
-        column = level.code.column(level.current, error.address)
+    line = error.line or (level.code.line(level.current) if level else 0)
     return Alarm(
         control=channel.control.id,
         code=error.code,
         program=name,
-        line=error.line or (level.code.line(level.current) if level else 0),
-        column=column,
+        line=line,
+        column=error.column or _column(level, program, line, error),
         args=dict(error.args_by_name),
         hint=error.hint,
         detail=error.detail,
@@ -78,3 +84,24 @@ def _alarm(channel: Channel, error: AlarmError) -> Alarm:
         call_chain=tuple((lv.code.program.name, lv.code.line(lv.current)) for lv in channel.stack[:-1]),
         channel=channel.number,
     )
+
+
+def _column(level: Level | None, program: Program | None, line: int, error: AlarmError) -> int:
+    """Where an alarm points: at the word that it names, at a value that it quotes, else at the head of the block."""
+    if level and error.address and not error.line:
+        column: int = level.code.column(level.current, error.address)
+        if column:
+            return column
+    index = line - program.first_line if program else -1
+    if program is None or not 0 <= index < len(program.lines):
+        return 0
+    block = program.lines[index]
+    for value in error.args_by_name.values():
+        quoted = str(value)
+        # An address is quoted without its number.
+        end = r"(?![A-Z_])" if len(quoted) == 1 else r"(?!\w)"
+        found = re.search(rf"(?<![\w$]){re.escape(quoted)}{end}", block, re.IGNORECASE) if quoted else None
+        if found:
+            return found.start() + 1
+    head = after_head(block)
+    return head + 1 if head < len(block) else 0

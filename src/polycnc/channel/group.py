@@ -124,6 +124,22 @@ class ChannelGroup:
         channel.share_after = first.share_after
         return channel
 
+    def drive(
+        self, make: Callable[[int], Channel], on_start: Callable[[int, Iterator[Wait]], None]
+    ) -> dict[int, tuple[Iterator[Wait], Wait | None]]:
+        """A main run goes on with the channels from here: gives the runs that are under way and what they wait for.
+
+        Args:
+            make: Makes a further channel by its number.
+            on_start: Called when a channel starts another one.
+        """
+        self._make, self._on_start = make, on_start
+        return {
+            number: (member.run, Wait(Why.CHANNEL, until=member.until) if member.until is not None else None)
+            for number, member in self._members.items()
+            if member.run is not None
+        }
+
     # ---- programs
 
     def select(self, number: int, program: Program) -> None:
@@ -155,8 +171,8 @@ class ChannelGroup:
         return True
 
     def begin(self, number: int, run: Iterator[Wait]) -> None:
-        """A channel runs a program that somebody else drives. The first one begins with no mark set."""
-        if number == self.first.number:
+        """A channel runs a program that somebody else drives. Where no other one runs, no mark is set."""
+        if not any(self.is_running(other) for other in self._members if other != number):
             self._meetings.clear()
             for member in self._members.values():
                 member.marks.clear()
@@ -271,7 +287,7 @@ class GroupRun:
                 member.run = None
             elif wait.until is not None:
                 member.until = wait.until
-            elif member.channel is first:
+            elif member.channel is first or wait.reason is Why.CLOCK:
                 return wait
             else:
                 continue

@@ -1,4 +1,4 @@
-"""What a channel asks of those around it: its control, what scans plain blocks, the main run, forbidden zones."""
+"""What a channel asks of those around it: its control, what scans plain blocks, the main run, what limits moves."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.channel.moves.travel import Travel
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step
     from polycnc.messages import AlarmError
@@ -71,11 +72,8 @@ class MainRun(Protocol):
         """Whether everything that the channel has written is executed."""
 
 
-class Zone(Protocol):
-    """A part of the machine's travel that a program has forbidden."""
+class Boundary(Protocol):
+    """What moves must keep to beside the machine's travel: forbidden zones, limits of setup and program."""
 
-    def check(self, channel: Channel, machine: list[float], *, straight: bool) -> None:
-        """Raise the control's alarm where the way to a machine position (or its end, if not straight) is forbidden."""
-
-    def check_point(self, channel: Channel, machine: list[float]) -> None:
-        """Raise the control's alarm where a point on the way, machine coordinates, is forbidden."""
+    def check(self, channel: Channel, travel: Travel) -> None:
+        """Raise the control's alarm where the way of a move is forbidden."""

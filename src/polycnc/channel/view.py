@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from polycnc.channel.coordinates import Coordinates
+    from polycnc.channel.interpolator import Interpolator
 
 
 class View(Protocol):
@@ -25,6 +26,10 @@ class View(Protocol):
     @property
     def work(self) -> Sequence[float]:
         """Position in the work coordinate system."""
+
+    @property
+    def clocked(self) -> Interpolator | None:
+        """What executes the channel's rows in time; None where nobody does."""
 
 
 class Prepared:
@@ -48,3 +53,8 @@ class Prepared:
     def work(self) -> Sequence[float]:
         """Position in the work coordinate system."""
         return self._coordinates.position
+
+    @property
+    def clocked(self) -> Interpolator | None:
+        """Nobody executes them."""
+        return None

@@ -27,6 +27,8 @@ class Why(StrEnum):
     """For another channel."""
     TYPED_IN = "mdi"
     """Behind blocks that were typed in while the program waited."""
+    CLOCK = "clock"
+    """For a main run: the program needs to be executed in time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,8 +49,9 @@ class Wait:
 CHUNK = Wait(Why.CHUNK)
 BLOCK = Wait(Why.BLOCK)
 PREPROCESSING = Wait(Why.PREPROCESSING)
+CLOCK = Wait(Why.CLOCK)
 TYPED_BLOCKS_DONE = Wait(Why.TYPED_IN)
 
 
 class PreprocessingStop(Exception):  # noqa: N818 - no mistake: the block waits, and comes again
-    """The running block needs what the main run knows; raised before it has done anything."""
+    """The running block needs what the main run knows, or what `wait` waits for; raised before it has done anything."""

@@ -2,7 +2,7 @@
 
 `app` finds the command; `options` are those that they share, `usage` is the language of help and refusals.
 `diagnostics` says what a run found, `formats` and `sarif` how that is written, `report` what `run` tells; `console` and
-`output` write.
+`output` write, `progress` tells those who wait how far a command is.
 """
 
 from __future__ import annotations

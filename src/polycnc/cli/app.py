@@ -14,19 +14,22 @@ import typer
 from typer.core import TyperGroup
 
 from polycnc.cli.console import fail, note
-from polycnc.cli.usage import help_in_language, language_of, translated
+from polycnc.cli.usage import HELP, help_in_language, language_of, translated
 from polycnc.messages import text
 from polycnc.messages.catalogue import LANGUAGES, set_language
+from polycnc.messages.errors import place_of_failure
 from polycnc.messages.files import reason_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
 #: Each command is the module of this name in `polycnc.cli.commands`, which has a Typer `app`.
-COMMANDS = ("run", "check", "test", "plot", "features", "machines", "alarms", "data", "parameters")
+COMMANDS = ("run", "check", "test", "plot", "features", "machines", "alarms", "data", "parameters", "panel")
 BAD_USE, INTERRUPTED = 2, 130
+#: With this variable of the environment a mistake of polycnc shows all of its way.
+TRACEBACK = "POLYCNC_TRACEBACK"
 #: Libraries that polycnc can do without, and the extra that brings each.
-EXTRAS = {"numpy": "tables", "pyarrow": "tables", "resvg_py": "png"}
+EXTRAS = {"numpy": "tables", "pyarrow": "tables", "resvg_py": "png", "nicegui": "panel", "fastapi": "panel"}
 
 
 class _Commands(TyperGroup):
@@ -45,7 +48,11 @@ class _Commands(TyperGroup):
 
 def _root() -> typer.Typer:
     app = typer.Typer(
-        cls=_Commands, add_completion=True, rich_markup_mode=None, pretty_exceptions_enable=False
+        cls=_Commands,
+        add_completion=True,
+        rich_markup_mode=None,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": list(HELP)},
     )
 
     @app.callback(invoke_without_command=True, help=text("help.polycnc"))
@@ -99,11 +106,16 @@ def _termination_interrupts() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield  # only the main thread may answer signals
         return
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    ends = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    # Who has been told to outlive the terminal (nohup) does.
+    before = {each: signal.getsignal(each) for each in ends if signal.getsignal(each) is not signal.SIG_IGN}
+    for each in before:
+        signal.signal(each, signal.default_int_handler)
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for each, handler in before.items():
+            signal.signal(each, handler)
 
 
 def _run(words: list[str]) -> int:
@@ -113,13 +125,13 @@ def _run(words: list[str]) -> int:
             status = _root()(words, prog_name="polycnc", standalone_mode=False)
     except typer.Exit as leave:
         return leave.exit_code
-    except Exception as error:  # noqa: BLE001 - `_told` raises what is no user's mistake
+    except Exception as error:  # noqa: BLE001 - `_told` says what it was
         return fail(_told(error), BAD_USE)
     return status if isinstance(status, int) else 0
 
 
 def _told(error: Exception) -> str:
-    """What the user did wrong, in one line; what is no user's mistake goes on as it is."""
+    """What the user did wrong, in one line; what is no user's mistake says where polycnc has failed."""
     message = getattr(error, "text", None) or getattr(error, "format_message", None)
     if callable(message):
         told = translated(" ".join(str(message()).split()))
@@ -131,4 +143,11 @@ def _told(error: Exception) -> str:
         return text("cli.extra", library=error.name, extra=EXTRAS[error.name])
     if isinstance(error, MemoryError):
         return text("cli.memory")
-    raise error
+    if isinstance(error, BrokenPipeError) or os.environ.get(TRACEBACK):
+        raise error
+    return text(
+        "cli.internal",
+        error=f"{type(error).__name__}: {error}",
+        where=place_of_failure(error),
+        variable=TRACEBACK,
+    )

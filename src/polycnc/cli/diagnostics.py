@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from polycnc.messages import Alarm, text
-from polycnc.messages.catalogue import language
+from polycnc.messages.errors import place_of_failure
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -57,8 +57,28 @@ class Diagnostic:
     cause: str = ""
     remedy: str = ""
 
+    @property
+    def unreadable(self) -> bool:
+        """Whether the program could not be run at all."""
+        return self.rule in _UNREADABLE
+
     def __str__(self) -> str:
         return f"{self.place}: {self.code} {self.message}".rstrip()
+
+
+_UNREADABLE = ("polycnc/unreadable", "polycnc/internal")
+
+
+def unreadable(name: str, error: Exception) -> Diagnostic:
+    """A file that cannot be run, with what its error says; the error may name file, line and column itself."""
+    return Diagnostic(Place(name), "unreadable", str(error), "polycnc/unreadable")
+
+
+def internal(name: str, error: Exception) -> Diagnostic:
+    """A mistake of polycnc itself that a file brings to light, with where it came up."""
+    told = f"{type(error).__name__}: {error}"
+    message = text("check.internal", file=name, error=told, where=place_of_failure(error))
+    return Diagnostic(Place(name), "internal", message, "polycnc/internal")
 
 
 def diagnostics_of(result: Result, main: str) -> list[Diagnostic]:
@@ -70,7 +90,7 @@ def diagnostics_of(result: Result, main: str) -> list[Diagnostic]:
 
 
 def _of_alarm(result: Result, alarm: Alarm, main: str) -> Diagnostic:
-    catalogue = result.control.catalogue
+    catalogue = result.catalogue
     known = alarm.code in catalogue
     program = result.program_of(alarm)
     index = alarm.line - program.first_line if program is not None else -1
@@ -83,9 +103,9 @@ def _of_alarm(result: Result, alarm: Alarm, main: str) -> Diagnostic:
         rule=f"{alarm.control.partition('-')[0]}/{alarm.code}",
         source=source,
         calls=calls,
-        summary=catalogue.entry(alarm.code)[language()] if known else "",
-        cause=catalogue.note(alarm.code, "cause") if known else "",
-        remedy=catalogue.note(alarm.code, "remedy") if known else "",
+        summary=catalogue.text(alarm.code) if known else "",
+        cause=catalogue.note(alarm.code, "cause", args=alarm.args) if known else "",
+        remedy=catalogue.note(alarm.code, "remedy", args=alarm.args) if known else "",
     )
 
 

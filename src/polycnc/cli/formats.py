@@ -6,6 +6,7 @@ import json
 from typing import TYPE_CHECKING
 
 from polycnc.cases.junit import Entry, as_xml
+from polycnc.messages import text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -14,8 +15,14 @@ if TYPE_CHECKING:
 
 
 def as_text(found: Sequence[Diagnostic]) -> str:
-    """One finding a line: `file:line:col: code message`."""
-    return "".join(f"{diagnostic}\n" for diagnostic in found)
+    """One finding a line: `file:line:col: code message`, and what to do about it in the line below."""
+    return "".join(f"{line}\n" for diagnostic in found for line in lines_of(diagnostic))
+
+
+def lines_of(diagnostic: Diagnostic) -> list[str]:
+    """A finding as people read it: its line, and the remedy where there is one."""
+    remedy = [f"  {text('alarms.remedy')}: {diagnostic.remedy}"] if diagnostic.remedy else []
+    return [str(diagnostic), *remedy]
 
 
 def as_json(found: Sequence[Diagnostic]) -> str:
@@ -59,11 +66,14 @@ def _github_escaped(value: str, more: str = "") -> str:
 
 def as_junit(found: Sequence[Diagnostic], files: Sequence[str]) -> str:
     """JUnit XML: one test case a file, failed where something was found in it or in what it calls."""
-    entries = [
-        Entry(file, "polycnc.check", tuple(str(d) for d in found if file in (d.place.file, _main_file(d))))
-        for file in files
-    ]
-    return as_xml("polycnc check", entries)
+    return as_xml("polycnc check", [_entry(file, found) for file in files])
+
+
+def _entry(file: str, found: Sequence[Diagnostic]) -> Entry:
+    own = [d for d in found if file in (d.place.file, _main_file(d))]
+    failures = tuple(" ".join(line.strip() for line in lines_of(d)) for d in own if not d.unreadable)
+    errors = tuple(d.message for d in own if d.unreadable)
+    return Entry(file, "polycnc.check", failures, errors=errors)
 
 
 def _main_file(diagnostic: Diagnostic) -> str:

@@ -6,6 +6,7 @@ import inspect
 from dataclasses import dataclass, fields
 from enum import StrEnum
 from functools import wraps
+from glob import glob, has_magic
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
@@ -15,7 +16,7 @@ from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
 from polycnc.messages import text
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     from polycnc.session import Session
 
@@ -27,17 +28,46 @@ class Language(StrEnum):
     ZH_TW = "zh-TW"
 
 
-def _option(name: str, *flags: str, metavar: str | None = None) -> object:
-    return typer.Option(*flags, help=text(f"help.option.{name}"), metavar=metavar, show_default=False)
+def _option(
+    name: str, *flags: str, metavar: str | None = None, values: Callable[[], Iterable[str]] | None = None
+) -> object:
+    """An option; `values` are those that the shell offers."""
+    return typer.Option(
+        *flags, help=text(f"help.option.{name}"), metavar=metavar, show_default=False, autocompletion=values
+    )
 
 
-Control = Annotated[str | None, _option("control", "--control", metavar="ID")]
-Machine = Annotated[str | None, _option("machine", "--machine", metavar="ID|FILE")]
+def controls() -> tuple[str, ...]:
+    """The ids of all controls."""
+    from polycnc.control import registry
+
+    return tuple(registry.ids())
+
+
+def machines() -> tuple[str, ...]:
+    """The ids of the built-in machines."""
+    from polycnc.machine import builtin_ids
+
+    return builtin_ids()
+
+
+def expanded(names: Iterable[str]) -> list[str]:
+    """File names with patterns resolved that the shell has left as they are, as on Windows."""
+    files: list[str] = []
+    for name in names:
+        found = sorted(glob(name)) if has_magic(name) and not Path(name).exists() else []  # noqa: PTH207 - names stay as typed
+        files += found or [name]
+    return files
+
+
+Control = Annotated[str | None, _option("control", "--control", metavar="ID", values=controls)]
+Machine = Annotated[str | None, _option("machine", "--machine", metavar="ID|FILE", values=machines)]
 Setup = Annotated[Path | None, _option("setup", "--setup", metavar="FILE")]
 Search = Annotated[list[Path] | None, _option("search", "--search", metavar="DIR")]
 Encoding = Annotated[str | None, _option("encoding", "--encoding", metavar="NAME")]
 Lang = Annotated[Language | None, _option("lang", "--lang", metavar="en|zh-TW")]
 BlockLimit = Annotated[int, typer.Option("--block-limit", min=1, help=text("help.option.block-limit"))]
+Memory = Annotated[Path | None, _option("memory", "--memory", metavar="FILE")]
 NoBulk = Annotated[bool, typer.Option("--no-bulk", help=text("help.option.no-bulk"))]
 Output = Annotated[Path | None, _option("output", "--output", "-o", metavar="FILE")]
 
@@ -55,14 +85,26 @@ class Opening:
     no_bulk: NoBulk = False
     _lang: Lang = None
 
-    def session(self, source: bytes | Path, *, name: str = "", keep: bool, timed: bool = True) -> Session:
+    def inputs(self, *files: str | Path) -> list[str | Path]:
+        """The files that a command reads, which none of its outputs may replace."""
+        return [*files, *(each for each in (self.setup, self.machine) if each is not None)]
+
+    def session(
+        self,
+        source: bytes | Path,
+        *,
+        name: str = "",
+        keep: bool,
+        timed: bool = True,
+        memory: Path | None = None,
+    ) -> Session:
         """Open a session of a file, or of a text that has no file; `session.open_session` has the errors."""
         from polycnc.session import open_session
 
         return open_session(
             source, name=name, control=self.control, machine=self.machine, setup=self.setup,
             search=self.search or (), encoding=self.encoding, block_limit=self.block_limit,
-            keep=keep, timed=timed, bulk=not self.no_bulk,
+            keep=keep, timed=timed, bulk=not self.no_bulk, memory=memory,
         )  # fmt: skip
 
 

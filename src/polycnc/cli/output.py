@@ -1,22 +1,36 @@
-"""Output files: whole or not at all."""
+"""Output files: whole or not at all, and never in the place of an input."""
 
 from __future__ import annotations
 
 import os
+import stat
 import tempfile
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
+from polycnc.messages.files import OutputError
+from polycnc.program.folders import SUFFIXES
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+#: Suffixes of files that are part programs and nothing else.
+PROGRAMS = frozenset(SUFFIXES) - {"", ".txt", ".h", ".min"}
+
+
+def refuse_programs(output: Path | None) -> None:
+    """Raise `OutputError` where a report would replace a part program: `-o *.nc` names one that nobody meant."""
+    if output is not None and output.suffix.lower() in PROGRAMS and output.is_file():
+        raise OutputError("output.is-program", file=output)
 
 
 @contextmanager
 def whole_file(path: Path, mode: str = "w") -> Iterator[IO[Any]]:
     """Open a file for writing that appears under its name only when everything has been written.
 
-    A device or pipe is written directly. Raises `OSError` as `open` does.
+    Until then it has no name where the system can do that, so that nothing is left of it if the process is killed. A
+    file that was there before keeps its mode. A device or pipe is written directly. Raises `OSError` as `open` does.
     """
     options: dict[str, Any] = {} if "b" in mode else {"encoding": "utf-8", "newline": "\n"}
     if path.exists() and not path.is_file():
@@ -25,17 +39,48 @@ def whole_file(path: Path, mode: str = "w") -> Iterator[IO[Any]]:
         return
     target = path.resolve()
     try:
-        handle, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+        handle, name = _nameless(target.parent)
+        if handle < 0:
+            handle, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
     except OSError as error:
         raise type(error)(error.errno, error.strerror, str(path)) from error
     try:
         with os.fdopen(handle, mode, **options) as stream:
             yield stream
-        Path(name).chmod(0o666 & ~_umask())
+            stream.flush()
+            if not name:
+                name = _named(handle, target)
+        Path(name).chmod(_mode_of(target))
         Path(name).replace(target)
     except BaseException:
-        Path(name).unlink(missing_ok=True)
+        if name:
+            Path(name).unlink(missing_ok=True)
         raise
+
+
+def _nameless(folder: Path) -> tuple[int, str]:
+    """A file without a name in a folder; -1 where the system has none."""
+    if hasattr(os, "O_TMPFILE") and Path("/proc/self/fd").is_dir():
+        with suppress(OSError):
+            return os.open(folder, os.O_TMPFILE | os.O_RDWR | os.O_CLOEXEC, 0o600), ""
+    return -1, ""
+
+
+def _named(handle: int, target: Path) -> str:
+    """Give a file without a name one beside its target."""
+    name = str(target.parent / f".{target.name[:200]}.{os.getpid()}.{handle}")
+    Path(name).unlink(missing_ok=True)
+    # With a folder named, the call is `linkat`, which alone follows the link to the file.
+    os.link(f"/proc/self/fd/{handle}", name, src_dir_fd=handle, follow_symlinks=True)
+    return name
+
+
+def _mode_of(target: Path) -> int:
+    """The mode of the file that is replaced, else that of any new file."""
+    try:
+        return stat.S_IMODE(target.stat().st_mode)
+    except OSError:
+        return 0o666 & ~_umask()
 
 
 def _umask() -> int:

@@ -2,24 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from math import isfinite
 from typing import TYPE_CHECKING
 
 from polycnc.cli.console import coloured
 from polycnc.cli.diagnostics import diagnostics_of
+from polycnc.cli.formats import lines_of
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 from polycnc.toolpath.events import Message, Print, Stop
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Collection, Iterable, Iterator, Sequence
 
-    from polycnc.motion.plan import Times
+    from polycnc.motion.explain import Cause, Part
+    from polycnc.motion.times import Times
     from polycnc.session import Result
     from polycnc.toolpath.table import Chunk
     from polycnc.toolpath.trace import Display, Record
+    from polycnc.toolpath.usage import Extents, ToolUsage, Usage
 
 #: A program may say much; the report shows so many messages and stops, the trace shows all.
 MOST_HAPPENINGS = 50
+#: So many speeds of a tool are named.
+MOST_SPEEDS = 6
 _SHOWN = frozenset((Message.type, Stop.type, Print.type))
 _SHARES = ("cutting_s", "rapid_s", "dwell_s", "tool_change_s", "spindle_s", "auxiliary_s")
 
@@ -47,16 +54,18 @@ class Happenings:
         self.more += len(found[room:])
 
 
-def as_text(result: Result, happenings: Happenings, file: str) -> str:
+def as_text(result: Result, happenings: Happenings, file: str, usage: Usage | None = None) -> str:
     """The report."""
-    return "".join(f"{line}\n" for line in _lines(result, happenings, file))
+    return "".join(f"{line}\n" for line in _lines(result, happenings, file, usage))
 
 
-def _lines(result: Result, happenings: Happenings, file: str) -> Iterator[str]:
+def _lines(result: Result, happenings: Happenings, file: str, usage: Usage | None) -> Iterator[str]:
     program = result.program.name
     yield text("run.head", program=program, control=result.control.id, machine=result.machine.id)
     for diagnostic in diagnostics_of(result, file):
-        yield coloured(str(diagnostic), "red" if diagnostic.severity == "error" else "yellow")
+        head, *remedy = lines_of(diagnostic)
+        yield coloured(head, "red" if diagnostic.severity == "error" else "yellow")
+        yield from remedy
     if result.ok:
         yield coloured(text("run.no-alarm"), "green")
     for record in happenings.records:
@@ -66,6 +75,8 @@ def _lines(result: Result, happenings: Happenings, file: str) -> Iterator[str]:
         yield text("run.more", count=happenings.more)
     if result.repeats:
         yield text("run.repeats", count=result.repeats)
+    if result.main_run_s is not None:
+        yield text("run.main-run", time=clock(result.main_run_s))
     if not result.timed:
         return
     times = result.plan.times
@@ -75,7 +86,27 @@ def _lines(result: Result, happenings: Happenings, file: str) -> Iterator[str]:
         yield text("run.without-feed", count=result.plan.rows_without_feed)
     if result.plan.rows_without_spindle:
         yield text("run.without-spindle", count=result.plan.rows_without_spindle)
-    yield from _tools(result)
+    yield from _tools(result, usage)
+    if usage is not None:
+        yield from _used(result, usage)
+
+
+def explained(parts: Mapping[Cause, Part], times: Times) -> str:
+    """Where the cycle time goes: by the limit that held, and by what the axes waited for."""
+    total, whole = times.total_s or 1.0, sum(part.way for part in parts.values()) or 1.0
+    lines = [text("run.explained")]
+    for cause, part in parts.items():
+        if part.seconds > 0.0:
+            share, way = f"{100.0 * part.seconds / total:5.1f} %", f"{100.0 * part.way / whole:.1f}"
+            lines.append(text(f"run.explained.{cause}", time=clock(part.seconds), share=share, way=way))
+    waits = ((name, getattr(times, name)) for name in _SHARES if name not in ("cutting_s", "rapid_s"))
+    for name, seconds in waits:
+        if seconds > 0.0:
+            share = f"{100.0 * seconds / total:5.1f} %"
+            lines.append(
+                text("run.explained.wait", time=clock(seconds), share=share, what=text(f"run.{name}"))
+            )
+    return "\n".join(lines)
 
 
 def _shares(times: Times) -> str:
@@ -84,7 +115,7 @@ def _shares(times: Times) -> str:
     return listed(f"{text(f'run.{name}')} {clock(seconds)}" for name, seconds in parts if seconds >= 0.05)
 
 
-def _tools(result: Result) -> Iterator[str]:
+def _tools(result: Result, usage: Usage | None) -> Iterator[str]:
     used = [tool for tool in result.tools if tool.tool or tool.name]
     if used:
         yield text("run.tools")
@@ -92,7 +123,57 @@ def _tools(result: Result) -> Iterator[str]:
     width = max(map(len, names), default=0)
     for name, tool in zip(names, used, strict=True):
         way = f"{tool.times.cutting_mm:,.1f}"
-        yield text("run.tool", tool=f"{name:{width}}", time=clock(tool.times.total_s), cutting=way)
+        cut = usage.tools.get(tool.name or tool.tool) if usage is not None else None
+        speeds = "".join(f"  {part}" for part in _speeds(cut)) if cut is not None else ""
+        yield text("run.tool", tool=f"{name:{width}}", time=clock(tool.times.total_s), cutting=way) + speeds
+        if cut is not None:
+            yield from (f"    {line}" for line in _reach(result, cut))
+
+
+def _reach(result: Result, cut: ToolUsage) -> Iterator[str]:
+    """How far the cuts of a tool reach; units are named where the program is not all in mm."""
+    axes = result.display.axes
+    yield text("run.work", unit=_named(cut.units), extents=extents(axes, cut.work))
+    yield text("run.machine", unit=" (mm)" if _named(cut.units) else "", extents=extents(axes, cut.machine))
+
+
+def _named(units: Collection[str]) -> str:
+    """Units as ` (inch)`; nothing where all is in mm."""
+    return "" if set(units) <= {"mm"} else f" ({', '.join(units)})"
+
+
+def _speeds(cut: ToolUsage) -> Iterator[str]:
+    """Speeds and feeds of a tool's cuts, as `S1200 1500`, `S200 m/min` and `F100–400 mm/min`."""
+    surface = " ft/min" if _named(cut.units) else " m/min"
+    for speeds, unit in ((cut.speeds, ""), (cut.surface_speeds, surface)):
+        if speeds:
+            values = [f"{speed:g}" for speed in speeds]
+            shown = " ".join(values[:MOST_SPEEDS]) + (" …" if len(values) > MOST_SPEEDS else "")
+            yield f"S{shown}{unit}"
+    for unit, (least, most) in cut.feeds.items():
+        yield f"F{least:g} {unit}" if least == most else f"F{least:g}–{most:g} {unit}"
+
+
+def _used(result: Result, usage: Usage) -> Iterator[str]:
+    """What belongs to no tool: cuts without one, the machine's way, work offsets."""
+    unnamed = usage.tools.get(0)
+    if unnamed is not None:
+        yield next(_reach(result, unnamed))
+    if usage.machine.known:
+        inch = any(_named(tool.units) for tool in usage.tools.values())
+        reached = extents(result.display.axes, usage.machine)
+        yield text("run.machine-travel", unit=" (mm)" if inch else "", extents=reached)
+    if usage.offsets:
+        yield text("run.offsets", offsets=listed(usage.offsets))
+
+
+def extents(axes: Sequence[str], reached: Extents) -> str:
+    """Extents of axes in one line; an axis that does not move has one position."""
+    shown = []
+    for axis, *ends in zip(axes, reached.low, reached.high, strict=True):
+        low, high = (f"{round(end, 3) + 0.0:.3f}" for end in ends)  # no -0.000
+        shown.append(f"{axis} {low}" if low == high else f"{axis} {low} … {high}")
+    return "  ".join(shown)
 
 
 def clock(seconds: float) -> str:
@@ -104,7 +185,13 @@ def clock(seconds: float) -> str:
     return f"{hours}:{minutes:02d}:{tail}" if hours else f"{minutes}:{tail}"
 
 
-def as_state(result: Result) -> str:
+def _spans(axes: Sequence[str], reached: Extents) -> dict[str, tuple[float, float]]:
+    """Lowest and highest position by axis; nothing where none is known."""
+    spans = zip(reached.low, reached.high, strict=True)
+    return dict(zip(axes, spans, strict=True)) if reached.known else {}
+
+
+def as_state(result: Result, usage: Usage | None = None) -> str:
     """The state at the end of the run as JSON: positions, modal codes, variables, alarms, times."""
     import json
 
@@ -127,4 +214,30 @@ def as_state(result: Result) -> str:
     if result.timed:
         tools = [{"tool": tool.name or tool.tool, "time_s": tool.times.total_s} for tool in result.tools]
         state |= {"time_s": result.time, "tools": tools}
-    return json.dumps(state, ensure_ascii=False, indent=1, default=str) + "\n"
+    if usage is not None:
+        axes = result.display.axes
+        state["work_offsets"] = list(usage.offsets)
+        state["extents"] = {
+            "machine": _spans(axes, usage.machine),
+            "tools": [
+                {
+                    "tool": cut.tool,
+                    "work": _spans(axes, cut.work),
+                    "machine": _spans(axes, cut.machine),
+                    "speeds": list(cut.speeds),
+                    "surface_speeds": list(cut.surface_speeds),
+                    "feeds": cut.feeds,
+                }
+                for cut in usage.tools.values()
+            ],
+        }
+    return json.dumps(_with_null(state), ensure_ascii=False, indent=1, default=str, allow_nan=False) + "\n"
+
+
+def _with_null(value: object) -> object:
+    """A value with null for numbers that JSON has none for."""
+    if isinstance(value, float):
+        return value if isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {key: _with_null(element) for key, element in value.items()}
+    return [_with_null(element) for element in value] if isinstance(value, list | tuple) else value

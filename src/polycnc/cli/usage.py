@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
 #: Options that print a page and leave.
-HELP = "--help"
+HELP = ("-h", "--help")
 
 
 def language_of(words: Sequence[str]) -> str:
@@ -39,9 +39,9 @@ def translated(told: str) -> str:
 
 @contextmanager
 def help_in_language(words: Sequence[str]) -> Iterator[None]:
-    """Translate the page that a call without a command, or with `--help`, prints."""
+    """Translate the page that a call without a command, or with `-h`, prints."""
     if language() == "en" or not (
-        HELP in words or all("lang" in word or word in LANGUAGES for word in words)
+        any(word in HELP for word in words) or all("lang" in word or word in LANGUAGES for word in words)
     ):
         yield
         return

@@ -10,6 +10,7 @@ behind must not run backwards.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.compensation.ends import blind_end
@@ -227,4 +228,5 @@ def _on(arc: Edge, point: Point | None) -> Point | None:
 def crosses(one: Edge, vector: Point, two: Edge, other: Point) -> bool:
     """Whether the tool goes from the end of one block to that of another against the programmed direction."""
     du, dv = arcs.minus(two.end, one.end)
-    return du * (du + other[0] - vector[0]) + dv * (dv + other[1] - vector[1]) < -offset.BACKWARDS_MM
+    along = du * (du + other[0] - vector[0]) + dv * (dv + other[1] - vector[1])
+    return along < -offset.BACKWARDS_MM * hypot(du, dv)

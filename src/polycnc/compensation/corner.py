@@ -46,6 +46,8 @@ class CornerViolation(Enum):
     NO_NEXT_MOVE = "no move in the plane follows, or the block has none itself"
     #: Counts as `NO_NEXT_MOVE` where the control has no code of its own for it.
     RAPID = "one of the two moves is a rapid"
+    #: Nothing is wrong where the control has no code for it: the corner is left as it is.
+    TOO_MANY_BLOCKS = "too many blocks without a way in the plane stand between the two moves"
     TOO_SHORT = "a move is shorter than the chamfer or rounding needs"
 
 
@@ -54,16 +56,21 @@ class CornerPolicy:
     """The behaviour of one control.
 
     Attributes:
+        dwell_between: A dwell may stand between the two moves.
         idle_blocks: Blocks without plane motion that may stand between the two moves; none where the next block must
             be the next move (FANUC 0i-TF Plus 4.7).
         shrinks: A size that does not fit is reduced to the largest that does (SINUMERIK).
         least_turn_deg: Between directions that differ by less there is no corner.
+        waits_at_shape: The blocks between the two moves come in front of the shape, the tool standing where it begins;
+            else behind it. What the block of the second move does first is behind it always.
         start_up_between: Radius compensation may start up between the two moves.
     """
 
+    dwell_between: bool = False
     idle_blocks: int = 0
     shrinks: bool = False
     least_turn_deg: float = degrees(1e-6)
+    waits_at_shape: bool = False
     start_up_between: bool = False
 
 
@@ -82,7 +89,14 @@ class _Held:
     move: Move
     request: _Request
     blocks: int = 0
+    dwells: bool = False
     after: list[Item] = field(default_factory=list)
+
+    @property
+    def between(self) -> int:
+        """How many items belong to ended blocks: those behind them are of the block of the next move."""
+        ends = [i for i, item in enumerate(self.after, 1) if isinstance(item, EndOfBlock)]
+        return ends[-1] if ends else 0
 
 
 class CornerStage(Stage):
@@ -103,13 +117,25 @@ class CornerStage(Stage):
         self._modal: _Request | None = None
         self._wanted: _Request | None = None
         self._held: _Held | None = None
-        #: Where the tool stands behind a shape, while what came between the two moves is passed on.
-        self._behind_shape: Point | None = None
+        #: Where the tool stands at a shape, while what came between the two moves is passed on.
+        self._beside_shape: Point | None = None
 
     @property
     def active(self) -> bool:
         """Whether moves are held back or changed."""
         return self._modal is not None or self._wanted is not None or self._held is not None
+
+    def settle(self) -> bool:
+        """Radius compensation begins, ends or changes: a corner that waits for its second move cannot span that.
+
+        One of RNDM stays as it is. False where the program asked for the shape: then the control objects.
+        """
+        held = self._held
+        if held is None:
+            return True
+        if held.request.modal:
+            self._let_go(held)
+        return held.request.modal
 
     def insert(self, shape: Shape, size: float, feed: float = nan) -> None:
         """Put a shape after the move of this block; call it before the move.
@@ -125,9 +151,16 @@ class CornerStage(Stage):
         """Round every corner between cutting moves from this block on (RNDM); radius 0 ends it."""
         self._modal = _Request(Shape.ROUNDING, radius, feed, modal=True) if radius > 0.0 else None
 
+    def feed_all(self, feed: float) -> None:
+        """Another feed of all roundings from this block on; NaN for that of the move in front (FRCM)."""
+        if self._modal is not None:
+            self._modal = replace(self._modal, feed=feed)
+
     def move(self, move: Move) -> None:
         """Take the next move; see `Stage`."""
         if not self.plane.moves(move):
+            if move.kind is Kind.DWELL:
+                self.dwell()
             self._in_order(move)
             return
         held, wanted, self._wanted = self._held, self._wanted, None
@@ -138,6 +171,13 @@ class CornerStage(Stage):
             self._pass(move)
         else:
             self._held = _Held(move, request)
+
+    def dwell(self) -> None:
+        """This block is a dwell, of no time perhaps: one between the two moves does not count."""
+        held = self._held
+        if held is not None and self.policy.dwell_between and not held.dwells:
+            held.dwells = True
+            held.blocks -= 1
 
     def event(self, event: PlacedEvent) -> None:
         """Take an event; it keeps its place between the moves."""
@@ -152,6 +192,8 @@ class CornerStage(Stage):
         if self._held is not None:
             self._held.blocks += 1
             if self._held.blocks > self.policy.idle_blocks + 1:
+                if not self._held.request.modal:
+                    self._violate(CornerViolation.TOO_MANY_BLOCKS, self._held.move.line)
                 self._give_up()
 
     def flush(self) -> None:
@@ -183,18 +225,26 @@ class CornerStage(Stage):
         self._let_go(held)
 
     def _let_go(self, held: _Held, inserted: Move | None = None) -> None:
+        """Pass on the move, the shape, and what came between: in front of the shape or behind it."""
         self._held = None
         self._pass(held.move)
+        before = held.between if self.policy.waits_at_shape else 0
         if inserted is not None:
+            self._pass_beside(inserted.start, held.after[:before])
             self._pass(inserted)
-            self._behind_shape = self.plane.point(inserted.end)
-        for item in held.after:
+            self._pass_beside(inserted.end, held.after[before:])
+        else:
+            self._pass_beside(held.move.end, held.after)
+
+    def _pass_beside(self, end: list[float], items: list[Item]) -> None:
+        self._beside_shape = self.plane.point(end)
+        for item in items:
             self._pass_item(item)
-        self._behind_shape = None
+        self._beside_shape = None
 
     def _displaced(self, move: Move) -> Move:
-        """A dwell, or a move square to the plane, between the two moves of a corner happens where the shape ends."""
-        point = self._behind_shape
+        """A dwell, or a move square to the plane, between the two moves of a corner happens at an end of the shape."""
+        point = self._beside_shape
         if point is None:
             return move
         return replace(move, start=self.plane.at(move.start, point), end=self.plane.at(move.end, point))
@@ -232,8 +282,13 @@ class CornerStage(Stage):
 
     def _cut(self, held: _Held, move: Move, cuts: _Cuts, ccw: bool) -> Move:
         plane, first = self.plane, held.move
-        leaving = plane.at(_between(first, cuts.part_a), cuts.leaving)
-        entering = plane.at(_between(move, cuts.part_b), cuts.entering)
+        own_end = plane.at(_between(first, cuts.part_a), cuts.leaving)
+        leaving, entering = own_end, plane.at(_between(move, cuts.part_b), cuts.entering)
+        moved = any(isinstance(item, Move) and item.start != item.end for item in held.after)
+        if moved:  # other axes have gone their own way between: the shape lies in the plane
+            own_end = plane.at(first.end, cuts.leaving)
+            level = move.start if self.policy.waits_at_shape else first.end
+            leaving, entering = plane.at(level, cuts.leaving), plane.at(level, cuts.entering)
         inserted = replace(
             first, kind=Kind.FEED, start=leaving, end=entering, center=None, turns=0.0, parameters=(),
             feed=first.feed if isnan(held.request.feed) else held.request.feed,
@@ -241,9 +296,10 @@ class CornerStage(Stage):
         if cuts.center is not None:
             inserted.kind = plane.arc_kind(ccw, leaving, entering)
             inserted.center, inserted.normal = plane.lift(cuts.center, leaving), plane.normal
-        held.move = _rest(replace(first, end=leaving), cuts.part_a > 0.0)
+        held.move = _rest(replace(first, end=own_end), cuts.part_a > 0.0)
         self._let_go(held, inserted)
-        return _rest(replace(move, start=entering), cuts.part_b < 1.0)
+        start = plane.at(move.start, cuts.entering) if moved else entering
+        return _rest(replace(move, start=start), cuts.part_b < 1.0)
 
 
 @dataclass(frozen=True, slots=True)

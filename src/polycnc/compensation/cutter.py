@@ -25,6 +25,7 @@ while a vector stands, this shift stands with it (FANUC 0i-TF Plus 5.2).
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
@@ -36,6 +37,7 @@ from polycnc.compensation.rows import RowWriter
 from polycnc.compensation.step import NO_VECTOR, Role, Step
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Corner
+from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -88,6 +90,11 @@ class CutterCompensation(Stage):
     def active(self) -> bool:
         """Whether moves are compensated, or a vector is still to be removed."""
         return self._role is not Role.PLAIN
+
+    @property
+    def holds_vector(self) -> bool:
+        """Whether the tool stands beside the contour, or a move waits that leads it there."""
+        return bool(self._window) or self._rows.vector != NO_VECTOR
 
     @property
     def side(self) -> int:
@@ -151,6 +158,11 @@ class CutterCompensation(Stage):
         """The block in front ends square on itself: nothing is read behind this block before it is executed."""
         self._release_all()
 
+    def beside(self, position: list[float]) -> list[float]:
+        """Where the tool stands when the program stands at a position behind all that has been passed on."""
+        plane = self.plane
+        return plane.at(position, arcs.plus(plane.point(position), self._rows.displacement))
+
     def drop_vector(self) -> None:
         """The block in front ends on the programmed point; compensation goes on from there (G50, G52)."""
         if self._window and self._window[-1].corner is None:
@@ -200,7 +212,7 @@ class CutterCompensation(Stage):
             self._take(place, offset.Edge(point, point, NO_VECTOR, NO_VECTOR))
         self._in_order(EndOfBlock())
         self._read += 1
-        while self._window and self._read - self._window[0].read >= self._window[0].policy.read_blocks:
+        while self._window and self._read - self._window[0].read >= self._window[0].waits_for:
             self._release()
 
     def flush(self) -> None:
@@ -235,6 +247,8 @@ class CutterCompensation(Stage):
         self._forced, self._holds, self._starts_square = None, False, False
         step.edge = self._checked(step)
         if self._window:
+            if step.policy.leaves_out_arcs and self._window[-1].is_chord and not step.is_chord:
+                self._leave_out_arcs(step)
             self._close(self._window[-1], step)
             if step.suspended or self._window[-1].suspended:
                 self._release_all()  # no way round leads past such a stretch
@@ -255,10 +269,13 @@ class CutterCompensation(Stage):
             start = step.role is Role.START
             self._violations.object(Violation.ARC_START if start else Violation.ARC_CANCEL, step.move)
             return edge
-        radius = min(arcs.radius_of(edge.center, edge.start), arcs.radius_of(edge.center, edge.end))
-        if offset.offset_radius(radius, step.distance, edge.ccw) < -offset.SMOOTH_MM:
-            if step.policy.avoids:
-                step.altered = True
+        radii = (arcs.radius_of(edge.center, edge.start), arcs.radius_of(edge.center, edge.end))
+        # A radius lies between two rounded points; a rounded end beside them may make the other one differ.
+        rounding = 2.0 * ROUNDED_MM + min(abs(radii[0] - radii[1]), ROUNDED_MM)
+        if offset.offset_radius(min(radii), step.distance, edge.ccw) < -rounding:
+            chord = arcs.radius_of(edge.start, edge.end)
+            if step.policy.avoids and chord > NO_WAY:  # nothing could stand for a full circle
+                step.altered = step.is_chord = True
                 return offset.line(edge.start, edge.end)
             self._refuse_radius(step.move)
         return edge
@@ -281,6 +298,25 @@ class CutterCompensation(Stage):
             if step.role is Role.CONTOUR and step.forced is None and not step.holds:
                 self._interference.check(step)
         self._window[-1].lead_to(following)
+
+    def _leave_out_arcs(self, following: Step) -> None:
+        """Inner arcs too small for the tool go where the blocks in front of them and behind them meet."""
+        count = next(
+            (n for n, step in enumerate(reversed(self._window)) if not step.is_chord), len(self._window)
+        )
+        if count == len(self._window) or following.role is not Role.CONTOUR:
+            return
+        before, arcs_ = self._window[-count - 1], self._window[-count:]
+        same = all(step.distance == before.distance and not step.is_commanded for step in (*arcs_, following))
+        if not same or before.role is not Role.CONTOUR or before.is_commanded:
+            return
+        around = [step.contour for step in (before, *arcs_, following)]
+        if any(offset.is_outer(one, two, before.distance) for one, two in pairwise(around)):
+            return  # a peak between them: past it only a way round leads
+        point = offset.meet(before.edge, following.edge, before.distance, following.distance)
+        if point is None or offset.is_outer(before.edge, following.edge, before.distance):
+            return
+        self._interference.leave_out(before, arcs_, following, point)
 
     def _no_intersection(self, step: Step, following: Step) -> Corner:
         """FANUC 0i-TF Plus 5.4.3: the tool stops at the end of the block in front."""

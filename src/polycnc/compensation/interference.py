@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections import deque
+from dataclasses import replace
 from itertools import pairwise
 from math import pi
 from typing import TYPE_CHECKING
 
 from polycnc.compensation.avoidance import (
     PATHS,
+    Detour,
     crosses,
     cuts,
     detours,
@@ -17,14 +19,14 @@ from polycnc.compensation.avoidance import (
 )
 from polycnc.compensation.policy import Violation
 from polycnc.compensation.step import Role
-from polycnc.geometry import offset
+from polycnc.geometry import arcs, offset
+from polycnc.geometry.offset import Corner
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from polycnc.channel.moves.path import Move
-    from polycnc.compensation.avoidance import Detour
     from polycnc.compensation.rows import RowWriter
     from polycnc.compensation.step import Step
     from polycnc.geometry.arcs import Point
@@ -123,12 +125,17 @@ class InterferenceCheck:
             for number in range(len(self._window) - 2, 0, -1)
             if self._interferes(number) or (number + 1 >= bent and self._cut_each_other(number + 1))
         ]
+        only_rounding = not numbers and self._runs_back_by_rounding()
+        if only_rounding:
+            numbers = [1]
         if not numbers:
             return
         last = self._window[numbers[0]]
         # A way round that would do harm gives way to one past fewer blocks.
         every = (detour for number in numbers for detour in detours(self._window, number))
         found = least_harmful(every, self._known(first))
+        if only_rounding and (found is None or found[1] is not None):
+            return
         if found is None:
             self.violations.object(Violation.NO_AVOIDANCE, last.move)
             return
@@ -136,6 +143,17 @@ class InterferenceCheck:
         if harm is Violation.AVOIDANCE_DANGEROUS and not first.policy.dares:
             self.violations.object(harm, last.move)
         self._take(detour)
+
+    def leave_out(self, before: Step, steps: Sequence[Step], following: Step, point: Point) -> None:
+        """Leave out the last steps of the window, where the way by a point past them does no harm."""
+        corner = Corner([arcs.minus(point, before.edge.end)])
+        one, two = replace(before, corner=corner, altered=True), replace(following, altered=True)
+        one.lead_to(two)
+        if Detour(one, [], two, steps).harm(self._known(before)) is None:
+            before.corner, before.altered, following.altered = corner, True, True
+            self._pass_over(before, steps)
+            self._passed.extend(steps)
+            del self._window[-len(steps) :]
 
     def _take(self, detour: Detour) -> None:
         self._pass_over(detour.first, detour.left_out)
@@ -194,6 +212,14 @@ class InterferenceCheck:
         if step.corner is None or any(other.is_commanded or other.runs_back for other in between):
             return False
         return cuts(step, [first])
+
+    def _runs_back_by_rounding(self) -> bool:
+        """Whether the block behind the first runs back by so little that it need not be led round."""
+        if len(self._window) < 3:
+            return False
+        step = self._window[1]
+        checked = step.role is Role.CONTOUR and not step.is_commanded and _is_checked(step)
+        return checked and step.runs_back_by(offset.BRIDGED_MM)
 
     def _interferes(self, number: int) -> bool:
         first, step = self._window[0], self._window[number]

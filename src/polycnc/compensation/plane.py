@@ -37,6 +37,10 @@ class Plane:
         """The plane point of a position."""
         return position[self.columns[self.u]], position[self.columns[self.v]]
 
+    def compensates(self, column: int) -> bool:
+        """Whether an axis, by its column in a position, is one of the plane's two."""
+        return column in (self.columns[self.u], self.columns[self.v])
+
     def at(self, position: list[float], point: Point) -> list[float]:
         """A position with its plane point replaced."""
         moved = list(position)

@@ -50,11 +50,14 @@ class Policy:
         outer: Outer corners.
         least_move_mm: Corner motion up to this length is left out (FANUC 5010).
         read_blocks: N, the blocks read until the first of them is executed, itself included.
+        start_blocks: The same from a start-up block on; None for as many.
         recommand_is_square: G41 or G42 written again on the same side makes the block in front end square.
         checks_direction: Interference is where a compensated line or arc runs against the programmed (5008).
         checks_arcs: The same for arcs alone.
         avoids: Interference is led round where possible, past any of the blocks read (FANUC 19607#5, 5.4.6.3);
             otherwise it is an alarm.
+        leaves_out_arcs: An inner arc too small for the tool is left out where the blocks beside it meet (SINUMERIK);
+            else, and where they do not, its chord takes its place.
         dares: A dangerous way round an interference is taken without an alarm (19607#6).
     """
 
@@ -64,8 +67,10 @@ class Policy:
     outer: Outer = field(default_factory=Outer)
     least_move_mm: float = 0.001
     read_blocks: int = 3
+    start_blocks: int | None = None
     recommand_is_square: bool = False
     checks_direction: bool = True
     checks_arcs: bool = True
     avoids: bool = False
+    leaves_out_arcs: bool = False
     dares: bool = False

@@ -29,47 +29,50 @@ class RowWriter:
 
     Attributes:
         vector: The vector at the end of the last compensated move.
+        displacement: How far the tool stands beside the programmed point: the vector, and the tip's shift with it.
     """
 
     def __init__(self, plane: Plane, stage: Stage) -> None:
         self.plane = plane
         self._stage = stage
         self.vector = NO_VECTOR
-        self._delta = NO_VECTOR
+        self.displacement = NO_VECTOR
 
     def drop_vector(self) -> None:
         """From here on the tool is taken to stand on the programmed point."""
-        self.vector = self._delta = NO_VECTOR
+        self.vector = self.displacement = NO_VECTOR
 
     def pass_over(self, step: Step) -> None:
         """A step is left out: the tool stays in the plane, and stands beside the end of this step from now on."""
         move, edge, plane = step.move, step.edge, self.plane
-        here = arcs.plus(plane.point(move.start), self._delta)
+        here = arcs.plus(plane.point(move.start), self.displacement)
         if plane.moves_elsewhere(move):
             self._stage.after.move(_straight(move, plane.at(move.start, here), plane.at(move.end, here)))
-        self._delta = arcs.plus(self._delta, arcs.minus(edge.start, edge.end))
+        self.displacement = arcs.plus(self.displacement, arcs.minus(edge.start, edge.end))
 
     def pass_on(self, move: Move) -> None:
         """Pass on a move that is not compensated itself, from where the vector holds the tool."""
-        if self._delta == NO_VECTOR:
+        if self.displacement == NO_VECTOR:
             self._stage.after.move(move)
             return
         plane = self.plane
-        start, end = (plane.at(p, arcs.plus(plane.point(p), self._delta)) for p in (move.start, move.end))
+        start, end = (
+            plane.at(p, arcs.plus(plane.point(p), self.displacement)) for p in (move.start, move.end)
+        )
         self._stage.after.move(
-            replace(move, start=start, end=end, center=plane.moved_center(move, self._delta))
+            replace(move, start=start, end=end, center=plane.moved_center(move, self.displacement))
         )
 
     def emit(self, step: Step, corner: Corner) -> None:
         """Pass on a compensated move and the rows that lead round the corner at its end."""
         move, edge, plane = step.move, step.edge, self.plane
-        start = arcs.plus(plane.point(move.start), self._delta)
+        start = arcs.plus(plane.point(move.start), self.displacement)
         target = arcs.plus(edge.end, arcs.plus(corner.vectors[0], step.shift))
         way = hypot(target[0] - start[0], target[1] - start[1])
         if edge.is_full_circle and way <= 2.0 * step.policy.least_move_mm:
             # Rounding must not shrink a full circle to nothing.
             target, way = start, inf
-        row = replace(move, start=plane.at(move.start, start), end=plane.at(move.end, target))
+        row = move.between(plane.at(move.start, start), plane.at(move.end, target))
         if move.center is not None:
             if edge.center is None or step.straight or way <= NO_WAY:
                 row = replace(row, kind=Kind.FEED, center=None, turns=0.0)
@@ -78,11 +81,12 @@ class RowWriter:
                 row = replace(row, center=plane.moved_center(move, along))
         if row.center is not None or way > NO_WAY or plane.moves_elsewhere(move):
             self._stage.after.move(row)
-        template = replace(step.corner_arc[0] if step.corner_arc else move, start=row.end, end=row.end)
-        for vector in corner.vectors[1:]:
-            template = self._join(template, step, corner.joint, vector)
+        if len(corner.vectors) > 1:
+            template = (step.corner_arc[0] if step.corner_arc else move).between(row.end, row.end)
+            for vector in corner.vectors[1:]:
+                template = self._join(template, step, corner.joint, vector)
         self.vector = corner.vectors[-1]
-        self._delta = arcs.plus(self.vector, step.shift)
+        self.displacement = arcs.plus(self.vector, step.shift)
 
     def _join(self, template: Move, step: Step, joint: Joint, vector: Point) -> Move:
         """One row from the place of the last one to the next vector."""

@@ -50,6 +50,7 @@ class Step:
         suspended: It belongs to a stretch that keeps one vector (CUTCONON); arcs are moved by it as they are.
         starts_square: The block in front ends square on itself.
         straight: Its vectors were left out, so it is a straight move.
+        is_chord: The chord of an arc that the tool does not fit into takes its place.
         altered: A detour round an interference changed it.
         corner_arc: The block of G39 after it, and the direction on which the arc ends square.
         after: What came after it, in order: held items, and steps that a detour has left out.
@@ -70,6 +71,7 @@ class Step:
     suspended: bool = False
     starts_square: bool = False
     straight: bool = False
+    is_chord: bool = False
     altered: bool = False
     corner_arc: tuple[Move, Point | None] | None = None
     after: list[Item | Step] = field(default_factory=list)
@@ -81,6 +83,12 @@ class Step:
         following.first = (u + (end[0] - start[0]), v + (end[1] - start[1]))
 
     @property
+    def waits_for(self) -> int:
+        """Blocks that are read, itself included, before it is executed."""
+        policy = self.policy
+        return (self.role is Role.START and policy.start_blocks) or policy.read_blocks
+
+    @property
     def is_commanded(self) -> bool:
         """Whether the program itself says which vector stands at its end; then it is not checked."""
         return self.forced is not None or self.holds or self.corner_arc is not None
@@ -88,7 +96,11 @@ class Step:
     @property
     def runs_back(self) -> bool:
         """Whether its vectors have changed places, so that it would run against the programmed direction."""
-        return self.corner is not None and offset.reverses(self.edge, self.first, self.corner.vectors[0])
+        return self.runs_back_by(offset.BACKWARDS_MM)
+
+    def runs_back_by(self, way: float) -> bool:
+        """Whether it would run against the programmed direction by more than a way, mm."""
+        return self.corner is not None and offset.reverses(self.edge, self.first, self.corner.vectors[0], way)
 
     @property
     def joint_arc(self) -> Edge | None:

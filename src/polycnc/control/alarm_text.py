@@ -1,4 +1,4 @@
-"""The texts of alarms: the catalogue of a control, and what one alarm says."""
+"""The catalogues of alarms: of a control, and of a control with a machine; and which codes mean the same alarm."""
 
 from __future__ import annotations
 
@@ -6,12 +6,11 @@ import re
 from importlib import resources
 from typing import TYPE_CHECKING
 
-from polycnc.messages import Catalogue, text
-from polycnc.messages.catalogue import language
+from polycnc.messages import Catalogue
 
 if TYPE_CHECKING:
     from polycnc.control.interface import Control
-    from polycnc.messages import Alarm
+    from polycnc.machine.model import Machine
 
 
 def alarm_catalogue(*files: str) -> Catalogue:
@@ -20,12 +19,26 @@ def alarm_catalogue(*files: str) -> Catalogue:
     return Catalogue(*map(folder.joinpath, ("alarms.toml", *files)))
 
 
-def alarm_text(control: Control, alarm: Alarm, lang: str | None = None) -> str:
-    """The control's own text of an alarm, with the hint on this very case if there is one."""
-    catalogue = control.catalogue
-    told = alarm.detail or (catalogue.text(alarm.code, lang, **alarm.args) if alarm.code in catalogue else "")
-    hint = text(alarm.hint, lang, **alarm.args) if alarm.hint else ""
-    return (": " if (lang or language()) == "en" else "：").join(filter(None, (told, hint)))
+def catalogue_of(control: Control, machine: Machine) -> Catalogue:
+    """What can be told on a control with a machine: the control's alarms, and under their own numbers the machine's."""
+    return control.catalogue.extended(
+        *machine.builder.texts(control.id), entries=_own_texts(control.id, machine)
+    )
+
+
+def _own_texts(control: str, machine: Machine) -> dict[str, dict[str, str]]:
+    """The texts that stand with the alarms of a machine file; a text in one language serves for both."""
+    entries: dict[str, dict[str, str]] = {}
+    for row in machine.plc(control).alarms:
+        if row.text.en and row.code not in entries:
+            entry = {"en": row.text.en, "zh-TW": row.text.zh_tw or row.text.en}
+            for note, told in (("cause", row.cause), ("remedy", row.remedy)):
+                if told.en:
+                    entry |= {note: told.en, f"{note}-zh-TW": told.zh_tw or told.en}
+            entries[row.code] = {
+                key: value.replace("{", "{{").replace("}", "}}") for key, value in entry.items()
+            }
+    return entries
 
 
 def alarm_key(control: Control, code: str | int) -> tuple[str, int | str]:

@@ -10,7 +10,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
-    from polycnc.machine.plc import Plc
     from polycnc.messages import Catalogue
     from polycnc.program import Form
     from polycnc.toolpath import Context
@@ -25,19 +24,19 @@ class Control(ChannelControl, Protocol):
             alarms; other spellings of a prefix, to the one in the catalogue.
         form: How program files are marked off.
         default_machine: Built-in machine of a run that names none.
+        parameter_files: The list of its parameters, as `folder/file`; of two entries for a number the later counts.
         tools_have_names: Programs may call a tool by its name; else by number alone.
+        last_bit: The last bit of a parameter.
         mdi_intervenes: Blocks can be typed in and run while a program waits, which then goes on behind them.
     """
 
     alarm_series: Mapping[str, str] | None
     form: Form
     default_machine: str
+    parameter_files: tuple[str, ...]
     tools_have_names: bool
+    last_bit: int
     mdi_intervenes: bool
-
-    @property
-    def plc(self) -> Plc:
-        """What the control's builder has made of the machine's own controller; empty where nothing is known."""
 
     @property
     def catalogue(self) -> Catalogue:

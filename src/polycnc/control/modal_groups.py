@@ -80,6 +80,7 @@ MODAL_GROUPS = {
     "retraction_plane": "the direction of a fast retraction: LFTXT, LFWP, LFPOS",
     "language": "the language of the blocks: G290, G291",
     "approach_collision": "collision in approach and retraction: G460 to G462",
+    "transformation": "the transformation: TRAFOOF, TRAORI, TRANSMIT …",
     "point_to_point": "motion under a transformation: CP, PTP",
     "orientation_angles": "angles of an orientation: ORIEULER, ORIRPY …",
     "orientation_motion": "motion of an orientation: ORIVECT, ORIAXES …",

@@ -1,16 +1,18 @@
-"""The parameters of a control: their list (a TOML file), and their values as attributes by mnemonic.
+"""The parameters of a control: their list (TOML files), and their values as attributes by mnemonic.
 
 The list says of every parameter its number, name, unit, delivered value and meaning. `parameter_module` writes a module
 of two classes from it, one for the parameters of the control and one for those that every axis has. So a handler reads
 `parameters.CLR` or `parameters.of("X").DIA`; a name that is not in the list is no attribute, for a type checker too.
-A value is looked up in the setup once, and is an attribute of the object from then on.
+A value is looked up in the setup once, and is an attribute of the object from then on. What several controls read has
+one name in the lists of all; `word_address/parameters.py` says which these are.
 """
 
 from __future__ import annotations
 
+import inspect
 import tomllib
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from importlib.resources import files
 from typing import TYPE_CHECKING, Generic, Literal, TypeAlias, TypeVar, overload
 
@@ -20,12 +22,17 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import Self
 
+    from polycnc.control.interface import Control
     from polycnc.machine.setup.values import Value
 
 #: A value that only the machine knows, where the setup does not say it.
 MACHINE: Literal["machine"] = "machine"
+#: How many bits a number has.
+_BITS = 8
 #: How handlers read a parameter, unless the list says otherwise.
 BY_NAME = "by name"
+#: Nothing acts on it; programs may read it.
+NOT_YET = "not yet"
 
 
 # ---- the list --------------------------------------------------------------------------------------------------
@@ -43,19 +50,22 @@ class KnownParameter:
         delivered: Value that a control has without a setup; None where it depends on the machine.
         by_axis: Every axis has its own value.
         whole: The value is a whole number; as a rule one without a unit is.
-        count: How many numbers it takes from `number` on, with a value each.
-        read: `by name` as an attribute; `by number` in what several controls share; `not yet` where it is only listed.
+        count: How many numbers it takes from `number` on, with a value each; `step` lies between two of them.
+        read: How handlers read it, `BY_NAME`; `NOT_YET` where it is only kept.
+        has_bits: A mask: setups may also name single bits of it.
     """
 
     number: str
     name: str
     texts: dict[str, str]
     unit: str
-    delivered: float | None
+    delivered: float | str | None
     by_axis: bool
     read: str
     whole: bool
     count: int = 1
+    step: int = 1
+    has_bits: bool = False
 
     @property
     def key(self) -> ParameterKey:
@@ -68,7 +78,7 @@ class KnownParameter:
         first = self.key
         if isinstance(first.id, str):
             return (first,)
-        return tuple(first._replace(id=first.id + place) for place in range(self.count))
+        return tuple(first._replace(id=first.id + self.step * place) for place in range(self.count))
 
     @property
     def numbers(self) -> str:
@@ -80,23 +90,26 @@ class KnownParameter:
         """What the control calls it; empty where polycnc alone has given it a name."""
         return self.name if self.name.isupper() else ""
 
+    @property
+    def ids(self) -> set[int | str]:
+        """Its numbers, and its name where setups may use that: data of SINUMERIK have identifiers."""
+        return {key.id for key in self.keys} | ({self.name} if self.name.startswith("$") else set())
 
-def known_parameters(control: object) -> tuple[KnownParameter, ...]:
-    """The parameters of a control, in the order of their numbers; none where polycnc has no list."""
-    return load_parameters(getattr(control, "parameter_file", ""))
+
+def known_parameters(control: Control) -> tuple[KnownParameter, ...]:
+    """The parameters of a control, in the order of their numbers."""
+    return load_parameters(*control.parameter_files)
 
 
 @cache
-def load_parameters(name: str) -> tuple[KnownParameter, ...]:
-    """The list in a file of the package `control`; none for an empty name."""
-    if not name:
-        return ()
-    content = files("polycnc.control").joinpath(name).read_text(encoding="utf-8")
-    found = []
-    for number, entry in tomllib.loads(content).items():
-        delivered, unit = entry.get("delivered", 0), entry.get("unit", "")
-        found.append(
-            KnownParameter(
+def load_parameters(*names: str) -> tuple[KnownParameter, ...]:
+    """The list in files of the package `control`, in the order of the numbers; of two entries the later counts."""
+    found = {}
+    for name in names:
+        content = files("polycnc.control").joinpath(name).read_text(encoding="utf-8")
+        for number, entry in tomllib.loads(content).items():
+            delivered, unit = entry.get("delivered", 0), entry.get("unit", "")
+            found[number] = KnownParameter(
                 number,
                 entry["name"],
                 {"en": entry["en"], "zh-TW": entry["zh-TW"]},
@@ -106,9 +119,16 @@ def load_parameters(name: str) -> tuple[KnownParameter, ...]:
                 read=entry.get("read", BY_NAME),
                 whole=entry.get("whole", not unit),
                 count=entry.get("count", 1),
+                step=entry.get("step", 1),
+                has_bits=entry.get("mask", False),
             )
-        )
-    return tuple(found)
+    return tuple(sorted(found.values(), key=_place))
+
+
+def _place(parameter: KnownParameter) -> tuple[str, int]:
+    """Where a parameter stands in its list."""
+    key = parameter.key
+    return str(key.id).zfill(6), -1 if key.bit is None else key.bit
 
 
 # ---- values by name --------------------------------------------------------------------------------------------
@@ -124,12 +144,14 @@ class Parameter(Generic[V_co]):
     Args:
         number: Number, or name where the control has names.
         bit: Bit of the number; None for the whole value.
+        delivered: Value of a control without a setup.
     """
 
-    __slots__ = ("key", "name")
+    __slots__ = ("delivered", "key", "name")
 
-    def __init__(self, number: int | str, bit: int | None = None) -> None:
+    def __init__(self, number: int | str, bit: int | None = None, *, delivered: V_co) -> None:
         self.key = ParameterKey(number, bit)
+        self.delivered = delivered
         self.name = ""
 
     def __set_name__(self, _owner: type, name: str) -> None:
@@ -150,16 +172,38 @@ class Parameter(Generic[V_co]):
         """The value that a setup gives, else the delivered one."""
         raise NotImplementedError
 
+    @property
+    def keys(self) -> tuple[ParameterKey, ...]:
+        """What setups call it; several where it takes several numbers."""
+        return (self.key,)
+
+
+class Constant(Parameter[V_co]):
+    """What another control has a parameter for, and this one has not: its value never changes."""
+
+    __slots__ = ()
+
+    def __init__(self, value: V_co) -> None:
+        super().__init__("", delivered=value)
+
+    def read(self, _given: Parameters, _axis: str | None) -> V_co:
+        """The value."""
+        return self.delivered
+
+    @property
+    def keys(self) -> tuple[ParameterKey, ...]:
+        """Setups have no name for it."""
+        return ()
+
 
 class Bit(Parameter[bool | D]):
     """A bit of a number."""
 
-    __slots__ = ("_bit", "delivered")
+    __slots__ = ("_bit",)
 
     def __init__(self, number: int | str, bit: int, *, delivered: D) -> None:
-        super().__init__(number, bit)
+        super().__init__(number, bit, delivered=delivered)
         self._bit = bit
-        self.delivered = delivered
 
     def read(self, given: Parameters, axis: str | None) -> bool | D:
         """The bit itself, else that of the whole number, else the delivered one."""
@@ -170,11 +214,10 @@ class Bit(Parameter[bool | D]):
 class Whole(Parameter[int | D]):
     """A whole number: a code, the number of an axis, a count."""
 
-    __slots__ = ("delivered",)
+    __slots__ = ()
 
     def __init__(self, number: int | str, *, delivered: D) -> None:
-        super().__init__(number)
-        self.delivered = delivered
+        super().__init__(number, delivered=delivered)
 
     def read(self, given: Parameters, axis: str | None) -> int | D:
         """The value without its fraction, else the delivered one. Text and lists count as not given."""
@@ -185,11 +228,10 @@ class Whole(Parameter[int | D]):
 class Number(Parameter[float | D]):
     """A number with a unit."""
 
-    __slots__ = ("delivered",)
+    __slots__ = ()
 
     def __init__(self, number: int | str, *, delivered: D) -> None:
-        super().__init__(number)
-        self.delivered = delivered
+        super().__init__(number, delivered=delivered)
 
     def read(self, given: Parameters, axis: str | None) -> float | D:
         """The value, else the delivered one. Text and lists count as not given."""
@@ -198,19 +240,23 @@ class Number(Parameter[float | D]):
 
 
 class WholeRun(Parameter[tuple[int | D, ...]]):
-    """Whole numbers under numbers that follow each other: one for each axis, or a list."""
+    """Whole numbers under several numbers, `step` apart: one for each axis, or a list."""
 
-    __slots__ = ("_values", "delivered", "numbers")
+    __slots__ = ("_values", "numbers")
 
-    def __init__(self, number: int, count: int, *, delivered: D) -> None:
-        super().__init__(number)
-        self.numbers = range(number, number + count)
+    def __init__(self, number: int, count: int, *, step: int = 1, delivered: D) -> None:
+        super().__init__(number, delivered=(delivered,) * count)
+        self.numbers = range(number, number + step * count, step)
         self._values = [Whole(each, delivered=delivered) for each in self.numbers]
-        self.delivered = delivered
 
     def read(self, given: Parameters, axis: str | None) -> tuple[int | D, ...]:
         """The value of each number, else the delivered one."""
         return tuple(value.read(given, axis) for value in self._values)
+
+    @property
+    def keys(self) -> tuple[ParameterKey, ...]:
+        """Each of its numbers."""
+        return tuple(value.key for value in self._values)
 
 
 class AxisParameters:
@@ -259,6 +305,36 @@ class ControlParameters(Parameters, Generic[A_co]):
         if found is None:
             found = self._of_axis[axis] = self.axis_class(self, axis)
         return found
+
+    @cached_property
+    def delivered(self) -> dict[ParameterKey, float]:
+        """The delivered value of every number and bit that has one; the machine says the others."""
+        found: dict[ParameterKey, float] = {}
+        for of in (type(self), self.axis_class):
+            for name in dir(of):
+                parameter = inspect.getattr_static(of, name)
+                if isinstance(parameter, Parameter):
+                    each = parameter.delivered
+                    pairs = zip(parameter.keys, each if isinstance(each, tuple) else (each,), strict=False)
+                    found |= {key: float(value) for key, value in pairs if value is not None}
+        return found
+
+    def at(self, number: int, bit: int | None = None, axis: str | None = None) -> float | None:
+        """The value under a number as macros read it, with what is delivered; None for no number of the control.
+
+        A number that is known by its bits alone is made up of them.
+        """
+        delivered = self.delivered
+        if bit is not None:
+            found = self.bit(number, bit, axis, default=int(delivered.get(ParameterKey(number, bit), -1)))
+            return None if found < 0 else float(found)
+        value = self.get(number, axis)
+        if isinstance(value, int | float):
+            return float(value)
+        bits = {place: self.at(number, place, axis) for place in range(_BITS)}
+        if any(found is not None for found in bits.values()):
+            return float(sum(1 << place for place, found in bits.items() if found))
+        return delivered.get(ParameterKey(number))
 
     def value(self, parameter: Parameter[V_co]) -> V_co:
         """The value of a parameter that a table names: `value(LatheParameters.CLR)`."""

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -13,8 +15,6 @@ if TYPE_CHECKING:
 
 #: How close to a reference point an axis must stand, mm or degrees.
 WINDOW = 0.01
-#: Reference points of Z where machines change tools whose file does not say.
-USUAL_POINTS = (1, 2)
 
 
 def stands_at(channel: Channel, axis: int, points: Iterable[int], position: Sequence[float]) -> bool:
@@ -24,9 +24,10 @@ def stands_at(channel: Channel, axis: int, points: Iterable[int], position: Sequ
 
 
 def z_stands_at_change_point(channel: Channel) -> bool:
-    """Whether Z stands now where tools are changed, or there is none."""
-    z = channel.coordinates.geometry[2]
-    return z < 0 or stands_at(channel, z, change_points(channel, z), channel.actual.machine)
+    """Whether Z stands now where tools are changed, or the change leads it there, or may be anywhere."""
+    z, magazine = channel.coordinates.geometry[2], channel.machine.magazine
+    points = magazine.change_at.get(channel.axis_data[z].name) if z >= 0 else None
+    return points is None or magazine.retracts or stands_at(channel, z, points, channel.actual.machine)
 
 
 def stands_at_reference(channel: Channel, axis: int) -> bool:
@@ -34,18 +35,32 @@ def stands_at_reference(channel: Channel, axis: int) -> bool:
     return stands_at(channel, axis, (1,), channel.actual.machine)
 
 
-def change_points(channel: Channel, axis: int) -> tuple[int, ...]:
-    """The reference points at which the axis Z stands for a change."""
-    return channel.machine.magazine.change_at.get(channel.axis_data[axis].name, USUAL_POINTS)
-
-
-def check_change_points(channel: Channel) -> None:
-    """Refuse a tool change while an axis stands elsewhere than the machine file asks for.
+def way_to_change(channel: Channel) -> list[list[float]]:
+    """Machine positions through which a tool change leads the axes, one axis after the other; none where they stand.
 
     Raises:
-        AlarmError: PC0012. Machines whose own controller has an alarm for it give that one before (`plc.toml`).
+        AlarmError: PC0012 for an axis that the program should have brought there, unless the machine's own controller
+            has an alarm for it.
     """
-    for axis, data in enumerate(channel.axis_data):
-        points = channel.machine.magazine.change_at.get(data.name)
-        if points is not None and not stands_at(channel, axis, points, channel.coordinates.machine):
+    magazine = channel.machine.magazine
+    columns = {data.name: axis for axis, data in enumerate(channel.axis_data)}
+    asks_for_z = "Z_AT_CHANGE_POINT" in channel.machine.plc(channel.control.id).asked
+    machine = channel.coordinates.machine
+    way: list[list[float]] = []
+    for name, points in magazine.change_at.items():
+        axis = columns.get(name, -1)
+        if axis < 0 or stands_at(channel, axis, points, machine):
+            continue
+        if magazine.retracts:
+            machine = machine.copy()
+            machine[axis] = channel.control.reference_point(channel, axis, points[0])
+            way.append(machine)
+        elif axis != channel.coordinates.geometry[2] or not asks_for_z:
             raise AlarmError("PC0012", axis=channel.axes[axis])
+    return way
+
+
+def follow(channel: Channel, way: list[list[float]]) -> None:
+    """Lead the axes through machine positions at rapid."""
+    for machine in way:
+        channel.straight(Kind.RAPID, channel.coordinates.from_machine(machine), nan)

@@ -7,6 +7,7 @@ on plain floats.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import acos, atan2, ceil, cos, hypot, pi, sin, sqrt
 from typing import TYPE_CHECKING
 
@@ -14,10 +15,12 @@ from polycnc.geometry import vectors
 from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
-    from polycnc.geometry.frames import Vector
+    from polycnc.geometry.frames import Frame, Vector
 
 Point = tuple[float, float]
 TAU = 2.0 * pi
+#: Parts of a length by which a frame may miss an even scale: rounding.
+EVEN = 1e-9
 
 
 def plus(a: Point, b: Point) -> Point:
@@ -201,3 +204,25 @@ def three_point_circle(a: Vector, b: Vector, c: Vector) -> tuple[Vector, Vector]
     center = tuple(a[i] + (pp * qn[i] + qq * np[i]) / (2.0 * nn) for i in range(3))
     length = sqrt(nn)
     return (center[0], center[1], center[2]), (n[0] / length, n[1] / length, n[2] / length)
+
+
+def circle_image(frame: Frame, normal: Vector) -> Vector | None:
+    """Unit normal of the image of a circle with a unit normal; None where the image is an ellipse."""
+    axis = (max(range(3), key=lambda i: abs(normal[i])) + 1) % 3
+    along = vectors.minus(vectors.axis_vector(axis), vectors.times(normal, normal[axis]))
+    p = vectors.times(along, 1.0 / hypot(*along))
+    a, b = frame.direct(*p), frame.direct(*vectors.cross(normal, p))
+    size = hypot(*a)
+    if abs(hypot(*b) - size) > EVEN * size or abs(vectors.dot(a, b)) > EVEN * size * size:
+        return None
+    across = vectors.cross(a, b)
+    return vectors.times(across, 1.0 / hypot(*across))
+
+
+@lru_cache(maxsize=64)
+def is_even(frame: Frame) -> bool:
+    """Whether the frame leaves every circle and sphere one: it turns, mirrors, shifts and scales alike all round."""
+    return frame.is_identity or all(
+        circle_image(frame, normal) is not None
+        for normal in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    )

@@ -15,15 +15,17 @@ from math import atan2, cos, degrees, hypot, pi, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.geometry import arcs
-from polycnc.geometry.tolerances import NO_WAY
+from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM
 
 if TYPE_CHECKING:
     from polycnc.geometry.arcs import Point
 
 #: A turn that moves the offset point by less than this (mm) is no corner: far below any control's increment.
 SMOOTH_MM = 1e-6
-#: A way shorter than this (mm) against the direction of travel is rounding.
-BACKWARDS_MM = 1e-6
+#: A way shorter than this (mm) against the direction of travel is rounding: that of the points at its two ends.
+BACKWARDS_MM = 2.0 * ROUNDED_MM
+#: What is left of it where a way round leads past it without harm: driven back, it cuts the corner by as much.
+BRIDGED_MM = 1e-6
 _PARALLEL = 1e-12
 
 
@@ -109,6 +111,19 @@ def offset_radius(radius: float, offset: float, ccw: bool) -> float:
     return radius - offset if ccw else radius + offset
 
 
+def is_point(edge: Edge, at: Point, offset: float) -> bool:
+    """Whether the tool is as large as an inner arc: its parallel is the centre, as far as rounded points tell.
+
+    Args:
+        edge: A line or an arc.
+        at: An end of it.
+        offset: Signed offset.
+    """
+    if edge.center is None:
+        return False
+    return abs(offset_radius(arcs.radius_of(edge.center, at), offset, edge.ccw)) <= 3.0 * ROUNDED_MM
+
+
 def meet(a: Edge, b: Edge, offset_a: float, offset_b: float) -> Point | None:
     """Where the curve parallel to `a` meets the curve parallel to `b` near the corner between them, or None.
 
@@ -187,26 +202,41 @@ def _circle_circle(a: Edge, b: Edge, offset_a: float, offset_b: float) -> list[P
 
 
 def _half_chord(radius: float, distance: float) -> float | None:
-    """Half the chord that a line cuts out of a circle; a line that just misses it touches it."""
-    if distance > radius + 1e-9:
+    """Half the chord that a line cuts out of a circle; a line that misses it by the rounding of a point touches it."""
+    if distance > radius + ROUNDED_MM:
         return None
     return sqrt(max(radius * radius - distance * distance, 0.0))
 
 
-def reverses(edge: Edge, first: Point, last: Point) -> bool:
+def reverses(edge: Edge, first: Point, last: Point, rounding: float = BACKWARDS_MM) -> bool:
     """Whether the parallel edge, from vector `first` to vector `last`, runs against the edge.
 
     A line is reversed where the way along its direction is negative. An arc is reversed where its sweep,
     less what the vectors cut off (plus what they add) at both ends, is negative: the difference of 180
     degrees and more that FANUC's arc check names (5.4.6 of the lathe manual), without its blind spot at
-    arcs above a semicircle.
+    arcs above a semicircle. One that the tool fills is passed on the spot, whatever the vectors' directions.
+
+    Args:
+        edge: A line or an arc.
+        first: Vector at its start.
+        last: Vector at its end.
+        rounding: A way back up to this is none, mm.
     """
     if edge.center is None:
         du, dv = edge.departing
-        return edge.length + (last[0] - first[0]) * du + (last[1] - first[1]) * dv < -BACKWARDS_MM
+        return edge.length + (last[0] - first[0]) * du + (last[1] - first[1]) * dv < -rounding
+    if (
+        max(_from_center(edge.center, edge.start, first), _from_center(edge.center, edge.end, last))
+        <= 3.0 * ROUNDED_MM
+    ):
+        return False
     moved = _angle_moved(edge.center, edge.end, last) - _angle_moved(edge.center, edge.start, first)
     left = edge.sweep + (moved if edge.ccw else -moved)
-    return left * arcs.radius_of(edge.center, edge.start) < -BACKWARDS_MM
+    return left * arcs.radius_of(edge.center, edge.start) < -rounding
+
+
+def _from_center(center: Point, point: Point, vector: Point) -> float:
+    return hypot(point[0] + vector[0] - center[0], point[1] + vector[1] - center[1])
 
 
 def _angle_moved(center: Point, point: Point, vector: Point) -> float:
@@ -250,7 +280,20 @@ class Outer:
 
 
 def corner(a: Edge, b: Edge, offset: float, outer: Outer) -> Corner | None:
-    """The corner between two edges at one offset; None where an inner one has no intersection."""
+    """The corner between two edges at one offset; None where an inner one has no intersection.
+
+    Where the tool fills one of them, all that happens within the rounding of points about its centre happens there.
+    """
+    found = _corner(a, b, offset, outer)
+    for edge, at in ((a, a.end), (b, b.start)):
+        if found is not None and edge.center is not None and is_point(edge, at, offset):
+            center = (edge.center[0] - at[0], edge.center[1] - at[1])
+            if all(hypot(u - center[0], v - center[1]) <= 3.0 * ROUNDED_MM for u, v in found.vectors):
+                return Corner([center])
+    return found
+
+
+def _corner(a: Edge, b: Edge, offset: float, outer: Outer) -> Corner | None:
     angle = turn(a, b)
     if abs(offset * angle) <= SMOOTH_MM:
         # Not a corner: the vector square on an arc keeps a full circle closed.

@@ -1,6 +1,10 @@
-"""What arithmetic leaves of nothing."""
+"""What arithmetic leaves of nothing, and up to where it holds."""
 
 from __future__ import annotations
 
+#: A point whose two coordinates are rounded to a micrometre, as programs hold them, lies up to this far off, mm.
+ROUNDED_MM = 0.00071
 #: A way up to this (mm, degrees) is the rounding of a sum: no way. Points no farther apart are the same.
 NO_WAY = 1e-9
+#: No machine is larger, mm; and what is calculated with such a number stays a number.
+FARTHEST = 1e12

@@ -42,10 +42,16 @@ def record(cls: type[_R]) -> type[_R]:
 
 def _memento(instance: ctypes.Structure) -> Callable[[], None]:
     """For a snapshot: what brings the numbers of a record back."""
-    return partial(_put_back, instance, bytes(instance))
+    return partial(put_back, instance, contents_of(instance))
 
 
-def _put_back(instance: ctypes.Structure, contents: bytes) -> None:
+def contents_of(instance: ctypes.Structure) -> bytes:
+    """The numbers of a record, for `put_back`."""
+    return bytes(instance)
+
+
+def put_back(instance: ctypes.Structure, contents: bytes) -> None:
+    """Give a record the numbers that it once had."""
     ctypes.memmove(ctypes.addressof(instance), contents, len(contents))
 
 

@@ -1,41 +1,37 @@
-"""Kernels that are compiled together.
+"""Kernels that are compiled together, when polycnc is built.
 
-Compiled code is good for one version of the sources, of Python, of LLVM, and for one processor.
+Their machine code is good for one version of their sources, which a digest in it names.
 """
 
 from __future__ import annotations
 
 import ctypes
-import os
-import sys
-from functools import cached_property
-from hashlib import blake2b
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar, cast
+from zlib import crc32
 
-from polycnc.kernels import compiler, layout, store
+from polycnc.kernels import native
 from polycnc.kernels.layout import Argument, Kind, Places, arguments, flat
 
 if TYPE_CHECKING:
-    from array import array
     from collections.abc import Callable, Sequence
     from types import ModuleType
 
 _F = TypeVar("_F", bound="Callable[..., object]")
-_DIGEST_BYTES = 16
-#: Where this variable of the environment says `python`, kernels run as they are written.
-CHOICE = "POLYCNC_KERNELS"
+_DIGEST_BYTES = 4
 
 
 class Library:
     """Kernels that are compiled together.
 
     Args:
-        name: Of their file.
+        name: Of the library.
         modules: Modules with the functions that they rest on.
         kernels: The functions that Python calls. Their annotations say what they take (`layout`); they give a whole
-            number or nothing.
+            number or nothing. No other library has kernels of the same names.
         inline: Every call is replaced by what it calls.
+        file: Shared object with their machine code; that of this installation where it is left out.
     """
 
     def __init__(
@@ -45,16 +41,22 @@ class Library:
         kernels: Sequence[Callable[..., object]],
         *,
         inline: bool = False,
+        file: Path = native.FILE,
     ) -> None:
-        self._name, self._modules, self._kernels, self._inline = name, modules, kernels, inline
+        self.modules, self.kernels, self.inline = modules, kernels, inline
+        self.digest_name = f"digest_of_{name}"
+        self._file = file
 
     @cached_property
-    def ready(self) -> bool:
-        """Whether the kernels need not be compiled first."""
-        return self._file is not None and self._file.is_file()
+    def lack(self) -> native.Lack | None:
+        """Why there is no machine code; None where there is."""
+        code = native.load(self._file)
+        if code is None:
+            return native.Lack.MISSING if native.is_wanted() else native.Lack.CHOSEN
+        return None if self._digest_in(code) == self.digest else native.Lack.STALE
 
     def compiled(self, kernel: _F) -> _F | None:
-        """A kernel as machine code, called like the plain one; None where it cannot be compiled.
+        """A kernel as machine code, called like the plain one; None where there is none.
 
         Its arrays are `array.array`; they must not grow while it runs.
         """
@@ -62,55 +64,30 @@ class Library:
 
     @cached_property
     def _callers(self) -> dict[str, Callable[..., int]]:
-        loaded = self._loaded
-        return {k.__name__: _Compiled(loaded, k) for k in self._kernels} if loaded is not None else {}
+        code = native.load(self._file)
+        if code is None or self.lack is not None:
+            return {}
+        return {kernel.__name__: _caller(code, kernel) for kernel in self.kernels}
 
-    @cached_property
-    def _loaded(self) -> store.Loaded | None:
-        if self._file is None:
-            return None
-        code = store.read(self._file)
-        if code is None:
-            try:
-                code = self.object_code()
-            except ImportError:
-                return None
-            store.write(self._file, code)
-        return store.Loaded(code)
-
-    def object_code(self) -> bytes:
-        """Compile the kernels.
-
-        Raises:
-            ImportError: Numba is not installed.
-        """
-        return compiler.object_code(self._modules, self._kernels, inline=self._inline)
-
-    @cached_property
-    def _file(self) -> Path | None:
-        """Where the object code is kept; None where kernels run as they are written."""
-        if os.environ.get(CHOICE) == "python":
-            return None
+    def _digest_in(self, code: ctypes.CDLL) -> bytes:
+        """The digest of the sources of machine code; nothing where it was made before there was this library."""
         try:
-            import llvmlite
-            from llvmlite import binding
-        except ImportError:
-            return None
-        folder = store.folder()
-        if folder is None:
-            return None
-        digest = blake2b(digest_size=_DIGEST_BYTES)
-        for module in (compiler, layout, *self._modules):
-            digest.update(Path(str(module.__file__)).read_bytes())
-            digest.update(repr(_constants(module)).encode())
-        features = binding.get_host_cpu_features().flatten()
-        for part in (sys.version, llvmlite.__version__, binding.get_host_cpu_name(), features):
-            digest.update(part.encode())
-        return folder / f"{self._name}-{digest.hexdigest()}.kernel"
+            return (ctypes.c_char * _DIGEST_BYTES).in_dll(code, self.digest_name).raw
+        except ValueError:
+            return b""
+
+    @cached_property
+    def digest(self) -> bytes:
+        """Of the sources, and of every number that they take from other modules: code holds its value."""
+        digest = 0
+        for module in self.modules:
+            digest = crc32(Path(str(module.__file__)).read_bytes(), digest)
+            digest = crc32(repr(_constants(module)).encode(), digest)
+        return digest.to_bytes(_DIGEST_BYTES, "big")
 
 
 def _constants(module: ModuleType) -> list[tuple[str, object]]:
-    """Numbers that a module knows, those of other modules too: compiled code holds their values."""
+    """Numbers that a module knows, those of other modules too."""
     numbers: list[tuple[str, object]] = []
     for name, value in vars(module).items():
         if isinstance(value, (int, float, tuple)):
@@ -122,20 +99,46 @@ def _constants(module: ModuleType) -> list[tuple[str, object]]:
     return sorted(numbers, key=lambda item: item[0])
 
 
-class _Compiled:
-    """Is called like a kernel, and calls its machine code."""
+def _caller(code: ctypes.CDLL, kernel: Callable[..., object]) -> Callable[..., int]:
+    """What is called like a kernel, and calls its machine code.
 
-    def __init__(self, code: store.Loaded, kernel: Callable[..., object]) -> None:
-        self._arguments = arguments(kernel)
-        types = [item for argument in flat(self._arguments) for item in _TYPES[argument.kind]]
-        self._function = code.function(kernel.__name__, types)
-        self._code = code  # must live as long as its function
+    It is written out for the arguments of the kernel: taken apart one by one, they took longer than many a kernel.
+    """
+    entry = code[kernel.__name__]
+    taken = arguments(kernel)
+    entry.argtypes = [item for argument in flat(taken) for item in _TYPES[argument.kind]]
+    entry.restype = ctypes.c_int64
+    given: list[str] = []
+    arrays: list[str] = []
+    for number, argument in enumerate(taken):
+        _give(argument, f"a{number}", given, arrays)
+    codes = "".join(argument.code for argument in flat(taken) if argument.kind is Kind.ARRAY)
+    scope = {"entry": entry, "addressof": ctypes.addressof, "refuse": partial(_refuse, codes)}
+    found = "".join(f"{{{array}.typecode}}" for array in arrays)
+    source = (
+        f"def call({', '.join(f'a{number}' for number in range(len(taken)))}):\n"
+        f"    if f'{found}' != '{codes}': refuse(f'{found}')\n"
+        f"    return entry({', '.join(given)})\n"
+    )
+    exec(source, scope)
+    return cast("Callable[..., int]", scope["call"])
 
-    def __call__(self, *given: object) -> int:
-        values: list[object] = []
-        for argument, value in zip(self._arguments, given, strict=True):
-            _take_apart(argument, value, values)
-        return self._function(*values)
+
+def _refuse(codes: str, found: str) -> None:
+    msg = f"a kernel was given arrays of {found}, not of {codes}"
+    raise TypeError(msg)
+
+
+def _give(argument: Argument, name: str, given: list[str], arrays: list[str]) -> None:
+    """Add how an argument is handed to machine code, and the arrays in it."""
+    if argument.kind is Kind.GROUP:
+        for number, part in enumerate(argument.parts):
+            _give(part, f"{name}[{number}]", given, arrays)
+    elif argument.kind is Kind.ARRAY:
+        arrays.append(name)
+        given.append(f"*{name}.buffer_info()")
+    else:
+        given.append(f"addressof({name})" if argument.kind is Kind.RECORD else name)
 
 
 _TYPES: dict[Kind, tuple[type, ...]] = {
@@ -144,18 +147,3 @@ _TYPES: dict[Kind, tuple[type, ...]] = {
     Kind.INTEGER: (ctypes.c_int64,),
     Kind.NUMBER: (ctypes.c_double,),
 }
-
-
-def _take_apart(argument: Argument, value: object, values: list[object]) -> None:
-    """Add the addresses, lengths and numbers of an argument."""
-    if argument.kind is Kind.ARRAY:
-        column = cast("array[float]", value)
-        assert column.typecode == argument.code, f"{column.typecode} is not {argument.code}"
-        values.extend(column.buffer_info())
-    elif argument.kind is Kind.RECORD:
-        values.append(ctypes.addressof(cast("ctypes.Structure", value)))
-    elif argument.kind is Kind.GROUP:
-        for part, item in zip(argument.parts, cast("tuple[object, ...]", value), strict=True):
-            _take_apart(part, item, values)
-    else:
-        values.append(value)

@@ -2,13 +2,25 @@
 
 A machine file: `schema` says what may stand in it (`tables`: the same as types), `load` turns it into a
 `Machine` (`model`), `check` asks whether all of it fits together, `render` makes a file again; `places` and
-`errors` say where a mistake stands. `kinematics` leads from rotary axes to the tool, `layout` is what displays
-must know, `rules` and `plc` are the machine's own controller. `setup/` is what a run starts from.
+`errors` say where a mistake stands, `documents` reads YAML and TOML.
+`kinematics` leads from rotary axes to the tool, `layout` is what displays
+must know, `rules` and `plc` are the machine's own controller, `builder` is what a builder has made of it; `text` is a
+text in both languages. `setup/` is what a run starts from.
 """
 
 from polycnc.machine.errors import FileError, MachineFileError, SetupError
 from polycnc.machine.load import builtin_ids, load_machine
-from polycnc.machine.model import Axis, Channel, Joint, Machine, Magazine, MFunction, Solid, Spindle
+from polycnc.machine.model import (
+    Axis,
+    Channel,
+    GFunction,
+    Joint,
+    Machine,
+    Magazine,
+    MFunction,
+    Solid,
+    Spindle,
+)
 from polycnc.machine.setup.file import load_setup, parse_setup
 from polycnc.machine.setup.values import (
     Interrupt,
@@ -25,6 +37,7 @@ __all__ = [
     "Axis",
     "Channel",
     "FileError",
+    "GFunction",
     "Interrupt",
     "Joint",
     "MFunction",

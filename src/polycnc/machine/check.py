@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.machine.rules import ConditionError
+from polycnc.machine.rules import ConditionError, condition_of, signals_in
 from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from polycnc.machine.model import Machine
     from polycnc.machine.schema import Mistake
-    from polycnc.machine.tables import MachineData
+    from polycnc.machine.tables import BuilderData, MachineData
 
 _BOX_SIZES = 3
+#: M codes that stop, end, call and return: no program stands for them on any control.
+NEVER_CALL = frozenset({0, 1, 2, 30, 98, 99})
+#: What says how a code acts on the machine; one that calls a program does not go out to it.
+_BESIDE_CALLS = ("seconds", "timing", "takes", "does")
 #: What a solid may move with beside an axis.
 _CHAIN_ENDS = ("base", "tool", "work")
 
@@ -28,6 +32,8 @@ def gaps(data: MachineData) -> Iterator[Mistake]:
     names = {name for channel in channels.values() for name in channel.get("axes", ())}
     if not channels:
         yield ("channel",), "no-axes", {}
+    elif all(int(number) != 1 for number in channels):
+        yield ("channel",), "no-first-channel", {}
     for name in data.get("axis", {}):
         if name not in names:
             yield ("axis", name), "axis-unused", {"axis": name}
@@ -36,6 +42,9 @@ def gaps(data: MachineData) -> Iterator[Mistake]:
             yield ("joint", index, "axis"), "axis-unused", {"axis": joint["axis"]}
         if not any(joint["direction"]):
             yield ("joint", index, "direction"), "no-direction", {"axis": joint["axis"]}
+    yield from conditions(data)
+    yield from functions(data)
+    yield from _moves(data)
     for index, solid in enumerate(data.get("solid", ())):
         if solid["shape"] == "box" and len(solid["size"]) != _BOX_SIZES:
             yield (
@@ -45,6 +54,38 @@ def gaps(data: MachineData) -> Iterator[Mistake]:
             )
 
 
+def functions(data: BuilderData) -> Iterator[Mistake]:
+    """M and G codes that call a program, and say what only codes can that call none."""
+    for number, function in data.get("m_function", {}).items():
+        if "calls" in function:
+            path = ("m_function", number)
+            yield from _beside_calls(path, function)
+            if int(number) in NEVER_CALL:
+                yield (*path, "calls"), "code-of-the-control", {"code": f"M{int(number)}"}
+    for number, g_function in data.get("g_function", {}).items():
+        if "calls" in g_function:
+            yield from _beside_calls(("g_function", number), g_function)
+
+
+def _beside_calls(path: tuple[str, str], function: Mapping[str, object]) -> Iterator[Mistake]:
+    for key in _BESIDE_CALLS:
+        if key in function:
+            yield (*path, key), "beside-calls", {"where": ".".join((*path, key))}
+
+
+def _moves(data: MachineData) -> Iterator[Mistake]:
+    """Moves of axes that are not there are never refused."""
+    channels = data.get("channel", {}).values()
+    axes = {axis for channel in channels for axis in (*channel.get("axes", ()), *channel.get("names", ()))}
+    for kind in ("alarm", "message"):
+        rows = data.get("alarm", ()) if kind == "alarm" else data.get("message", ())
+        for number, row in enumerate(rows):
+            for signal in sorted(signals_in(row["when"])):
+                word, _, axis = signal.partition("_")
+                if word in ("MOVE", "HOME") and axis not in axes and axis != "FIFTH_AXIS":
+                    yield (kind, number, "when"), "unknown-axis", {"axis": axis}
+
+
 def contradictions(machine: Machine) -> Iterator[Mistake]:
     """Everything in a machine that contradicts itself: key path, message id and arguments."""
     yield from _windows(machine)
@@ -52,7 +93,6 @@ def contradictions(machine: Machine) -> Iterator[Mistake]:
     yield from _axes(machine)
     yield from _references(machine)
     yield from _spindles(machine)
-    yield from _rules(machine)
 
 
 def _windows(machine: Machine) -> Iterator[Mistake]:
@@ -116,6 +156,8 @@ def _references(machine: Machine) -> Iterator[Mistake]:
     for number, solid in enumerate(machine.solids):
         if solid.moves_with not in _CHAIN_ENDS and solid.moves_with not in machine.axis:
             yield ("solid", number, "moves_with"), "unknown-axis", {"axis": solid.moves_with}
+    if machine.magazine.retracts and not machine.magazine.change_at:
+        yield ("magazine", "retracts"), "retracts-nowhere", {}
     for name in machine.magazine.change_at:
         if name not in machine.axis:
             yield ("magazine", "change_at", name), "unknown-axis", {"axis": name}
@@ -130,9 +172,17 @@ def _spindles(machine: Machine) -> Iterator[Mistake]:
             yield (*path, "axis"), "unknown-axis", {"axis": spindle.axis}
 
 
-def _rules(machine: Machine) -> Iterator[Mistake]:
-    for number, rule in enumerate(machine.rules):
-        try:
-            rule.condition  # noqa: B018 - it is read when it is first asked for
-        except ConditionError as error:
-            yield ("rule", number, "when"), "no-condition", {"when": rule.when, "character": error.at + 1}
+def conditions(data: BuilderData) -> Iterator[Mistake]:
+    """Texts of rules, alarms and messages that are no conditions."""
+    tables = {
+        "rule": data.get("rule", ()),
+        "alarm": data.get("alarm", ()),
+        "message": data.get("message", ()),
+    }
+    for kind, rows in tables.items():
+        for number, row in enumerate(rows):
+            try:
+                condition_of(row["when"])
+            except ConditionError as error:
+                where = {"when": row["when"], "character": error.at + 1}
+                yield (kind, number, "when"), "no-condition", where

@@ -41,10 +41,14 @@ def turn_about(axis: Vector, angle_deg: float) -> Frame:
 
 @dataclass(frozen=True)
 class Kinematics:
-    """The rotary joints of a machine: `tool` from the base to the tool, `work` from the base to the work."""
+    """The rotary joints of a machine: `tool` from the base to the tool, `work` from the base to the work.
+
+    `along` is the direction from the tip along the tool with all of them at zero.
+    """
 
     tool: tuple[Joint, ...]
     work: tuple[Joint, ...]
+    along: Vector = _ALONG_Z
 
     @classmethod
     def of(cls, machine: Machine) -> Kinematics:
@@ -69,7 +73,7 @@ class Kinematics:
 
     def tool_on_machine(self, angles: Angles) -> Vector:
         """Direction from the tip along the tool, machine coordinates."""
-        return self.head_turn(angles).direct(*_ALONG_Z)
+        return self.head_turn(angles).direct(*self.along)
 
     def tool_on_work(self, angles: Angles) -> Vector:
         """Direction from the tip along the tool, seen from the work."""

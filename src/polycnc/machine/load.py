@@ -7,25 +7,30 @@ that a short program does not wait for it.
 from __future__ import annotations
 
 import tomllib
+from functools import cache
 from math import inf
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, TypeVar, cast
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar, cast
 
+from polycnc.machine.builder import BUILDERS, Builder, builder_names
+from polycnc.machine.documents import DocumentError, toml_values
 from polycnc.machine.errors import MachineFileError
 from polycnc.machine.model import (
     Axis,
     Channel,
     Gear,
+    GFunction,
     Joint,
     Machine,
     Magazine,
     MFunction,
     Solid,
     Spindle,
-    Text,
 )
-from polycnc.machine.places import toml_error_place, toml_place
-from polycnc.machine.rules import Rule
+from polycnc.machine.places import toml_place
+from polycnc.machine.plc import PlcAlarm
+from polycnc.machine.rules import Rule, signal_name
+from polycnc.machine.text import Text
 from polycnc.messages.files import read_utf_8, reason_of
 
 if TYPE_CHECKING:
@@ -34,11 +39,14 @@ if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector
     from polycnc.machine.schema import Mistake
     from polycnc.machine.tables import (
+        AlarmData,
         AxisData,
         AxisKind,
+        BuilderData,
         ChannelData,
         DefaultsData,
         DynamicsData,
+        GFunctionData,
         JointData,
         MachineData,
         MagazineData,
@@ -62,6 +70,12 @@ _ROTARY_LETTERS = "ABC"
 _PARALLEL = {"U": "X", "V": "Y", "W": "Z"}
 #: Keys that a file replaces as a whole instead of adding to what its base says.
 _WHOLE = frozenset(("geometry", "change_at"))
+#: Tables of a builder that a machine file adds to; its rules, alarms and messages stay in front of those of the file.
+_FUNCTIONS: tuple[Literal["magazine", "m_function", "g_function"], ...] = (
+    "magazine",
+    "m_function",
+    "g_function",
+)
 #: What a machine is called is its own.
 _NOT_INHERITED = frozenset(("name", "description"))
 #: What an axis can do that neither its table nor `[defaults]` tells, in file units.
@@ -90,25 +104,40 @@ def load_machine(id_or_path: str | Path) -> Machine:
     """
     path = _find(str(id_or_path))
     if path.parent == BUILTIN:
-        return build(path.stem, cast("MachineData", _builtin_data(path)))
+        return _builtin(path)
     from polycnc.machine.check import contradictions, gaps
 
     text = _read(path)
     data = cast("MachineData", _checked_data(path, text, ()))
     _raise_first(path, text, gaps(data))
-    machine = build(path.stem, data)
+    machine = build(path.stem, data, _builder_data(path, text, data.get("rules", "")))
     _raise_first(path, text, contradictions(machine))
     return machine
+
+
+@cache
+def _builtin(path: Path) -> Machine:
+    """A built-in machine, which is read once."""
+    data = cast("MachineData", _builtin_data(path))
+    return build(path.stem, data, _shipped_builder(data.get("rules", "")))
 
 
 def _find(name: str) -> Path:
     if not name.endswith(".toml"):
         builtin = BUILTIN / f"{name}.toml"
-        if builtin.parent == BUILTIN and builtin.is_file():
+        if builtin.parent == BUILTIN and _is_file(builtin):
             return builtin
-    if Path(name).is_file():
+    if _is_file(Path(name)):
         return Path(name)
     raise MachineFileError(name, 0, 0, "no-such-machine", machine=name)
+
+
+def _is_file(path: Path) -> bool:
+    """Whether there is such a file; a name that no file system takes is none."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
 
 
 def _read(path: Path) -> str:
@@ -118,7 +147,9 @@ def _read(path: Path) -> str:
         raise MachineFileError(str(path), 0, 0, "unreadable", detail=reason_of(error)) from error
 
 
-def _builtin_data(path: Path) -> dict[str, object]:
+@cache
+def _builtin_data(path: Path) -> Mapping[str, object]:
+    """The data of a built-in machine, read once; machines are made of them anew."""
     data: dict[str, object] = tomllib.loads(path.read_text(encoding="utf-8"))
     base = data.pop("base", None)
     return _built_on(_builtin_data(BUILTIN / f"{base}.toml"), data) if base else data
@@ -127,11 +158,7 @@ def _builtin_data(path: Path) -> dict[str, object]:
 def _checked_data(path: Path, text: str, below: tuple[Path, ...]) -> dict[str, object]:
     from polycnc.machine.schema import mistakes
 
-    try:
-        data: dict[str, object] = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        detail, (line, column) = toml_error_place(str(error), text)
-        raise MachineFileError(str(path), line, column, "not-toml", detail=detail) from error
+    data = _toml(path, text)
     _raise_first(path, text, mistakes(data))
     base = data.pop("base", None)
     if base is None:
@@ -139,17 +166,57 @@ def _checked_data(path: Path, text: str, below: tuple[Path, ...]) -> dict[str, o
     return _built_on(_base_data(path, text, str(base), (*below, path.resolve())), data)
 
 
-def _base_data(path: Path, text: str, base: str, below: tuple[Path, ...]) -> dict[str, object]:
+def _base_data(path: Path, text: str, base: str, below: tuple[Path, ...]) -> Mapping[str, object]:
     """The data of the machine that a file builds on: a built-in one, or a file beside it."""
     line, column = toml_place(text, ("base",))
     beside = path.parent / base
-    if base.endswith(".toml") and beside.is_file():
+    if base.endswith(".toml") and _is_file(beside):
         if beside.resolve() in below:
             raise MachineFileError(str(path), line, column, "base-of-itself", base=base)
         return _checked_data(beside, _read(beside), below)
     if base in builtin_ids():
         return _builtin_data(BUILTIN / f"{base}.toml")
     raise MachineFileError(str(path), line, column, "no-such-machine", machine=base)
+
+
+def _builder_data(path: Path, text: str, name: str) -> BuildersData:
+    """The tables of the builder that a file names: one that comes with polycnc, or a file beside this one."""
+    if not name.endswith(".toml"):
+        if name and name not in builder_names():
+            line, column = toml_place(text, ("rules",))
+            raise MachineFileError(str(path), line, column, "no-such-builder", builder=name)
+        return _shipped_builder(name)
+    from polycnc.machine.check import conditions, functions
+    from polycnc.machine.schema import BuilderTable, mistakes
+
+    beside = path.parent / name
+    data = _toml(beside, _read(beside))
+    _raise_first(beside, _read(beside), mistakes(data, BuilderTable))
+    tables = cast("BuilderData", data)
+    _raise_first(beside, _read(beside), (*conditions(tables), *functions(tables)))
+    return BuildersData(name, tables, {"": tables})
+
+
+@cache
+def _shipped_builder(name: str) -> BuildersData:
+    if not name:
+        return NOTHING
+    shared: dict[str, object] = {}
+    alarms: dict[str, BuilderData] = {}
+    for file in sorted((BUILDERS / name).glob("*.toml")):
+        data = _toml(file, file.read_text(encoding="utf-8"))
+        if "alarm" in data:
+            alarms[file.stem] = cast("BuilderData", data)
+        else:
+            shared |= data
+    return BuildersData(name, cast("BuilderData", shared), alarms)
+
+
+def _toml(path: Path, text: str) -> dict[str, object]:
+    try:
+        return toml_values(text)
+    except DocumentError as bad:
+        raise MachineFileError(str(path), bad.line, bad.column, bad.message, **bad.args_by_name) from None
 
 
 def _raise_first(path: Path, text: str, found: Iterable[Mistake]) -> None:
@@ -175,8 +242,20 @@ def _laid_over(base: Mapping[str, object], data: Mapping[str, object]) -> dict[s
     return merged
 
 
-def build(machine_id: str, data: MachineData) -> Machine:
+class BuildersData(NamedTuple):
+    """The tables of a builder as files give them: its name, what all controls share, alarms by the control's id."""
+
+    name: str
+    shared: BuilderData
+    alarms: Mapping[str, BuilderData]
+
+
+NOTHING = BuildersData("", {}, {})
+
+
+def build(machine_id: str, data: MachineData, builder: BuildersData = NOTHING) -> Machine:
     """A machine from the values of a file, complete with defaults, in internal units."""
+    data = cast("MachineData", {**data, **_functions(builder.shared, data)})
     spindles = tuple(_spindle(number, table) for number, table in _numbered(data.get("spindle", {})))
     channels = tuple(
         _channel(number, table, spindles) for number, table in _numbered(data.get("channel", {}))
@@ -198,13 +277,47 @@ def build(machine_id: str, data: MachineData) -> Machine:
         interpolation_cycle_s=float(data.get("interpolation_cycle_s", 0.004)),
         settle_fine_s=float(data.get("settle_fine_s", 0.0)),
         settle_coarse_s=float(data.get("settle_coarse_s", 0.0)),
-        rules=tuple(rule_of(table) for table in data.get("rule", ())),
+        block_time_s=float(data.get("block_time_s", 0.0)),
+        rules=tuple(_rule(table) for table in data.get("rule", ())),
+        alarms=_alarms(data),
+        g_functions={
+            signal_name(f"G{code}"): _g_function(signal_name(f"G{code}"), table)
+            for code, table in data.get("g_function", {}).items()
+        },
+        builder=Builder(
+            builder.name,
+            tuple(_rule(table) for table in builder.shared.get("rule", ())),
+            {control: _alarms(tables) for control, tables in builder.alarms.items()},
+        ),
     )
 
 
-def rule_of(table: RuleData) -> Rule:
+def _functions(builder: BuilderData, data: MachineData) -> dict[str, object]:
+    """The tables of `_FUNCTIONS`: what the file says, else what its builder says."""
+    return {key: _laid_over(builder.get(key, {}), data.get(key, {})) for key in _FUNCTIONS}
+
+
+def _alarms(tables: BuilderData) -> tuple[PlcAlarm, ...]:
+    stopping = (_alarm(table, stops=True) for table in tables.get("alarm", ()))
+    return (*stopping, *(_alarm(table, stops=False) for table in tables.get("message", ())))
+
+
+def _alarm(table: AlarmData, *, stops: bool) -> PlcAlarm:
+    return PlcAlarm(
+        table["code"],
+        table["when"],
+        stops,
+        text=_text(table.get("text", "")),
+        cause=_text(table.get("cause", "")),
+        remedy=_text(table.get("remedy", "")),
+    )
+
+
+def _rule(table: RuleData) -> Rule:
     """A rule from its table."""
-    return Rule(table["when"], table["output"], float(table.get("after_s", 0.0)), table.get("latch", ""))
+    return Rule(
+        table["when"], signal_name(table["output"]), float(table.get("after_s", 0.0)), table.get("latch", "")
+    )
 
 
 def _numbered(tables: Mapping[str, T]) -> list[tuple[int, T]]:
@@ -276,17 +389,34 @@ def _spindle(number: int, table: SpindleData) -> Spindle:
 
 
 def _magazine(table: MagazineData) -> Magazine:
+    at = table.get("change_at", "anywhere")
     return Magazine(
         kind=table.get("kind", "magazine"),
         places=table.get("places", 24),
         change_time_s=float(table.get("change_time_s", 4.0)),
-        change_at={name: tuple(points) for name, points in table.get("change_at", {}).items()},
+        change_at={} if at == "anywhere" else {name: tuple(points) for name, points in at.items()},
+        retracts=table.get("retracts", False),
     )
 
 
 def _m_function(code: int, table: MFunctionData) -> MFunction:
     name = _text(table.get("name", f"M{code}"))
-    return MFunction(code, name, float(table.get("seconds", 0)), table.get("timing", "with"))
+    seconds, takes = float(table.get("seconds", 0)), table.get("takes")
+    return MFunction(
+        code,
+        name,
+        seconds,
+        table.get("timing", "with"),
+        takes=None if takes is None else tuple(takes),
+        calls=table.get("calls", ""),
+        does=table.get("does", ""),
+    )
+
+
+def _g_function(code: str, table: GFunctionData) -> GFunction:
+    name, takes = _text(table.get("name", code)), table.get("takes")
+    words = None if takes is None else tuple(takes)
+    return GFunction(code, name, float(table.get("seconds", 0)), words, table.get("calls", ""))
 
 
 def _joints(

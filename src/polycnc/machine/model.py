@@ -7,33 +7,31 @@ coordinates.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, Literal
 
-from polycnc.messages.catalogue import language
+from polycnc.machine.builder import NO_BUILDER
+from polycnc.machine.plc import Plc
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.geometry.frames import Vector
+    from polycnc.machine.builder import Builder
+    from polycnc.machine.plc import PlcAlarm
     from polycnc.machine.rules import Rule
+    from polycnc.machine.text import Text
 
 Carries = Literal["tool", "work"]
 Timing = Literal["before", "with", "after"]
-#: The modulus of rotary axes whose position repeats after a turn.
-
-
-@dataclass(frozen=True, slots=True)
-class Text:
-    """A text that the user reads; `zh_tw` is empty where the author wrote one language only."""
-
-    en: str = ""
-    zh_tw: str = ""
-
-    def __str__(self) -> str:
-        return self.zh_tw if self.zh_tw and language() == "zh-TW" else self.en
+#: What an M function does in the control beside what the machine does.
+Act = Literal[
+    "spindle_clockwise", "spindle_counter_clockwise", "spindle_stop", "tool_change",
+    "feed_override_off", "feed_override_on", "spindle_override_off", "spindle_override_on",
+    "mirror_first_axis", "mirror_second_axis", "mirror_off",
+]  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,25 +127,58 @@ class Spindle:
 
 @dataclass(frozen=True, slots=True)
 class Magazine:
-    """The tool store. `change_at`: at which of its reference points (1 to 4) an axis stands for a change.
+    """The tool store.
 
-    Controls refuse a change elsewhere (`control/tool_change.py`).
+    `change_at`: at which of its reference points (1 to 4) an axis stands for a change; empty: anywhere. The change
+    itself brings the axes there, in this order and each to its first point, where it `retracts`; else controls refuse
+    a change elsewhere (`control/tool_change.py`).
     """
 
     kind: Literal["magazine", "turret"]
     places: int
     change_time_s: float
     change_at: Mapping[str, tuple[int, ...]]
+    retracts: bool = False
+
+
+def program_called(calls: str) -> int | str:
+    """The program that a machine file names: O9100 and 9100 are a number, anything else is a name."""
+    number = calls.removeprefix("O")
+    return int(number) if number.isdigit() else calls
 
 
 @dataclass(frozen=True, slots=True)
 class MFunction:
-    """What an M code does on this machine: how long it takes, and when beside the motion of its block."""
+    """What an M code does on this machine.
+
+    Attributes:
+        code: Number.
+        name: What it does.
+        seconds: How long it takes.
+        timing: When beside the motion of its block.
+        takes: Addresses of its block that go to the machine with it; None for those that nothing else takes.
+        calls: The program that it calls as a macro, by number or name; the words of the block are its arguments.
+        does: What it does in the control; empty for nothing.
+    """
 
     code: int
     name: Text
     seconds: float
     timing: Timing
+    takes: tuple[str, ...] | None = None
+    calls: str = ""
+    does: Act | Literal[""] = ""
+
+
+@dataclass(frozen=True, slots=True)
+class GFunction:
+    """What a G code of the builder does on this machine; the attributes are those of `MFunction`."""
+
+    code: str
+    name: Text
+    seconds: float
+    takes: tuple[str, ...] | None = None
+    calls: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,7 +219,9 @@ class Machine:
     """A machine, complete. `axes` are in the order of the channels that own them, `rules` in that of their scan.
 
     From the end of the interpolation `settle_fine_s` and `settle_coarse_s` pass until the axes are within their
-    windows `in_position_fine` and `in_position_coarse`.
+    windows `in_position_fine` and `in_position_coarse`. `block_time_s` is what the control takes for a block of a path
+    before it can run the next one. `rules` and `alarms` are the file's own; those of its `builder`
+    lie under them. `m_functions` and `g_functions` hold both.
     """
 
     id: str
@@ -204,7 +237,26 @@ class Machine:
     interpolation_cycle_s: float = 0.004
     settle_fine_s: float = 0.0
     settle_coarse_s: float = 0.0
+    block_time_s: float = 0.0
     rules: tuple[Rule, ...] = ()
+    alarms: tuple[PlcAlarm, ...] = ()
+    g_functions: Mapping[str, GFunction] = field(default_factory=dict)
+    builder: Builder = NO_BUILDER
+
+    def plc(self, control: str) -> Plc:
+        """The machine's own controller on a control, by the control's id."""
+        found = self._plcs.get(control)
+        if found is None:
+            own = {f"M{code}" for code in self.m_functions} | set(self.g_functions)
+            found = self._plcs[control] = Plc(
+                (*self.builder.rules, *self.rules),
+                (*self.builder.alarms_of(control, own), *self.alarms),
+            )
+        return found
+
+    @cached_property
+    def _plcs(self) -> dict[str, Plc]:
+        return {}
 
     @cached_property
     def axis(self) -> Mapping[str, Axis]:
@@ -236,6 +288,10 @@ class Machine:
     def channel_axes(self, number: int) -> tuple[str, ...]:
         """What programs of a channel call its axes, in order."""
         return self.channel(number).names
+
+    def axis_number(self, name: str) -> int:
+        """Number of an axis among all of the machine, from 1."""
+        return 1 + next(i for i, axis in enumerate(self.axes) if axis.name == name)
 
     def geometry_indices(self, number: int) -> tuple[int, int, int]:
         """Where X, Y and Z of the Cartesian system stand among the axes of a channel; -1 for none."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -44,11 +44,18 @@ def toml_error_place(message: str, text: str) -> tuple[str, Place]:
     return match[1], (int(match[2]), int(match[3]))
 
 
+def yaml_loader() -> Any:
+    """The parser of YAML: what one parser takes, another may not."""
+    import yaml
+
+    return getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
 def yaml_place(text: str, path: Sequence[Key]) -> Place:
     """Line and column of a key path in a YAML document; (0, 0) where the text writes nothing of it."""
     import yaml
 
-    node = yaml.compose(text, yaml.SafeLoader)
+    node = yaml.compose(text, yaml_loader())
     place = (0, 0)
     for part in path:
         if isinstance(node, yaml.MappingNode):

@@ -1,30 +1,30 @@
 """The machine's own controller (PLC) as tables: rules on the signal image, and what it answers with alarms.
 
 A row of the alarm table holds a condition. Some of its signals are *words*: something that is asked for at one moment,
-an M code (`M6`), `S_CODE`, `T_CODE`, `B_CODE`, a key (`KEY_B3`), `CYCLE_START`, a mode (`MODE_MDI`), an axis that is to
-move (`MOVE_A`) or to return to its reference point (`HOME_X`). A row with a word refuses that word while the rest of
-its condition holds. A row without one is there as long as its condition holds.
+an M code (`M6`), a G code that the machine declares (`G100`), `S_CODE`, `T_CODE`, `B_CODE`, a key (`KEY_B3`),
+`CYCLE_START`, a mode (`MODE_MDI`), an axis that is to move (`MOVE_A`) or to return to its reference point (`HOME_X`). A
+row with a word refuses that word while the rest of its condition holds. A row without one is there as long as its
+condition holds.
 """
 
 from __future__ import annotations
 
 import re
-import tomllib
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, TypedDict, cast
+from itertools import product
+from typing import TYPE_CHECKING
 
-from polycnc.machine.load import rule_of
 from polycnc.machine.rules import condition_of, signals_in
+from polycnc.machine.text import NO_TEXT
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-    from importlib.resources.abc import Traversable
 
     from polycnc.machine.rules import Condition, Rule, Values
-    from polycnc.machine.tables import RuleData
+    from polycnc.machine.text import Text
 
-_WORD = re.compile(r"M\d+|[STB]_CODE|UNKNOWN_M|KEY_\w+|CYCLE_START|MODE_\w+|MOVE_\w+|HOME_\w+")
+_WORD = re.compile(r"M\d+|G\d+(?:\.\d+)?|[STB]_CODE|UNKNOWN_M|KEY_\w+|CYCLE_START|MODE_\w+|MOVE_\w+|HOME_\w+")
 
 
 def is_word(signal: str) -> bool:
@@ -40,11 +40,19 @@ class PlcAlarm:
         code: Number of the alarm in the control's catalogue.
         when: When it comes.
         stops: It is an alarm, which stops the machine until a reset; else a message, which goes with its cause.
+        text: What it says; empty where a catalogue does.
+        cause: Why it comes.
+        remedy: What to do about it.
+        free: Words that it lets pass all the same.
     """
 
     code: str
     when: str
     stops: bool = True
+    text: Text = NO_TEXT
+    cause: Text = NO_TEXT
+    remedy: Text = NO_TEXT
+    free: frozenset[str] = frozenset()
 
     @cached_property
     def condition(self) -> Condition:
@@ -56,10 +64,19 @@ class PlcAlarm:
         """The signals in its condition."""
         return signals_in(self.when)
 
+    def refuses_outright(self, word: str) -> bool:
+        """Whether it refuses a word in whatever state: it says that the word has no function."""
+        states = sorted(name for name in self.signals if not is_word(name))
+        signals = (
+            dict.fromkeys(self.signals, 0.0) | {word: 1.0, **dict(zip(states, values, strict=True))}
+            for values in product((0.0, 1.0), repeat=len(states))
+        )
+        return all(self.condition(each.__getitem__) for each in signals)
+
     @cached_property
     def words(self) -> frozenset[str]:
         """The words that it refuses."""
-        return frozenset(filter(is_word, self.signals))
+        return frozenset(filter(is_word, self.signals)) - self.free
 
 
 class Plc:
@@ -68,12 +85,18 @@ class Plc:
     Args:
         rules: Rules, in the order of their scan.
         alarms: Alarms and messages; of several that refuse a word the first counts.
+
+    Attributes:
+        standing: The rows without a word.
+        asked: The signals in conditions of alarms.
+        moves: The words of moves that any row answers to.
     """
 
     def __init__(self, rules: Iterable[Rule] = (), alarms: Iterable[PlcAlarm] = ()) -> None:
         self.rules = tuple(rules)
         self.alarms = tuple(alarms)
-        self.standing = tuple(row for row in self.alarms if not row.words)
+        self.standing = tuple(row for row in self.alarms if not row.words and not row.free)
+        self.asked = frozenset(name for row in self.alarms if row.stops for name in row.signals)
         self._refusals: dict[str, list[PlcAlarm]] = {}
         for row in self.alarms:
             for word in row.words:
@@ -82,6 +105,12 @@ class Plc:
         for rule in self.rules:
             for word in filter(is_word, signals_in(rule.when)) if rule.latch else ():
                 self._latches.setdefault(word, []).append(rule)
+
+        self.moves = frozenset(word for word in (*self._refusals, *self._latches) if word.startswith("MOVE_"))
+
+    def signals_of(self, word: str) -> frozenset[str]:
+        """The signals on which it depends whether a word is refused."""
+        return frozenset().union(*(row.signals for row in self._refusals.get(word, ())))
 
     def knows(self, word: str) -> bool:
         """Whether any row answers to a word."""
@@ -104,26 +133,3 @@ class Plc:
         for rule in self._latches.get(word, ()):
             if rule.condition(asked):
                 signals[rule.output] = rule.latched(signals.get(rule.output, 0.0))
-
-
-class _AlarmData(TypedDict):
-    code: str
-    when: str
-
-
-class _PlcData(TypedDict, total=False):
-    rule: list[RuleData]
-    alarm: list[_AlarmData]
-    message: list[_AlarmData]
-
-
-def read_plc(*sources: Traversable) -> Plc:
-    """Read tables: `[[rule]]` as in machine files, `[[alarm]]` and `[[message]]` with `code` and `when`."""
-    rules: list[Rule] = []
-    alarms: list[PlcAlarm] = []
-    for source in sources:
-        data = cast("_PlcData", tomllib.loads(source.read_text(encoding="utf-8")))
-        rules += [rule_of(table) for table in data.get("rule", ())]
-        alarms += [PlcAlarm(table["code"], table["when"]) for table in data.get("alarm", ())]
-        alarms += [PlcAlarm(table["code"], table["when"], stops=False) for table in data.get("message", ())]
-    return Plc(rules, alarms)

@@ -7,19 +7,32 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from polycnc.machine.model import Text
+from polycnc.machine.text import Text
 from polycnc.messages import Catalogue
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
-    from polycnc.machine.model import Axis, Channel, Joint, Machine, Magazine, MFunction, Solid, Spindle
+    from polycnc.machine.model import (
+        Axis,
+        Channel,
+        GFunction,
+        Joint,
+        Machine,
+        Magazine,
+        MFunction,
+        Solid,
+        Spindle,
+    )
+    from polycnc.machine.plc import PlcAlarm
     from polycnc.machine.rules import Rule
 
 _SECONDS_PER_MINUTE = 60.0
 #: Comments of a table stand in one column, no further right than this.
 _COMMENT_COLUMN = 48
 _Keys = list[tuple[str, object]]
+#: Tables that few machines have, and how the header of an example looks.
+_EXAMPLES = {"g_function": '[g_function."100"]', "alarm": "[[alarm]]", "message": "[[message]]"}
 
 
 @cache
@@ -38,6 +51,8 @@ def _lines(machine: Machine, lang: str | None) -> Iterator[str]:
     yield from _comment("head", lang, machine=machine.id)
     yield ""
     for table, header, keys in _tables(machine):
+        if header.startswith("#") and table in explained:
+            continue
         if table in explained:
             yield header
             yield from (f"{key} = {_toml(value)}" for key, value in keys if value is not None)
@@ -69,7 +84,8 @@ def _explained(table: str, keys: _Keys, lang: str | None) -> Iterator[str]:
 def _tables(machine: Machine) -> Iterator[tuple[str, str, _Keys]]:
     """Every table: its kind, its header and its keys in file units; None leaves a key out."""
     top: _Keys = [("name", machine.name), ("description", _or_none(machine.description))]
-    times = ("interpolation_cycle_s", "settle_fine_s", "settle_coarse_s")
+    top.append(("rules", machine.builder.name or None))
+    times = ("interpolation_cycle_s", "settle_fine_s", "settle_coarse_s", "block_time_s")
     yield "", "", [*top, *((key, getattr(machine, key)) for key in times)]
     for channel in machine.channels:
         yield "channel", f"[channel.{channel.number}]", _channel(channel)
@@ -80,12 +96,25 @@ def _tables(machine: Machine) -> Iterator[tuple[str, str, _Keys]]:
     yield "magazine", "[magazine]", _magazine(machine.magazine)
     for function in machine.m_functions.values():
         yield "m_function", f"[m_function.{function.code}]", _m_function(function)
+    for code, g_function in machine.g_functions.items():
+        yield "g_function", f'[g_function."{code[1:]}"]', _g_function(g_function)
     for joint in machine.joints:
         yield "joint", "[[joint]]", _joint(joint)
     for solid in machine.solids:
         yield "solid", "[[solid]]", _solid(solid)
     for rule in machine.rules:
         yield "rule", "[[rule]]", _rule(rule)
+    for alarm in machine.alarms:
+        kind = "alarm" if alarm.stops else "message"
+        yield kind, f"[[{kind}]]", _alarm(alarm)
+    for kind, header in _EXAMPLES.items():
+        yield kind, f"# {header}", _none_of(kind)
+
+
+def _none_of(kind: str) -> _Keys:
+    """The keys of a table that a machine has none of: a commented example, where it is not explained already."""
+    shown = (key.partition(".")[2] for key in fields() if key.startswith(f"{kind}."))
+    return [(key, None) for key in shown]
 
 
 def _channel(channel: Channel) -> _Keys:
@@ -137,12 +166,22 @@ def _magazine(magazine: Magazine) -> _Keys:
         ("kind", magazine.kind),
         ("places", magazine.places),
         ("change_time_s", magazine.change_time_s),
-        ("change_at", magazine.change_at or None),
+        ("change_at", magazine.change_at or "anywhere"),
+        ("retracts", magazine.retracts),
     ]
 
 
 def _m_function(function: MFunction) -> _Keys:
-    return [("name", function.name), ("seconds", function.seconds), ("timing", function.timing)]
+    when: _Keys = [("name", function.name), ("seconds", function.seconds), ("timing", function.timing)]
+    return [*when, *_words(function), ("does", function.does or None)]
+
+
+def _g_function(function: GFunction) -> _Keys:
+    return [("name", function.name), ("seconds", function.seconds), *_words(function)]
+
+
+def _words(function: MFunction | GFunction) -> _Keys:
+    return [("takes", function.takes), ("calls", function.calls or None)]
 
 
 def _joint(joint: Joint) -> _Keys:
@@ -165,6 +204,11 @@ def _solid(solid: Solid) -> _Keys:
 def _rule(rule: Rule) -> _Keys:
     after = rule.after_s or None
     return [("when", rule.when), ("output", rule.output), ("after_s", after), ("latch", rule.latch or None)]
+
+
+def _alarm(alarm: PlcAlarm) -> _Keys:
+    texts: _Keys = [(key, _or_none(getattr(alarm, key))) for key in ("text", "cause", "remedy")]
+    return [("code", alarm.code), ("when", alarm.when), *texts]
 
 
 def _or_none(text: Text) -> Text | None:

@@ -22,6 +22,16 @@ _TOKEN = re.compile(r"\s*(?:(?P<name>[A-Za-z_$][\w$.\[\]]*)|(?P<sign>[&|!()]))")
 _DEEPEST = 50
 
 
+#: An M or G code, or what says that it is done, with zeros in front.
+_ZEROS = re.compile(r"((?:FIN_)?[MG])0+(?=\d+(?:\.\d+)?$)")
+
+
+def signal_name(written: str) -> str:
+    """The name of a signal as a file writes it: M08 is M8, as in programs."""
+    match = _ZEROS.match(written)
+    return match[1] + written[match.end() :] if match else written
+
+
 class ConditionError(ValueError):
     """A text is no condition: it goes wrong at the character `at`, from 0."""
 
@@ -41,7 +51,7 @@ def condition_of(text: str) -> Condition:
 
 def signals_in(text: str) -> frozenset[str]:
     """The signals that a condition names."""
-    return frozenset(match["name"] for match in _TOKEN.finditer(text) if match["name"])
+    return frozenset(signal_name(match["name"]) for match in _TOKEN.finditer(text) if match["name"])
 
 
 @dataclass(frozen=True)
@@ -133,5 +143,5 @@ class _Reader:
         if match is None or not match["name"]:
             raise ConditionError(self._at)
         self._at = match.end()
-        name = match["name"]
+        name = signal_name(match["name"])
         return lambda value: value(name) != 0.0

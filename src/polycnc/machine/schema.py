@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, ValidationError
 
 from polycnc.machine.errors import nearest
+from polycnc.machine.model import Act
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -40,6 +41,9 @@ def _one_language(value: object) -> object:
 TextKey = Annotated[TextTable, BeforeValidator(_one_language)]
 Number = Annotated[str, StringConstraints(pattern=r"^[0-9]+$")]
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Z_][A-Z0-9_]*$")]
+GNumber = Annotated[str, StringConstraints(pattern=r"^[0-9]{1,4}(\.[0-9])?$")]
+Address = Annotated[str, StringConstraints(pattern=r"^[A-Z]$")]
+Program = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_]+$")]
 Positive = Annotated[float, Field(gt=0)]
 NotNegative = Annotated[float, Field(ge=0)]
 Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
@@ -108,13 +112,23 @@ class SpindleTable(_Table):
     gears: list[GearTable] | None = None
 
 
+def _nowhere(value: object) -> object:
+    return {} if value == "anywhere" else value
+
+
+ChangeAt = Annotated[
+    dict[Name, Annotated[list[ReferenceNumber], Field(min_length=1)]], BeforeValidator(_nowhere)
+]
+
+
 class MagazineTable(_Table):
     """`[magazine]`."""
 
     kind: Literal["magazine", "turret"] | None = None
     places: Annotated[int, Field(ge=1)] | None = None
     change_time_s: NotNegative | None = None
-    change_at: dict[Name, Annotated[list[ReferenceNumber], Field(min_length=1)]] | None = None
+    change_at: ChangeAt | None = None
+    retracts: bool | None = None
 
 
 class MFunctionTable(_Table):
@@ -123,6 +137,18 @@ class MFunctionTable(_Table):
     name: TextKey | None = None
     seconds: NotNegative | None = None
     timing: Literal["before", "with", "after"] | None = None
+    takes: list[Address] | None = None
+    calls: Program | None = None
+    does: Act | None = None
+
+
+class GFunctionTable(_Table):
+    """`[g_function.CODE]`."""
+
+    name: TextKey | None = None
+    seconds: NotNegative | None = None
+    takes: list[Address] | None = None
+    calls: Program | None = None
 
 
 class JointTable(_Table):
@@ -155,24 +181,44 @@ class RuleTable(_Table):
     latch: Literal["on", "off", "toggle"] | None = None
 
 
-class MachineTable(_Table):
+class AlarmTable(_Table):
+    """`[[alarm]]` and `[[message]]`."""
+
+    code: Annotated[str, StringConstraints(pattern=r"^[A-Z0-9-]+$")]
+    when: str
+    text: TextKey | None = None
+    cause: TextKey | None = None
+    remedy: TextKey | None = None
+
+
+class BuilderTable(_Table):
+    """A file that `rules` names: what a builder has made of the control."""
+
+    magazine: MagazineTable | None = None
+    m_function: dict[Number, MFunctionTable] | None = None
+    g_function: dict[GNumber, GFunctionTable] | None = None
+    rule: list[RuleTable] | None = None
+    alarm: list[AlarmTable] | None = None
+    message: list[AlarmTable] | None = None
+
+
+class MachineTable(BuilderTable):
     """A whole file."""
 
     base: str | None = None
+    rules: str | None = None
     name: TextKey | None = None
     description: TextKey | None = None
     interpolation_cycle_s: Positive | None = None
     settle_fine_s: NotNegative | None = None
     settle_coarse_s: NotNegative | None = None
+    block_time_s: NotNegative | None = None
     defaults: Defaults | None = None
     channel: dict[Number, ChannelTable] | None = None
     axis: dict[Name, AxisTable] | None = None
     spindle: dict[Number, SpindleTable] | None = None
-    magazine: MagazineTable | None = None
-    m_function: dict[Number, MFunctionTable] | None = None
     joint: list[JointTable] | None = None
     solid: list[SolidTable] | None = None
-    rule: list[RuleTable] | None = None
 
 
 #: Message of each kind of mistake, by the start of the name that pydantic gives it; the first fit counts.
@@ -199,10 +245,10 @@ _SHOWN = 40
 Mistake = tuple[tuple["Key", ...], str, dict[str, object]]
 
 
-def mistakes(data: dict[str, Any]) -> Iterator[Mistake]:
+def mistakes(data: dict[str, Any], table: type[BaseModel] = MachineTable) -> Iterator[Mistake]:
     """What is wrong with the keys of one file: key path, message id and arguments."""
     try:
-        MachineTable.model_validate(data)
+        table.model_validate(data)
     except ValidationError as error:
         for found in error.errors(include_url=False):
             yield _mistake(found)
@@ -234,9 +280,12 @@ def field_names() -> dict[str, set[str]]:
         "spindle": SpindleTable,
         "magazine": MagazineTable,
         "m_function": MFunctionTable,
+        "g_function": GFunctionTable,
         "joint": JointTable,
         "solid": SolidTable,
         "rule": RuleTable,
+        "alarm": AlarmTable,
+        "message": AlarmTable,
     }
     return {name: set(table.model_fields) for name, table in tables.items()}
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Literal, NotRequired, TypeAlias, TypedDict
 
-from polycnc.machine.model import Carries, Timing
+from polycnc.machine.model import Act, Carries, Timing
 from polycnc.machine.rules import Latch
 
 AxisKind = Literal["linear", "rotary"]
@@ -84,7 +84,8 @@ class MagazineData(TypedDict, total=False):
     kind: Literal["magazine", "turret"]
     places: int
     change_time_s: float
-    change_at: dict[str, list[int]]
+    change_at: dict[str, list[int]] | Literal["anywhere"]
+    retracts: bool
 
 
 class MFunctionData(TypedDict, total=False):
@@ -93,6 +94,18 @@ class MFunctionData(TypedDict, total=False):
     name: TextData
     seconds: float
     timing: Timing
+    takes: list[str]
+    calls: str
+    does: Act
+
+
+class GFunctionData(TypedDict, total=False):
+    """`[g_function.CODE]`."""
+
+    name: TextData
+    seconds: float
+    takes: list[str]
+    calls: str
 
 
 class JointData(TypedDict):
@@ -125,21 +138,41 @@ class RuleData(TypedDict):
     latch: NotRequired[Latch]
 
 
-class MachineData(TypedDict, total=False):
+class AlarmData(TypedDict):
+    """`[[alarm]]` and `[[message]]`."""
+
+    code: str
+    when: str
+    text: NotRequired[TextData]
+    cause: NotRequired[TextData]
+    remedy: NotRequired[TextData]
+
+
+class BuilderData(TypedDict, total=False):
+    """A file that `rules` names."""
+
+    magazine: MagazineData
+    m_function: dict[str, MFunctionData]
+    g_function: dict[str, GFunctionData]
+    rule: list[RuleData]
+    alarm: list[AlarmData]
+    message: list[AlarmData]
+
+
+class MachineData(BuilderData, total=False):
     """A whole file."""
 
     base: str
+    rules: str
     name: TextData
     description: TextData
     interpolation_cycle_s: float
     settle_fine_s: float
     settle_coarse_s: float
+    block_time_s: float
     defaults: DefaultsData
     channel: dict[str, ChannelData]
     axis: dict[str, AxisData]
     spindle: dict[str, SpindleData]
-    magazine: MagazineData
-    m_function: dict[str, MFunctionData]
     joint: list[JointData]
     solid: list[SolidData]
-    rule: list[RuleData]

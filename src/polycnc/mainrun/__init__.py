@@ -10,6 +10,7 @@
     signals/       the machine's own controller
     reading/       what is read
     control        `VirtualControl`, made of all these
+    continuation   a calculation that goes on in time
     status         mode, state, alarms, and the trace
     equipment      control, machine, setup
     errors         refusals

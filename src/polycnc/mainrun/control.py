@@ -19,13 +19,15 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from polycnc.channel.states.snapshot import Snapshot as Checkpoint
-from polycnc.control.alarm_text import alarm_text
+from polycnc.control.alarm_text import catalogue_of
+from polycnc.mainrun.commands.data import DataCommands
 from polycnc.mainrun.commands.hand import HandCommands
 from polycnc.mainrun.commands.permission import Permission
 from polycnc.mainrun.commands.program_keys import ProgramCommands
 from polycnc.mainrun.commands.programs import Programs
+from polycnc.mainrun.commands.settings import Switches
 from polycnc.mainrun.commands.states import Command, Mode, State, is_allowed
-from polycnc.mainrun.commands.switches import SwitchCommands, Switches
+from polycnc.mainrun.commands.switches import SwitchCommands
 from polycnc.mainrun.equipment import equipment
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.execution.clock import Clock
@@ -35,7 +37,8 @@ from polycnc.mainrun.reading.readings import Readings
 from polycnc.mainrun.signals.image import SignalImage
 from polycnc.mainrun.signals.interlocks import Interlocks
 from polycnc.mainrun.status import Status
-from polycnc.messages.catalogue import listed
+from polycnc.memory.retained import ALARM_HISTORY, PROGRAMS, opened
+from polycnc.messages.catalogue import language, listed
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -43,8 +46,10 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.interface import Control
+    from polycnc.control.parameters import KnownParameter
     from polycnc.machine.model import Machine
     from polycnc.machine.setup.values import Setup
+    from polycnc.mainrun.commands.data import ProgramEntry
     from polycnc.mainrun.reading.snapshot import (
         ActiveBlock,
         ChannelSnapshot,
@@ -55,6 +60,7 @@ if TYPE_CHECKING:
         SpindleState,
         ToolState,
     )
+    from polycnc.memory.retained import RetainedStore
     from polycnc.messages import Alarm
 
 _Name = TypeVar("_Name", bound=StrEnum)
@@ -69,15 +75,20 @@ class VirtualControl:
         setup: Offsets, tools, parameters, inputs: what a case writes under `setup`, or a file with that.
         search: Folders in which calls look for subprograms.
         files: Further programs as texts, by name.
+        retained: What outlives the power: offsets, variables, parameters, edited programs, alarms. Where it holds
+            something already, the setup does not count. The path of a memory file, a store, or None for one that
+            lasts as long as the object.
 
     Attributes:
         control: The control.
         machine: Its machine.
+        catalogue: The texts of all alarms and messages of both.
         signals: The signal image; inputs can be set.
 
     Raises:
         CommandRefused: There is no such control.
         FileError: The machine or the setup is wrong.
+        MemoryFileError: The memory file cannot be used.
     """
 
     def __init__(
@@ -88,22 +99,27 @@ class VirtualControl:
         setup: Mapping[str, Any] | str | Path | Setup | None = None,
         search: Sequence[str | Path] = (),
         files: Mapping[str, str] | None = None,
+        retained: RetainedStore | str | Path | None = None,
     ) -> None:
         self.control, self.machine, start = equipment(control, machine, setup)
         given = start.switches.signals.items()
         signals = {name: float(value) for name, value in given if isinstance(value, int | float)}
         signals.setdefault(MANUAL_ABSOLUTE, 1.0)
-        plc, clock = self.control.plc, Clock(self.machine.interpolation_cycle_s)
-        self.signals = SignalImage(signals, (*plc.rules, *self.machine.rules), clock)
+        plc, clock = self.machine.plc(self.control.id), Clock(self.machine.interpolation_cycle_s)
+        self.catalogue = catalogue_of(self.control, self.machine)
+        self.signals = SignalImage(signals, plc.rules, clock)
         interlocks = Interlocks(plc, self.signals)
-        self._status = Status(self.control.id, clock, self.signals)
-        self._programs = Programs(self.control.form, search, files or {})
+        retained = self._retained = opened(retained, self.control.id, self.machine.id)
+        self._status = Status(self.control.id, clock, self.signals, retained.table(ALARM_HISTORY))
+        edited = retained.table(PROGRAMS)
+        self._programs = Programs(self.control.form, search, files or {}, edited)
         self._operation = operation = Operation(
             self.control, self.machine, start, self._programs, clock, Switches(start.switches), self.signals,
-            interlocks, self._status,
+            interlocks, self._status, retained,
         )  # fmt: skip
-        permission = Permission(self.control, self._status, interlocks)
+        permission = Permission(self.catalogue, self._status, interlocks)
         self._commands = commands = ProgramCommands(operation, self._programs, permission)
+        self._data = DataCommands(operation, self._programs, commands, permission, retained)
         self._hand = HandCommands(operation, permission)
         self._switches = SwitchCommands(operation, permission)
         self._loop = MainLoop(operation, clock)
@@ -118,26 +134,28 @@ class VirtualControl:
 
     # ---- programs ------------------------------------------------------------------------------------------
 
-    def load(self, source: str | bytes | Path) -> None:
-        """Load a program: a file, or the text itself (`bytes`, or a `str` with line ends).
+    def load(self, source: str | bytes | Path, *, channel: int = 1) -> None:
+        """Load a program into a channel: a file, or the text itself (`bytes`, or a `str` with line ends).
+
+        What is loaded in other channels stays. Cycle start starts every channel in which a program is loaded.
 
         Raises:
             CommandRefused: A program runs.
             ProgramFileError: The file cannot be read.
         """
-        self._commands.load(source)
+        self._commands.load(source, channel)
 
-    def load_tape(self, source: str | bytes | Path) -> None:
+    def load_tape(self, source: str | bytes | Path, *, channel: int = 1) -> None:
         """Give the program that comes from outside in mode `tape`: tape, DNC, memory card. Sources as for `load`.
 
         Raises:
             CommandRefused: A program runs.
             ProgramFileError: The file cannot be read.
         """
-        self._commands.load_tape(source)
+        self._commands.load_tape(source, channel)
 
-    def mdi(self, text: str) -> None:
-        """Type blocks in and start them; allowed in MDI mode. What they change stays.
+    def mdi(self, text: str, *, channel: int = 1) -> None:
+        """Type blocks in for a channel and start them; allowed in MDI mode. What they change stays.
 
         While a program waits at a stop or in single block, they are run in its midst (MDI intervention; not on
         SINUMERIK and SYNTEC): it goes on behind them, from where the axes then are, with the codes that then hold.
@@ -146,22 +164,23 @@ class VirtualControl:
             CommandRefused: Out of place; or blocks of a waiting program are prepared already, or read ahead for
                 compensation.
         """
-        self._commands.mdi(text)
+        self._commands.mdi(text, channel)
 
-    def teach(self, words: str = "", *, line: int | None = None) -> str:
-        """Write a block with the present position into the loaded program; allowed in teach-in.
+    def teach(self, words: str = "", *, line: int | None = None, channel: int = 1) -> str:
+        """Write a block with the present position into the program loaded in a channel; allowed in teach-in.
 
         Args:
             words: What stands in front of the position (`G1`).
             line: Line of the file behind which the block goes; behind the one taught last, or the last line.
+            channel: The channel.
 
         Returns:
             The block.
         """
-        return self._commands.teach(words, line)
+        return self._commands.teach(words, line, channel)
 
-    def block_search(self, target: int | str) -> None:
-        """Search a block with calculation: a line of the main program, or a block number such as `N50`.
+    def block_search(self, target: int | str, *, channel: int = 1) -> None:
+        """Search a block with calculation: a line of a channel's main program, or a block number such as `N50`.
 
         Everything before it is calculated without motion. Cycle start puts out the auxiliary functions that hold there,
         leads the axes to where the block begins, and goes on with it.
@@ -169,7 +188,80 @@ class VirtualControl:
         Raises:
             CommandRefused: The program ends before it.
         """
-        self._commands.block_search(target)
+        self._commands.block_search(target, channel)
+
+    # ---- data ----------------------------------------------------------------------------------------------
+
+    def write_variable(self, name: str, value: object, *, channel: int = 1) -> None:
+        """Give a variable, an offset or a datum another value, by its name in programs; it lasts from here on.
+
+        Raises:
+            CommandRefused: There is no such variable, it takes no such value, or edit protection is on.
+        """
+        self._data.write_variable(name, value, channel)
+
+    def change(self, action: Callable[[Channel], object], *, channel: int = 1) -> None:
+        """Change data by a function of the control's, such as those of its offset screens; it lasts from here on.
+
+        Raises:
+            CommandRefused: Edit protection is on.
+            UserError: The function refuses it.
+        """
+        self._data.change(action, channel)
+
+    @property
+    def parameters(self) -> tuple[KnownParameter, ...]:
+        """The parameters that the control knows, in the order of their numbers."""
+        return self._data.parameters
+
+    def read_parameter(self, number: str) -> object:
+        """The value of a parameter by its number (`3401#0`) or identifier; None where only the machine knows it."""
+        return self._data.read_parameter(number)
+
+    def write_parameter(self, number: str, value: float) -> None:
+        """Give a parameter another value; it lasts from here on.
+
+        Raises:
+            CommandRefused: The control knows no such parameter, a program runs, or edit protection is on.
+        """
+        self._data.write_parameter(number, value)
+
+    @property
+    def programs(self) -> tuple[ProgramEntry, ...]:
+        """Every program that is loaded or in the memory."""
+        return self._data.entries()
+
+    def program_lines(self, name: str) -> Sequence[str]:
+        """The lines of a program, by its name or number.
+
+        Raises:
+            CommandRefused: There is none.
+        """
+        return self._data.lines(name)
+
+    def first_line(self, name: str) -> int:
+        """The line of its file at which a program begins; raises as `program_lines` does."""
+        return self._data.first_line(name)
+
+    def store_program(self, name: str, text: str) -> None:
+        """Write a program into the memory, in the place of one with its name; its own heading names it first.
+
+        Raises:
+            CommandRefused: It is under way, or edit protection is on.
+        """
+        self._data.store(name, text)
+
+    def delete_program(self, name: str) -> None:
+        """Take a program out of the memory; refused as `store_program` is."""
+        self._data.delete(name)
+
+    def select_program(self, name: str, *, channel: int = 1) -> None:
+        """Load a program of the memory as the main program of a channel.
+
+        Raises:
+            CommandRefused: There is none, or a program runs.
+        """
+        self._data.select(name, channel)
 
     # ---- running -------------------------------------------------------------------------------------------
 
@@ -200,6 +292,11 @@ class VirtualControl:
     def power_on(self) -> None:
         """Switch on again: as after reset; machines without absolute encoders have to return to their references."""
         self._commands.power_on()
+
+    def close(self) -> None:
+        """Write down what is to last and let a memory file go; the control is not used any more."""
+        self._retained.commit()
+        self._retained.close()
 
     def key(self, name: str, *, pressed: bool = True) -> None:
         """Press a key of the machine panel by its name in the machine's rules (`B3`, `D1`), or let it go.
@@ -303,12 +400,21 @@ class VirtualControl:
     @property
     def alarms(self) -> tuple[Alarm, ...]:
         """Alarms that wait for reset."""
-        return self._status.alarms
+        return tuple(alarm.told_by(self.catalogue) for alarm in self._status.alarms)
+
+    @property
+    def alarm_history(self) -> tuple[Alarm, ...]:
+        """The alarms of the past, the latest first; reset and power-off leave them."""
+        return tuple(alarm.told_by(self.catalogue) for alarm in self._status.alarm_history)
+
+    def clear_alarm_history(self) -> None:
+        """The alarm history begins anew."""
+        self._status.clear_history()
 
     @property
     def parts(self) -> int:
-        """How often a program has come to its end."""
-        return self._status.parts
+        """How often a program of the first channel has come to its end; `channels` says it of each."""
+        return self._operation.runs.first.parts
 
     @property
     def listeners(self) -> list[Callable[[Record], object]]:
@@ -355,7 +461,7 @@ class VirtualControl:
 
     @property
     def program(self) -> str:
-        """Name of the loaded program; empty for none."""
+        """Name of the program loaded in the first channel; empty for none."""
         return self._readings.program
 
     @property
@@ -390,22 +496,22 @@ class VirtualControl:
 
     @property
     def notices(self) -> tuple[str, ...]:
-        """Numbers of the messages from the machine's controller; their texts are in the control's catalogue."""
+        """Numbers of the messages from the machine's controller; their texts are in `catalogue`."""
         return self._operation.interlocks.messages
 
-    def read_variable(self, name: str) -> object:
-        """A variable of the control as programs name it; None where it is vacant.
+    def read_variable(self, name: str, *, channel: int = 1) -> object:
+        """A variable of a channel as programs name it; None where it is vacant.
 
         What programs have computed may be ahead of the axes; actual positions are those of the axes.
 
         Raises:
             KeyError: There is no such variable.
         """
-        return self._operation.runs.first.read_variable(name)
+        return self._operation.runs.named(channel).read_variable(name)
 
     def alarm_text(self, alarm: Alarm, lang: str | None = None) -> str:
-        """The control's own text of an alarm, with the hint on this very case if there is one."""
-        return alarm_text(self.control, alarm, lang)
+        """The text of an alarm, with the hint on this very case if there is one."""
+        return alarm.told_by(self.catalogue).text_in(lang or language())
 
     @property
     def snapshot(self) -> Snapshot:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.control import registry
 from polycnc.machine import load_machine, load_setup, parse_setup
 from polycnc.machine.model import Machine
+from polycnc.machine.setup.file import check_bits
 from polycnc.machine.setup.values import Setup
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.messages.catalogue import listed
@@ -35,6 +36,7 @@ def equipment(
         start = parse_setup(setup)
     else:
         start = load_setup(setup)
+    check_bits(start, chosen.id, chosen.last_bit, setup if isinstance(setup, str | Path) else "")
     if start.tool_name and not chosen.tools_have_names:
         raise CommandRefused("session.tool-name", tool=start.tool_name, control=chosen.id)
     if isinstance(machine, Machine):

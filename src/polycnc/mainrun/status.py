@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 #: States in which nothing is done before the emergency stop is pulled out, or the power is on.
 LOCKED_STATES = frozenset((State.EMERGENCY, State.OFF))
+#: Alarms that the history keeps.
+LONGEST_HISTORY = 100
 
 
 class Status:
@@ -26,26 +28,28 @@ class Status:
         control_id: The control.
         clock: The time.
         signals: The signal image.
+        history: The alarms of the past by a running number, retained.
 
     Attributes:
         mode: What the mode switch says.
         state: What the control is doing.
         alarms: Alarms that wait for reset.
-        parts: How often a program has come to its end.
         listeners: Called with each `Record`, in order.
     """
 
     #: A snapshot does not go on to these: they are outside of the control.
     UNFOLLOWED: ClassVar = frozenset({"listeners"})
 
-    def __init__(self, control_id: str, clock: Clock, signals: SignalImage) -> None:
+    def __init__(
+        self, control_id: str, clock: Clock, signals: SignalImage, history: dict[int, Alarm]
+    ) -> None:
         self.mode, self.state = Mode.AUTO, State.READY
         self.alarms: tuple[Alarm, ...] = ()
-        self.parts = 0
         self.listeners: list[Callable[[Record], object]] = []
         self._control_id = control_id
         self._clock = clock
         self._signals = signals
+        self._history = history
 
     @property
     def is_locked(self) -> bool:
@@ -73,16 +77,30 @@ class Status:
 
     def fail(self, error: AlarmError) -> None:
         """An alarm at power-on."""
-        self.alarms = (
-            Alarm(
-                self._control_id,
-                error.code,
-                args=dict(error.args_by_name),
-                hint=error.hint,
-                detail=error.detail,
-            ),
+        args = dict(error.args_by_name)
+        self.show_alarms(
+            (Alarm(self._control_id, error.code, args=args, hint=error.hint, detail=error.detail),)
         )
         self.state = State.ALARM
+
+    def show_alarms(self, alarms: tuple[Alarm, ...]) -> None:
+        """These wait for reset from now on; new ones go into the history, of which the oldest are forgotten."""
+        history = self._history
+        for alarm in alarms:
+            if alarm not in self.alarms:
+                history[max(history, default=0) + 1] = alarm
+        while len(history) > LONGEST_HISTORY:
+            del history[min(history)]
+        self.alarms = alarms
+
+    @property
+    def alarm_history(self) -> tuple[Alarm, ...]:
+        """The alarms of the past, the latest first."""
+        return tuple(self._history[number] for number in sorted(self._history, reverse=True))
+
+    def clear_history(self) -> None:
+        """The alarms of the past are forgotten."""
+        self._history.clear()
 
     def pulse(self, signal: str) -> None:
         """Something happens that has no length in time; the rules answer."""

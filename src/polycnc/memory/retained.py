@@ -7,8 +7,10 @@ empty when it first asks for it, from its setup.
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from pathlib import Path
+from typing import Any, Protocol, TypeVar
 
+_T = TypeVar("_T")
 #: Names of tables. Keys and values are the control's own; lengths are millimetres, angles degrees.
 WORK_OFFSETS = "work offsets"
 TOOL_OFFSETS = "tool offsets"
@@ -17,6 +19,11 @@ VARIABLE_NAMES = "variable names"
 WORK_SHIFT = "work shift"
 REGISTERS = "registers"
 PARAMETERS = "parameters"
+TOOLS = "tools"
+TOOL_CARRIERS = "tool carriers"
+USER_VARIABLES = "user variables"
+ALARM_HISTORY = "alarm history"
+PROGRAMS = "programs"
 
 
 class RetainedStore(Protocol):
@@ -27,6 +34,17 @@ class RetainedStore(Protocol):
 
     def commit(self) -> None:
         """What the tables hold now lasts from here on."""
+
+    def close(self) -> None:
+        """Nobody uses the store any more; what was not committed is lost."""
+
+
+def filled(table: dict[str, list[_T]], name: str, delivered: list[_T]) -> list[_T]:
+    """A list in a table, as long as the delivered one, which fills it where it is shorter."""
+    kept = table.setdefault(name, delivered)
+    if len(kept) != len(delivered):
+        kept[:] = [*kept, *delivered[len(kept) :]][: len(delivered)]
+    return kept
 
 
 class InMemoryStore:
@@ -41,3 +59,21 @@ class InMemoryStore:
 
     def commit(self) -> None:
         """Nothing is written anywhere."""
+
+    def close(self) -> None:
+        """Nothing is to be let go."""
+
+
+def opened(memory: RetainedStore | str | Path | None, control: str, machine: str) -> RetainedStore:
+    """The memory of a control: a file (made where there is none), a store, or a new one in memory.
+
+    Raises:
+        MemoryFileError: The file cannot be used.
+    """
+    if memory is None:
+        return InMemoryStore()
+    if isinstance(memory, str | Path):
+        from polycnc.memory.file import FileStore
+
+        return FileStore(memory, control, machine)
+    return memory

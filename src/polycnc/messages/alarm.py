@@ -6,11 +6,15 @@ place at the block boundary and keeps the resulting `Alarm`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Literal
+
+from polycnc.messages.catalogue import language, text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    from polycnc.messages.catalogue import Catalogue
 
 
 class AlarmError(Exception):
@@ -68,6 +72,7 @@ class Alarm:
         file: Path of the program's file; empty where it came as a text.
         call_chain: Programs that have called this one, from outside in, and the lines where they did.
         channel: Number of the channel that raises it; 0 where the control or the machine does.
+        catalogue: Where its texts stand; None as long as nobody reads it.
     """
 
     control: str
@@ -82,3 +87,42 @@ class Alarm:
     file: str = ""
     call_chain: tuple[tuple[str, int], ...] = ()
     channel: int = 0
+    catalogue: Catalogue | None = field(default=None, compare=False, repr=False)
+
+    def told_by(self, catalogue: Catalogue) -> Alarm:
+        """The same alarm with its texts."""
+        return self if self.catalogue is catalogue else replace(self, catalogue=catalogue)
+
+    @property
+    def text(self) -> str:
+        """What it says, in the active language."""
+        return self.text_in(language())
+
+    @property
+    def cause(self) -> str:
+        """Why it comes, in the active language; empty where the catalogue does not tell."""
+        return self.note_in("cause", language())
+
+    @property
+    def remedy(self) -> str:
+        """What to do about it, in the active language; empty where the catalogue does not tell."""
+        return self.note_in("remedy", language())
+
+    def text_in(self, lang: str) -> str:
+        """What it says in a language, with the hint on this very case if there is one."""
+        known = self.catalogue is not None and self.code in self.catalogue
+        told = self.detail or (
+            self.catalogue.text(self.code, lang, **self.args) if known and self.catalogue else ""
+        )
+        hint = text(self.hint, lang, **self.args) if self.hint else ""
+        return (": " if lang == "en" else "：").join(filter(None, (told, hint)))
+
+    def note_in(self, kind: Literal["cause", "remedy"], lang: str) -> str:
+        """Cause or remedy in a language."""
+        if self.catalogue is None or self.code not in self.catalogue:
+            return ""
+        return self.catalogue.note(self.code, kind, lang, self.args)
+
+    def __str__(self) -> str:
+        place = ":".join(str(part) for part in (self.file or self.program, self.line, self.column) if part)
+        return f"{place}: {self.code} {self.text}".removeprefix(": ").rstrip()

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import os
+import re
 import tomllib
 from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Mapping
     from importlib.resources.abc import Traversable
 
 LANGUAGES = ("en", "zh-TW")
 _active = "en"
+#: The texts of files that have been read, by their names.
+_READ: dict[str, Mapping[str, dict[str, str]]] = {}
 
 
 def language() -> str:
@@ -40,17 +43,26 @@ class Catalogue:
 
     Args:
         sources: TOML files; of an id in several of them the last one counts.
+        entries: Texts that lie over those of the files.
     """
 
-    def __init__(self, *sources: Traversable) -> None:
+    def __init__(self, *sources: Traversable, entries: Mapping[str, dict[str, str]] | None = None) -> None:
         self._sources = sources
+        self._over = entries or {}
         self._entries: dict[str, dict[str, str]] | None = None
+
+    def extended(
+        self, *sources: Traversable, entries: Mapping[str, dict[str, str]] | None = None
+    ) -> Catalogue:
+        """This catalogue with further texts laid over it."""
+        return Catalogue(*self._sources, *sources, entries={**self._over, **(entries or {})})
 
     def _load(self) -> dict[str, dict[str, str]]:
         if self._entries is None:
             self._entries = {}
             for source in self._sources:
-                self._entries |= tomllib.loads(source.read_text(encoding="utf-8"))
+                self._entries |= _texts(source)
+            self._entries |= self._over
         return self._entries
 
     def __contains__(self, key: str) -> bool:
@@ -63,14 +75,28 @@ class Catalogue:
         """All fields of one text: `en`, `zh-TW` and, for alarms, `cause`/`remedy` in both languages."""
         return self._load()[key]
 
-    def note(self, key: str, kind: Literal["cause", "remedy"], lang: str | None = None) -> str:
+    def note(
+        self,
+        key: str,
+        kind: Literal["cause", "remedy"],
+        lang: str | None = None,
+        args: Mapping[str, object] | None = None,
+    ) -> str:
         """Why an alarm comes, or what to do about it; empty where the catalogue does not tell."""
         lang = lang or _active
-        return self._load()[key].get(kind if lang == "en" else f"{kind}-{lang}", "")
+        return fill(self._load()[key].get(kind if lang == "en" else f"{kind}-{lang}", ""), args or {})
 
     def text(self, key: str, lang: str | None = None, **args: object) -> str:
-        """The text of `key` with its placeholders filled; a placeholder without a value is shown as it stands."""
+        """The text of `key` with its placeholders filled; `…` stands for a value that is not given."""
         return fill(self._load()[key][lang or _active], args)
+
+
+def _texts(source: Traversable) -> Mapping[str, dict[str, str]]:
+    """The texts of a file of polycnc, read once."""
+    name = str(source)
+    if name not in _READ:
+        _READ[name] = tomllib.loads(source.read_text(encoding="utf-8"))
+    return _READ[name]
 
 
 def listed(words: Iterable[str]) -> str:
@@ -78,14 +104,30 @@ def listed(words: Iterable[str]) -> str:
     return (", " if _active == "en" else "、").join(words)
 
 
-class _KeepMissing(dict[str, object]):
+#: `<at {text}|here>`: the first form where its values are given, the second where one is missing or empty.
+_CHOICE = re.compile(r"<([^<>|]*\{[^<>|]*)\|([^<>|]*)>")
+_PLACEHOLDER = re.compile(r"\{(\w+)")
+
+
+class _Missing(dict[str, object]):
     def __missing__(self, key: str) -> str:
-        return "{" + key + "}"
+        return "…"
 
 
-def fill(template: str, args: dict[str, object]) -> str:
-    """Fill the `{name}` placeholders of a text."""
-    return template.format_map(_KeepMissing(args))
+def fill(template: str, args: Mapping[str, object]) -> str:
+    """Fill the `{name}` placeholders of a text, and choose the form of `<with {name}|without>`."""
+
+    def chosen(found: re.Match[str]) -> str:
+        return (
+            found[1] if all(args.get(name) not in {None, ""} for name in placeholders(found[1])) else found[2]
+        )
+
+    return _CHOICE.sub(chosen, template).format_map(_Missing(args))
+
+
+def placeholders(template: str, *, needed: bool = False) -> set[str]:
+    """The names of values that a text can show; only those that it cannot do without where `needed`."""
+    return set(_PLACEHOLDER.findall(_CHOICE.sub("", template) if needed else template))
 
 
 @cache

@@ -1,4 +1,4 @@
-"""What polycnc answers when it cannot do what it was asked for: a text id with its values, told in any language."""
+"""What polycnc answers when it cannot do what it was asked for, and where a mistake of its own has come up."""
 
 from __future__ import annotations
 
@@ -30,3 +30,13 @@ class UserError(Exception):
 
     def __str__(self) -> str:
         return self.text()
+
+
+def place_of_failure(error: BaseException) -> str:
+    """The line of polycnc, or of a library, at which a mistake came up: `channel/run.py:41`; empty if unknown."""
+    trace = error.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    if trace is None:
+        return ""
+    return f"{trace.tb_frame.f_code.co_filename.rpartition('polycnc/')[2]}:{trace.tb_lineno}"

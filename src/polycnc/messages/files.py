@@ -5,22 +5,55 @@ from __future__ import annotations
 import errno
 import os
 import stat
+from io import StringIO
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from polycnc.messages.catalogue import messages
+from polycnc.messages.errors import UserError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+
+def read_regular(path: str | Path, most: int = -1) -> bytes:
+    """The bytes of a regular file: a pipe, a socket or a device need not have an end, and may keep whoever reads it.
+
+    Args:
+        path: Of the file.
+        most: So many bytes are read at most; -1 all.
+
+    Raises:
+        OSError: It cannot be read, or is no regular file.
+        ValueError: A name that no file system takes.
+    """
+    mode = os.stat(path).st_mode  # noqa: PTH116 - Path(path) hides what the user typed
+    if stat.S_ISDIR(mode):
+        raise _error(errno.EISDIR, path)
+    if not stat.S_ISREG(mode):
+        raise _error(errno.ENODEV, path)
+    # What the system shows as a file (/proc) may wait for something all the same.
+    handle = os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0))
+    with os.fdopen(handle, "rb") as file:
+        data: bytes | None = file.read(most)
+    if data is None:
+        raise _error(errno.EAGAIN, path)
+    return data
+
+
+def _error(number: int, path: str | Path) -> OSError:
+    return OSError(number, os.strerror(number), str(path))
 
 
 def read_utf_8(path: str | Path) -> str:
-    """The text of a file, with or without a byte order mark.
+    """The text of a regular file, with or without a byte order mark; every end of line is a line feed.
 
     Raises:
-        OSError: It cannot be read, or is a device, which need not have an end.
+        OSError: It cannot be read, or is no regular file.
         UnicodeError: It is not UTF-8.
+        ValueError: A name that no file system takes.
     """
-    mode = Path(path).stat().st_mode
-    if not (stat.S_ISREG(mode) or stat.S_ISFIFO(mode) or stat.S_ISDIR(mode)):
-        raise OSError(errno.ENODEV, os.strerror(errno.ENODEV), str(path))
-    return Path(path).read_text(encoding="utf-8-sig")
+    return StringIO(read_regular(path).decode("utf-8-sig"), newline=None).read()
 
 
 def reason_of(error: Exception) -> str:
@@ -33,3 +66,27 @@ def reason_of(error: Exception) -> str:
         return messages().text("reason.not-utf-8")
     key = f"reason.{errno.errorcode.get(error.errno or 0, '')}" if isinstance(error, OSError) else ""
     return messages().text(key) if key in messages() else getattr(error, "strerror", None) or str(error)
+
+
+class OutputError(UserError):
+    """A file that must not be written."""
+
+
+def refuse_inputs(outputs: Iterable[Path | None], inputs: Iterable[str | Path | None]) -> None:
+    """Raise `OutputError` where an output would be written in the place of an input.
+
+    Args:
+        outputs: Files to be written; None for those that nobody asked for.
+        inputs: Files that are read; what is no file (standard input, the id of a machine) is passed over.
+    """
+    read = [Path(each) for each in inputs if each is not None]
+    for output in outputs:
+        if output is not None and any(_is_same(output, each) for each in read):
+            raise OutputError("output.is-input", file=output)
+
+
+def _is_same(one: Path, other: Path) -> bool:
+    try:
+        return one.samefile(other)
+    except (OSError, ValueError):  # one of them is not there, or no file system takes its name
+        return False

@@ -5,12 +5,14 @@ same chunk by chunk while the toolpath grows.
 
     columns     limits (machine and settings as the kernels read them), pace (what a program says beside F), settings
     the path    row_path, frames, transformed (the real axes under a transformation), pole (through that of G12.1)
-    planning    planner over `kernels/`, compiled or as they are (`compiled`), waits (tool changes, dwells), plan
-    averaging   limited jerk: from the motion of the interpolator to that of the axes
+    planning    planner over `kernels/`, compiled or as they are (`compiled`), waits (tool changes, dwells), plan, times
+    time        explain (which limit held, for how long)
+    motion      law (phases of constant acceleration over time), averaging (limited jerk: from there to the axes)
     sampling/   where the axes are at even times
 """
 
-from polycnc.motion.plan import Plan, Times, ToolTimes, plan
+from polycnc.motion.plan import plan
 from polycnc.motion.settings import Settings
+from polycnc.motion.times import Plan, Times, ToolTimes
 
 __all__ = ["Plan", "Settings", "Times", "ToolTimes", "plan"]

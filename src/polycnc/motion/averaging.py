@@ -1,30 +1,38 @@
 """Limited jerk by averages: from the motion of the interpolator to that of the axes.
 
-The interpolator runs in phases of constant acceleration, so that the way is piecewise quadratic in time and the area
-below it piecewise cubic: the average of the way over a window is the difference of two areas. The positions that this
-average leads to are averaged twice more, which is once under a tent; the second derivative of that is a plain second
-difference of positions (`kernels/jerk.py` says what the averages are for and how long they are).
+The way of the interpolator is averaged over a window (`law.py`). The positions that this average leads to are averaged
+twice more, which is once under a tent; the second derivative of that is a plain second difference of positions
+(`kernels/jerk.py` says what the averages are for and how long they are).
 
-Every function takes numbers as well as arrays: the main run follows moment by moment, sampling asks for many at once.
+Between the edges, where a phase or a piece of the path begins, positions are polynomials in time, whose average under
+the tent Gauss' rule gives exactly: so positions are the integral of the velocity, and that of the acceleration. What
+takes a number also takes an array: the main run follows moment by moment, sampling asks for many at once.
 """
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
     import numpy as np
     from numpy.typing import NDArray
 
 #: A number, or one for each of many times.
 Value = TypeVar("Value", float, "NDArray[np.float64]")
 
-#: Parts of each half of the tent; even.
-PARTS = 8
-#: Weights of positions at 2·PARTS + 1 times, one part apart, in the average under the tent.
-TENT = tuple((PARTS - abs(k)) / PARTS**2 for k in range(-PARTS, PARTS + 1))
-#: Weights of PARTS + 1 of them in the average over half of the window, by Simpson's rule.
-HALF = tuple((1.0 if k in (0, PARTS) else 4.0 if k % 2 else 2.0) / (3.0 * PARTS) for k in range(PARTS + 1))
+#: Places (-1 to 1) and weights of Gauss' rule with six places, exact up to degree 11: the way is cubic in time, a curve
+#: cubic in the way, and the tent linear.
+GAUSS = (
+    (-0.932469514203152, 0.171324492379170),
+    (-0.661209386466265, 0.360761573048139),
+    (-0.238619186083197, 0.467913934572691),
+    (0.238619186083197, 0.467913934572691),
+    (0.661209386466265, 0.360761573048139),
+    (0.932469514203152, 0.171324492379170),
+)
 
 
 def way_after(seconds: Value, speed: Value, pull: Value) -> Value:
@@ -45,3 +53,58 @@ def average(before: Value, after: Value, window: float) -> Value:
 def tent_acceleration(first: Value, middle: Value, last: Value, blend: float) -> Value:
     """Second derivative of an average under a tent of half width `blend`, by the positions at its corners."""
     return (first - 2.0 * middle + last) / (blend * blend)
+
+
+def under_tent(
+    place: Callable[[float], Sequence[float]], middle: float, blend: float, edges: Iterable[float]
+) -> list[float]:
+    """The average of places under a tent of half width `blend` around a time; `edges` are those within it."""
+    total: list[float] = []
+    marks = sorted({middle - blend, middle, middle + blend, *edges})
+    for first, last in pairwise(marks):
+        half, centre = 0.5 * (last - first), 0.5 * (first + last)
+        for knot, weight in GAUSS:
+            time = centre + half * knot
+            share = half * weight * (blend - abs(time - middle)) / (blend * blend)
+            here = place(time)
+            total = [a + share * b for a, b in zip(total or [0.0] * len(here), here, strict=True)]
+    return total
+
+
+def under_tents(
+    place: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    middle: NDArray[np.float64],
+    blend: float,
+    edges: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The same around many times, (k, n), and its derivative; `edges` are all of the motion, in order."""
+    import numpy as np
+
+    low = np.searchsorted(edges, middle - blend, "right")
+    count = np.maximum(np.searchsorted(edges, middle + blend, "left") - low, 0)
+    own = np.arange(len(middle))
+    inside = np.repeat(own, count)
+    step = np.arange(len(inside)) - np.repeat(np.cumsum(count) - count, count)
+    mark = np.concatenate([middle - blend, middle, middle + blend, edges[low[inside] + step]])
+    owner = np.concatenate([own, own, own, inside])
+    order = np.lexsort((mark, owner))
+    mark, owner = mark[order], owner[order]
+    within = np.flatnonzero(owner[1:] == owner[:-1])
+    owner, half = owner[within], 0.5 * (mark[within + 1] - mark[within])
+    centre = 0.5 * (mark[within + 1] + mark[within])
+    begins = np.flatnonzero(np.diff(owner, prepend=-1))
+    position, velocity = None, None
+    around = place(middle)
+    for knot, weight in GAUSS:
+        time = centre + half * knot
+        here, off = place(time) - around[owner], time - middle[owner]
+        share = half * weight / (blend * blend)
+        sums = [
+            np.add.reduceat(here * (share * factor)[:, None], begins, axis=0)
+            for factor in (blend - np.abs(off), np.sign(off))
+        ]
+        position = sums[0] if position is None else position + sums[0]
+        velocity = sums[1] if velocity is None else velocity + sums[1]
+    assert position is not None
+    assert velocity is not None
+    return around + position, velocity

@@ -32,14 +32,9 @@ class Kernels(NamedTuple):
 PLAIN = Kernels(lay.lay, speeds.backward, speeds.forward)
 
 
-def ready() -> bool:
-    """Whether the compiled kernels start at once."""
-    return LIBRARY.ready
-
-
 @cache
-def compiled_kernels() -> Kernels | None:
-    """The compiled kernels; None where they cannot be compiled."""
+def kernels() -> Kernels:
+    """The compiled kernels; the plain ones where there are none."""
     laid = LIBRARY.compiled(PLAIN.lay)
     backward, forward = LIBRARY.compiled(PLAIN.backward), LIBRARY.compiled(PLAIN.forward)
-    return None if laid is None or backward is None or forward is None else Kernels(laid, backward, forward)
+    return PLAIN if laid is None or backward is None or forward is None else Kernels(laid, backward, forward)

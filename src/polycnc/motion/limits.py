@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from array import array
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.geometry.units import INCH_MM
+from polycnc.motion.kernels.alone import alone_pull, alone_top, best_ramp
 from polycnc.motion.kernels.columns import Limits, PathLimits
 from polycnc.motion.kernels.jerk import JERK_CORNER, STRAY_CORNER
 from polycnc.motion.settings import Settings
 from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from polycnc.machine import Axis, Machine, Spindle
     from polycnc.toolpath import Context
     from polycnc.transformation.contract import Geometry
@@ -79,7 +82,12 @@ def axis_limits(
         rotary=array("d", [axis is not None and axis.rotary for axis in axes]),
         jerk=array("d", numbers("jerk")),
         geometry=array("q", geometry),
-        path=PathLimits(settings.rapid_stops, min(settings.path_feed, 1e9), min(settings.corner_speed, 1e9)),
+        path=PathLimits(
+            settings.rapid_stops,
+            min(settings.path_feed, 1e9),
+            min(settings.corner_speed, 1e9),
+            machine.block_time_s,
+        ),
     )
 
 
@@ -103,7 +111,7 @@ def context_fields(
     highest = spindle.max_rpm if spindle else inf
     if context.spindle_limit_rpm > 0.0:
         highest = min(highest, context.spindle_limit_rpm)
-    surface = context.spindle_rpm * 1000.0 / 60.0 if context.surface_speed else 0.0
+    surface = context.surface_m_min * 1000.0 / 60.0 if context.surface_speed else 0.0
     (a, b, c), (d, e, f), (g, h, i) = context.frame.m
     return [
         context.feed_mode is FeedMode.PER_REVOLUTION,
@@ -151,6 +159,26 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
     jerk = min((axis.jerk for axis in axes if not axis.rotary), default=axes[0].jerk)
     blend = (6.0 * STRAY_CORNER * tolerance / (JERK_CORNER * jerk)) ** (1.0 / 3.0)
     return ramp, min(blend, ramp)
+
+
+class AxisRapid(NamedTuple):
+    """How an axis runs a rapid alone: highest speed, acceleration, seconds that it is averaged over."""
+
+    top: float
+    pull: float
+    ramp: float
+
+
+def axis_rapids(ways: Sequence[float], context: Context, limits: Limits, *, soft: bool) -> list[AxisRapid]:
+    """How each axis runs its way of a rapid on which every axis runs alone, with limited jerk (`soft`) or without."""
+    found: list[AxisRapid] = []
+    for way, limit, pull, jerk in zip(ways, limits.top_rapid, limits.acceleration, limits.jerk, strict=True):
+        share = context.pace.rapid if context.pace is not None else 1.0
+        top = context.rapid_top(share * limit)
+        ramp = best_ramp(abs(way), top, pull, jerk) if soft and way else 0.0
+        own = alone_pull(ramp, pull, jerk)
+        found.append(AxisRapid(alone_top(abs(way), top, own, ramp), own, ramp))
+    return found
 
 
 def rotary_weight(context: Context, settings: Settings) -> float:

@@ -13,12 +13,12 @@ from array import array
 from math import sqrt
 from typing import TYPE_CHECKING
 
-from polycnc.motion.compiled import PLAIN, compiled_kernels, ready
+from polycnc.motion.compiled import PLAIN, kernels
 from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.columns import PLACES, PieceRecord, Rows, new_state, piece_width
-from polycnc.motion.limits import averages, context_fields
-from polycnc.motion.plan import Plan, Times, ToolTimes
+from polycnc.motion.limits import averages, axis_rapids, context_fields
 from polycnc.motion.settings import DEFAULT, Settings
+from polycnc.motion.times import Plan, Times, ToolTimes
 from polycnc.motion.transformed import RealAxes
 from polycnc.motion.waits import Waits
 from polycnc.toolpath import Kind
@@ -27,14 +27,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.machine import Machine
+    from polycnc.motion.limits import AxisRapid
     from polycnc.motion.pole import Turn
     from polycnc.motion.transformed import LaidLeg
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
 
-#: From so many rows on compiled kernels pay off: when machine code is kept, and when they must be
-#: compiled first.
-READY_ROWS, COMPILE_ROWS = 20_000, 150_000
 #: Pieces that the buffer takes at first, and pieces that it takes before it is looked at.
 FIRST_ROOM, FULL_ROOM = 256, 16_384
 
@@ -49,12 +47,12 @@ class Planner:
         start: Machine position of every column before the first row; all zero where it is left out.
         tool: Number or name of the tool in the spindle before the first row; 0 for none.
         settings: How the control leads the axes.
-        keep_rows: Keep the seconds of every row (8 bytes each).
+        keep_rows: Keep seconds and length of every row (16 bytes each).
         on_pieces: Called with the buffer and the number of its pieces that have become final, before they are
             dropped.
         feed_profile: Called with each chunk; gives the feed of every row, in the unit of the row, in place of the
             programmed ones: an override, or a profile block by block. Threads and taps keep their lead.
-        compiled: Use compiled kernels, or do not; None decides by the number of rows.
+        compiled: Use compiled kernels where they are there.
 
     Attributes:
         on_pieces: See above; can be set as long as nothing is planned.
@@ -74,7 +72,7 @@ class Planner:
         keep_rows: bool = True,
         on_pieces: Callable[[array[float], int], None] | None = None,
         feed_profile: Callable[[Chunk], array[float]] | None = None,
-        compiled: bool | None = None,
+        compiled: bool = True,
     ) -> None:
         self._axes = len(toolpath.axes)
         self._width = piece_width(self._axes)
@@ -84,9 +82,8 @@ class Planner:
         self._keep_rows = keep_rows
         self.on_pieces = on_pieces
         self.on_wait: Callable[[int, str, int, float], None] | None = None
-        self._compiled = compiled
         self._feed_profile = feed_profile
-        self._kernels = PLAIN
+        self._kernels = kernels() if compiled else PLAIN
         self._state = new_state(self._axes, start)
         self._real = RealAxes(machine, channel, toolpath.axes, settings, start)
         self._limits = self._real.limits(None)
@@ -96,7 +93,8 @@ class Planner:
         self._slots = array("d")
         self._stations: dict[tuple[object, ...], int] = {}
         self._waited: dict[int, dict[str, float]] = {}
-        self._row_s = array("d")
+        self._rows = array("d")
+        self._row_waits: dict[int, float] = {}
         self._first_row = 0
         self._next_row = 0
         self._waits = Waits(machine, toolpath.contexts, tool, self._wait)
@@ -121,22 +119,22 @@ class Planner:
         """Spindle speed of a context at a turning radius."""
         return self._waits.rpm(context, radius_mm)
 
-    def rapids(self, ramp: float, context: Context) -> list[tuple[float, float]]:
-        """Velocity and acceleration of each axis that runs a rapid by itself: none does under a transformation."""
-        limits = self._real.limits(None)
-        pulls = list(limits.acceleration)
-        if ramp > 0.0:
-            pulls = [min(pull, 0.5 * limits.jerk[i] * ramp) for i, pull in enumerate(pulls)]
-        tops = [context.rapid_top(top) for top in limits.top_rapid]
-        return list(zip(tops, pulls, strict=True))
+    @property
+    def top_speeds(self) -> tuple[Sequence[float], Sequence[float]]:
+        """Highest velocity of every column in cuts, and in rapids."""
+        return self._limits.top_feed, self._limits.top_rapid
+
+    def rapids(self, ways: Sequence[float], context: Context) -> list[AxisRapid]:
+        """How each axis runs a rapid by itself: none does under a transformation."""
+        soft = averages(context, self._machine, self._settings)[0] > 0.0
+        return axis_rapids(ways, context, self._real.limits(None), soft=soft)
 
     def take(self, chunk: Chunk) -> bool:
         """Plan a chunk; true, for it is no longer needed."""
         if len(chunk) == 0:
             return True
-        self._choose_kernels(max(len(self._toolpath), chunk.first + len(chunk)))
         self._add_contexts()
-        self._row_s.frombytes(bytes(8 * len(chunk)))
+        self._rows.frombytes(bytes(16 * len(chunk)))
         self._next_row = chunk.first + len(chunk)
         self._waits.take(chunk, self.facing)
         stops = array("B", [self._waits.stands_for(event) for event in chunk.events])
@@ -186,9 +184,10 @@ class Planner:
         count = len(records) // self._width
         self._pieces[: len(records)] = records
         self._state.run.pieces, self._state.run.stop = count, 1.0
-        before = self._slots[2 * slot + 1]
+        way, row_way = 2 * slot + 1, 2 * (number - self._first_row) + 1
+        before = self._slots[way], self._rows[row_way]
         self._look_ahead(number)
-        self._slots[2 * slot + 1] = before
+        self._slots[way], self._rows[row_way] = before
         last = (count - 1) * self._width + PieceRecord.VECTORS + (PLACES + 1) * self._axes
         self._state.position[:] = records[last : last + self._axes]
 
@@ -210,17 +209,6 @@ class Planner:
         self._look_ahead(self._next_row)
         self._settle_parallel(self._next_row)
         return self._plan()
-
-    def _choose_kernels(self, rows: int) -> None:
-        if (
-            self._kernels is not PLAIN
-            or self._compiled is False
-            or (self._compiled is None and rows < READY_ROWS)
-        ):
-            return
-        fast = compiled_kernels()
-        if fast is not None and (self._compiled or ready() or rows >= COMPILE_ROWS):
-            self._kernels = fast
 
     # ---- the buffer of pieces
     # --------------------------------------------------------------------------------------
@@ -261,7 +249,7 @@ class Planner:
             self._limits,
             end2,
             self._slots,
-            self._row_s,
+            self._rows,
             self._first_row,
         )
         if self.on_pieces is not None:
@@ -273,7 +261,7 @@ class Planner:
         planned_rows = int(rest[PieceRecord.ROW]) if end is None else end
         self._settle_parallel(planned_rows)
         if not self._keep_rows:
-            del self._row_s[: planned_rows - self._first_row]
+            del self._rows[: 2 * (planned_rows - self._first_row)]
             self._first_row = planned_rows
 
     def _settled(self, count: int) -> int:
@@ -304,7 +292,10 @@ class Planner:
         """A row waits: called before its motion is planned. What comes behind the last row counts for it."""
         if self.on_wait is not None:
             self.on_wait(row, share, context, seconds)
-        self._row_s[min(row, self._next_row - 1) - self._first_row] += seconds
+        row = min(row, self._next_row - 1)
+        self._rows[2 * (row - self._first_row)] += seconds
+        if self._keep_rows and share != "dwell_s":  # a dwell is what its row is for
+            self._row_waits[row] = self._row_waits.get(row, 0.0) + seconds
         shares = self._waited.setdefault(context, {})
         shares[share] = shares.get(share, 0.0) + seconds
 
@@ -315,7 +306,9 @@ class Planner:
             if entry.last >= planned_rows:
                 open_yet.append(entry)
                 continue
-            motion = sum(self._row_s[entry.row - self._first_row : entry.last + 1 - self._first_row])
+            motion = sum(
+                self._rows[2 * (entry.row - self._first_row) : 2 * (entry.last + 1 - self._first_row) : 2]
+            )
             if entry.seconds > motion:
                 self._wait(entry.row, "auxiliary_s", entry.context, entry.seconds - motion)
         self._waits.parallel[:] = open_yet
@@ -332,7 +325,8 @@ class Planner:
             total += times
         used = tuple(tool for tool in tools.values() if tool.tool or tool.name or tool.times.total_s > 0.0)
         without_feed, without_spindle = self._state.run.without_feed, self._state.run.standing_spindle
-        return Plan(total, used, self._row_s, without_feed, without_spindle)
+        rows = self._rows[::2], self._rows[1::2], self._row_waits
+        return Plan(total, used, *rows, without_feed, without_spindle)
 
 
 def _station(context: Context) -> tuple[object, ...]:

@@ -43,6 +43,8 @@ if TYPE_CHECKING:
     from polycnc.toolpath.table import Chunk
     from polycnc.transformation.contract import Geometry, Transformation
 
+#: Kinds of rows in which no axis moves.
+_STANDING = bytes((Kind.DWELL, Kind.EVENT))
 #: Part of the acceleration that is for the bend of the real axes' way; the rest is for changes of speed.
 BEND = 0.5
 #: Parts of the jerk: for the third derivative of the way; for bend and acceleration together.
@@ -127,6 +129,12 @@ class Bounds(NamedTuple):
         return array("d", (value * factor for value, factor in zip(feed, self.feed[rows], strict=True)))
 
 
+def _last_move(chunk: Chunk) -> list[int]:
+    """The last row in which axes move; nothing where none do."""
+    behind = len(chunk.kind.tobytes().rstrip(_STANDING))
+    return [behind - 1] if behind else []
+
+
 class Demand(NamedTuple):
     """What the real axes allow at a place.
 
@@ -189,13 +197,13 @@ class RealAxes:
     def bounds(self, chunk: Chunk, contexts: Sequence[Context]) -> Bounds:
         """Look at the rows of a chunk."""
         n, bounds = len(self._axes), Bounds(Shares(array("d"), array("d"), array("d")), array("d"), {}, {})
-        moves = [row for row in range(len(chunk)) if chunk.kind[row] < Kind.DWELL]
         used = [contexts[number] for number in set(chunk.context)]
         paced = any(context.pace is not None for context in used)
         transformed = any(context.transformation is not None for context in used)
         if self._context.transformation is None and not transformed and not paced:
-            moves = moves[-1:]
+            moves = _last_move(chunk)
         else:
+            moves = [row for row, kind in enumerate(chunk.kind) if kind < Kind.DWELL]
             for column, free in zip(bounds.shares, FREE_SHARE, strict=True):
                 column.extend([free] * SHARES * len(chunk))
             bounds.feed.extend([1.0] * len(chunk))

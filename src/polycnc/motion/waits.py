@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.toolpath import Kind
 from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS
-from polycnc.toolpath.events import Auxiliary, HFunction, Raised, SpindleSpeed, Stop, ToolSelection
+from polycnc.toolpath.events import (
+    Auxiliary,
+    BuilderCode,
+    Deed,
+    HFunction,
+    Raised,
+    SpindleSpeed,
+    Stop,
+    ToolSelection,
+)
 from polycnc.toolpath.kinds import RAPID_KINDS
 from polycnc.toolpath.modes import CornerMode
 from polycnc.toolpath.table import CURVE_WIDTH
@@ -21,7 +30,7 @@ if TYPE_CHECKING:
     from polycnc.toolpath.table import Chunk
 
 #: Events that the control puts out between two blocks and waits for: the axes stand still.
-STANDING = (Auxiliary, SpindleSpeed, ToolSelection, HFunction, Stop, Raised)
+STANDING = (Auxiliary, BuilderCode, SpindleSpeed, ToolSelection, HFunction, Stop, Raised)
 ORIENT = 19
 #: Moves that lead nowhere where they end at their start.
 STRAIGHT = frozenset((Kind.RAPID, Kind.FEED, Kind.REF))
@@ -34,6 +43,18 @@ class Parallel(NamedTuple):
     last: int
     context: int
     seconds: float
+
+
+def rpm_at(context: Context, radius_mm: float, spindle: Spindle | None) -> float:
+    """Spindle speed of a context at a turning radius, as far as the spindle and the program's limit allow."""
+    highest = spindle.max_rpm if spindle else context.spindle_rpm
+    if context.spindle_limit_rpm > 0.0:
+        highest = min(highest, context.spindle_limit_rpm)
+    if not context.surface_speed:
+        return min(context.spindle_rpm, highest)
+    around_m = 2.0 * pi * radius_mm / 1000.0
+    speed = context.surface_m_min
+    return highest if around_m * highest <= speed else speed / around_m
 
 
 class Waits:
@@ -85,6 +106,8 @@ class Waits:
         if isinstance(event, Auxiliary):
             function = self.machine.m_functions.get(event.code)
             return function is None or function.timing != "with"
+        if isinstance(event, Deed):
+            return not event.is_silent
         return isinstance(event, STANDING)
 
     def take(self, chunk: Chunk, facing: int) -> None:
@@ -145,17 +168,14 @@ class Waits:
 
     def rpm(self, context: Context, radius_mm: float) -> float:
         """Spindle speed of a context at a turning radius."""
-        spindle = self.spindle(context)
-        highest = spindle.max_rpm if spindle else context.spindle_rpm
-        if context.spindle_limit_rpm > 0.0:
-            highest = min(highest, context.spindle_limit_rpm)
-        if not context.surface_speed:
-            return min(context.spindle_rpm, highest)
-        around_m = 2.0 * pi * radius_mm / 1000.0
-        return highest if around_m * highest <= context.spindle_rpm else context.spindle_rpm / around_m
+        return rpm_at(context, radius_mm, self.spindle(context))
 
     def _event(self, chunk: Chunk, row: int) -> None:
         event = chunk.events[chunk.curve[row]]
+        if isinstance(event, BuilderCode):
+            g_function = self.machine.g_functions.get(event.code)
+            if g_function is not None and g_function.seconds > 0.0:
+                self.wait(chunk.first + row, "auxiliary_s", chunk.context[row], g_function.seconds)
         if not isinstance(event, Auxiliary):
             return
         code, context = event.code, chunk.context[row]

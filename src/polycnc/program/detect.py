@@ -20,8 +20,15 @@ if TYPE_CHECKING:
 READ_LINES = 20_000
 """So many lines are looked at; posts put what tells the control at the beginning."""
 
-_ISO_COMMENT = re.compile(r"\([^()\n]*\)|//[^\n]*")
-_SINUMERIK_COMMENT = re.compile(r"\"[^\"\n]*\"|;[^\n]*")
+#: What is a comment, a text or an argument list in some family. Posts write tool lists in the words of other controls.
+_NO_CODE = re.compile(r'"[^"\n]*"|;[^\n]*|//[^\n]*|\(\*.*?\*\)', re.DOTALL)
+_INNER_BRACKETS = re.compile(r"\(([^()\n]*)(?:\)|$)", re.MULTILINE)
+#: Flow control of another interpreter: `o100 while`, `o<name> endif`.
+_O_WORD = re.compile(
+    r"^\s*(?:N\d+\s*)?O(?:\d+|<\w+>|#\d+)\s*(?:sub|endsub|call|if|elseif|else|endif|while|endwhile|do|repeat|endrepeat"
+    r"|return|break|continue)\b[^\n]*",
+    re.IGNORECASE | re.MULTILINE,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,9 +170,8 @@ def _found_in(programs: Sequence[Program]) -> Iterable[tuple[str, Reason]]:
     for program in programs:
         text = "\n".join(program.lines[:left])
         left -= min(left, len(program.lines))
-        iso, sinumerik = _ISO_COMMENT.sub(_blank, text), _SINUMERIK_COMMENT.sub(_blank, text)
+        code = _code_of(text)
         for row in list(open_rows):
-            code = sinumerik if row.control.startswith("sinumerik") else iso
             match = row.pattern.search(code)
             if match and (row.beside is None or row.beside.search(code)):
                 open_rows.remove(row)
@@ -173,5 +179,18 @@ def _found_in(programs: Sequence[Program]) -> Iterable[tuple[str, Reason]]:
                 yield row.control, Reason(row.message, line, match[0].strip())
 
 
+def _code_of(text: str) -> str:
+    """The text with blanks in place of all that is a comment in any family; columns and lines stay."""
+    code = _O_WORD.sub(_blank, _NO_CODE.sub(_blank, text))
+    while (emptied := _INNER_BRACKETS.sub(_emptied, code)) != code:
+        code = emptied
+    return code.replace("\x01", "(")
+
+
+def _emptied(match: re.Match[str]) -> str:
+    """A pair of brackets without what stands between; the opening one is marked as done."""
+    return "\x01" + " " * (len(match[0]) - 1)
+
+
 def _blank(match: re.Match[str]) -> str:
-    return " " * len(match[0])
+    return "".join("\n" if char == "\n" else " " for char in match[0])

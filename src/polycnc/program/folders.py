@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import stat
 from functools import cached_property
 from pathlib import Path
 
-from polycnc.messages.files import reason_of
+from polycnc.messages.files import read_regular, reason_of
 from polycnc.program.errors import ProgramFileError
 from polycnc.program.names import stored_name
 from polycnc.program.text import TAPE_CONTROLS
@@ -24,26 +25,25 @@ SUFFIXES = (
 _NUMBERED = re.compile(r"([oO]?)(\d{1,9})")
 _HEADING = re.compile(rb"(?:^|[\r\n])[ \t]*%?[ \t]*(?:[oO]|:)[ \t]*(\d{1,9})(?![\d.])")
 _HEADING_BYTES = 65_536
+#: What a name may lead to in place of a file.
+_KINDS = {errno.EISDIR: "program.directory", errno.ENODEV: "program.not-a-file"}
 
 
 def read_file(path: str) -> bytes:
-    """All bytes of a regular file or a pipe.
+    """All bytes of a regular file.
 
     Raises:
         ProgramFileError: Missing, a directory, a device, not readable or too large.
     """
     try:
-        mode = os.stat(path).st_mode  # noqa: PTH116 - Path(path) hides what the user typed
-        if stat.S_ISDIR(mode):
-            raise ProgramFileError("program.directory", path)
-        if not (stat.S_ISREG(mode) or stat.S_ISFIFO(mode)):
-            raise ProgramFileError("program.not-a-file", path)
-        with Path(path).open("rb") as file:
-            data = file.read(MAX_FILE_BYTES + 1)
+        data = read_regular(path, MAX_FILE_BYTES + 1)
     except (FileNotFoundError, NotADirectoryError) as error:
         raise ProgramFileError("program.missing", path) from error
     except (OSError, ValueError) as error:
         # ValueError: a name that no file system takes, such as one with a zero byte.
+        kind = _KINDS.get(error.errno or 0) if isinstance(error, OSError) else None
+        if kind is not None:
+            raise ProgramFileError(kind, path) from error
         raise ProgramFileError("program.unreadable", path, reason=reason_of(error)) from error
     if len(data) > MAX_FILE_BYTES:
         raise ProgramFileError("program.too-large", path, limit=MAX_FILE_BYTES)
@@ -86,11 +86,11 @@ class Folder:
         """Files and folders in it."""
         try:
             with os.scandir(self.path) as entries:
-                found = sorted((entry.name, entry.is_dir()) for entry in entries)
+                found = sorted((entry.name, _kind(entry)) for entry in entries)
         except (OSError, ValueError) as error:
             raise ProgramFileError("program.unreadable", str(self.path), reason=reason_of(error)) from error
-        files = [self.path / name for name, is_folder in found if not is_folder]
-        return files, [self.path / name for name, is_folder in found if is_folder]
+        files = [self.path / name for name, kind in found if kind == stat.S_IFREG]
+        return files, [self.path / name for name, kind in found if kind == stat.S_IFDIR]
 
     @cached_property
     def _by_name(self) -> dict[str, Path]:
@@ -147,12 +147,17 @@ class Folder:
         return [path for path in programs if number in _numbers_at_top(path)]
 
 
+def _kind(entry: os.DirEntry[str]) -> int:
+    """What a name leads to: a file, a folder, or something that no call may open; 0 for a link that leads nowhere."""
+    try:
+        return stat.S_IFMT(entry.stat().st_mode)
+    except OSError:
+        return 0
+
+
 def _numbers_at_top(path: Path) -> set[int]:
     try:
-        if not path.is_file():
-            return set()
-        with path.open("rb") as file:
-            top = file.read(_HEADING_BYTES)
+        top = read_regular(path, _HEADING_BYTES)
     except OSError:
         return set()  # It may be anybody's file: only one that is asked for by name has to be readable.
     return {int(number) for number in _HEADING.findall(top.translate(None, TAPE_CONTROLS.encode("ascii")))}

@@ -261,9 +261,8 @@ def _refuse_long_lines(file: TextFile, whole: bytes, at: int, end: int) -> None:
     while place + MAX_LINE < end:
         found = whole.rfind(b"\n", place, place + MAX_LINE + 1)
         if found < 0:
-            stop = whole.find(b"\n", place)
             line = file.numbers[-1] + whole.count(b"\n", at, place) + 1
-            refuse_long_line(file.path, line, (stop if stop >= 0 else len(whole)) - place)
+            refuse_long_line(file.path, line)
         place = found + 1
 
 

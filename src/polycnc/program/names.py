@@ -7,6 +7,7 @@ and 2.1).
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -24,6 +25,9 @@ WORKING_MEMORY = "/_N_RAM"
 WORKPIECE = "_WPD"
 """Type of the directory of a workpiece."""
 
+#: Stored names that only definition files have: macros, user data and rights of Siemens, builder and user.
+_DEFINITION_FILE = re.compile(r"_N_(?:[A-Z](?:MAC|GUD|ACCESS)|GUD[4-9])_DEF")
+
 STANDARD_DIRS = (MPF_DIR, SPF_DIR, DEF_DIR, *CYCLE_DIRS, "/_N_WKS_DIR", "/_N_COM_DIR")
 
 
@@ -33,6 +37,11 @@ def stored_name(name: str) -> str:
     if not name.startswith("_N_"):
         name = "_N_" + name
     return name.replace(".", "_")
+
+
+def is_definition_file(name: str) -> bool:
+    """Whether a stored name is one that the control reserves for definition files (`_N_MGUD_DEF`)."""
+    return _DEFINITION_FILE.fullmatch(name) is not None
 
 
 def bare_name(name: str) -> str:

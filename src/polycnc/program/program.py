@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING
 
+from polycnc.program.heads import sequence_number
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -50,3 +52,9 @@ class Program:
     def line_number(self, index: int) -> int:
         """The line of the file, from 1, in which `lines[index]` stands."""
         return self.first_line + index
+
+    def block_name(self, line: int) -> str:
+        """The sequence number of the block in a line of the file, else the number of the line."""
+        index = line - self.first_line
+        number = sequence_number(self.lines[index]) if 0 <= index < len(self.lines) else ""
+        return number or str(line)

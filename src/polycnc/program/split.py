@@ -54,21 +54,22 @@ def split_programs(
         source: Name and origin of the file.
         default: Form of a file whose own headings do not tell.
     """
-    form = form_of(lines, default)
+    headings = list(_possible_headings(lines))
+    form = form_of(lines, headings, default)
     if form is Form.MACRO:
-        return (_macro_program(lines, source),)
-    found = _archive_programs(lines, source) if form is Form.SINUMERIK else _tape_programs(lines, source)
-    return tuple(found)
+        return (_macro_program(lines, headings, source),)
+    split = _archive_programs if form is Form.SINUMERIK else _tape_programs
+    return tuple(split(lines, headings, source))
 
 
-def form_of(lines: Sequence[str], default: Form = Form.WORD_ADDRESS) -> Form:
-    """The form that the headings of a file show, else `default`."""
+def form_of(lines: Sequence[str], headings: Iterable[int], default: Form) -> Form:
+    """The form that the headings of a file show, else `default`; `headings` are the lines that can be one."""
     if macro_header(lines) is not None:
         return Form.MACRO
     top = lines[:_HEADER_LINES]
     if any(_COMMENT_HEADER.match(line) or _PATH_HEADER.match(line) for line in top):
         return Form.SINUMERIK
-    if any(_ARCHIVE_HEADER.match(lines[index]) for index in _possible_headings(lines)):
+    if any(_ARCHIVE_HEADER.match(lines[index]) for index in headings):
         return Form.SINUMERIK
     return default
 
@@ -88,7 +89,11 @@ def split_channels(program: Program) -> dict[int, Program]:
     Every channel keeps all line numbers: the lines of the others are blank in it. What stands before the
     first section belongs to channel 1.
     """
-    sections = [(index, int(m[1])) for index, line in enumerate(program.lines) if (m := _CHANNEL.match(line))]
+    sections = [
+        (index, int(m[1]))
+        for index, line in enumerate(program.lines)
+        if "$" in line and (m := _CHANNEL.match(line))
+    ]
     if not sections:
         return {}
     bounds = [(-1, 1), *sections, (len(program.lines), 0)]
@@ -118,12 +123,10 @@ def _program(source: Source, form: Form, lines: Sequence[str], first: int, end: 
     )
 
 
-def _macro_program(lines: Sequence[str], source: Source) -> Program:
+def _macro_program(lines: Sequence[str], headings: Iterable[int], source: Source) -> Program:
     start = macro_header(lines)
     first = 0 if start is None else start + 1
-    marks = (
-        index for index in _possible_headings(lines) if index >= first and _TAPE_MARK.match(lines[index])
-    )
+    marks = (index for index in headings if index >= first and _TAPE_MARK.match(lines[index]))
     return _program(source, Form.MACRO, lines, first, next(marks, len(lines)))
 
 
@@ -139,8 +142,8 @@ class _Heading:
     number: int | None = None
 
 
-def _tape_headings(lines: Sequence[str]) -> Iterator[_Heading]:
-    for index in _possible_headings(lines):
+def _tape_headings(lines: Sequence[str], possible: Iterable[int]) -> Iterator[_Heading]:
+    for index in possible:
         line = lines[index]
         if number := _NUMBER.match(line):
             yield _Heading(index, program_name(int(number[1])), int(number[1]))
@@ -150,12 +153,12 @@ def _tape_headings(lines: Sequence[str]) -> Iterator[_Heading]:
             yield _Heading(index)
 
 
-def _tape_programs(lines: Sequence[str], source: Source) -> list[Program]:
+def _tape_programs(lines: Sequence[str], possible: Iterable[int], source: Source) -> list[Program]:
     """Programs between tape marks; text without a number is one only if it is the first and holds blocks.
 
     As on a control, what stands before the first `%` or behind the last one is otherwise not read.
     """
-    headings = list(_tape_headings(lines))
+    headings = list(_tape_headings(lines, possible))
     bounds = [_Heading(-1), *headings, _Heading(len(lines))]
     programs: list[Program] = []
     for heading, following in pairwise(bounds):
@@ -193,8 +196,8 @@ def _longest_section(lines: Sequence[str], source: Source, bounds: list[_Heading
 # --- SINUMERIK: %_N_NAME_MPF, ;$PATH= -----------------------------------------------------------------------
 
 
-def _archive_programs(lines: Sequence[str], source: Source) -> list[Program]:
-    marks = [index for index in _possible_headings(lines) if _TAPE_MARK.match(lines[index])]
+def _archive_programs(lines: Sequence[str], possible: Iterable[int], source: Source) -> list[Program]:
+    marks = [index for index in possible if _TAPE_MARK.match(lines[index])]
     heads = [(index, m[1]) for index in marks if (m := _ARCHIVE_HEADER.match(lines[index]))]
     ends = [index for index in marks if lines[index].strip() == "%"]
     programs: list[Program] = []

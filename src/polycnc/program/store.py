@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.messages.catalogue import listed
 from polycnc.program import names
@@ -62,6 +62,10 @@ def load_programs(
     return (first, *programs[1:])
 
 
+#: Edited programs by directory and name in lower case; None for deleted ones.
+Edits: TypeAlias = dict[tuple[str, str], Program | None]
+
+
 class ProgramStore:
     """Programs by name, by number and by SINUMERIK path.
 
@@ -70,6 +74,8 @@ class ProgramStore:
         form: Form of files whose own headings do not tell; `Form.SINUMERIK` for that control.
         encoding: Encoding that the user asked for; None to detect it file by file.
         directory: SINUMERIK directory of a main program that does not name its own.
+        edited: Programs that were edited earlier, by directory and name in lower case, None for deleted ones; what is
+            edited goes into it. See `take_edits`.
 
     Raises:
         ProgramFileError: A search folder is none.
@@ -82,6 +88,7 @@ class ProgramStore:
         form: Form = Form.WORD_ADDRESS,
         encoding: str | None = None,
         directory: str = names.MPF_DIR,
+        edited: Edits | None = None,
     ) -> None:
         for path in search:
             if not Path(path).is_dir():
@@ -96,6 +103,7 @@ class ProgramStore:
         self.shadowed: list[Program] = []
         """Programs that no call reaches, because one added earlier has the same name or number."""
         self._directory = directory
+        self._edited: Edits = {} if edited is None else edited
         self._added: list[Program] = []
         self._main: Program | None = None
         self._beside: Path | None = None
@@ -175,6 +183,24 @@ class ProgramStore:
 
     def replace(self, program: Program) -> None:
         """Put a program in the place of the one with its name and directory (WRITE, edit functions)."""
+        self._edited[_key(program.directory, program.name)] = program
+        self.put(program)
+
+    def kept(self, name: str) -> Program | None:
+        """The edited program that a user names: by its name or number, with its directory or without; None for none."""
+        wanted, number = name.casefold(), number_of_file(Path(name))
+        stored = names.stored_name(name.rpartition("/")[2]).casefold()
+        for (directory, key), program in self._edited.items():
+            if program is None:
+                continue
+            if wanted in (key, f"{directory}/{key}".casefold()) or stored == key:
+                return program
+            if number is not None and program.number == number:
+                return program
+        return None
+
+    def put(self, program: Program) -> None:
+        """As `replace`, of a program that nobody has edited."""
         key = _key(program.directory, program.name)
         known = self._by_name.get(key)
         self._added = [each for each in self._added if each is not known] + [program]
@@ -186,10 +212,24 @@ class ProgramStore:
 
     def remove(self, program: Program) -> None:
         """Forget a program (DELETE); a file of the host stays where it is, but is not found again."""
-        self._removed.add(_key(program.directory, program.name))
+        key = _key(program.directory, program.name)
+        self._edited[key] = None
+        self._removed.add(key)
         self._added = [each for each in self._added if each is not program]
         self._by_name = {key: each for key, each in self._by_name.items() if each is not program}
         self._by_number = {key: each for key, each in self._by_number.items() if each is not program}
+
+    def take_edits(self, loaded: Iterable[Program] = ()) -> None:
+        """Programs are as they were edited earlier, but for those that have just been loaded anew."""
+        for program in loaded:
+            self._edited.pop(_key(program.directory, program.name), None)
+        for key, edited in list(self._edited.items()):
+            if edited is not None:
+                self.put(edited)
+            elif key in self._by_name:
+                self.remove(self._by_name[key])
+            else:
+                self._removed.add(key)
 
     def _add(self, programs: list[Program]) -> Program:
         for program in programs:
@@ -211,7 +251,9 @@ class ProgramStore:
         if "." not in typed and not typed.upper().startswith("_N_"):
             name += "_SPF"
         if not directory and not external:
-            directory = names.DEF_DIR if name.endswith("_DEF") else self._directory_beside()
+            stored = typed.upper().startswith("_N_") and name.endswith("_DEF")
+            is_definition = stored or names.is_definition_file(name)
+            directory = names.DEF_DIR if is_definition else self._directory_beside()
         return directory, name
 
     def _directory_beside(self) -> str:
@@ -345,9 +387,12 @@ class ProgramStore:
             ProgramFileError: A file of that directory cannot be read.
         """
         stored = {program.name for program in self._added if program.directory == directory}
-        stored.update(name for folder in self._host_folders(directory) for name in folder.stored_names())
+        folders = self._host_folders(directory)
         if directory == names.DEF_DIR:
             stored = {name for name in stored if name.endswith("_DEF")}
+            stored.update(name for folder in folders for name in _definition_files(folder))
+        else:
+            stored.update(name for folder in folders for name in folder.stored_names())
         found = (self.find_in(directory, name) for name in sorted(stored))
         return [program for program in found if program]
 
@@ -443,6 +488,16 @@ class ProgramStore:
 
 def _key(directory: str, name: str) -> tuple[str, str]:
     return directory, name.casefold()
+
+
+def _definition_files(folder: Folder) -> list[str]:
+    """Definition files in a folder: all of `DEF.DIR`; elsewhere names alone that nothing else can have."""
+    is_theirs = "/" + names.stored_name(folder.path.resolve().name) == names.DEF_DIR
+    return [
+        name
+        for name in folder.stored_names()
+        if names.is_definition_file(name) or (is_theirs and name.endswith("_DEF"))
+    ]
 
 
 def _with_types(stored: str) -> tuple[str, ...]:

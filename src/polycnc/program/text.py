@@ -39,12 +39,11 @@ def split_lines(text: str, path: str = "") -> list[str]:
 
 
 def _refuse_long_lines(lines: list[str], path: str) -> None:
-    length = max(map(len, lines))
-    if length > MAX_LINE:
-        line = next(number for number, text in enumerate(lines, 1) if len(text) == length)
-        refuse_long_line(path, line, length)
+    line = next((number for number, text in enumerate(lines, 1) if len(text) > MAX_LINE), 0)
+    if line:
+        refuse_long_line(path, line)
 
 
-def refuse_long_line(path: str, line: int, length: int) -> NoReturn:
+def refuse_long_line(path: str, line: int) -> NoReturn:
     """A line is longer than `MAX_LINE`."""
-    raise ProgramFileError("program.line-too-long", path, line=line, length=length, limit=MAX_LINE)
+    raise ProgramFileError("program.line-too-long", path, line=line, limit=MAX_LINE)

@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from polycnc.transformation.contract import Transformation
 
 
+#: Metres in a foot, in which surface speeds count where the program is in inches.
+FOOT_M = 0.3048
 #: How a stroke of a drilling cycle meets the next one: it is none, or waits for the axes to rest; it is one whose
 #: start may overlap; it is one whose end may too: the next stroke of the cycle begins while the axes come to rest.
 Overlap = int
@@ -56,7 +58,8 @@ class Context:
         tool: Tool number in the spindle, 0 for none; `tool_name` where the control calls tools by name.
         radius_mm: Radius that cutter compensation applies, 0 when it is off.
         side: Cutter compensation: 0 off, 1 left, -1 right.
-        spindle_rpm: Programmed speed (rpm; m/min under constant surface speed), spindle direction 1, -1 or 0.
+        spindle_rpm: Programmed speed (rpm; under constant surface speed m/min, or feet/min in inches), spindle
+            direction 1, -1 or 0.
         corner_mode: How the path goes through the ends of blocks; `stop_window` what an exact stop waits for.
         tolerance_mm: Contour tolerance for the planner where a code names one, else 0.
         acceleration: How the axes take up speed; None for the control's own way.
@@ -79,6 +82,10 @@ class Context:
         pace: What the program says about speeds beside the feed; None for nothing.
         unrolled: A rotary axis whose positions are lengths on a surface (FANUC G07.1), by its column, and the degrees
             of a millimetre, by which it is shown.
+        shown_by: Rows hold positions of the axes, though the display shows those of the path: by this transformation
+            (point to point, SINUMERIK PTP). None where rows hold what is shown.
+        names: What the work display calls the columns where a transformation makes other axes of them (Y of TRANSMIT);
+            empty where the channel's names hold, an empty one for a column that it uses up.
     """
 
     plane: str = "G17"
@@ -115,6 +122,13 @@ class Context:
     machine_diameters: int | None = None
     unrolled: tuple[int, float] | None = None
     pace: Pace | None = None
+    shown_by: Transformation | None = None
+    names: tuple[str, ...] = ()
+
+    @property
+    def surface_m_min(self) -> float:
+        """Programmed surface speed under constant surface speed, m/min."""
+        return self.spindle_rpm * FOOT_M if self.inch else self.spindle_rpm
 
     def rapid_top(self, limit: float) -> float:
         """Highest speed of an axis that runs a rapid alone; `limit` is what the machine allows."""

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,11 +28,21 @@ class Event:
 
 @dataclass(frozen=True, slots=True)
 class Auxiliary(Event):
-    """M: an auxiliary function, of a spindle where the block names one."""
+    """M: an auxiliary function, of a spindle where the block names one; `words` of its block go along with it."""
 
     type: ClassVar[str] = "m"
     code: int
     spindle: int | None = None
+    words: Mapping[str, float] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class BuilderCode(Event):
+    """A G code of the machine's builder that calls no program."""
+
+    type: ClassVar[str] = "g"
+    code: str
+    words: Mapping[str, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,8 +123,86 @@ class SignalWrite(Event):
 
 
 @dataclass(frozen=True, slots=True)
+class StoredWrite(SignalWrite):
+    """The program writes a number where others read it while it runs."""
+
+    @property
+    def data(self) -> dict[str, object]:
+        """Name and value; where it is kept is nobody's concern."""
+        return {"name": self.name, "value": self.value}
+
+    def store(self) -> None:
+        """Put the value where it is kept."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, slots=True)
+class ValueWrite(StoredWrite):
+    """A value of a variable.
+
+    Attributes:
+        values: All values, by name and index.
+        key: Name and index of this one.
+    """
+
+    values: dict[tuple[str, tuple[Any, ...]], Any]
+    key: tuple[str, tuple[Any, ...]]
+
+    def store(self) -> None:
+        """Put the value among the others."""
+        self.values[self.key] = self.value
+
+
+@dataclass(frozen=True, slots=True)
+class MemoryWrite(StoredWrite):
+    """A number in a memory of bytes.
+
+    Attributes:
+        memory: The memory.
+        place: First byte.
+        written: The number as the memory keeps it.
+    """
+
+    memory: bytearray
+    place: int
+    written: bytes
+
+    def store(self) -> None:
+        """Put the bytes into the memory."""
+        self.memory[self.place : self.place + len(self.written)] = self.written
+
+
+@dataclass(frozen=True, slots=True)
 class InterlockQuery(Event):
     """The machine's own controller is asked, when the axes are there, whether it refuses a word."""
 
     type: ClassVar[str] = "ask"
     word: str
+
+
+@dataclass(frozen=True, slots=True)
+class Deed(Event):
+    """Something that happens in the main run when the axes are there: a synchronised action begins or ends.
+
+    Attributes:
+        what: Its word.
+        number: Of the action, where it has one.
+        do: What happens.
+        is_silent: Its block is none of those that do something on the machine.
+        awaits: Nothing follows while this says so; None where it goes on at once.
+        places: Where the path has some axes from here on, by column: machine positions.
+    """
+
+    type: ClassVar[str] = "action"
+    what: str
+    number: int | None
+    do: Callable[[], None]
+    is_silent: bool = True
+    awaits: Callable[[], bool] | None = None
+    places: tuple[tuple[int, float], ...] = ()
+
+    @property
+    def data(self) -> dict[str, object]:
+        """Word and number."""
+        shown: dict[str, object] = {"what": self.what}
+        return shown if self.number is None else {**shown, "number": self.number}

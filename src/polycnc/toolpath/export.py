@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import csv
 import json
+from io import StringIO
 from typing import IO, TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
 from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
 
 if TYPE_CHECKING:
+    from array import array
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
     import numpy as np
@@ -37,9 +39,29 @@ _POSITIONS: tuple[tuple[Literal["to", "machine", "center"], str], ...] = (
     ("machine", "machine_"),
     ("center", "center_"),
 )
+#: Columns that a plan adds.
+TIMES = ("wait", "start", "duration", "length", "feed_executed")
+#: Stands for a number in the form of a line: no name of a program or an axis holds it.
+_MARK = "\ue000"
 _NOWHERE: dict[str, float] = {}
 #: What the schema of a table says of the whole run: control, machine.
 Metadata: TypeAlias = "Mapping[str, str]"
+
+
+class RowTimes(Protocol):
+    """Times and ways of rows, as `motion.plan.Plan` has them."""
+
+    @property
+    def row_s(self) -> array[float]:
+        """Seconds of each row, waits included."""
+
+    @property
+    def row_mm(self) -> array[float]:
+        """The way of each row, mm."""
+
+    @property
+    def row_waits(self) -> Mapping[int, float]:
+        """Seconds that rows wait, by number."""
 
 
 class TraceWriter(Protocol):
@@ -62,12 +84,23 @@ class JsonLines:
 
     def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""
-        self.add(self._display.records_of(chunk))
+        self._stream.writelines(self._display.lines_of(chunk, self._line, self._form))
 
     def add(self, records: Iterable[Record]) -> None:
         """Write records that come from elsewhere (further channels)."""
-        encode = self._encode
-        self._stream.writelines(encode(record) + "\n" for record in records)
+        self._stream.writelines(map(self._line, records))
+
+    def _line(self, record: Record) -> str:
+        return self._encode(record) + "\n"
+
+    def _form(self, record: Record) -> str:
+        marked: dict[str, object] = {}
+        for key, value in record.items():
+            is_number = isinstance(value, (int, float))
+            marked[key] = _MARK if is_number else value
+            if isinstance(value, dict):
+                marked[key] = dict.fromkeys(value, _MARK)
+        return self._encode(marked).replace("%", "%%").replace(f'"{_MARK}"', "%r") + "\n"
 
     def close(self) -> None:
         """Nothing stands behind the last line."""
@@ -77,16 +110,28 @@ class Csv:
     """A header line and one line a row, in the columns of `table_columns`."""
 
     def __init__(self, stream: IO[str], display: Display, _metadata: Metadata) -> None:
-        self._display = display
-        self._writer = csv.writer(stream, lineterminator="\n")
+        self._display, self._stream, self._row = display, stream, StringIO()
+        self._writer = csv.writer(self._row, lineterminator="\n")
         self._columns = table_columns(display)
-        self._writer.writerow(self._columns)
+        stream.write(self._text(dict(zip(self._columns, self._columns, strict=True))))
 
     def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""
-        for record in self._display.records_of(chunk):
-            flat = flattened(record)
-            self._writer.writerow([flat.get(column, "") for column in self._columns])
+        self._stream.writelines(self._display.lines_of(chunk, self._line, self._form))
+
+    def _line(self, record: Record) -> str:
+        return self._text(flattened(record))
+
+    def _form(self, record: Record) -> str:
+        flat = flattened(record)
+        marked = {key: _MARK if isinstance(value, (int, float)) else value for key, value in flat.items()}
+        return self._text(marked).replace("%", "%%").replace(_MARK, "%r")
+
+    def _text(self, flat: dict[str, object]) -> str:
+        self._row.seek(0)
+        self._row.truncate()
+        self._writer.writerow([flat.get(column, "") for column in self._columns])
+        return self._row.getvalue()
 
     def close(self) -> None:
         """Nothing stands behind the last line."""
@@ -126,6 +171,28 @@ def table_columns(display: Display) -> tuple[str, ...]:
     names = [axis.lower() for axis in display.axes]
     positions = [prefix + name for _, prefix in _POSITIONS for name in names]
     return (*_FIRST, *positions, *_NUMBERS, *_TEXTS)
+
+
+def with_times(table: pa.Table, plan: RowTimes) -> pa.Table:
+    """A table of all rows with what the plan says of each: `TIMES` are its further columns.
+
+    `wait` is how long the axes stand before the row (tool change, spindle, auxiliary functions), `start` and `duration`
+    are of the motion or dwell behind it, all in seconds. `length` is mm as the feed counts it (degrees
+    where rotary axes move alone), `feed_executed` the mean feed of the motion, mm/min or degrees/min.
+    """
+    import numpy as np
+    import pyarrow as pa
+
+    whole, length = np.asarray(plan.row_s), np.asarray(plan.row_mm)
+    wait = np.zeros(len(whole))
+    wait[list(plan.row_waits)] = list(plan.row_waits.values())
+    duration = np.maximum(whole - wait, 0.0)
+    feed = np.full(len(whole), np.nan)
+    np.divide(60.0 * length, duration, out=feed, where=(length > 0.0) & (duration > 0.0))
+    start = np.cumsum(whole) - duration
+    for name, values in zip(TIMES, (wait, start, duration, length, feed), strict=True):
+        table = table.append_column(name, pa.array(values, pa.float64(), from_pandas=True))
+    return table
 
 
 def flattened(record: Record) -> dict[str, object]:
@@ -170,6 +237,7 @@ def _batch(display: Display, chunk: Chunk, schema: pa.Schema) -> pa.RecordBatch:
         numbers[f"machine_{axis.lower()}"] = shown.machine[:, i]
     numbers |= {name.lower(): values for name, values in display.arcs(shown).items()}
     sparse = _sparse(display, chunk, kinds, types, numbers)
+    sparse["tool"] = _tools(display, shown.columns.context, sparse.get("tool"))
     names = {
         "type": _named(kinds, types),
         "program": _named(shown.columns.program.astype(np.int32), display.toolpath.programs),
@@ -187,6 +255,22 @@ def _batch(display: Display, chunk: Chunk, schema: pa.Schema) -> pa.RecordBatch:
         return pa.array(values, type=field.type, from_pandas=True)
 
     return pa.record_batch([column(field) for field in schema], schema=schema)
+
+
+def _tools(
+    display: Display, contexts: NDArray[np.uint32], called: NDArray[np.object_] | None
+) -> NDArray[np.object_]:
+    """The tool in the spindle of every row, by number or name; null for none. Where a row calls one, that one."""
+    import numpy as np
+
+    inside = [
+        context.tool_name or (str(context.tool) if context.tool else None)
+        for context in display.toolpath.contexts
+    ]
+    tools = np.array([*inside, None], object)[contexts]
+    if called is not None:
+        tools = np.where(called == None, tools, called)  # noqa: E711 - element by element
+    return tools
 
 
 def _named(

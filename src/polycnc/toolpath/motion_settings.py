@@ -72,6 +72,7 @@ class MotionSettings:
         taps_overridden: The feed override acts on rigid taps (FANUC 5203#4 OVS).
         taps_held: Feed hold stops a rigid tap at once (FANUC 5200#6 FHD).
         dry_run: What a dry run does.
+        slowest_rapid: Speed of the fastest axis at the lowest position of the rapid override (F0), mm/s.
         returns_to_path: Axes that were moved by hand go back to where the program waits before it goes on (SINUMERIK
             REPOSA, FANUC 7001#0 MIT); else it goes on from where they are.
     """
@@ -92,6 +93,7 @@ class MotionSettings:
     taps_overridden: bool = False
     taps_held: bool = False
     dry_run: DryRun = DryRun()
+    slowest_rapid: float = 400.0 / 60.0
     returns_to_path: bool = True
 
 

@@ -7,6 +7,7 @@ rapids from and to afar are cut off at its edge.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from math import ceil, floor, log10
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import escape
@@ -22,6 +23,8 @@ FONT = "Arial, DejaVu Sans, sans-serif"
 RAPID_COLOUR, GRID_COLOUR, TEXT_COLOUR = "#999999", "#e4e4e4", "#333333"
 #: The largest side of a view, its margin for texts, and how near two drawn points may lie, all in pixels.
 VIEW, MARGIN, NEAR = 560.0, 54.0, 0.15
+#: Radius of the circle at a cut along the view, pixels.
+HOLE = 2.5
 _LEGEND_LINE = 18.0
 _TITLE = 34.0
 
@@ -158,7 +161,21 @@ def _view(
         else:
             look = f'stroke="{colours[stroke.tool]}" stroke-width="1.2"'
         yield f'<path d="{path}" fill="none" {look}/>'
+    for x, y, tool in dict.fromkeys(plunge for stroke in strokes for plunge in _plunges(frame, stroke)):
+        yield f'<circle cx="{x}" cy="{y}" r="{HOLE}" fill="none" stroke="{colours[tool]}" stroke-width="1.2"/>'
     yield "</g></g>"
+
+
+def _plunges(frame: _Frame, stroke: Stroke) -> Iterator[tuple[str, str, str]]:
+    """Where a cut goes straight into or out of the sheet, as text, with its tool: a hole, seen along the drill."""
+    if stroke.rapid:
+        return
+    right, up = frame.view.right, frame.view.up
+    depth = 3 - right - up
+    for start, end in pairwise(stroke.points):
+        across, upward = frame.scale * abs(end[right] - start[right]), frame.scale * abs(end[up] - start[up])
+        if max(across, upward) < NEAR <= frame.scale * abs(end[depth] - start[depth]):
+            yield f"{frame.x(end[right]):.2f}", f"{frame.y(end[up]):.2f}", stroke.tool
 
 
 def _drawn(frame: _Frame, stroke: Stroke) -> list[tuple[float, float]]:

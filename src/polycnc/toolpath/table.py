@@ -207,7 +207,7 @@ class Toolpath:
         self._program_numbers: dict[str, int] = {}
         self._chunk_rows = chunk_rows
         self._on_full = on_full
-        self._rows_before = 0
+        self._rows_before = self._ways_before = 0
         self._last_end: list[float] = []
         self._last_context = 0
         self.chunk = Chunk(len(axes), 0)
@@ -215,6 +215,11 @@ class Toolpath:
 
     def __len__(self) -> int:
         return self._rows_before + len(self.chunk.kind)
+
+    @property
+    def ways(self) -> int:
+        """How many rows move an axis."""
+        return self._ways_before + _ways(self.chunk)
 
     def context_number(self, context: Context) -> int:
         """The number of a context; a new one is added."""
@@ -258,6 +263,18 @@ class Toolpath:
         self.chunk.events.append(event)
         self.append(Kind.EVENT, program, line, context, NO_FEED, end, len(self.chunk.events) - 1)
 
+    def hand_on_blocks(self, take: Callable[[Chunk], bool], *, keep: bool) -> None:
+        """From here on somebody gets the rows of every block; they are kept as before, or go to him alone."""
+        kept = self._on_full
+        if len(self.chunk):
+            self._next_chunk()
+
+        def on_full(chunk: Chunk) -> bool:
+            take(chunk)
+            return kept is not None and kept(chunk)
+
+        self._chunk_rows, self._on_full = 1, on_full if keep else take
+
     def block_boundary(self) -> None:
         """Called between blocks: hands on a full chunk and starts the next one."""
         if len(self.chunk.kind) >= self._chunk_rows:
@@ -266,12 +283,20 @@ class Toolpath:
     def _next_chunk(self) -> None:
         full = self.chunk
         self._rows_before += len(full.kind)
+        self._ways_before += _ways(full)
         self._last_end = list(full.end[-len(self.axes) :])
         self._last_context = full.context[-1]
         if self._on_full is not None and self._on_full(full):
             self.chunks.remove(full)
         self.chunk = Chunk(len(self.axes), self._rows_before)
         self.chunks.append(self.chunk)
+
+    def set_end(self, number: int, end: Sequence[float]) -> None:
+        """A row that is still held ends elsewhere: the main run has dropped the rest of its way."""
+        for chunk in self.chunks:
+            place = (number - chunk.first) * chunk.axes
+            if 0 <= place < len(chunk.end):
+                chunk.end[place : place + chunk.axes] = array("d", end)
 
     def last_end(self) -> list[float]:
         """The position in the last row; empty where there is none."""
@@ -297,7 +322,7 @@ class Toolpath:
         """What forgets all that comes from here on (for a snapshot). Chunks that were dropped meanwhile are back."""
         chunk, chunks, cut = self.chunk, self.chunks.copy(), self.chunk.memento()
         contexts, programs = len(self.contexts), len(self.programs)
-        before = self._rows_before, self._last_end, self._last_context
+        before = self._rows_before, self._ways_before, self._last_end, self._last_context
 
         def put_back() -> None:
             cut()
@@ -308,7 +333,7 @@ class Toolpath:
                 self._context_numbers.popitem()
             while len(self._program_numbers) > programs:
                 self._program_numbers.popitem()
-            self._rows_before, self._last_end, self._last_context = before
+            self._rows_before, self._ways_before, self._last_end, self._last_context = before
 
         return put_back
 
@@ -354,3 +379,8 @@ class Toolpath:
         if context.offsets:
             machine = [value + offset for value, offset in zip(machine, context.offsets, strict=True)]
         return machine
+
+
+def _ways(chunk: Chunk) -> int:
+    """How many rows of a chunk move an axis."""
+    return len(chunk.kind) - chunk.kind.count(Kind.EVENT) - chunk.kind.count(Kind.DWELL)

@@ -15,10 +15,10 @@ from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.events import Raised
 from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
 from polycnc.toolpath.modes import FeedMode
-from polycnc.transformation.rows import machine_rows, mapped_rows
+from polycnc.transformation.rows import machine_rows, mapped_rows, work_rows
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
@@ -148,33 +148,71 @@ class Display:
 
     def records_of(self, chunk: Chunk) -> Iterator[Record]:
         """The records of one chunk. Long chunks go by whole columns, which gives the same values."""
-        if len(chunk) >= COLUMN_ROWS and find_spec("numpy") is not None:
+        renamed = any(context.names or context.shown_by is not None for context in self.toolpath.contexts)
+        if len(chunk) >= COLUMN_ROWS and not renamed and find_spec("numpy") is not None:
             yield from self._records_by_column(chunk)
         else:
             for row in self.toolpath.rows_of(chunk):
                 yield self.record(row)
 
+    def lines_of(
+        self, chunk: Chunk, write: Callable[[Record], str], form: Callable[[Record], str]
+    ) -> Iterator[str]:
+        """The records of one chunk as text.
+
+        Args:
+            chunk: The chunk.
+            write: Gives the text of any record.
+            form: Gives the form of the text of moves without curves that differ in their numbers only, for `%` with
+                line, work display, machine display and feed; the numbers of the record that it gets mean nothing.
+        """
+        if len(chunk) < COLUMN_ROWS or find_spec("numpy") is None:
+            yield from map(write, self.records_of(chunk))
+            return
+        forms: dict[tuple[object, ...], str] = {}
+        for i, (kind, program, line, unit, work, machine, feed, curve) in self._shown_rows(chunk):
+            if curve >= 0:
+                yield write(self.record(self.toolpath.row_of(chunk, i)))
+                continue
+            has_feed = feed == feed
+            key = kind, program, unit, has_feed
+            text = forms.get(key)
+            if text is None:
+                text = forms[key] = form(self._move(kind, program, line, unit, work, machine, feed))
+            yield text % ((line, *work, *machine, feed) if has_feed else (line, *work, *machine))
+
     def _records_by_column(self, chunk: Chunk) -> Iterator[Record]:
+        for i, row in self._shown_rows(chunk):
+            yield self._move(*row[:-1]) if row[-1] < 0 else self.record(self.toolpath.row_of(chunk, i))
+
+    def _shown_rows(self, chunk: Chunk) -> Iterator[tuple[int, _ShownRow]]:
         shown = self.columns(chunk)
         kinds, numbers, lines, _context, _feed, _end, curves, _curves = shown.columns
         columns = (kinds, numbers, lines, shown.unit, shown.work, shown.machine, shown.feed, curves)
-        axes, programs = self.axes, self.toolpath.programs
-        rows: Iterable[_ShownRow] = zip(*(column.tolist() for column in columns), strict=True)
-        for i, (kind, program, line, unit, work, machine, feed, curve) in enumerate(rows):
-            if curve >= 0:
-                yield self.record(self.toolpath.row_of(chunk, i))
-                continue
-            record: Record = {
-                "type": TYPE_NAMES[kind],
-                "program": programs[program],
-                "line": line,
-                "unit": unit,
-                "to": dict(zip(axes, work, strict=True)),
-                "machine": dict(zip(axes, machine, strict=True)),
-            }
-            if feed == feed:
-                record["feed"] = feed
-            yield record
+        return enumerate(zip(*(column.tolist() for column in columns), strict=True))
+
+    def _move(
+        self,
+        kind: int,
+        program: int,
+        line: int,
+        unit: str,
+        work: Sequence[float],
+        machine: Sequence[float],
+        feed: float,
+    ) -> Record:
+        """A move without curve parameters as a record."""
+        record: Record = {
+            "type": TYPE_NAMES[kind],
+            "program": self.toolpath.programs[program],
+            "line": line,
+            "unit": unit,
+            "to": dict(zip(self.axes, work, strict=True)),
+            "machine": dict(zip(self.axes, machine, strict=True)),
+        }
+        if feed == feed:
+            record["feed"] = feed
+        return record
 
     def columns(self, chunk: Chunk) -> Shown:
         """A chunk by whole columns. Needs NumPy."""
@@ -190,7 +228,8 @@ class Display:
             rows: NDArray[np.bool_] = columns.context == number
             context = self.toolpath.contexts[number]
             scale = self.scale(context)
-            work[rows] = end[rows] * scale.work
+            seen = end[rows] if context.shown_by is None else work_rows(context.shown_by, end[rows])
+            work[rows] = seen * scale.work
             turning.extend((rows, i) for i in self._modulo(context))
             machine[rows] = _machine_columns(end[rows], context, self.layout.geometry) * scale.machine
             feed[rows] *= np.where(kind[rows] == Kind.THREAD, scale.length, scale.feed)
@@ -232,9 +271,14 @@ class Display:
     def work(self, end: Sequence[float], context: Context) -> dict[str, float]:
         """A position (absolute, internal units) as the work display shows it."""
         factors = self.scale(context).work
-        shown = {axis: _shown(v * f) for axis, v, f in zip(self.axes, end, factors, strict=True)}
+        if context.shown_by is not None:
+            end = context.shown_by.to_work(end)
+        names = context.names or self.axes
+        shown = {axis: _shown(v * f) for axis, v, f in zip(names, end, factors, strict=True)}
         for i in self._modulo(context):
-            shown[self.axes[i]] %= _FULL_TURN
+            if names[i]:
+                shown[names[i]] %= _FULL_TURN
+        shown.pop("", None)
         return shown
 
     def machine(self, end: Sequence[float], context: Context) -> dict[str, float]:
@@ -264,12 +308,12 @@ class Display:
 
     def _geometry(self, context: Context) -> tuple[int, int, int]:
         """Columns of X, Y, Z of what is shown."""
-        made = context.transformation
+        made = context.transformation or context.shown_by
         return self.layout.geometry if made is None else made.geometry
 
     def _modulo(self, context: Context) -> frozenset[int]:
         """Axes whose display stays within one turn; not one that a transformation makes a length."""
-        made = context.transformation
+        made = context.transformation or context.shown_by
         if made is None or context.unrolled is not None:
             return self.layout.modulo
         return self.layout.modulo.difference(made.geometry)
@@ -294,7 +338,7 @@ class Display:
         scale = self.scale(context)
         for i, value, component in zip(self._geometry(context), center, normal, strict=True):
             if i >= 0 and (tilted or abs(component) <= 1e-9):
-                shown[self.axes[i]] = _shown(value * scale.work[i])
+                shown[(context.names or self.axes)[i]] = _shown(value * scale.work[i])
         record: CurveRecord = {"center": shown}
         if turns:
             record["turns"] = _shown(turns + 1)

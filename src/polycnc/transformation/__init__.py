@@ -2,9 +2,12 @@
 
 `contract` is what the path, the planner and the displays ask of a transformation; `pole` is a place where an axis has
 no direction. The kinds, one a file, parameters as frozen dataclasses: `polar` (G12.1, TRANSMIT), `cylinder` (G07.1,
-TRACYL), `inclined` (TRAANG), `tool_centre` (G43.4, TRAORI), `feature` (G68.2, CYCLE800), `standing` (G07), `parallel`
-(other axes are X, Y, Z), and `chain`, one after the other. `orientation` finds the rotary positions for a direction of
-the tool, `choice` says which of several; `tilted` is how planes are told and what turning axes do to them.
+TRACYL), `groove` (the same with walls), `inclined` (TRAANG), `tool_centre` (G43.4, TRAORI), `feature` (G68.2,
+CYCLE800), `standing` (G07), `parallel` (other axes are X, Y, Z), and `chain`, one after the other; `seated` puts frames
+in front of one and a tool behind it.
+`orientation` finds the rotary positions for a direction of the tool, `choice` says which of several; `directions` are
+ways of a direction, `turning` makes ways of the rotary axes of them; `tilted` is how planes are told and what turning
+axes do to them.
 `numbers` are the functions that they are made of, for a number and for a whole column alike; `rows` applies a
 transformation to tables of points.
 

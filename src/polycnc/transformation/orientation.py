@@ -1,7 +1,7 @@
 """Orientation: from a direction of the tool to the positions of the rotary axes.
 
-The joints of a machine, one after the other, turn the tool as it is drawn (along Z) into the tool seen from the work:
-`d = R(k1, a1) R(k2, a2) … ez`, those of the table the other way round (`machine.kinematics`). A direction has two
+The joints of a machine, one after the other, turn the tool as it is drawn (mostly along Z) into the tool seen from the
+work: `d = R(k1, a1) R(k2, a2) … ez`, those of the table the other way round (`machine.kinematics`). A direction has two
 degrees of freedom, so two axes decide it; there are two solutions, or one where they meet.
 
 At the pole, where the tool lies along the first of the two axes, that one may stand anywhere: it stays where it is.
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 PARALLEL = 1e-9
 #: A solution stands the tool as near as this to the direction.
 SAME = 1e-6
-ALONG_Z: Vector = (0.0, 0.0, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +79,7 @@ def solutions_for(kinematics: Kinematics, direction: Vector, near: Angles) -> li
     pairs: list[tuple[int, ...]] = list(combinations(range(len(turns)), 2)) or [(0,)]
     found: list[dict[str, float]] = []
     for pair in pairs:
-        for turned in _pair_angles(turns, pair, wanted, near):
+        for turned in _pair_angles(kinematics, pair, wanted, near):
             solution = {**near, **turned}
             angles = {
                 joint.axis: on_nearest_turn(solution.get(joint.axis, 0.0), near.get(joint.axis, 0.0))
@@ -93,7 +92,7 @@ def solutions_for(kinematics: Kinematics, direction: Vector, near: Angles) -> li
 
 def slopes(kinematics: Kinematics, angles: Angles) -> dict[str, Vector]:
     """How the direction of the tool, seen from the work, changes by a degree of each rotary axis."""
-    direction: Vector = ALONG_Z
+    direction: Vector = kinematics.along
     found: dict[str, Vector] = {}
     for joint, sign in reversed(kinematics.turns):
         turn = turn_about(joint.direction, sign * angles.get(joint.axis, 0.0))
@@ -114,22 +113,23 @@ def pole_angle(kinematics: Kinematics, angles: Angles) -> float:
 
 
 def _pair_angles(
-    turns: Sequence[Turn], pair: tuple[int, ...], wanted: Vector, near: Angles
+    kinematics: Kinematics, pair: tuple[int, ...], wanted: Vector, near: Angles
 ) -> list[dict[str, float]]:
     """Angles of one or two axes, the others standing at `near`.
 
     With `d = R(k1, a1) R(k2, a2) e` the component of `d` along k1 depends on a2 alone; a1 then turns the rest about k1.
     """
+    turns, drawn = kinematics.turns, kinematics.along
     outer, outer_sign = turns[pair[0]]
     k1 = unit(outer.direction)
     wanted = _turned_back(turns[: pair[0]], wanted, near)
     if len(pair) == 1:
-        turned = _angle_about(k1, ALONG_Z, wanted)
+        turned = _angle_about(k1, drawn, wanted)
         return [{} if turned is None else {outer.axis: outer_sign * turned}]
     inner, inner_sign = turns[pair[1]]
     between = turns[pair[0] + 1 : pair[1]]
     k2 = _turned(between, unit(inner.direction), near)
-    tool = _turned(between, _turned(turns[pair[1] + 1 :], ALONG_Z, near), near)
+    tool = _turned(between, _turned(turns[pair[1] + 1 :], drawn, near), near)
     found = []
     for inner_deg in _inner_angles(k1, k2, tool, wanted):
         angles = {inner.axis: inner_sign * inner_deg}

@@ -132,7 +132,7 @@ class ToolCentrePoint:
 
     def orientation(self, work: Sequence[N]) -> list[N | float]:
         """Direction from the tip along the tool, seen from the work: three numbers."""
-        direction: Point[N] = _UNIT[2]
+        direction: Point[N] = self.kinematics.along
         for link in self._head:
             direction = _turned(link, direction, self._angle(work, link), 1.0)
         for link in reversed(self._table):

@@ -19,9 +19,10 @@ from hypothesis import strategies as st
 from polycnc.channel.channel import Channel
 from polycnc.channel.group import ChannelGroup
 from polycnc.channel.states.snapshot import Snapshot, SnapshotError
-from polycnc.channel.states.state import plain_states
-from polycnc.channel.waits import Wait
+from polycnc.channel.states.state import plain_states, plain_tables
+from polycnc.channel.waits import Wait, Why
 from polycnc.control.registry import control
+from polycnc.control.word_address.auxiliary.functions import Clocks
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.language.bulk.kernels import scan
 from polycnc.language.bulk.scanner import Bulk
@@ -172,6 +173,8 @@ SINUMERIK = Language(
         "BSPLINE X1 Y2\nX3 Y5\nX8 Y2\nX9 Y9\nG1 X0", "G641 ADIS=.3", "FRC=50 G1 X4 RND=1\nY4",
         "G147 G41 DISR=3 X9 Y9\nG1 X20\nX30\nG40 X35",
         "ANG=30\nG1 X40 Y40 ANG=60", "CYCLE800()", "G1 X7 FB=20", "POS[Z]=8", "G700 X.5\nG710",
+        "$TC_CARR8[1]=1 $TC_CARR13[1]=30\nTCARR=1\nX3 Z2", "TCOFR\nCUTMOD=-1\nTOROT", "TOFFON(Z,.5)\nX4\nTOFFOF(Z)",
+        "TOROTOF TCOABS\nTCARR=0\nFTOCON\nFTOCOF", "$TC_SCP13[1,1]=.5\nTOWMCS T1 D1 DL=1\nX6\nD1",
     ),
     files=SINUMERIK_FILES,
     setup={
@@ -179,6 +182,40 @@ SINUMERIK = Language(
         "switches": {"interrupts": [{"input": 1, "line": 6, "at": {"X": 4}}]},
     },
 )  # fmt: skip
+#: Transformations of SINUMERIK, each on a machine that has them.
+TRANSFORMED = {
+    "five axes": Language(
+        "G90 G17 G94 T1 D1\nTRAORI\nG1 X0 Y0 Z0 F3000",
+        (
+            "X5 A3=1 C3=2", "Y5 A3=0 B3=1 C3=2", "A3=0 B3=0 C3=1", "A10 C20", "A2=30 B2=10", "ORIRPY", "ORIEULER",
+            "ORIMKS", "ORIWKS", "G3 X-5 CR=9 A3=0.5 C3=1", "ORICONCW", "A6=0 B6=0 C6=1", "ORICURVE\nX9 XH=9 YH=1 ZH=9",
+            "ORIPATH\nX20 LEAD=5", "ORIPATHS\nX3 Y4 LEAD=8\nY9 A8=0 B8=0 C8=1", "ORIVECT", "PTP", "CP",
+            "A3=1 C3=1 STAT=1",
+            "C=90 TU='B1'", "ORIRESET(10,20)", "ROT X10", "TRANS", "TRAFOOF", "TRAORI", "T2 D1", "G91 X1\nG90",
+            "G0 X1", "G1 Y1", "G64", "G60", "G41 X9 Y9\nX20\nG40 X30", "RND=1 X8\nY8",
+        ),
+        setup={"tools": {1: {"radius": 2.0, "length": 50.0}, 2: {"radius": 3.0, "length": 30.0}}},
+        machine="mill5-ca-head",
+    ),
+    "turning": Language(
+        "G90 G17 G94 T1 D1 F500\nG0 X40 Z5",
+        (
+            "TRANSMIT", "TRACYL(40)", "TRAFOOF", "G0 X20 Z1", "G1 X10 Z2", "G1 X30", "PTPG0", "CP", "ROT RPL=20",
+            "TRANS X2", "G0 Z9", "G91 Z1\nG90", "M0",
+        ),
+        setup={"tools": {1: {"radius": 2.0}}},
+        machine="lathe-c-transmit",
+    ),
+    "groove": Language(
+        "G90 G19 G94 T1 D1 F500\nG0 X40 Z5\nTRACYL(40)\nG1 X20",
+        (
+            "G1 G42 Z9", "G40 Z1", "G1 Y5", "G1 Z8", "Z2", "G3 Y10 Z0 CR=20", "OFFN=6", "M0", "Y0", "X25", "TRAFOOF",
+            "TRACYL(50)",
+        ),
+        setup={"tools": {1: {"radius": 2.0}}, "parameters": {"$MC_TRAFO_TYPE_1": 513}},
+        machine="lathe-c-transmit-y",
+    ),
+}  # fmt: skip
 LANGUAGES = {
     "sinumerik-840d": SINUMERIK,
     "fanuc-m": MILL,
@@ -215,14 +252,19 @@ def state_of(group: ChannelGroup) -> list[object]:
             plain_states(channel),
             (channel.blocks, channel.coordinates.machine, channel.mode.codes, repr(channel.feed)),
             [(level.index, level.kind, level.repeats) for level in channel.stack],
-            getattr(channel.memory, "waited", 0.0),
+            Clocks.of(channel).seconds,
         ))  # fmt: skip
     return seen
 
 
-def rest_of(run: Iterator[Wait], group: ChannelGroup) -> tuple[list[tuple[str, str]], list[object]]:
-    """Waits to the end of a run, and how it ends."""
-    return [(wait.reason, wait.code) for wait in run], state_of(group)
+def rest_of(run: Iterator[Wait], group: ChannelGroup) -> tuple[list[object], ...]:
+    """Waits to the end of a run, or to where it goes on in a main run; how it ends; what is retained, too."""
+    waits: list[object] = []
+    for wait in run:
+        waits.append((wait.reason, wait.code))
+        if wait.reason is Why.CLOCK:
+            break
+    return waits, state_of(group), [plain_tables(channel) for channel in group.channels]
 
 
 def check_from(run: Iterator[Wait], blocks: int) -> None:
@@ -249,6 +291,16 @@ def test_what_a_program_does_from_a_block_on_is_the_same_every_time(
     chosen = data.draw(st.lists(st.sampled_from(language.blocks), min_size=2, max_size=12))
     text = "\n".join([language.head, *chosen, language.tail, ""])
     check_from(group_of(control_id, text, language), data.draw(st.integers(0, text.count("\n") + 10)))
+
+
+@pytest.mark.parametrize("kind", TRANSFORMED)
+@settings(max_examples=30, deadline=None)
+@given(data=st.data())
+def test_so_it_is_under_transformations(kind: str, data: st.DataObject) -> None:
+    language = TRANSFORMED[kind]
+    chosen = data.draw(st.lists(st.sampled_from(language.blocks), min_size=2, max_size=12))
+    text = "\n".join([language.head, *chosen, language.tail, ""])
+    check_from(group_of("sinumerik-840d", text, language), data.draw(st.integers(0, text.count("\n") + 10)))
 
 
 @pytest.mark.parametrize("blocks", range(9))

@@ -43,7 +43,7 @@ def test_registered_codes_name_their_type_and_program() -> None:
         "7002": 0,
         "7003": 700,
     }
-    calls = registered_codes(run("M30\n", "meldas-m", setup={"parameters": parameters}))
+    calls = registered_codes(run("M30\n", "meldas-m", setup={"parameters": parameters}).memory.parameters)
     assert {
         code: (call.program, call.kind) for code, call in calls.g.items() if code > "G1" and code < "G3"
     } == {
@@ -59,9 +59,15 @@ def test_g53_takes_increments_where_fanuc_ignores_them() -> None:
     assert ends(run(text, "fanuc-m")) == []
 
 
-@pytest.mark.parametrize("count", ["", "K0", "K10000", "K1.5"])
+@pytest.mark.parametrize("count", ["", "K0", "K10000", "K0.5"])
 def test_a_pattern_needs_a_count(count: str) -> None:
     assert codes(run(f"G35 X1. I5. J0 {count}\nM30\n", "meldas-m"))
+
+
+def test_the_fraction_of_a_count_is_dropped() -> None:
+    assert ends(run("G35 X1. I5. J0 K2.9\nM30\n", "meldas-m")) == ends(
+        run("G35 X1. I5. J0 K2\nM30\n", "meldas-m")
+    )
 
 
 def test_a_pattern_drills_with_the_cycle_that_is_stored() -> None:

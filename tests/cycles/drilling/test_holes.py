@@ -15,7 +15,8 @@ def strokes(cycle: Cycle, hole: Hole) -> list[tuple[str, float]]:
     return [
         (stroke.action.name.lower(), stroke.value)
         for stroke in cycle(hole)
-        if stroke.action is not Action.SPINDLE and (stroke.action is not Action.DWELL or stroke.value)
+        if stroke.action not in (Action.SPINDLE, Action.ORIENT)
+        and (stroke.action is not Action.DWELL or stroke.value)
     ]
 
 

@@ -171,7 +171,6 @@ def face(*, width: float, step: float, overrun: float, across: bool, alternating
         feed=1.0,
         safe=2.0,
         retract=9.0,
-        lift=2.0,
     )
 
 
@@ -185,7 +184,7 @@ def test_strips_cover_a_face_and_leave_it_by_the_overrun() -> None:
 
 def test_strips_in_one_direction_return_over_the_face() -> None:
     one_way = face(width=20.0, step=10.0, overrun=0.0, across=True, alternating=False)
-    strokes = list(facing.face(one_way, [0.0]))
+    strokes = list(facing.face(one_way, [-6.0]))
     w = 0.0
     for stroke in strokes[1:]:
         w = w if stroke.w is None else stroke.w

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from polycnc.cycles.turning.contour import Contour, Piece
-from polycnc.cycles.turning.rough import Roughing, rough
+from polycnc.cycles.turning.cuts import Roughing
+from polycnc.cycles.turning.rough import rough
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.geometry import offset
 from polycnc.toolpath import Kind

@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from polycnc.cycles.turning.rough import Roughing, rough
+from polycnc.cycles.turning.cuts import Roughing
+from polycnc.cycles.turning.rough import rough
 from polycnc.toolpath import Kind
 from tests.cycles.turning.test_contour import POCKET, lines
 

@@ -41,7 +41,7 @@ def test_cuts_are_equal_and_end_on_the_contour() -> None:
 
 def test_a_relief_is_a_section_of_its_own_below_the_summit_in_front() -> None:
     found = sections(GROOVED, -1.0)
-    assert [(s.bottom, s.top) for s in found] == [(15.0, 25.0)]
+    assert [(s.bottom, s.top) for s in found] == [(20.0, 25.0), (15.0, 20.0)]
     summit = lines((0.0, 20.0), (-10.0, 22.0), (-15.0, 15.0), (-20.0, 15.0), (-20.0, 25.0))
     found = sections(summit, -1.0)
     assert [(s.bottom, s.top) for s in found] == [(20.0, 25.0), (15.0, 22.0)]

@@ -10,8 +10,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from polycnc.language.bulk import kernels
 from polycnc.language.bulk.compiled import LIBRARY
+from polycnc.language.bulk.kernels import Tables
+from polycnc.language.bulk.kernels import scan as plain_scan
+from polycnc.language.bulk.layout import State
+from polycnc.language.bulk.moves import Columns
 from polycnc.language.bulk.scanner import Bulk
 from polycnc.program import long_text
 from polycnc.session import open_session
@@ -94,7 +97,7 @@ def test_large_files_give_the_same_whatever_ends_their_lines(
     assert [name for name in whole if whole[name] != paged[name]] == []
 
 
-@pytest.mark.skipif(LIBRARY.compiled(kernels.scan) is None, reason="needs numba")
+@pytest.mark.skipif(LIBRARY.lack is not None, reason="needs compiled kernels")
 @settings(max_examples=40, deadline=None)
 @given(FANUC)
 def test_the_compiled_kernel_gives_the_same(text: str) -> None:
@@ -170,3 +173,17 @@ def test_the_limit_of_blocks_is_exact_in_endless_structures(shape: str, body: st
     assert [alarm.code for alarm in channel.alarms] == ["PC0002"]
     assert channel.blocks == limit
     assert differences(text, "sinumerik-840d", block_limit=limit) == []
+
+
+def test_blocks_that_call_one_after_the_other_are_not_scanned_each() -> None:
+    tries: list[int] = []
+
+    def scan(tables: Tables, state: State, columns: Columns) -> int:
+        tries.append(state.scan.line)
+        return plain_scan(tables, state, columns)
+
+    text = "O1\nG91 G1 F100.\n" + "M98 P2\n" * 2_000 + "M30\nO2\nX0.1\nM99\n"
+    session = open_session(text, control="fanuc-m")
+    session.channel.bulk = Bulk(fewest_lines=0, scan=scan)
+    assert session.run().ok
+    assert len(tries) < 50

@@ -55,7 +55,7 @@ def test_a_limit_of_the_speed_gives_the_same() -> None:
 def test_a_machine_that_refuses_speeds_refuses_them_in_runs_of_plain_blocks(control_id: str) -> None:
     text, setup = (
         program(control_id, "X9.", "X8.", "X7. S500", "X6.").replace("M3\n", ""),
-        {"switches": {"TOOL_UNCLAMPED": 1}},
+        {"machine": "hartford", "switches": {"TOOL_UNCLAMPED": 1}},
     )
     (alarm,) = run(text, control_id, setup).alarms
     assert alarm.line == 4

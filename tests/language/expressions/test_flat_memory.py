@@ -31,6 +31,7 @@ MACRO_B = """O{n}
 G1 X[#{local}*[{places}]+{small}.] F{n}
 IF[#{common}EQ{n}]GOTO{n}
 N{n} M{m}
+M30
 """
 SYNTEC = """%@MACRO
 #{local} := {n}*#2+SIN({n}.5) - {sum};

@@ -3,10 +3,21 @@
 from __future__ import annotations
 
 import ast
+from typing import cast
 
 import pytest
 
-from polycnc.language.expressions.operators import MAX_DEPTH, TIGHTEST, Operator, OperatorReader
+from polycnc.language.expressions import code
+from polycnc.language.expressions.code import Lifted
+from polycnc.language.expressions.operators import (
+    MAX_DEPTH,
+    TIGHTEST,
+    Operator,
+    OperatorReader,
+    applied,
+    calculated,
+    overflow,
+)
 
 INFIX = {
     "=": Operator(1, ast.Eq),
@@ -75,3 +86,28 @@ def test_an_expression_that_is_nested_too_deeply_is_refused(text: str) -> None:
     with pytest.raises(OverflowError):
         Letters(text).expression()
     assert Letters(text[-2 * (MAX_DEPTH // 2) + 1 :]).expression()
+
+
+A, B = Lifted("n", 0), code.name("b")
+
+
+def test_a_chain_of_operators_is_asked_once_whether_it_is_finite() -> None:
+    product = calculated(ast.Mult, B, B)
+    chain = calculated(ast.Add, calculated(ast.Div, product, A), B)
+    assert ast.unparse(code.node(chain)).count("overflow()") == 1
+    assert ast.unparse(code.node(calculated(ast.Sub, B, product))).count("overflow()") == 2
+
+
+def test_counting_by_a_number_of_the_block_is_not_asked() -> None:
+    assert calculated(ast.Add, B, A) == applied(ast.Add, B, A)
+    assert calculated(ast.Gt, calculated(ast.Mult, B, B), B).kind is ast.Compare
+
+
+@pytest.mark.parametrize(("gives", "value"), [(ast.Mult, 1e200), (ast.Add, 1.7e308), (ast.Div, 1e-320)])
+def test_a_result_that_is_not_finite_overflows(gives: type[ast.AST], value: float) -> None:
+    left = B if gives is not ast.Div else code.constant(1.0)
+    tree = ast.fix_missing_locations(ast.Expression(cast("ast.expr", code.node(calculated(gives, left, B)))))
+    function = compile(tree, "", "eval")
+    with pytest.raises(OverflowError):
+        eval(function, {"b": value, "overflow": overflow})
+    assert eval(function, {"b": 2.0, "overflow": overflow}) in {4.0, 0.5}

@@ -40,11 +40,11 @@ def test_five_m_functions_are_allowed_and_no_sixth() -> None:
         ("R1=5 X10", "12080", 1),
         ("X10 R1=5", "12080", 5),
         ("AND", "12080", 1),
-        ("X=GP(5,99)", "12560", 0),
-        ("G[8]=999", "12470", 0),
-        ("G[2]=1", "12470", 0),
+        ("X=GP(5,99)", "12560", 8),
+        ("G[8]=999", "12470", 1),
+        ("G[2]=1", "12470", 1),
         ("G[8]=R1+1", "12080", 8),
-        ("WHEN TRUE DO R1=1", "PC0001", 1),
+        ("WHEN TRUE DO R1=1", "12580", 14),
     ],
 )
 def test_a_wrong_word_alarms_at_its_column(line: str, code: str, column: int) -> None:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from polycnc.machine import load_machine
 from polycnc.machine.errors import SetupError
-from polycnc.machine.setup.file import check_axes, load_setup, parse_setup
+from polycnc.machine.setup.file import check_axes, check_bits, load_setup, parse_setup
 from polycnc.machine.setup.values import (
     Interrupt,
     Offsets,
@@ -370,3 +370,41 @@ def test_an_operating_mode_has_a_name_that_is_known() -> None:
 
 def test_an_axis_that_the_machine_does_not_have_may_be_zero() -> None:
     check_axes(parse_setup({"start": {"A": 0}, "work_offsets": {"G54": {"A": 0.0}}}), load_machine("mill3"))
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("tools:\n  1: {radius: 3, tip: 99}", 2),
+        ("start:\n  X: 1.0e+300", 2),
+        ("start:\n  X: 1\n  x: 2", 3),
+        ("tools:\n  '': {radius: 3}", 2),
+        ("variables:\n  R1: 1.0e+200", 2),
+        ("switches:\n  interrupts:\n  - {input: 12345678901, line: 1, at: {}}", 3),
+        ("parameters:\n  5102#32: 1", 2),
+        ("start:\n  X: 010", 2),
+    ],
+)
+def test_a_value_that_no_machine_has_is_refused_with_its_line(tmp_path: Path, text: str, line: int) -> None:
+    path = tmp_path / "setup.yaml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(SetupError) as error:
+        load_setup(path)
+    assert error.value.line == line
+
+
+def test_a_bit_that_parameters_of_the_control_do_not_have_is_refused_with_its_line(tmp_path: Path) -> None:
+    path = tmp_path / "setup.yaml"
+    path.write_text("parameters:\n  5102#7: 1\n  1006#8 X: 1\n", encoding="utf-8")
+    check_bits(load_setup(path), "sinumerik-840d", 31, path)
+    with pytest.raises(SetupError, match="1006#8 X: a parameter of fanuc-m has the bits 0 to 7") as error:
+        check_bits(load_setup(path), "fanuc-m", 7, path)
+    assert error.value.line == 3
+
+
+@pytest.mark.parametrize("text", ["a = " + "[" * 5000, "a = " + "9" * 5000])
+def test_toml_beyond_all_bounds_is_refused(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "setup.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(SetupError):
+        load_setup(path)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import itertools
-from math import sqrt
+from math import pi, sqrt
 from pathlib import Path
 
 import pytest
 
 from polycnc.mainrun import Command, CommandRefused, Mode, State, VirtualControl
+from polycnc.mainrun.commands import search
 from polycnc.mainrun.commands.states import ALLOWED, is_allowed
 from tests.mainrun.support import power_on, recorded, run_through
 
@@ -148,9 +149,9 @@ def test_reset_brakes_first_and_brings_modal_codes_back() -> None:
     assert virtual.state is State.BRAKING
     before = virtual.machine_position[0]
     assert virtual.run() is State.READY
-    # Half of the line's ramp T = √(2·v/j) behind, then at j·T/2 (`kernels/alone.py`).
-    ramp = sqrt(2.0 * 100.0 / 50000.0)
-    braking = 100.0 * 0.5 * ramp + 100.0**2 / (50000.0 * ramp)
+    # Half of the line's ramp T = √(v/j) behind, then at j·T (`kernels/alone.py`).
+    ramp = sqrt(100.0 / 50000.0)
+    braking = 100.0 * 0.5 * ramp + 100.0**2 / (2.0 * 50000.0 * ramp)
     assert virtual.machine_position[0] == pytest.approx(before + braking)
     assert virtual.modal["distance"] == "G90"
     virtual.cycle_start()
@@ -435,6 +436,36 @@ def test_the_spindle_turns_as_the_override_says() -> None:
     assert virtual.spindle.direction == 1
 
 
+@pytest.mark.parametrize("machine", ["lathe2", "hartford"])
+def test_under_constant_surface_speed_the_panel_shows_the_speed_at_the_radius(machine: str) -> None:
+    lathe = machine == "lathe2"
+    text = "O1\nG96 S100 M3\nG0 X50.\nG4 X2.\nG1 X100. F60.\nM5\nG4 X2.\nM30\n"
+    control = "fanuc-0i-tf" if lathe else "fanuc-m"
+    virtual = power_on(text, control, machine=machine)
+    virtual.cycle_start()
+    virtual.step(2.0)
+    around_m = pi * (0.05 if lathe else 0.1)
+    assert virtual.spindle.rpm == pytest.approx(100.0 / around_m)
+    virtual.override(spindle=0.5)
+    assert virtual.spindle.rpm == pytest.approx(50.0 / around_m)
+    virtual.run()
+    assert virtual.spindle.rpm == 0.0
+
+
+def test_block_search_in_a_program_that_never_ends_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(search, "LONGEST", 100)
+    virtual = power_on("O1\nG1 X20. F6000\nG91 Y5.\nM99\nN40 X5.\nM30\n")
+    with pytest.raises(CommandRefused):
+        virtual.block_search("N40")
+
+
+def test_block_search_goes_through_any_number_of_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(search, "LONGEST", 100)
+    virtual = power_on("O1\n" + "G1 X20. F6000\nX10.\n" * 500 + "N40 X5.\nM30\n")
+    virtual.block_search("N40")
+    assert virtual.state is State.STOPPED
+
+
 def test_machine_lock_and_block_search_wait_until_an_axis_moved_by_hand_stands() -> None:
     machine = VirtualControl("fanuc-m")
     machine.load("O1\nN10 G0 X10.\nM30\n")
@@ -451,7 +482,7 @@ def test_machine_lock_and_block_search_wait_until_an_axis_moved_by_hand_stands()
 
 @pytest.mark.parametrize("end", ["M2", "M30"])
 def test_m02_of_a_machining_centre_asks_for_a_reset_and_m30_does_not(end: str) -> None:
-    virtual = power_on(f"O1\nG0 X10.\n{end}\n")
+    virtual = power_on(f"O1\nG0 X10.\n{end}\n", machine="hartford")
     virtual.cycle_start()
     virtual.run()
     if end == "M2":

@@ -203,3 +203,33 @@ def test_an_axis_is_moved_by_hand_in_the_channel_that_owns_it() -> None:
     virtual.select_mode("jog")
     with pytest.raises(CommandRefused):
         virtual.jog("Y", 1, channel=2)
+
+
+def test_an_axis_is_referenced_in_its_own_channel_though_another_calls_one_alike() -> None:
+    encoders = {"switches": {"INCREMENTAL_ENCODERS": 1}}
+    virtual = VirtualControl("fanuc-0i-tf", machine="lathe2-2path", setup=encoders)
+    virtual.select_mode("jog")
+    virtual.jog("Z", 1, channel=2)
+    virtual.step(1.0)
+    virtual.stop_jog("Z", channel=2)
+    virtual.run()
+    virtual.power_off()
+    virtual.power_on()
+    virtual.run()
+    virtual.select_mode("reference")
+    virtual.step(0.1)
+    names = ("Z1", "X2", "Z2")
+    assert [virtual.signals[f"NOT_REFERENCED_{name}"] for name in names] == [0.0, 0.0, 1.0]
+    virtual.home("Z", channel=2)
+    virtual.run()
+    assert virtual.signals["NOT_REFERENCED_Z2"] == 0.0
+
+
+def test_a_program_of_any_channel_asks_for_its_spindle() -> None:
+    virtual = two_channels('INIT(2,"B")\nSTART(2)\nWAITE(2)\nM30\n', "S500 M3\nG4 F1\nM5\nM30\n")
+    virtual.cycle_start()
+    seen = []
+    while virtual.state is State.RUNNING:
+        virtual.step(0.2)
+        seen.append(virtual.signals["SPINDLE_COMMANDED"])
+    assert (max(seen), seen[-1]) == (1.0, 0.0)

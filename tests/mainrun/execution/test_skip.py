@@ -12,8 +12,8 @@ from tests.mainrun.support import power_on
 
 PROBE = "O1\nG90 G31 X100. F6000\n#100=#5061\n#101=#5041\nG91 G1 Y10.\nM30\n"
 #: The axes are half a ramp behind, then they brake with what limited jerk leaves of 3000 mm/s² (`kernels/alone.py`).
-RAMP_S = sqrt(2.0 * 100.0 / 50000.0)
-BRAKING_MM = 100.0 * 0.5 * RAMP_S + 100.0**2 / (2.0 * 0.5 * 50000.0 * RAMP_S)
+RAMP_S = sqrt(100.0 / 50000.0)
+BRAKING_MM = 100.0 * 0.5 * RAMP_S + 100.0**2 / (2.0 * 50000.0 * RAMP_S)
 
 
 def test_a_signal_of_the_setup_leaves_its_braking_distance_behind() -> None:

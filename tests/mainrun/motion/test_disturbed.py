@@ -175,8 +175,8 @@ def test_a_tool_that_brisk_moves_is_at_rest_as_soon_as_its_plan_is() -> None:
         virtual.feed_hold()
         virtual.run()
     assert brisk.time == pytest.approx(0.4 + 100.0 / PULL, abs=0.005)
-    ramp = sqrt(2.0 * 100.0 / JERK)
-    assert soft.time == pytest.approx(0.4 + 100.0 / (0.5 * JERK * ramp) + ramp, abs=0.005)
+    ramp = sqrt(100.0 / JERK)
+    assert soft.time == pytest.approx(0.4 + 100.0 / (JERK * ramp) + ramp, abs=0.005)
 
 
 def test_feed_hold_brakes_within_the_acceleration_and_stays() -> None:
@@ -187,9 +187,9 @@ def test_feed_hold_brakes_within_the_acceleration_and_stays() -> None:
     virtual.feed_hold()
     virtual.run()
     assert virtual.state is State.HOLD
-    # The axes are half of the line's ramp T = √(2·v/j) behind, then they brake at j·T/2 (`kernels/alone.py`).
-    ramp = sqrt(2.0 * 100.0 / JERK)
-    braking = 100.0 * 0.5 * ramp + 100.0**2 / (JERK * ramp)
+    # The axes are half of the line's ramp T = √(v/j) behind, then they brake at j·T (`kernels/alone.py`).
+    ramp = sqrt(100.0 / JERK)
+    braking = 100.0 * 0.5 * ramp + 100.0**2 / (2.0 * JERK * ramp)
     assert virtual.machine_position[0] - before == pytest.approx(braking)
     stands = virtual.machine_position
     virtual.step(5.0)

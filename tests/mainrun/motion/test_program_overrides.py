@@ -6,12 +6,12 @@ import pytest
 
 from polycnc.machine import parse_setup
 from polycnc.mainrun import State
-from tests.mainrun.support import power_on, run_through
+from tests.mainrun.support import hartford, power_on, run_through
 
 
 def seconds(text: str, control: str = "fanuc-m", **rates: float) -> float:
-    """How long a program takes under overrides."""
-    virtual = power_on(text, control)
+    """How long a program takes under overrides; M73 to M76 are Hartford's."""
+    virtual = hartford(text, control)
     if rates:
         virtual.override(**rates)
     assert run_through(virtual) is State.READY
@@ -37,7 +37,7 @@ def test_m73_moves_even_where_the_override_stands_at_zero() -> None:
 
 @pytest.mark.parametrize("control", ["fanuc-m", "meldas-m"])
 def test_m75_makes_the_spindle_override_one_hundred_per_cent_until_m76(control: str) -> None:
-    virtual = power_on("O1\nM3 S1000\nG4 P9000\nM75\nG4 P9000\nM76\nG4 P9000\nM30\n", control)
+    virtual = hartford("O1\nM3 S1000\nG4 P9000\nM75\nG4 P9000\nM76\nG4 P9000\nM30\n", control)
     virtual.override(spindle=1.2)
     speeds = []
     virtual.cycle_start()
@@ -98,8 +98,10 @@ def test_a_rapid_goes_at_45_degrees_until_the_shorter_axis_is_there(control: str
     while virtual.run(limit_s=0.004) is State.RUNNING:
         places.append(virtual.machine_position[:2])
     moving = [(x, y) for x, y in places if 0.0 < x < 25.0]
-    assert any(0.1 < x < 0.8 for x, _ in moving)
-    assert all(y == pytest.approx(-x, abs=1e-6) for x, y in moving if x < 0.8), "until the shorter one brakes"
+    assert any(0.05 < x < 0.35 for x, _ in moving)
+    assert all(y == pytest.approx(-x, abs=1e-6) for x, y in moving if x < 0.35), (
+        "until the shorter one brakes"
+    )
     assert any(x < 24.0 and y == pytest.approx(-10.0, abs=1e-3) for x, y in moving)
 
 

@@ -6,14 +6,15 @@ A part of the way is a number from 0 (start) to 1 (end): of the length on a line
 from __future__ import annotations
 
 from dataclasses import replace
-from math import atan2, cos, hypot, pi, sin
+from math import asin, atan2, cos, floor, hypot, pi, sin
 from typing import TYPE_CHECKING
 
+from polycnc.geometry import arcs
 from polycnc.geometry.vectors import cross, dot
 from polycnc.toolpath.kinds import CCW_KINDS
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
     from polycnc.channel.moves.path import Move
     from polycnc.geometry.frames import Vector
@@ -80,6 +81,21 @@ class MovePath:
                 point[column] = self._foot[k] + turned
         return point
 
+    def chords(self, error: float) -> Iterator[list[float]]:
+        """End points of equal chords that stay within `error` (mm) of an arc; the last one is its end."""
+        count = arcs.parts_for_chord_error(self.radius, self.sweep, error)
+        return (self.at(k / count) for k in range(1, count + 1))
+
+    @property
+    def sweep(self) -> float:
+        """Angle of an arc with its full turns, radians, positive counter-clockwise; 0 for a line."""
+        return self._sweep
+
+    @property
+    def radius(self) -> float:
+        """Greatest radius of an arc, mm."""
+        return max(self._radius, self._radius + self._growth)
+
     @property
     def length(self) -> float:
         """Length on the geometry axes, mm; of the longest way of another axis where those stand."""
@@ -104,6 +120,30 @@ class MovePath:
                 for out, on, n in zip(self._out, self._on, self.move.normal, strict=True)
             ]
         )
+
+    def turning_parts(self, direction: Vector) -> Iterator[float]:
+        """The parts of an arc at which its coordinate along a direction turns from growing to shrinking, or back.
+
+        With angle a, radius r and the rise h for each radian the coordinate changes by
+        `r·(cos(a)·(d·on) - sin(a)·(d·out)) + h·(d·normal)`, which is zero where `sin(b - a)` has one known value.
+        A line has none; of a spiral the radius at its middle counts.
+        """
+        if not self._sweep:
+            return
+        out, on = dot(direction, self._out), dot(direction, self._on)
+        reach = hypot(out, on) * (self._radius + 0.5 * self._growth)
+        if reach <= SAME:
+            return
+        share = self._rise / self._sweep * dot(direction, self.move.normal) / reach
+        if abs(share) >= 1.0:
+            return
+        ahead = atan2(on, out)
+        for angle in (ahead + asin(share), ahead + pi - asin(share)):
+            first = angle if self._sweep > 0.0 else -angle
+            first -= floor(first / (2.0 * pi)) * 2.0 * pi
+            while first < abs(self._sweep):
+                yield first / abs(self._sweep)
+                first += 2.0 * pi
 
     def part_at(self, wanted: Mapping[int, float]) -> float | None:
         """The first part of the way at which every named axis (by column) has its value; None for never."""
@@ -167,6 +207,10 @@ class MovePath:
     def until(self, part: float) -> Move:
         """The move as far as a part of its way."""
         return self._piece(self.move.start, self.at(part), part)
+
+    def between(self, first: float, last: float) -> Move:
+        """The piece between two parts of the way."""
+        return self._piece(self.at(first), self.at(last), last - first)
 
     def beyond(self, part: float, start: list[float] | None = None) -> Move:
         """The rest of the move from a part of its way on; `start` where axes beside its way stand elsewhere."""

@@ -17,8 +17,7 @@ from itertools import pairwise
 from math import nan
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from polycnc.geometry import arcs
-from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, Kind
+from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -26,6 +25,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.geometry.frames import Vector
     from polycnc.toolpath import Event
+    from polycnc.transformation.turning import Turning
 
 
 class Rank(IntEnum):
@@ -39,16 +39,24 @@ class Rank(IntEnum):
     APPROACH = auto()
     #: Chamfers and roundings belong to the contour, so they come before the tool leaves it.
     CORNERS = auto()
+    #: The contour as the tool sees it, where frames distort or tilt it.
+    INTO_TOOL_PLANE = auto()
     #: Cutter and nose radius.
     COMPENSATION = auto()
+    #: Back to programmed lengths and directions.
+    OUT_OF_TOOL_PLANE = auto()
     #: Tool radius in space, across a tool that tilts.
     SPATIAL_COMPENSATION = auto()
     #: A rotary axis follows the direction of the way that the tool really takes.
     NORMAL = auto()
+    #: Rotary axes turn along the way so that the tool keeps to the way of its direction.
+    TURNING = auto()
     #: Positions of the work become those of the axes.
     AXES = auto()
     #: Protection zones: they see where the machine would go.
     ZONES = auto()
+    #: Limits of travel: they see where the machine would go, too.
+    LIMITS = auto()
     #: Touch probes end moves, so they know how far one was allowed to go.
     PROBES = auto()
     #: Keeps or drops moves: nothing reaches the rows, and all stages in front work as if it did.
@@ -73,6 +81,7 @@ class Move:
         normal: Unit normal of the arc's plane; a `CCW` arc turns counter-clockwise seen from its tip.
         turns: Full turns beyond the first part of an arc.
         parameters: Other curve parameters (lead, start angle, seconds), as `CURVE_WIDTH` documents.
+        turning: How the rotary axes go on the way, where they do not go evenly from start to end.
     """
 
     kind: Kind
@@ -86,11 +95,19 @@ class Move:
     normal: Vector = (0.0, 0.0, 1.0)
     turns: float = 0.0
     parameters: tuple[float, ...] = ()
+    turning: Turning | None = None
 
     @property
     def is_arc(self) -> bool:
         """Whether the move is an arc, a helix or a spiral."""
         return self.center is not None
+
+    def between(self, start: list[float], end: list[float]) -> Move:
+        """The same move between two other positions."""
+        return Move(
+            self.kind, start, end, self.feed, self.program, self.line, self.context,
+            self.center, self.normal, self.turns, self.parameters,
+        )  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -218,13 +235,18 @@ S = TypeVar("S", bound=Stage)
 class Path:
     """The stages that a channel's moves pass, in the order of their ranks.
 
+    Args:
+        channel: The channel whose moves they are.
+        guard: Looks at what stages have made of moves, in its place behind them; it is none of the stages.
+
     Attributes:
         head: The first stage, or None while moves go straight to the table.
         table: Writes the rows.
     """
 
-    def __init__(self, channel: Channel) -> None:
+    def __init__(self, channel: Channel, guard: Stage | None = None) -> None:
         self.head: Stage | None = None
+        self._guard = guard
         self.table = TableStage(channel)
         self._channel = channel
         self._stages: list[Stage] = []
@@ -300,36 +322,12 @@ class Path:
     def _lead(self, stages: list[Stage]) -> None:
         """Lead moves through these stages, which are in order."""
         self._stages = stages
-        for stage, after in pairwise([*stages, self.table]):
+        way = stages
+        if stages and self._guard is not None and not any(isinstance(stage, Sink) for stage in stages):
+            way = sorted([*stages, self._guard], key=lambda each: each.rank)
+        for stage, after in pairwise([*way, self.table]):
             stage.after = after
-        self.head = stages[0] if stages else None
+        self.head = way[0] if way else None
         self._channel.attention = True
         if self.head is None:
             self.table.end = []  # moves no longer come this way
-
-
-#: Chords of an arc may be this far off it where it is looked at point by point, mm.
-CHORD_ERROR_MM = 0.05
-_LARGEST_PARTS = 720
-
-
-def points_of_arc(move: Move, geometry: Sequence[int]) -> Iterator[list[float]]:
-    """Points along a circular move between its ends (absolute display, all axes), about evenly spaced."""
-    if move.center is None or move.kind not in ARC_KINDS:
-        return
-    w = max(range(3), key=lambda i: abs(move.normal[i]))
-    u, v = (w + 1) % 3, (w + 2) % 3
-    first, second = geometry[u], geometry[v]
-    if first < 0 or second < 0:
-        return
-    center = (move.center[u], move.center[v])
-    start, end = (move.start[first], move.start[second]), (move.end[first], move.end[second])
-    ccw = (move.kind in CCW_KINDS) == (move.normal[w] > 0.0)
-    sweep = arcs.sweep_angle(start, end, center, ccw)
-    radius = arcs.radius_of(center, start)
-    count = min(arcs.parts_for_chord_error(radius, sweep, CHORD_ERROR_MM), _LARGEST_PARTS)
-    for number, (a, b) in enumerate(arcs.split(start, end, center, ccw, count)):
-        part = (number + 1) / count
-        point = [s + part * (e - s) for s, e in zip(move.start, move.end, strict=True)]
-        point[first], point[second] = a, b
-        yield point

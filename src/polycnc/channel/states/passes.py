@@ -14,9 +14,6 @@ from polycnc.channel.states.state import plain, plain_states, plain_tables
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
 
-#: Seconds that clocks have counted: they matter to a program that reads them alone.
-_CLOCK = "waited"
-
 
 class Passes:
     """Counts the passes of a main program, and knows when they have begun to repeat themselves.
@@ -55,14 +52,11 @@ def _hears(channel: Channel) -> bool:
 def _state(channel: Channel) -> tuple[object, ...]:
     """Everything that a further pass begins with, as plain values."""
     c, control = channel.coordinates, channel.control
-    memory: dict[str, object] = dict(vars(channel.memory))
-    if not memory.get("clock_is_read"):
-        memory.pop(_CLOCK, None)
     named: dict[str, object] = {
         name: control.read_variable(channel, name) for name in control.variable_names(channel)
     }
     return (
         id(channel.mode), channel.level.index, repr(channel.feed), list(c.position), list(c.programmed),
         list(c.pending), list(c.offsets), repr(c.zero), repr(c.programming),
-        named, plain(memory), plain_states(channel), plain_tables(channel), plain(channel.level.locals),
+        named, plain_states(channel), plain_tables(channel), plain(channel.level.locals),
     )  # fmt: skip

@@ -12,6 +12,8 @@ fields whose objects belong to another one that does not change. A class whose c
 lie has a method `memento`, which gives what brings an object back: a toolpath only grows.
 
 What runs cannot be noted: a generator in flight on the way is a `SnapshotError`.
+
+`contents` goes the same way and gives what it finds as values that can be compared.
 """
 
 from __future__ import annotations
@@ -22,6 +24,7 @@ import types
 import weakref
 from array import array
 from collections import deque
+from collections.abc import Sized
 from dataclasses import is_dataclass
 from fractions import Fraction
 from functools import partial
@@ -35,6 +38,7 @@ from polycnc.geometry.frames import Frame
 from polycnc.machine.model import Machine
 from polycnc.machine.setup.values import Parameters, Setup
 from polycnc.program import Program
+from polycnc.toolpath import Toolpath
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -54,6 +58,7 @@ _ATOMS: set[type] = {
     types.ModuleType, types.CodeType, types.MappingProxyType, types.MemberDescriptorType,
     types.GetSetDescriptorType, types.WrapperDescriptorType, types.MethodDescriptorType,
 }  # fmt: skip
+_METHODS = (types.MethodType, types.BuiltinMethodType, types.MethodWrapperType)
 _RUNNING = (types.GeneratorType, types.CoroutineType, types.AsyncGeneratorType)
 _WALKERS: dict[type, Walker] = {}
 _UNCHANGING: set[type] = {Frame, Mode, Machine, Parameters, Setup, Program, PurePath}
@@ -104,6 +109,66 @@ class Snapshot:
             undo()
         for states, there in self._states:
             states.begin_anew(there)
+
+
+def contents(root: object) -> list[object]:
+    """Everything that a snapshot of `root` would note, as a list that is kept: two are equal where the states are.
+
+    Objects stand for themselves by the order in which they are reached, so what was made anew with the same contents
+    is the same.
+
+    Raises:
+        SnapshotError: Something is running that cannot be noted.
+    """
+    numbers: dict[int, tuple[int]] = {}
+    reached: list[object] = [root]
+    noted: list[object] = []
+
+    def named(thing: object) -> object:
+        """A value, or the number of an object."""
+        cls = type(thing)
+        if cls in _ATOMS or _walker(cls) is None:
+            return "nan" if thing != thing else thing
+        if id(thing) not in numbers:
+            numbers[id(thing)] = (len(reached),)
+            reached.append(thing)
+        return numbers[id(thing)]
+
+    kept: list[Iterable[object]] = []  # what is made on the way must not give its id to another one
+    for thing in reached:
+        cls = type(thing)
+        if cls in _ATOMS or (walker := _walker(cls)) is None:
+            continue
+        found = _told(thing) or walker(thing, [])
+        kept.append(found)
+        noted += (cls, _inner(thing), tuple(map(named, found)))
+    return noted
+
+
+def _told(thing: object) -> list[object]:
+    """What a state says itself of what a program can tell apart; nothing where it leaves that to others."""
+    if isinstance(thing, State) and type(thing).compared is not State.compared:
+        return [thing.compared()]
+    return []
+
+
+def _inner(thing: object) -> object:
+    """What an object is beside the objects that it refers to."""
+    if isinstance(thing, array | bytearray):
+        return thing[:]
+    if isinstance(thing, Random):
+        return thing.getstate()
+    if isinstance(thing, types.FunctionType):
+        return thing.__code__
+    if isinstance(thing, Toolpath):
+        return thing.ways  # events and dwells say what is waited for, not what is done
+    if isinstance(thing, Sized) and hasattr(thing, "memento"):
+        return len(thing)  # it only grows
+    return getattr(thing, "__name__", "") if isinstance(thing, _METHODS) else ""
+
+
+def _walker(cls: type) -> Walker | None:
+    return _WALKERS.get(cls) or _walker_of(cls)
 
 
 def _walker_of(cls: type) -> Walker | None:

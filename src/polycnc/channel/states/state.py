@@ -114,6 +114,19 @@ class State:
         """One with the values that it begins with."""
         return cls(**{name: table.of(channel) for name, table in tables(cls).items()})
 
+    def compared(self) -> object:
+        """The fields as plain values, as far as a program can tell them apart."""
+        return plain(self)
+
+    def end(self, channel: Channel, lifetime: Lifetime) -> None:
+        """An event has come: fields that lived up to it begin anew. A feature adds what hangs on parameters."""
+        cls = type(self)
+        ended = [name for name, lives in lifetimes(cls).items() if lives <= lifetime]
+        if ended:
+            fresh = cls.first(channel)
+            for name in ended:
+                setattr(self, name, getattr(fresh, name))
+
 
 class States(dict[type[State], State]):
     """The states of a channel: one object of a class, made when it is first asked for, and never another one."""
@@ -162,14 +175,9 @@ def end_of(channel: Channel, lifetime: Lifetime, kept: Collection[type[State]] =
         lifetime: The longest lifetime that the event ends.
         kept: Classes that it does not concern this time, because a parameter of the control says so.
     """
-    for cls, state in channel.states.items():
-        if cls in kept:
-            continue
-        ended = [name for name, lives in lifetimes(cls).items() if lives <= lifetime]
-        if ended:
-            fresh = cls.first(channel)
-            for name in ended:
-                setattr(state, name, getattr(fresh, name))
+    for cls, state in list(channel.states.items()):  # first values may ask for further states
+        if cls not in kept:
+            state.end(channel, lifetime)
 
 
 # ---- comparing -------------------------------------------------------------------------------------------------
@@ -178,7 +186,8 @@ def end_of(channel: Channel, lifetime: Lifetime, kept: Collection[type[State]] =
 def plain_states(channel: Channel) -> dict[str, Any]:
     """Every state of a channel that is not as it began, as plain values that can be kept and compared."""
     found = {
-        cls.__qualname__: (plain(state), plain(cls.first(channel))) for cls, state in channel.states.items()
+        cls.__qualname__: (state.compared(), cls.first(channel).compared())
+        for cls, state in channel.states.items()
     }
     return {name: now for name, (now, first) in found.items() if now != first}
 
@@ -193,7 +202,10 @@ def plain_tables(channel: Channel) -> dict[str, object]:
 
 
 def plain(value: object) -> object:
-    """A value as nested tuples that can be kept and compared; of what is no data only the kind."""
+    """A value as nested tuples that can be kept and compared; of what is no data only the kind.
+
+    Fields that a snapshot does not follow are none of the value.
+    """
     if value is None or isinstance(value, str | bytes | int | float | complex):
         return value
     if isinstance(value, Mapping | Parameters):
@@ -203,5 +215,6 @@ def plain(value: object) -> object:
     if isinstance(value, set | frozenset):
         return tuple(sorted(map(repr, value)))
     if is_dataclass(value) and not isinstance(value, type):
-        return tuple(plain(getattr(value, each.name)) for each in fields(value))
+        others: Collection[str] = getattr(value, "UNFOLLOWED", ())
+        return tuple(plain(getattr(value, each.name)) for each in fields(value) if each.name not in others)
     return type(value).__name__

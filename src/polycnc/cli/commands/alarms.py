@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-import re
 from enum import StrEnum
+from itertools import chain
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
@@ -21,10 +21,6 @@ app = typer.Typer(add_completion=False, rich_markup_mode=None)
 
 #: What the catalogue may tell about an alarm beside its text.
 NOTES: tuple[Literal["cause", "remedy"], ...] = ("cause", "remedy")
-
-
-#: What an alarm names in its text when it comes.
-_PLACEHOLDER = re.compile(r"\{\w+\}")
 
 
 class Format(StrEnum):
@@ -61,19 +57,21 @@ def alarms(
 
 
 def _alarms(control: str, code: str | None) -> Iterator[dict[str, str]]:
-    """All alarms of a control, or those that a user may mean by a code."""
+    """All alarms of a control and of the machines that polycnc knows, or those that a user may mean by a code."""
     from polycnc.control import registry
     from polycnc.control.alarm_text import alarm_key
+    from polycnc.machine.builder import builder_names, builder_texts
 
     known_control = registry.control(control)
-    catalogue = known_control.catalogue
+    builders = (builder_texts(name, control) for name in builder_names())
+    catalogue = known_control.catalogue.extended(*chain.from_iterable(builders))
     for known in catalogue:
         if code is None or alarm_key(known_control, known) == alarm_key(known_control, code):
             notes: dict[str, str] = {kind: catalogue.note(known, kind) for kind in NOTES}
             yield {
                 "control": control,
                 "code": known,
-                "text": _PLACEHOLDER.sub("…", catalogue.text(known)),
+                "text": catalogue.text(known),
                 **notes,
             }
 

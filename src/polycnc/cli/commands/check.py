@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
+import os
 import sys
+from contextlib import ExitStack, nullcontext
+from dataclasses import dataclass
 from enum import StrEnum
+from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from polycnc.cli import diagnostics, options
 from polycnc.cli.console import note, show
-from polycnc.messages import text
+from polycnc.messages import UserError, text
+from polycnc.messages.catalogue import language, listed, set_language
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
 
 app = typer.Typer(add_completion=False, rich_markup_mode=None)
 STDIN = "-"
+#: So many files are worth a process of their own.
+SHARED = 16
+#: So many files are named where a line tells of all.
+NAMED = 3
 
 
 class Format(StrEnum):
@@ -41,25 +53,97 @@ def check(
     opening: options.Opening,
 ) -> int:
     """Run each program without keeping its motion, and tell what alarmed."""
-    from polycnc.machine.errors import FileError
-    from polycnc.program import ProgramFileError
-    from polycnc.session import SessionError
+    from polycnc.cli.output import refuse_programs
+    from polycnc.messages.files import refuse_inputs
 
-    found: list[diagnostics.Diagnostic] = []
+    files = options.expanded(files)
+    refuse_inputs([output], opening.inputs(*files))
+    refuse_programs(output)
     names = [stdin_filename if file == STDIN else file for file in files]
-    unreadable = False
-    for file, name in zip(files, names, strict=True):
-        try:
-            source: bytes | Path = sys.stdin.buffer.read() if file == STDIN else Path(file)
-            session = opening.session(source, name=name, keep=False, timed=False)
-            found += diagnostics.diagnostics_of(session.run(), name)
-        except (SessionError, FileError, ProgramFileError) as error:
-            note(f"polycnc: {error}")
-            unreadable = True
+    checked = _all_checked(list(zip(files, names, strict=True)), opening)
+    found = [diagnostic for each in checked for diagnostic in each.found]
+    unreadable = any(diagnostic.unreadable for diagnostic in found)
     failed = any(diagnostic.severity == "error" for diagnostic in found)
     status = 2 if unreadable else int(failed and not exit_zero)
+    if form is Format.TEXT:
+        _tell_guesses({name: each.guessed for name, each in zip(names, checked, strict=True)})
     _write(found, names, form, status, output)
     return status
+
+
+@dataclass(frozen=True, slots=True)
+class _Checked:
+    """What was found in a file, and the control that its text has named where the user has not."""
+
+    found: list[diagnostics.Diagnostic]
+    guessed: str = ""
+
+
+def _all_checked(files: list[tuple[str, str]], opening: options.Opening) -> list[_Checked]:
+    """What was found in each file, many of them on all cores."""
+    from polycnc.cli.progress import Waiting
+
+    if len(files) == 1:
+        return [_checked(*files[0], opening, is_watched=True)]
+    found: list[_Checked] = []
+    with Waiting("polycnc check", len(files), "files") as waiting, ExitStack() as workers:
+        run = partial(_one_checked, opening)
+        is_shared = len(files) >= SHARED and all(file != STDIN for file, _ in files)
+        for each in _shared(run, files, workers) if is_shared else map(run, files):
+            found.append(each)
+            waiting.reach(len(found))
+    return found
+
+
+def _shared(
+    run: Callable[[tuple[str, str]], _Checked], files: list[tuple[str, str]], workers: ExitStack
+) -> Iterable[_Checked]:
+    """The same on all cores, in the order of the files."""
+    import polycnc.session  # noqa: F401 - what all workers need is loaded once
+
+    count = min(_cores(), len(files) // SHARED)
+    if count == 1:
+        return map(run, files)
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
+    context = get_context("fork" if sys.platform == "linux" else "spawn")
+    pool = ProcessPoolExecutor(count, mp_context=context, initializer=set_language, initargs=(language(),))
+    workers.enter_context(pool)
+    return pool.map(run, files, chunksize=SHARED)
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
+
+
+def _one_checked(opening: options.Opening, file: tuple[str, str]) -> _Checked:
+    return _checked(*file, opening)
+
+
+def _checked(file: str, name: str, opening: options.Opening, *, is_watched: bool = False) -> _Checked:
+    """Run one program. Whatever goes wrong with it is a finding of its own: the other files are still checked."""
+    from polycnc.cli.progress import WaitingForRun
+
+    try:
+        source: bytes | Path = sys.stdin.buffer.read() if file == STDIN else Path(file)
+        session = opening.session(source, name=name, keep=False, timed=False)
+        with WaitingForRun(session) if is_watched else nullcontext() as waiting:
+            result = session.run(waiting)
+        found = diagnostics.diagnostics_of(result, name)
+    except (UserError, OSError) as error:
+        return _Checked([diagnostics.unreadable(name, error)])
+    except Exception as error:  # noqa: BLE001 - a mistake of polycnc in one file must not hide the others
+        return _Checked([diagnostics.internal(name, error)])
+    return _Checked(found, "" if opening.control else result.control.id)
+
+
+def _tell_guesses(guesses: dict[str, str]) -> None:
+    """One line for each control that polycnc has told from the text of programs."""
+    for control in sorted(set(filter(None, guesses.values()))):
+        files = [name for name, guessed in guesses.items() if guessed == control]
+        named = listed(files[:NAMED]) + (" …" if len(files) > NAMED else "")
+        note(f"polycnc: {text('check.guessed', control=control, count=len(files), files=named)}")
 
 
 def _write(
@@ -70,12 +154,16 @@ def _write(
     from polycnc.cli.sarif import as_sarif
 
     content = {
-        Format.TEXT: lambda: formats.as_text(found),
+        Format.TEXT: lambda: formats.as_text([d for d in found if not d.unreadable]),
         Format.JSON: lambda: formats.as_json(found),
         Format.SARIF: lambda: as_sarif(found, status),
         Format.GITHUB: lambda: formats.as_github(found),
         Format.JUNIT: lambda: formats.as_junit(found, names),
     }[form]()
+    if form is Format.TEXT:
+        for diagnostic in found:
+            if diagnostic.unreadable:
+                note(f"polycnc: {diagnostic.message}")
     if output is not None:
         write_whole(output, content)
     else:

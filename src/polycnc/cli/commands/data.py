@@ -12,6 +12,7 @@ from polycnc.cli.console import fail, say, show
 from polycnc.cli.output import write_whole
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
+from polycnc.messages.files import refuse_inputs
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -41,7 +42,7 @@ def export(
 ) -> int:
     """Write the data of a setup, or programs, as one file."""
     if kind == PROGRAMS:
-        return _give(_tape(programs or []), output)
+        return _give(_tape(programs or []), output, programs or [])
     from polycnc.control.data_files import data_files
 
     channel = _channel(control, machine, setup)
@@ -50,7 +51,7 @@ def export(
         return fail(text("data.no-files", control=channel.control.id), 2)
     if kind not in files.KINDS:
         return fail(text("data.kind", kind=kind, known=listed((*files.KINDS, PROGRAMS))), 2)
-    return _give(files.write(channel, kind), output)
+    return _give(files.write(channel, kind), output, [setup])
 
 
 @app.command(name="import", help=text("help.data.import"))
@@ -73,6 +74,7 @@ def import_file(
     from polycnc.control.data_files import DataFileError, data_files
     from polycnc.machine.setup import edit
 
+    refuse_inputs([setup or Path("setup.yaml")], [file])
     channel = _channel(control, machine, setup)
     files, path = data_files(channel.control), setup or Path("setup.yaml")
     if files is None:
@@ -103,10 +105,11 @@ def _channel(control: str | None, machine: str | None, setup: Path | None) -> Ch
     return session.channel
 
 
-def _give(content: str, output: Path | None) -> int:
+def _give(content: str, output: Path | None, inputs: Sequence[Path | None]) -> int:
     if output is None:
         show(content)
     else:
+        refuse_inputs([output], inputs)
         write_whole(output, content)
     return 0
 
@@ -162,6 +165,7 @@ def _import_programs(file: Path, content: str, folder: Path, *, overwrite: bool)
     if present is not None and not overwrite:
         return fail(text("data.exists", file=present), 1)
     folder.mkdir(parents=True, exist_ok=True)
+    refuse_inputs(targets, [file])
     for path, body in targets.items():
         write_whole(path, "\n".join(["%", *body, "%"]) + "\n")
         say(str(path))

@@ -41,9 +41,10 @@ def features(
     _lang: options.Lang = None,
 ) -> int:
     """Show the features that work, of one control or in short of all."""
-    from polycnc.cases.features import proved, shipped
+    from polycnc.cases.features import case_files, proved, shipped
     from polycnc.cli.output import write_whole
     from polycnc.control.registry import ids
+    from polycnc.messages.files import refuse_inputs
 
     if control is not None and control not in ids():
         return fail(text("session.control-unknown", control=control, known=listed(ids())), 2)
@@ -59,6 +60,7 @@ def features(
     if output is None:
         show(content)
     else:
+        refuse_inputs([output], [] if cases is None else case_files(cases))
         write_whole(output, content)
     return 0
 

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from polycnc.cli import options
-from polycnc.cli.console import fail, say
+from polycnc.cli.console import fail, note, say
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from polycnc.control.parameters import KnownParameter
     from polycnc.machine.setup.values import ParameterKey, Parameters
@@ -30,7 +30,7 @@ def parameters(_lang: options.Lang = None) -> None:
 def list_parameters(
     control: options.Control = None, setup: options.Setup = None, _lang: options.Lang = None
 ) -> int:
-    """One parameter a line: number, value, meaning."""
+    """One parameter a line: number, value, meaning; what the setup names beside these is told on standard error."""
     known = _known(control)
     if isinstance(known, int):
         return known
@@ -38,6 +38,8 @@ def list_parameters(
     for parameter in known:
         shown = " ".join(_shown(parameter, values))
         say(f"{parameter.numbers:9} {shown:12} {_meaning(parameter)}")
+    for number in _not_known(known, values):
+        note(text("parameters.unknown", control=control, number=number))
     return 0
 
 
@@ -56,7 +58,7 @@ def show_parameter(
     found = [
         p
         for p in known
-        if wanted in (p.number, p.number.partition("#")[0], p.number.zfill(len(wanted)))
+        if wanted in (p.number, p.number.partition("#")[0], p.number.zfill(len(wanted)), p.mnemonic)
         or (p.count > 1 and wanted in {str(key.id) for key in p.keys})
     ]
     if not found:
@@ -65,7 +67,7 @@ def show_parameter(
     for parameter in found:
         say(f"{parameter.numbers} {_meaning(parameter)}")
         if parameter.delivered is not None:
-            say(f"  {text('parameters.delivered')}: {parameter.delivered:g}")
+            say(f"  {text('parameters.delivered')}: {_told(parameter.delivered)}")
         given = list(_given(parameter, values))
         if given:
             say(f"  {text('parameters.in-setup')}: {' '.join(given)}")
@@ -89,22 +91,21 @@ def set_parameters(
     path = setup or Path("setup.yaml")
     if not edit.is_writable(path):
         return fail(text("data.setup-form", setup=path), 2)
-    names = {key for parameter in known for key in parameter.keys}
-    values: dict[str, float] = {}
+    values: dict[str, float | str] = {}
     for word in assignments:
         name, equals, value = (part.strip() for part in word.partition("="))
-        reason = _refused(word, name, value, names) if equals else text("parameters.form", word=word)
+        reason = _refused(word, name, value, known) if equals else text("parameters.form", word=word)
         if reason:
             return fail(reason, 2)
-        number = float(value)
-        values[name] = int(number) if number.is_integer() else number
+        number = _number(value)
+        values[name] = value if number is None else int(number) if number.is_integer() else number
     document = edit.read_document(path)
     edit.merge(document, {"parameters": values})
     write_whole(path, edit.document_text(document, str(path)))
     return 0
 
 
-def _refused(word: str, name: str, value: str, names: set[ParameterKey]) -> str:
+def _refused(word: str, name: str, value: str, known: Iterable[KnownParameter]) -> str:
     """Why an assignment cannot be taken over; empty where it can."""
     from polycnc.machine.setup.values import parameter_key
 
@@ -112,15 +113,30 @@ def _refused(word: str, name: str, value: str, names: set[ParameterKey]) -> str:
         key = parameter_key(name)
     except ValueError:
         return text("parameters.form", word=word)
-    if key._replace(axis=None) not in names:
+    parameter = next((each for each in known if _is_meant(each, key)), None)
+    if parameter is None:
         return text("parameters.unknown", control="", number=name).removeprefix(": ")
-    try:
-        number = float(value)
-    except ValueError:
-        return text("parameters.value", word=word, value=value)
+    number = _number(value)
+    if number is None:
+        return (
+            "" if isinstance(parameter.delivered, str) else text("parameters.value", word=word, value=value)
+        )
     if not abs(number) < float("inf"):
         return text("parameters.value", word=word, value=value)
     return text("parameters.bit", word=word) if key.bit is not None and number not in (0.0, 1.0) else ""
+
+
+def _is_meant(parameter: KnownParameter, key: ParameterKey) -> bool:
+    """Whether a setup means a parameter, or an element or a bit of it, by this key."""
+    return key.id in parameter.ids and (key.bit == parameter.key.bit or parameter.has_bits)
+
+
+def _number(value: str) -> float | None:
+    """A word as a number; None for a text."""
+    try:
+        return float(value)
+    except ValueError:
+        return None
 
 
 def _known(control: str | None) -> tuple[KnownParameter, ...] | int:
@@ -132,8 +148,7 @@ def _known(control: str | None) -> tuple[KnownParameter, ...] | int:
         known = listed(registry.ids())
         message = "session.control-wanted" if control is None else "session.control-unknown"
         return fail(text(message, control=control, known=known), 2)
-    found = known_parameters(registry.control(control))
-    return found or fail(text("parameters.none", control=control), 2)
+    return known_parameters(registry.control(control))
 
 
 def _values(setup: Path | None) -> Parameters:
@@ -143,10 +158,13 @@ def _values(setup: Path | None) -> Parameters:
 
 
 def _meaning(parameter: KnownParameter) -> str:
+    from polycnc.control.parameters import NOT_YET
     from polycnc.messages.catalogue import language
 
     unit = f" [{parameter.unit}]" if parameter.unit else ""
     meaning = parameter.texts[language()] + unit
+    if parameter.read == NOT_YET:
+        meaning = text("parameters.kept", meaning=meaning)
     name = parameter.mnemonic
     return text("parameters.named", name=name, meaning=meaning) if name else meaning
 
@@ -157,18 +175,42 @@ def _shown(parameter: KnownParameter, values: Parameters) -> Iterator[str]:
     if given:
         yield from given
     else:
-        yield "-" if parameter.delivered is None else f"{parameter.delivered:g}"
+        yield "-" if parameter.delivered is None else _told(parameter.delivered)
+
+
+def _told(value: float | str) -> str:
+    """A delivered value."""
+    return f"{value:g}" if not isinstance(value, str) else value or "-"
+
+
+def _not_known(known: tuple[KnownParameter, ...], values: Parameters) -> list[str]:
+    """Numbers and bits of a setup that the list does not have; a whole number is known by one of its bits."""
+    keys = {(id_, parameter.key.bit) for parameter in known for id_ in parameter.ids}
+    numbers = {number for number, _ in keys}
+    whole = {number for number, bit in keys if bit is None}
+    unknown = [
+        key
+        for key in values
+        if key.id not in numbers
+        or (key.bit is not None and key.id not in whole and (key.id, key.bit) not in keys)
+    ]
+    return [f"{key.id}" if key.bit is None else f"{key.id}#{key.bit}" for key in unknown]
 
 
 def _given(parameter: KnownParameter, values: Parameters) -> Iterator[str]:
-    """The values that a setup gives, with the axis in front where it names one, or the number of several."""
+    """The values that a setup gives, with what they are of in front: number of several, bit, element, axis."""
     wanted = parameter.key
     for key, value in values.items():
-        if parameter.count > 1:
-            if key in parameter.keys:
-                yield f"{key.id}={value}"
-            continue
-        if key.id == wanted.id and key.bit == wanted.bit:
-            yield f"{key.axis}={value}" if key.axis else str(value)
+        if _is_meant(parameter, key):
+            of = _place(key, parameter)
+            yield f"{of}={value}" if of else str(value)
         elif key.id == wanted.id and key.bit is None and wanted.bit is not None and isinstance(value, int):
             yield str(value >> wanted.bit & 1)
+
+
+def _place(key: ParameterKey, parameter: KnownParameter) -> str:
+    """Which one of a parameter's values a key names; empty where it has but one."""
+    number = str(key.id) if parameter.count > 1 else ""
+    bit = f"#{key.bit}" if key.bit is not None and parameter.has_bits else ""
+    element = "" if key.element is None else str(key.element).strip("()").replace(" ", "")
+    return number + bit + (f"[{element}]" if element else "") + (key.axis or "")

@@ -12,6 +12,7 @@ import typer
 from polycnc.cli import options
 from polycnc.cli.console import fail, note
 from polycnc.cli.diagnostics import diagnostics_of
+from polycnc.cli.progress import WaitingForRun
 from polycnc.messages import text
 
 if TYPE_CHECKING:
@@ -44,7 +45,9 @@ def plot(
 ) -> int:
     """Draw the path of a program; an alarm ends the path where it came."""
     from polycnc.cli.output import write_whole
+    from polycnc.messages.files import refuse_inputs
 
+    refuse_inputs([output], opening.inputs(file))
     suffix = output.suffix.lower()
     if suffix not in (".svg", ".png"):
         return fail(text("plot.suffix", file=output), 2)
@@ -62,7 +65,8 @@ def plot(
 
 
 def _path(session: Session, view: ViewName | None, title: str) -> tuple[Result, str]:
-    result = session.run()
+    with WaitingForRun(session) as waiting:
+        result = session.run(waiting)
     return result, _drawing(result, view, title)
 
 
@@ -74,7 +78,8 @@ def _profile(session: Session, title: str) -> tuple[Result, str]:
     rotary = {i for i, axis in enumerate(machine.channel(1).axes) if machine.axis[axis].rotary}
     profile = Profile(axes, rotary)
     sampler = session.sample(machine.interpolation_cycle_s, profile.take)
-    result = session.run()
+    with WaitingForRun(session) as waiting:
+        result = session.run(waiting)
     result.plan  # noqa: B018 - planning to the end gives the last samples
     sampler.close()
     return result, profile.svg(title)

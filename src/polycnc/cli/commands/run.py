@@ -12,7 +12,8 @@ from typing import IO, TYPE_CHECKING, Annotated, Any
 import typer
 
 from polycnc.cli import options
-from polycnc.cli.console import fail, show
+from polycnc.cli.console import fail, note, show
+from polycnc.cli.progress import WaitingForRun
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 from polycnc.toolpath.events import Print
@@ -20,16 +21,13 @@ from polycnc.toolpath.events import Print
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rich.progress import Progress, TaskID
-
-    from polycnc.channel.channel import Channel
+    from polycnc.motion.explain import TimeAccount
     from polycnc.session import Result, Session
     from polycnc.toolpath.table import Chunk
     from polycnc.toolpath.trace import Display
+    from polycnc.toolpath.usage import Usage
 
 app = typer.Typer(add_completion=False, rich_markup_mode=None)
-#: A run that takes longer than this shows how far it is, seconds.
-PATIENCE_S = 0.7
 #: Suffixes of trace files; `toolpath.export` has a writer for each.
 TRACES = (".jsonl", ".csv", ".parquet")
 #: Suffixes of sample files; `motion.sample_file` has a writer for each.
@@ -37,6 +35,8 @@ SAMPLES = (".parquet", ".csv")
 #: Units of a sampling period, in seconds; the shortest period.
 _UNITS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "": 1.0}
 _SHORTEST_S = 1e-6
+#: Below so many rows nobody waits, with compiled kernels or without.
+_FELT_ROWS = 20_000
 _PERIOD = re.compile(r"(\d+\.?\d*|\.\d+)(us|ms|s|)", re.ASCII)
 
 
@@ -55,11 +55,15 @@ def run(
         Path | None, typer.Option("--print", metavar="FILE", help=text("help.run.print"))
     ] = None,
     no_time: Annotated[bool, typer.Option("--no-time", help=text("help.run.no-time"))] = False,
+    explain_time: Annotated[bool, typer.Option("--explain-time", help=text("help.run.explain-time"))] = False,
+    memory: options.Memory = None,
     *,
     opening: options.Opening,
 ) -> int:
     """Run a program once, as the control would."""
     from polycnc.cli.report import Happenings, as_text
+    from polycnc.messages.files import refuse_inputs
+    from polycnc.toolpath.usage import Usage
 
     if trace is not None and trace.suffix.lower() not in TRACES:
         return fail(text("run.suffix", file=trace, known=listed(TRACES)), 2)
@@ -69,25 +73,52 @@ def run(
     if sample is not None and (period is None or sample[1].suffix.lower() not in SAMPLES):
         return fail(text("run.sample", period=sample[0], file=sample[1], known=listed(SAMPLES)), 2)
     is_stdin = file == "-"
+    outputs = [trace, sample[1] if sample is not None else None, state, print_to]
+    refuse_inputs(outputs, opening.inputs(file, *([memory] if memory else [])))
     source = sys.stdin.buffer.read() if is_stdin else Path(file)
-    session = opening.session(source, keep=False, timed=not no_time or sample is not None)
+    timed = not no_time or explain_time or sample is not None
+    session = opening.session(source, keep=False, timed=timed, memory=memory)
     happenings = Happenings(session.result.display)
     session.consumers.append(happenings.take)
+    usage = None if no_time else Usage(session.result.display)
+    if usage is not None:
+        session.consumers.append(usage.take)
     with ExitStack() as files:
+        files.callback(session.channel.retained.close)
         if print_to is not None:
             session.consumers.append(_Prints(_whole(files, print_to, "w"), session.result.display).take)
         traced = trace and _trace_to(trace, session, files)
         sampled = sample and _sample_to(sample[1], period or 0.0, session, files)
-        progress = files.enter_context(_Progress(session))
-        result = session.run(progress)
+        account = session.explain_time() if explain_time else None
+        result = session.run(files.enter_context(WaitingForRun(session)))
         if traced:
             traced(result)
         if sampled:
             sampled(result)
+        refuse_inputs(outputs, result.files)
     if state is not None:
-        _write_state(state, result)
-    show(as_text(result, happenings, "<stdin>" if is_stdin else file))
+        _write_state(state, result, usage)
+    show(as_text(result, happenings, "<stdin>" if is_stdin else file, usage))
+    _say_more(account, result)
     return 0 if result.ok else 1
+
+
+def _say_more(account: TimeAccount | None, result: Result) -> None:
+    """Which limits held for how long, where that is asked for, and whether it could have been quicker."""
+    from polycnc.cli.report import explained
+
+    if account is not None:
+        show(explained(account.parts, result.plan.times))
+    _say_if_slow(len(result.toolpath))
+
+
+def _say_if_slow(rows: int) -> None:
+    """A note behind a long run where this installation has no compiled kernels, and nobody has chosen so."""
+    from polycnc.kernels.native import Lack
+    from polycnc.motion.compiled import LIBRARY
+
+    if rows >= _FELT_ROWS and LIBRARY.lack in (Lack.MISSING, Lack.STALE):
+        note(f"polycnc: {text(f'run.kernels.{LIBRARY.lack.name.lower()}')}")
 
 
 def _whole(files: ExitStack, path: Path, mode: str) -> IO[Any]:
@@ -142,11 +173,11 @@ def _sample_to(path: Path, period: float, session: Session, files: ExitStack) ->
     return end
 
 
-def _write_state(path: Path, result: Result) -> None:
+def _write_state(path: Path, result: Result, usage: Usage | None) -> None:
     from polycnc.cli.output import write_whole
     from polycnc.cli.report import as_state
 
-    write_whole(path, as_state(result))
+    write_whole(path, as_state(result, usage))
 
 
 class _Prints:
@@ -160,39 +191,3 @@ class _Prints:
         for event in chunk.events:
             if isinstance(event, Print):
                 self._stream.write(f"{event.text}\n")
-
-
-class _Progress:
-    """A bar on standard error, for people who wait: only on a terminal, only in a long run."""
-
-    def __init__(self, session: Session) -> None:
-        self._program = session.result.program
-        self._bar: tuple[Progress, TaskID] | None = None
-        self._started = 0.0
-
-    def __enter__(self) -> Callable[[Channel], None] | None:
-        from time import monotonic
-
-        self._started = monotonic()
-        return self._update if sys.stderr.isatty() else None
-
-    def __exit__(self, *_: object) -> None:
-        if self._bar is not None:
-            self._bar[0].stop()
-
-    def _update(self, channel: Channel) -> None:
-        from time import monotonic
-
-        if self._bar is None and monotonic() - self._started < PATIENCE_S:
-            return
-        if self._bar is None:
-            from rich.console import Console
-            from rich.progress import Progress
-
-            bar = Progress(console=Console(stderr=True), transient=True)
-            self._bar = bar, bar.add_task(self._program.name, total=len(self._program.lines))
-            bar.start()
-        if channel.stack:
-            main = channel.stack[0]
-            bar, task = self._bar
-            bar.update(task, completed=main.code.line(main.current) - self._program.first_line)

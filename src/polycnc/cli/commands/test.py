@@ -11,6 +11,7 @@ import typer
 
 from polycnc.cli import options
 from polycnc.cli.console import coloured, note, say
+from polycnc.cli.progress import Waiting
 from polycnc.messages import text
 
 if TYPE_CHECKING:
@@ -44,19 +45,24 @@ def run_tests(
 ) -> int:
     """Run the cases of all files."""
     from polycnc.cases.selection import Selection
+    from polycnc.messages.files import refuse_inputs
 
+    refuse_inputs([report], files)
     selection = Selection(words, frozenset(feature or ()), frozenset(skip_feature or ()))
     outcomes: list[Outcome] = []
     unreadable = False
-    for path in files:
-        for outcome in _run_file(path, selection):
-            if outcome is None:
-                unreadable = True
-                continue
-            outcomes.append(outcome)
-            unreadable |= not outcome.readable
-            if form is Format.TEXT and outcome.status == "failed":
-                _tell(outcome)
+    paths = [Path(name) for name in options.expanded(map(str, files))]
+    with Waiting("polycnc test", len(paths), "files") as waiting:
+        for done, path in enumerate(paths):
+            for outcome in _run_file(path, selection):
+                waiting.reach(done)
+                if outcome is None:
+                    unreadable = True
+                    continue
+                outcomes.append(outcome)
+                unreadable |= not outcome.readable
+                if form is Format.TEXT and outcome.status == "failed":
+                    _tell(outcome)
     _write(outcomes, form, report)
     if unreadable:
         return 2

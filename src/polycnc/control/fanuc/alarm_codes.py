@@ -109,6 +109,7 @@ ALARMS: dict[str, str] = {
     # coordinate frames
     "scale": "PS0142",
     "rotation_angle": "PS0005",
+    "rotation_plane": "PS0144",
     "g10_number": "PS0031",
     "g10_value": "PS0032",
     "g10_format": "PS1144",
@@ -180,20 +181,6 @@ ALARMS: dict[str, str] = {
     "long_name": "PS1142",
     "print_format": "PS1143",
     "not_supported": "PC0001",
-}
-
-#: Codes of other makers that arrive in FANUC programs: message ids of hints.
-FOREIGN_CODES = {
-    "G103": "hint.haas",
-    "G154": "hint.haas-g154",
-    "G187": "hint.haas-g187",
-    "G12": "hint.haas-or-meldas",
-    "G13": "hint.haas-or-meldas",
-    "G150": "hint.haas",
-    "G136": "hint.haas",
-    "G141": "hint.haas",
-    "G143": "hint.haas",
-    "G120.1": "hint.syntec",
 }
 
 #: Words that a lathe takes only where a parameter says so: message ids of hints.

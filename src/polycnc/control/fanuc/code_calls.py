@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.macro_b.code_calls import CodeCall, CodeCalls
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
-    from polycnc.machine.setup.values import Parameters
+    from polycnc.control.fanuc.parameters import FanucAxisParameters, FanucParameters
 
 #: G codes and M codes that no parameter can register.
 NEVER_G = frozenset({0, 5, 65, 66, 67})
@@ -18,24 +17,17 @@ NEVER_M = frozenset({0, 1, 2, 30, 98, 99})
 PROGRAM_M = frozenset({2, 30, 98, 99, 198})
 
 
-def registered_codes(channel: Channel) -> CodeCalls:
-    """The codes that the parameters of a channel register."""
-    return _registered(channel.setup.parameters)
-
-
 @lru_cache(maxsize=64)
-def _registered(parameters: Parameters) -> CodeCalls:
-    g: dict[str, CodeCall] = {}
-    m: dict[int, CodeCall] = {}
-    for i in range(10):
-        code = int(parameters.number(6050 + i))
-        if abs(code) not in NEVER_G:
-            g[f"G{abs(code)}"] = CodeCall(9010 + i, "modal" if code < 0 else "macro")
-        code = int(parameters.number(6080 + i))
-        if code not in NEVER_M:
-            m[code] = CodeCall(9020 + i)
-    for i in range(1, 10):
-        code = int(parameters.number(6070 + i))
-        if code not in NEVER_M:
-            m[code] = CodeCall(9000 + i, "sub")
-    return CodeCalls(g, m, CodeCall(9000, "sub") if parameters.bit(6001, 5) else None)
+def registered_codes(parameters: FanucParameters[FanucAxisParameters]) -> CodeCalls:
+    """The codes that parameters register; of two calls of an M code that of a subprogram counts."""
+    g = {
+        f"G{abs(code)}": CodeCall(program, "modal" if code < 0 else "macro")
+        for program, code in enumerate(parameters.g_codes_of_macros, 9010)
+        if abs(code) not in NEVER_G
+    }
+    macros = {code: CodeCall(program) for program, code in enumerate(parameters.m_codes_of_macros, 9020)}
+    subprograms = {
+        code: CodeCall(program, "sub") for program, code in enumerate(parameters.m_codes_of_subprograms, 9001)
+    }
+    m = {code: call for code, call in (macros | subprograms).items() if code not in NEVER_M}
+    return CodeCalls(g, m, CodeCall(9000, "sub") if parameters.TCS else None)

@@ -8,13 +8,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.macro_b.variables import Read, SystemRange, Write
+from polycnc.control.word_address.auxiliary.functions import Clocks
+from polycnc.control.word_address.macro_b.variables import ControlSwitches, Read, SystemRange, Write
+from polycnc.control.word_address.memory import SentCodes
 from polycnc.toolpath.events import Message
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.control.word_address.macro_b.variables import MacroMemory
+
+#: Date (YYYYMMDD) and time (HHMMSS) of the simulated clock: not the host's, so the same input gives the same output.
+DATE, TIME_OF_DAY = 20000101.0, 0.0
 
 # ---- interface signals ------------------------------------------------------------
 
@@ -53,10 +58,10 @@ def _show_and_stop(m: MacroMemory, _i: int, _value: float | None, text: str) -> 
 
 def _switch(name: str) -> tuple[Read, Write]:
     def read(m: MacroMemory, _i: int) -> float:
-        return float(m.control_switches.get(name, 0))
+        return float(ControlSwitches.of(m.channel).values.get(name, 0))
 
     def write(m: MacroMemory, _i: int, value: float | None, _text: str) -> None:
-        m.control_switches[name] = int(value or 0.0)
+        ControlSwitches.of(m.channel).values[name] = int(value or 0.0)
         m.channel.context_changed()
 
     return read, write
@@ -69,13 +74,15 @@ def _clock(name: str, unit: float) -> tuple[Read, Write]:
     """
 
     def read(m: MacroMemory, _i: int) -> float:
-        value = round((m.waited - m.clock_zero.get(name, 0.0)) / unit, 9)
-        m.waited += 0.001
-        m.clock_is_read = True
+        clocks = Clocks.of(m.channel)
+        value = round((clocks.seconds - clocks.zero.get(name, 0.0)) / unit, 9)
+        clocks.seconds += 0.001
+        clocks.is_read = True
         return value
 
     def write(m: MacroMemory, _i: int, value: float | None, _text: str) -> None:
-        m.clock_zero[name] = m.waited - (value or 0.0) * unit
+        clocks = Clocks.of(m.channel)
+        clocks.zero[name] = clocks.seconds - (value or 0.0) * unit
 
     return read, write
 
@@ -119,10 +126,10 @@ def modal_rows(first: int, codes: Mapping[int, Read], words: Mapping[int, Read])
     """Modal codes by group and modal words, of the blocks before (4000) or the running one (4200)."""
     common: dict[int, Read] = {
         109: _feed,
-        113: lambda m, _i: float(m.last_m),
+        113: lambda m, _i: float(SentCodes.of(m.channel).m),
         114: _sequence,
         115: _program,
-        119: lambda m, _i: float(m.spindle_speed),
+        119: lambda m, _i: float(m.spindle.speed),
     }
     return [SystemRange(first + n, first + n, read) for n, read in ({**codes, **common, **words}).items()]
 
@@ -149,7 +156,8 @@ def position_rows(*reads: Read) -> list[SystemRange]:
     rows: list[SystemRange] = []
     for (first, further, name), read in zip(_POSITIONS, reads, strict=False):
         rows += [SystemRange(first, first + 19, read, name=name), SystemRange(further, further + 49, read)]
-    return rows
+    # The handwheel interrupts nothing here.
+    return [*rows, SystemRange(5121, 5140, nothing, name="_MIRTP")]
 
 
 #: What every FANUC control has.
@@ -167,8 +175,8 @@ COMMON_VARIABLES = [
     SystemRange(3006, 3006, None, _show_and_stop, name="_MSGSTP"),
     SystemRange(3007, 3007, nothing, name="_MRIMG"),
     SystemRange(3008, 3008, nothing, name="_PRSTR"),
-    SystemRange(3011, 3011, lambda m, _i: float(m.date), name="_DATE"),
-    SystemRange(3012, 3012, lambda m, _i: float(m.time), name="_TIME"),
+    SystemRange(3011, 3011, lambda _m, _i: DATE, name="_DATE"),
+    SystemRange(3012, 3012, lambda _m, _i: TIME_OF_DAY, name="_TIME"),
     SystemRange(3100, 3100, lambda _m, _i: None, name="_EMPTY"),
     SystemRange(3101, 3101, lambda _m, _i: 3.141592653589793, name="_PI"),
     SystemRange(3102, 3102, lambda _m, _i: 2.718281828459045, name="_E"),

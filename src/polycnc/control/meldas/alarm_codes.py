@@ -62,6 +62,7 @@ ALARMS: dict[str, str] = {
     # frames and transformations
     "scale": "P35",
     "rotation_angle": "P33",
+    "rotation_plane": "P111",
     "g10_number": "P173",
     "g10_value": "P35",
     "g10_format": "P172",

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.macro_b.code_calls import CodeCall, CodeCalls
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
-    from polycnc.machine.setup.values import Parameters
+    from polycnc.control.meldas.parameters import MeldasParameters
 
 #: Type in a parameter to the kind of call: as M98, G65, G66, G66.1.
 KINDS = ("sub", "macro", "modal", "each")
@@ -20,27 +19,21 @@ USER_CYCLES = (70, 71, 72, 75, 77, 78, 79)
 FIRST_CYCLE_PROGRAM = 100_000_000
 
 
-def registered_codes(channel: Channel) -> CodeCalls:
-    """The codes that the parameters of a channel register."""
-    return _registered(channel.setup.parameters)
-
-
 @lru_cache(maxsize=64)
-def _registered(parameters: Parameters) -> CodeCalls:
+def registered_codes(parameters: MeldasParameters) -> CodeCalls:
+    """The codes that parameters register."""
+    p = parameters
     g = {f"G{number}": CodeCall(FIRST_CYCLE_PROGRAM + 10 * number) for number in USER_CYCLES}
+    for code, kind, program in zip(p.g_call_codes, p.g_call_types, p.g_call_programs, strict=True):
+        if call := _call(kind, program):
+            g[f"G{code}"] = call
     m: dict[int, CodeCall] = {}
-    for i in range(10):
-        if call := _call(parameters, 7200 + 10 * i):
-            g[f"G{int(parameters.number(7201 + 10 * i))}"] = call
-        if call := _call(parameters, 7000 + 10 * i):
-            number = int(parameters.number(7001 + 10 * i))
-            if number not in NEVER_M:
-                m[number] = call
-    return CodeCalls(g, m, _call(parameters, 7310))
+    for code, kind, program in zip(p.m_call_codes, p.m_call_types, p.m_call_programs, strict=True):
+        if code not in NEVER_M and (call := _call(kind, program)):
+            m[code] = call
+    return CodeCalls(g, m, _call(p.t_call_type, p.t_call_program))
 
 
-def _call(parameters: Parameters, base: int) -> CodeCall | None:
-    """The call whose type and program stand at `base` + 2 and + 3."""
-    program = int(parameters.number(base + 3))
-    kind = int(parameters.number(base + 2))
+def _call(kind: int, program: int) -> CodeCall | None:
+    """The call of a program by its type; None where there is no program or no such type."""
     return CodeCall(program, KINDS[kind]) if program and 0 <= kind < len(KINDS) else None

@@ -5,24 +5,29 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from polycnc.control.fanuc.milling.cycles import CYCLES, MILLING_DRILLING
+from polycnc.control.fanuc.milling.cycles import CYCLES, MILLING_DRILLING, check_rigid_tapping
+from polycnc.control.meldas.parameters import MeldasParameters
+from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.motion.path import FEED_MODES
+from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.cycles.drilling import CycleData
 
-#: Parameter with the retract or clearance of each pecking cycle, mm (G73 n, G83 n).
-RELIEF_PARAMETERS = {"G73": 8012, "G83": 8013}
+#: Retract or clearance of each pecking cycle, mm (G73 n, G83 n).
+RELIEF = {"G73": MeldasParameters.peck_retract, "G83": MeldasParameters.peck_clearance}
+#: Whether a tap is cut in step with its spindle.
+SYNCHRONOUS = ",R"
 #: Tapping cycles that FANUC has and MELDAS has not.
 _FOREIGN = ("G84.2", "G84.3")
 
 
 def relief(channel: Channel, code: str) -> float:
     """Retract or clearance between pecks, mm."""
-    number = RELIEF_PARAMETERS.get(code)
-    return channel.setup.parameters.number(number) if number else 0.0
+    parameters = MeldasParameters.naming(channel.setup.parameters)
+    return parameters.value(RELIEF[code]) if code in RELIEF else 0.0
 
 
 def shift_off_wall(_channel: Channel, data: CycleData, _plane: tuple[int, int]) -> tuple[float, float]:
@@ -37,10 +42,28 @@ def pitch_of_tap(channel: Channel) -> float:
     )
 
 
+def check(channel: Channel, code: str) -> None:
+    """Compensation must be off in a cycle (Hartford manual 3.3.1 C, rule 4): P155; the conditions of a rigid tap.
+
+    `,R1` makes a tap rigid, `,R0` one that follows its spindle, until the cycle ends (M700 programming manual, G84).
+    """
+    if active_compensation(channel) is not None:
+        raise channel.control.fail("comp_cycle", address=code)
+    data = CycleState.of(channel).active
+    if SYNCHRONOUS in data:
+        chosen = data.amount(SYNCHRONOUS)
+        if chosen not in (0.0, 1.0):
+            raise channel.control.fail("g10_value", address=SYNCHRONOUS)
+        data.rigid = chosen == 1.0
+    check_rigid_tapping(channel, code)
+
+
 DRILLING = replace(
     MILLING_DRILLING,
     cycles={code: cycle for code, cycle in CYCLES.items() if code not in _FOREIGN},
     relief=relief,
     shift=shift_off_wall,
     lead=pitch_of_tap,
+    check=check,
+    choices=(SYNCHRONOUS,),
 )

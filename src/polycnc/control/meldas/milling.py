@@ -1,4 +1,4 @@
-"""MELDAS control of a Hartford machining centre (control id `meldas-m`)."""
+"""MELDAS control of a machining centre (control id `meldas-m`)."""
 
 from __future__ import annotations
 
@@ -10,22 +10,28 @@ from polycnc.control.fanuc.milling.variables import MILLING_VARIABLES
 from polycnc.control.meldas.alarm_codes import ALARMS
 from polycnc.control.meldas.code_calls import registered_codes
 from polycnc.control.meldas.cycles import DRILLING
-from polycnc.control.meldas.hartford import M_CODES
-from polycnc.control.meldas.milling_codes import G_CODES
-from polycnc.control.word_address.machining_centre import MillingControl
+from polycnc.control.meldas.milling_codes import G_CODES, M_CODES
+from polycnc.control.meldas.parameters import MeldasParameters
+from polycnc.control.word_address.block.whole_numbers import DecimalPoint
+from polycnc.control.word_address.machining_centre import HARTFORD, MillingControl
 from polycnc.control.word_address.macro_b.variables import MacroMemory
-from polycnc.control.word_address.transformations.normal_line import NormalLineParameters
+from polycnc.control.word_address.tools import length
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.compensation.policy import Policy
     from polycnc.control.word_address.block.codes import GCode, MCode, Planner
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
     from polycnc.messages import AlarmError
     from polycnc.toolpath.motion_settings import MotionSettings
+
+#: Five blocks are read, so three without motion may stand between two moves; the start-up block reads three, as the
+#: manual of the machine prints it for both of its controls (3.3.1 D).
+FIVE_READ = replace(HARTFORD, read_blocks=5, start_blocks=3)
 
 
 class MeldasMilling(MillingControl):
@@ -35,9 +41,6 @@ class MeldasMilling(MillingControl):
     alarm_files: ClassVar[tuple[str, ...]] = (
         "fanuc/alarms.toml",
         "meldas/alarms.toml",
-        "meldas/f00_f49_alarms.toml",
-        "meldas/f50_f99_alarms.toml",
-        "meldas/operation_messages.toml",
     )
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
@@ -45,24 +48,43 @@ class MeldasMilling(MillingControl):
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     drilling: ClassVar[Drilling] = DRILLING
-    plc_files: ClassVar[tuple[str, ...]] = ("hartford/rules.toml", "meldas/plc.toml")
-    REFERENCE_PARAMETERS: ClassVar[dict[int, int]] = {1: 2037, 2: 2038, 3: 2039, 4: 2040}
-    ARC_TOLERANCE_PARAMETER: ClassVar[tuple[int, float]] = (1084, 0.1)
-    OVERRUN_PARAMETER: ClassVar[int] = 8209
-    NORMAL_LINE_PARAMETERS: ClassVar[NormalLineParameters] = NormalLineParameters(1522, 1523)
+    PLANE_HELD_BY_ROTATION: ClassVar[bool] = True
+    #: M700 programming manual: DO1 to DO127, 27 deep; four levels of macros, eight of subprograms.
+    LOOPS: ClassVar[tuple[int, int]] = (127, 27)
+    CALL_LEVELS: ClassVar[tuple[int, int, int]] = (4, 8, 12)
+    POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.CUT
+    parameter_files: ClassVar[tuple[str, ...]] = ("meldas/parameters.toml",)
+    parameter_class: ClassVar = MeldasParameters
 
     def macro_alarm(self, _channel: Channel, number: int, told: str) -> AlarmError:
         """#3000 = n (TEXT): P277 with the number and the text."""
         return self.fail("macro_alarm", detail=f"{number} {told}".strip())
 
+    def leave_length(self, channel: Channel, axes: list[int], *, to_reference: bool) -> None:
+        """G28 and G30 of the axis end the length as G49 does; G53 keeps it (M700 programming manual, tool length)."""
+        if to_reference:
+            length.end_length(channel, axes)
+
+    def compensation_policy(self, _channel: Channel) -> Policy:
+        """Rules of radius compensation."""
+        return FIVE_READ
+
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """#1086 G0Intp = 0: rapids run on a line; delivered, every axis by itself."""
-        by_axis = channel.setup.parameters.number(1086, default=1) != 0
+        by_axis = MeldasParameters.naming(channel.setup.parameters).rapids_by_axis != 0
         return replace(super().motion_settings(channel), rapid_by_axis=by_axis, returns_to_path=False)
+
+    def rotation_adds(self, channel: Channel) -> bool:
+        """Under G91 R of G68 is an increment."""
+        return channel.mode["distance"] == "G91"
+
+    def rotation_without_angle(self, channel: Channel) -> float:
+        """#8081 Gcode Rotat."""
+        return MeldasParameters.naming(channel.setup.parameters).rotation_angle
 
     def code_calls(self, channel: Channel) -> CodeCalls:
         """Codes registered by #7001 to #7303."""
-        return registered_codes(channel)
+        return registered_codes(MeldasParameters.naming(channel.setup.parameters))
 
     def measuring(self, channel: Channel, words: Words) -> tuple[float, float, float]:
         """G37: R way before the target at feed, D allowed difference, F feed."""

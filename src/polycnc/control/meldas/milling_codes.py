@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from polycnc.control.fanuc.milling.codes import ALIASES, ROWS, moves
-from polycnc.control.word_address.block.codes import GCode, Order, table, with_aliases
+from polycnc.control.word_address.auxiliary.m_codes import MACHINING_CENTRE
+from polycnc.control.word_address.block.codes import GCode, MCode, Order, m_table, table, with_aliases
 from polycnc.control.word_address.coordinates import systems
 from polycnc.control.word_address.cycles import hole_patterns
+from polycnc.control.word_address.macro_b import subprograms
 from polycnc.control.word_address.motion import circle_cutting, path_modes, skip
 from polycnc.control.word_address.tools import measuring
 from polycnc.control.word_address.transformations import hypothetical_axis
@@ -31,11 +35,16 @@ _ROWS = table(
     moves("G31.3", skip.skip_move),
     moves("G34", hole_patterns.circle_of_holes, "I J K"),
     moves("G35", hole_patterns.line_of_holes, "I J K"),
-    moves("G36", hole_patterns.arc_of_holes, "I J P K"),
-    moves("G37", measuring.measure_length, "R D"),
+    moves("G36", hole_patterns.arc_of_holes, "I J P K", reals="P"),
+    moves("G37", measuring.measure_length, "R D", reals="D"),
     moves("G37.1", hole_patterns.grid_of_holes, "I J P K"),
     moves("G53", systems.move_in_machine_system),
     GCode("G61.1", "path", systems.note_context, only_changes=True),
     GCode("G7", handler=hypothetical_axis.switch, axis_words=True, order=Order.MOTION),
 )
 G_CODES = with_aliases(_ROWS, ALIASES)
+#: H is the sequence number at which the subprogram begins.
+M98 = MCode(
+    98, after=True, handler=partial(subprograms.call_subprogram, begins_at="H"), takes="P H L", silent=True
+)
+M_CODES = m_table(*MACHINING_CENTRE, M98)

@@ -1,13 +1,16 @@
 """SINUMERIK 840D sl: G groups, words, frames, tools, system variables and alarms of the control.
 
 `control` states what it is, `family` how a type checker knows its channel, `gcodes` has the groups; `memory`, `reset`,
-`auxiliary` (M), `tables` and `errors` that several modules share.
+`modal_state` (SAVE), `auxiliary` (M), `m_functions` (their numbers), `replaced` (programs in place of M and T),
+`axis_names`, `tables` and `errors` that several modules share.
 
+    actions/     synchronised actions in the main run
     block/       what a block does: plans, words, procedures
     motion/      moves, circles, splines, repositioning
     feed/        feeds, overrides, spindles
     frames/      frames and their variables
     tools/       tool memory, compensation, smooth approach
+    oscillation/ axes that move to and fro
     limits/      working areas, protection zones
     signals/     measuring, interrupt routines, retraction
     channels/    several channels

@@ -1,40 +1,88 @@
 """M functions, tool change, stops and program ends.
 
-Source: Fundamentals (M functions), job planning 1.25.2.8 (M17, M30 in subprograms), 7.1 (tool data).
+Source: Fundamentals (M functions), job planning 1.25.2.8 (M17, M30 in subprograms), 7.1 (tool data). Programs in
+place of M functions are `replaced.py`.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.machine_words import refuse
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import tooth_feed
-from polycnc.control.sinumerik.frames import memory as frames
-from polycnc.control.sinumerik.tools import stages
-from polycnc.control.tool_change import check_change_points
+from polycnc.control.sinumerik.frames import active as frames
+from polycnc.control.sinumerik.m_functions import (
+    AFTER_MOTION,
+    AXIS_MODE,
+    DIRECTIONS,
+    GEARS,
+    NEVER_CALL,
+    OPTIONAL_STOP,
+    ORIENT,
+    STOP,
+)
+from polycnc.control.sinumerik.replaced import program_of
+from polycnc.control.sinumerik.tools import selection, stages
+from polycnc.control.sinumerik.tools.holders import active as carriers
+from polycnc.control.tool_change import follow, way_to_change
 from polycnc.toolpath.events import Auxiliary
 
 if TYPE_CHECKING:
+    from collections.abc import Collection, Mapping
+
     from polycnc.control.sinumerik.family import SinumerikChannel
 
-STOP, OPTIONAL_STOP = 0, 1
-PROGRAM_ENDS = frozenset({2, 30, 17})
-DIRECTIONS = {3: 1, 4: -1, 5: 0}
-ORIENT, AXIS_MODE = 19, 70
-#: Automatic choice of the gear stage, and stages 1 to 5.
-GEARS = range(40, 46)
-AFTER_MOTION = frozenset({STOP, OPTIONAL_STOP, *PROGRAM_ENDS})
+#: What the spindle does by an M function of the machine file.
+DIRECTION_OF_ACT: Mapping[str, int] = {
+    "spindle_clockwise": 1,
+    "spindle_counter_clockwise": -1,
+    "spindle_stop": 0,
+}
+TOOL_CHANGE = "tool_change"
 
 
-def before_motion(channel: SinumerikChannel, code: int, spindle_number: int | None) -> None:
-    """Run an M function that acts before the motion of its block; `spindle_number` is its extension."""
-    if code in AFTER_MOTION and spindle_number is None:
+def before_motion(
+    channel: SinumerikChannel, code: int, spindle_number: int | None, beside: Collection[str] = ()
+) -> None:
+    """Run an M function that acts before the motion of its block.
+
+    Args:
+        channel: The channel.
+        code: Its number.
+        spindle_number: Its extension.
+        beside: The addresses of its block.
+
+    Raises:
+        AlarmError: PC0001 for a word of the block that the machine file gives to the M function: on this control words
+            keep their own meaning.
+    """
+    if spindle_number is None and (code in AFTER_MOTION or program_of(channel, code)):
         return
+    function = channel.machine.m_functions.get(code)
+    if function is None:
+        _put_out(channel, code, spindle_number)
+        return
+    taken = [address for address in function.takes or () if address in beside and address != "H"]
+    if taken:
+        raise not_supported(f"M{code} {taken[0]}")
+    if spindle_number is not None or not _is_late(channel, code):
+        _put_out(channel, code, spindle_number)
+
+
+def _put_out(channel: SinumerikChannel, code: int, spindle_number: int | None) -> None:
+    """An M function goes out to the machine, and acts in the control."""
+    refuse(channel, f"M{code}")
     memory = channel.memory
+    function = channel.machine.m_functions.get(code)
+    does = function.does if function is not None else ""
+    if does and does not in DIRECTION_OF_ACT and does != TOOL_CHANGE:
+        raise not_supported(f"M{code} ({does})")
     if code in GEARS:
         memory.spindles.get(spindle_number)  # 16761 for one that the channel does not have
-    if code in DIRECTIONS or code in (ORIENT, AXIS_MODE):
+    if code in DIRECTIONS or code in (ORIENT, AXIS_MODE) or does in DIRECTION_OF_ACT:
         spindle = memory.spindles.get(spindle_number)
-        spindle.direction = DIRECTIONS.get(code, 0)
+        spindle.direction = DIRECTION_OF_ACT[does] if does in DIRECTION_OF_ACT else DIRECTIONS.get(code, 0)
         spindle.controlled = code in (ORIENT, AXIS_MODE)
         channel.context_changed()
     if spindle_number is None:
@@ -42,12 +90,13 @@ def before_motion(channel: SinumerikChannel, code: int, spindle_number: int | No
     else:
         channel.event(Auxiliary(code, spindle=spindle_number))
     data = memory.data
-    if code == data.integer("$MC_TOOL_CHANGE_M_CODE") and data.integer("$MC_TOOL_CHANGE_MODE"):
+    changes = code == data.integer("$MC_TOOL_CHANGE_M_CODE") and data.integer("$MC_TOOL_CHANGE_MODE")
+    if changes or does == TOOL_CHANGE:
         load_tool(channel)
 
 
 def after_motion(channel: SinumerikChannel, code: int) -> None:
-    """Stops, which act when the motion of their block is done."""
+    """What acts when the motion of its block is done: stops, and M functions that the machine file puts there."""
     if code == STOP:
         channel.stop("M0")
     elif code == OPTIONAL_STOP:
@@ -55,20 +104,44 @@ def after_motion(channel: SinumerikChannel, code: int) -> None:
             channel.stop("M1")
         else:
             channel.event(Auxiliary(code))
+    elif code not in AFTER_MOTION and _is_late(channel, code) and not program_of(channel, code):
+        _put_out(channel, code, None)
+
+
+def _is_late(channel: SinumerikChannel, code: int) -> bool:
+    """Whether the machine file puts an M function behind the motion; those of the control itself stay in front."""
+    function = channel.machine.m_functions.get(code)
+    if function is None or function.timing != "after" or code in NEVER_CALL or code == ORIENT:
+        return False
+    return code != channel.memory.data.integer("$MC_TOOL_CHANGE_M_CODE")
 
 
 def load_tool(channel: SinumerikChannel) -> None:
     """The selected tool comes into the spindle."""
-    check_change_points(channel)
+    follow(channel, way_to_change(channel))
     memory = channel.memory
+    before = memory.tools.additive
     memory.tools.load(memory.tools.selected, memory.data)
+    first_location(channel, before)
+    edge_selected(channel)
+
+
+def first_location(channel: SinumerikChannel, before: int) -> None:
+    """MD20272: the additive offset (DL) that holds with a new edge; below 0 the one that held before."""
+    wanted = channel.memory.data.integer("$MC_SUMCORR_DEFAULT")
+    channel.memory.tools.additive = before if wanted < 0 else wanted
+
+
+def edge_selected(channel: SinumerikChannel) -> None:
+    """Another tool, edge or holder: an orientable holder is worked out anew."""
+    carriers.follow(channel)
     tool_changed(channel)
 
 
 def tool_changed(channel: SinumerikChannel) -> None:
     """Other offsets: lengths act with the next motion of their axis, the radius at once."""
     memory = channel.memory
-    memory.tools.assign_lengths(channel.mode["plane"], memory.data)
+    selection.follow(channel)
     frames.apply(channel, travelled=bool(memory.data.number("$SC_TOOL_OFFSET_INCR_PROG")))
     stages.changed_radius(channel)
     tooth_feed.follow(channel)

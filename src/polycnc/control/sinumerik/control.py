@@ -5,42 +5,48 @@ from __future__ import annotations
 import re
 from functools import cached_property
 from math import inf
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.states.snapshot import unchanging
 from polycnc.control.alarm_text import alarm_catalogue
-from polycnc.control.sinumerik import gcodes, tables
+from polycnc.control.sinumerik import axis_names, gcodes, replaced, tables
+from polycnc.control.sinumerik.actions import actions
+from polycnc.control.sinumerik.actions.user_data import user_data
 from polycnc.control.sinumerik.block import positions, procedures, single_block
 from polycnc.control.sinumerik.block.plain import SinumerikPlainBlocks
 from polycnc.control.sinumerik.block.plan import ExactStop, make_plan
 from polycnc.control.sinumerik.channels import axis_exchange, coordination
 from polycnc.control.sinumerik.data import access, init_programs
 from polycnc.control.sinumerik.data.machine_data import MachineData
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import pace, spindle_speed, tolerances
 from polycnc.control.sinumerik.feed.dry_run import dry_run
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.feed.spindles import Spindle, Spindles
-from polycnc.control.sinumerik.frames import memory as frames
-from polycnc.control.sinumerik.frames.memory import Frames, chain, stored_frames
+from polycnc.control.sinumerik.frames import active as frames
+from polycnc.control.sinumerik.frames.memory import Frames, chain
 from polycnc.control.sinumerik.limits import protection, working_area
+from polycnc.control.sinumerik.m_functions import PROGRAM_ENDS
 from polycnc.control.sinumerik.memory import Memory
+from polycnc.control.sinumerik.modal_state import ModalState
 from polycnc.control.sinumerik.reset import reset, start_codes
 from polycnc.control.sinumerik.signals import interrupts, measuring
-from polycnc.control.sinumerik.tools import stages
-from polycnc.control.sinumerik.tools.memory import tools_of_setup
+from polycnc.control.sinumerik.tools import sides, stages
+from polycnc.control.sinumerik.tools.memory import Tools
+from polycnc.control.sinumerik.transformations import seat
+from polycnc.control.sinumerik.transformations.point_to_point import PointToPoint
 from polycnc.control.sinumerik.variables import by_name, functions
 from polycnc.control.sinumerik.variables.registry import SystemVariables
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import nc_shapes
+from polycnc.language.sinumerik.errors import arithmetic
 from polycnc.language.sinumerik.executable import SinumerikProgram
 from polycnc.language.sinumerik.interface import LanguageMemory
-from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, ctrans
 from polycnc.language.sinumerik.names.initialisation import RESET, initialise
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.names.variables import Variable
 from polycnc.language.sinumerik.statements.sections import end_of_subprogram
-from polycnc.machine.plc import Plc
-from polycnc.memory.retained import VARIABLES, WORK_OFFSETS
+from polycnc.memory.retained import USER_VARIABLES, VARIABLES, filled
 from polycnc.messages import AlarmError
 from polycnc.program import Form
 from polycnc.toolpath import Context
@@ -53,11 +59,11 @@ if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step as ProgramStep
-    from polycnc.control.sinumerik.block.draft import Values
-    from polycnc.control.sinumerik.block.plan import Plan
+    from polycnc.control.sinumerik.block.draft import Plan, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.variables.registry import SystemVariable
     from polycnc.language.expressions.shapes import Shapes
+    from polycnc.language.sinumerik.actions.code import ActionCode
     from polycnc.language.sinumerik.words import Block
     from polycnc.messages import Catalogue
     from polycnc.program import Program
@@ -66,10 +72,10 @@ if TYPE_CHECKING:
 NO_LIMIT_RPM = 1e8
 #: R parameters of a channel whose machine data say nothing.
 R_PARAMETERS = 1000
-_T = TypeVar("_T")
-_R_PARAMETER = re.compile(r"\s*R(\d+|\[.*\])\s*", re.IGNORECASE)
-#: Number of every settable zero offset in its group.
-ZERO_OFFSETS = {word: gcodes.number_of(word) for word in gcodes.BY_NAME["wcs"].words}
+#: Rotations of frames: RPY angles (1), or Euler angles, which polycnc does not execute.
+EULER_ANGLES = "$MN_FRAME_ANGLE_INPUT_MODE"
+#: What stands behind the name of a variable: the number of an R parameter, indices.
+_INDEX = re.compile(r"(?<=^R)\d+$|\[.*", re.IGNORECASE)
 
 
 @unchanging
@@ -79,10 +85,11 @@ class Sinumerik:
     id: ClassVar[str] = "sinumerik-840d"
     alarm_series: ClassVar[Mapping[str, str] | None] = None
     default_machine: ClassVar[str] = "mill3"
+    parameter_files: ClassVar[tuple[str, ...]] = ("sinumerik/data/machine_data.toml",)
     tools_have_names: ClassVar[bool] = True
+    last_bit: ClassVar[int] = 31
     mdi_intervenes: ClassVar[bool] = False
     form: ClassVar[Form] = Form.SINUMERIK
-    plc: ClassVar[Plc] = Plc()
 
     def __init__(self) -> None:
         self.g_groups: Mapping[str, int] = {word: group.number for word, group in gcodes.GROUP_OF.items()}
@@ -110,9 +117,22 @@ class Sinumerik:
 
     def start(self, channel: SinumerikChannel) -> None:
         """Power-on: modal state, machine data, tools and frames as machine and setup say."""
-        is_new = not channel.retained.table(VARIABLES, channel.number)
-        memory = self._memory(channel)
-        channel.memory = memory
+        kept = _names_kept(channel)
+        channel.axis_data = positions.configured_axes(channel)
+        channel.memory = memory = Memory(
+            language=LanguageMemory.of(channel),
+            data=MachineData.of(channel),
+            frames=Frames.of(channel),
+            tools=Tools.of(channel),
+            spindles=Spindles.of(channel),
+            axes=channel.axis_data,
+            columns=axis_names.columns(channel),
+            machine_columns=axis_names.machine_columns(channel),
+            own_columns=axis_names.columns(channel),
+            shares_axes=axis_exchange.shares_axes(channel),
+            machine_refuses_moves=bool(channel.machine.plc(self.id).moves),
+            transverse=next((i for i, axis in enumerate(channel.axis_data) if axis.diameter), -1),
+        )
         channel.mode = channel.modes.mode(start_codes(channel, memory.data))
         PathFeed.of(channel).mode = tables.feed_type(channel.mode).mode
         memory.frames.select(gcodes.number_of(channel.mode["wcs"]) - 1)
@@ -120,13 +140,14 @@ class Sinumerik:
             memory.tools.stand_in(channel.setup.spindle_tool)
         frames.apply(channel)
         working_area.refresh(channel)
-        memory.language.macros.update(coordination.names(channel))
         if channel.group is None or channel is channel.group.first:
             for name, value in channel.setup.variables.items():
-                if is_new or not _R_PARAMETER.fullmatch(name):
+                if _INDEX.sub("", name.strip()).upper() not in kept:
                     self.write_variable(channel, name, value)
         measuring.watch(channel)
         interrupts.watch(channel)
+        if memory.data.integer(EULER_ANGLES) != 1:
+            raise not_supported(EULER_ANGLES)
         init_programs.call(channel)
 
     def begin(self, channel: SinumerikChannel) -> None:
@@ -149,61 +170,35 @@ class Sinumerik:
 
     def stop_spindles(self, channel: SinumerikChannel) -> None:
         """The drives are off."""
-        for spindle in channel.memory.spindles.all.values():
-            spindle.direction = 0
+        channel.memory.spindles.stop()
 
-    def _memory(self, channel: SinumerikChannel) -> Memory:
-        names = axis_names(channel)
-        data = _machine_data(channel)
-        definition = channel.machine.channel(channel.number)
-        master = data.integer("$MC_SPIND_DEF_MASTER_SPIND")
-        numbers = definition.spindles
-        if numbers and master not in numbers:
-            master = numbers[0]
+    def language_memory(self, channel: SinumerikChannel) -> LanguageMemory:
+        """What the language begins with: what machine data say, and values that are retained."""
+        data, shared = MachineData.of(channel), channel.group.shared if channel.group is not None else {}
         count = data.integer("$MC_MM_NUM_R_PARAM") if data.is_set("$MC_MM_NUM_R_PARAM") else R_PARAMETERS
-        offsets = dict(channel.setup.work_offsets)
-        external, base = offsets.pop("EXT", {}), offsets.pop("BASE", {})
-        shared = channel.group.shared if channel.group is not None else {}
-        unknown = next((name for name in offsets if name not in ZERO_OFFSETS), None)
-        if unknown is not None:
-            raise AlarmError("12550", text=unknown)
-        global_frames = data.integer("$MN_MM_NUM_GLOBAL_USER_FRAMES")
-        settable = stored_frames(
-            offsets, global_frames or data.integer("$MC_MM_NUM_USER_FRAMES"), ZERO_OFFSETS
-        )
-        global_base = [NEUTRAL] * data.integer("$MN_MM_NUM_GLOBAL_BASE_FRAMES")
-        bases = data.integer("$MC_MM_NUM_BASE_FRAMES")
-        of_channel, of_control = (channel.retained.table(WORK_OFFSETS, n) for n in (channel.number, 0))
-        return Memory(
-            language=LanguageMemory(
-                _kept(channel.retained.table(VARIABLES, channel.number), "R", [0.0] * count),
-                names,
-                exact_order=bool(data.integer("$MN_PROG_FUNCTION_MASK") & 1),
-                main_variables_everywhere=bool(data.integer("$MN_LUD_EXTENDED_SCOPE")),
-                access_level=access.operator_level(channel),
-                directory_levels=access.directory_levels(data),
-                write_levels=access.write_levels(data),
-                nck_variables=shared.setdefault("user variables", {}),
-                global_variables={
+        retained = channel.retained
+        parameters = retained.table(VARIABLES, channel.number)
+        return LanguageMemory(
+            r_parameters=parameters,
+            user_variables=retained.table(USER_VARIABLES, channel.number),
+            nck_user_variables=retained.table(USER_VARIABLES),
+            r=filled(parameters, "R", [0.0] * count),
+            axes=axis_names.identifiers(channel),
+            default_axis=Axis(str(data.read("$MC_AXCONF_CHANAX_DEFAULT_NAME")).upper()),
+            exact_order=bool(data.integer("$MN_PROG_FUNCTION_MASK") & 1),
+            main_variables_everywhere=bool(data.integer("$MN_LUD_EXTENDED_SCOPE")),
+            access_level=access.operator_level(channel),
+            directory_levels=access.directory_levels(data),
+            write_levels=access.write_levels(data),
+            nck_variables=shared.setdefault("user variables", {}),
+            global_variables={
+                **{
                     name: Variable(name, Type.INT, store=[value])
                     for name, value in tables.CYCLE_SYMBOLS.items()
                 },
-            ),
-            data=data,
-            frames=Frames(
-                settable=_kept(of_control if global_frames else of_channel, "$P_UIFR", settable),
-                base=_kept(of_channel, "$P_CHBFR", [ctrans(base), *[NEUTRAL] * (bases - 1)][:bases]),
-                global_base=_kept(of_control, "$P_NCBFR", global_base),
-                base_mask=data.integer("$MC_CHBFRAME_RESET_MASK"),
-                global_base_mask=data.integer("$MN_NCBFRAME_RESET_MASK"),
-                system={**dict.fromkeys(frames.SYSTEM_FRAMES, NEUTRAL), "$P_EXTFRAME": ctrans(external)},
-            ),
-            tools=tools_of_setup(channel.setup.tools),
-            spindles=Spindles({n: Spindle(n) for n in numbers}, master, master),
-            columns=_columns(channel),
-            machine_columns=_machine_columns(channel),
-            shares_axes=axis_exchange.shares_axes(channel),
-            transverse=next((i for i, axis in enumerate(channel.axis_data) if axis.diameter), -1),
+                **user_data(data),
+            },
+            macros=coordination.names(channel),
         )
 
     def end_of_program(self, channel: SinumerikChannel) -> None:
@@ -216,7 +211,7 @@ class Sinumerik:
 
     def plain_blocks(self, _channel: SinumerikChannel) -> SinumerikPlainBlocks:
         """What a scanner must know of plain blocks."""
-        return SinumerikPlainBlocks()
+        return SinumerikPlainBlocks(self.plan)
 
     # ---- blocks
 
@@ -235,8 +230,10 @@ class Sinumerik:
                 channel.path.relax()
             if channel.single_block:
                 single_block.RunningBlock.of(channel).acted = acts
+        if ends and replaced.call_programs(channel, [int(values[position]) for position in ends]):
+            return False
         for position in ends:
-            if values[position] in (2, 30, 17):
+            if values[position] in PROGRAM_ENDS:
                 self.end_of_program(channel)
                 return False
         return calls and channel.memory.language.modal_call is not None
@@ -261,6 +258,12 @@ class Sinumerik:
         except AlarmError as alarm:
             alarm.column = alarm.column or column
             raise
+
+    def define_action(
+        self, channel: SinumerikChannel, code: ActionCode, number: int | None, frozen: tuple[Any, ...]
+    ) -> None:
+        """A synchronised action begins with the next block, with the values that were worked out now."""
+        actions.define(channel, code, number, frozen)
 
     def function(self, channel: SinumerikChannel, name: str, args: tuple[Any, ...], column: int) -> Any:
         """The value of a predefined function that depends on the control's state."""
@@ -301,27 +304,15 @@ class Sinumerik:
         """Whether blocks marked `/` with this level are skipped now."""
         return bool(channel.setup.switches.block_skip_mask(plain=0) >> level & 1)
 
-    def save(self, channel: SinumerikChannel) -> object:
+    def save(self, channel: SinumerikChannel) -> ModalState:
         """What PROC … SAVE brings back: all modal functions, and the frames that they chose."""
-        memory = channel.memory
-        return channel.mode, memory.frames.programmable
+        return ModalState(channel.mode, channel.memory.frames.programmable)
 
     def restore(self, channel: SinumerikChannel, saved: object) -> None:
         """Bring back what `save` returned."""
-        assert isinstance(saved, tuple)
-        mode, programmable = saved
-        memory, before = channel.memory, channel.mode
-        if mode is before and programmable is memory.frames.programmable:
-            return
-        channel.mode = mode
-        memory.frames.programmable = programmable
-        if mode["wcs"] != before["wcs"]:
-            memory.frames.select(gcodes.number_of(mode["wcs"]) - 1)
-        if mode["feed"] != before["feed"]:
-            PathFeed.of(channel).mode = tables.feed_type(mode).mode
-        memory.tools.assign_lengths(mode["plane"], memory.data)
-        frames.changed(channel)
-        channel.context_changed()
+        assert isinstance(saved, ModalState)
+        if saved != self.save(channel):
+            saved.restore(channel)
 
     # ---- the toolpath
 
@@ -338,7 +329,7 @@ class Sinumerik:
         spindle = memory.spindles.all.get(leading)
         shown = (positions.diameter_function(mode, i, memory.transverse) for i in range(len(channel.axes)))
         diameters = sum(1 << i for i, function in enumerate(shown) if function in positions.SHOWS_DIAMETERS)
-        side = stages.SIDES.get(mode["compensation"], 0)
+        side = sides.SIDES.get(mode["compensation"], 0)
         return Context(
             plane=mode["plane"],
             inch=False,
@@ -347,7 +338,7 @@ class Sinumerik:
             offsets=tuple(coordinates.offsets),
             tool=memory.tools.active,
             tool_name=memory.tools.name,
-            radius_mm=stages.radius(channel) if side else 0.0,
+            radius_mm=stages.distance(channel) if side else 0.0,
             side=side,
             spindle=leading,
             spindle_rpm=_speed(memory, spindle, mode["feed"]),
@@ -363,6 +354,8 @@ class Sinumerik:
             wcs=mode["wcs"],
             part=chain(memory.frames.inner()).frame,
             transformation=coordinates.transformation,
+            names=seat.shown_names(channel),
+            shown_by=PointToPoint.of(channel).shown_by,
             pace=pace.pace(channel, side),
         )
 
@@ -378,6 +371,10 @@ class Sinumerik:
         """Machine position of a reference point of an axis (1 to 4)."""
         return channel.axis_data[axis].reference_points[number - 1]
 
+    def arithmetic_alarm(self, error: ArithmeticError) -> AlarmError:  # noqa: ARG002 - one alarm for all
+        """The alarm for a calculation without a result: 14051."""
+        return arithmetic()
+
     def block_limit(self) -> AlarmError:
         """The program has run more blocks than allowed."""
         return AlarmError("PC0002", hint="hint.block-limit")
@@ -387,8 +384,7 @@ class Sinumerik:
 
         DRIVE: MD35220 and MD35230 of the axis that asks for most caution.
         """
-        memory: Memory | None = channel.memory
-        data = memory.data if memory is not None else _machine_data(channel)
+        data = MachineData.of(channel)
         return MotionSettings(
             rapid_stops=False,
             rotary_in_feed=False,
@@ -413,18 +409,14 @@ class Sinumerik:
         return [f"R{n}" for n, value in enumerate(memory.language.r) if value]
 
 
-def _kept(table: dict[str, list[_T]], name: str, delivered: list[_T]) -> list[_T]:
-    """A list of retained memory, as long as the delivered one, which fills it where it is shorter."""
-    kept = table.setdefault(name, delivered)
-    kept[:] = [*kept, *delivered[len(kept) :]][: len(delivered)]
-    return kept
-
-
-def _machine_data(channel: SinumerikChannel) -> MachineData:
-    """Machine data as the setup gives them."""
-    columns = {**_machine_columns(channel), **_columns(channel)}
-    names = {name: channel.axes[column] for name, column in columns.items()}
-    return MachineData(channel.setup.parameters, names)
+def _names_kept(channel: SinumerikChannel) -> set[str]:
+    """Names of variables that have their values from an earlier power-on: the setup leaves them alone."""
+    tables_ = (
+        channel.retained.table(name, number)
+        for name in (VARIABLES, USER_VARIABLES)
+        for number in (channel.number, 0)
+    )
+    return {name for table in tables_ for name in table}
 
 
 def _corner_mode(channel: SinumerikChannel, mode: Mode) -> CornerMode:
@@ -451,34 +443,3 @@ def _limit(memory: Memory, spindle: Spindle | None, feed: str) -> float:
     """The spindle's highest speed; 0 for none."""
     limit = spindle_speed.highest(memory, spindle, feed) if spindle is not None else inf
     return limit if limit < NO_LIMIT_RPM else 0.0
-
-
-def axis_names(channel: SinumerikChannel) -> dict[str, Axis]:
-    """Every axis and spindle identifier that programs of the channel may use, with the axis it means."""
-    names = {name: Axis(name) for name in channel.axes}
-    for letter, column in zip(GEOMETRY_AXES, channel.coordinates.geometry, strict=True):
-        if column >= 0:
-            names.setdefault(letter, Axis(letter))
-    for axis in channel.axis_data:
-        for name in (axis.machine_name, f"AX{channel.machine.axes.index(axis) + 1}"):
-            if name:
-                names.setdefault(name.upper(), Axis(name.upper()))
-    for spindle in channel.machine.spindles:
-        names.setdefault(f"S{spindle.number}", Axis(f"S{spindle.number}"))
-    return names
-
-
-def _columns(channel: SinumerikChannel) -> dict[str, int]:
-    """Columns by channel and geometry names."""
-    columns = {name: i for i, name in enumerate(channel.axes)}
-    for letter, column in zip(GEOMETRY_AXES, channel.coordinates.geometry, strict=True):
-        if column >= 0:
-            columns.setdefault(letter, column)
-    return columns
-
-
-def _machine_columns(channel: SinumerikChannel) -> dict[str, int]:
-    """Columns by machine axis names: of the machine, of its machine data, and AX1 and so on."""
-    columns = {f"AX{channel.machine.axes.index(axis) + 1}": i for i, axis in enumerate(channel.axis_data)}
-    columns.update({axis.machine_name.upper(): i for i, axis in enumerate(channel.axis_data)})
-    return columns

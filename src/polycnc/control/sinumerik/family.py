@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Protocol, TypeAlias
+
+from polycnc.control.interface import Control
+from polycnc.language.sinumerik.interface import LanguageControl
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.control.sinumerik.control import Sinumerik
     from polycnc.control.sinumerik.memory import Memory
     from polycnc.language.sinumerik.interface import NcExecutable
 
-SinumerikChannel: TypeAlias = "Channel[Sinumerik, Memory, NcExecutable]"
+
+class HandlersControl(Control, LanguageControl, Protocol):
+    """What handlers ask of the control; so they need not know the class that knows all of them."""
+
+
+SinumerikChannel: TypeAlias = "Channel[HandlersControl, Memory, NcExecutable]"

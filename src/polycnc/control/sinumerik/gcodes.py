@@ -138,16 +138,14 @@ GROUP_OF = {word: group for group in GROUPS for word in group.words}
 START_CODES = {group.name: group.start for group in GROUPS if group.is_modal}
 
 #: Further modal state that decides how a block acts, beside the groups: a straight line whose end the next block
-#: tells (ANG); and the function of group 15 whose feed G962 and G972 keep. Each axis that DIAMONA and the like have
-#: named adds a group of its own.
-INTERNAL_CODES = {"open_line": "", "feed_kept": "G94"}
+#: tells (ANG); the function of group 15 whose feed G962 and G972 keep; the kind of transformation that acts. Each axis
+#: that DIAMONA and the like have named adds a group of its own.
+INTERNAL_CODES = {"open_line": "", "feed_kept": "G94", "transformation": ""}
 
 #: Known functions that polycnc does not execute: the path would differ, so they raise an alarm.
 _NOT_EXECUTED = """
-OEMIPO1 OEMIPO2 INVCW INVCCW G5 G7 CUT3DC CUT3DF CUT3DFS
-CUT3DFF CUT3DCC CUT3DCCD KONTT KONTC FTOCON SON PON SONS PONS
-TCOFR TCOFRZ TCOFRY TCOFRX G291 PTP PTPG0 PAROT TOROT TOROTZ TOROTY TOROTX TOFRAME TOFRAMEZ
-TOFRAMEY TOFRAMEX
+OEMIPO1 OEMIPO2 INVCW INVCCW KONTT KONTC SON PON SONS PONS
+G291
 """
 NOT_EXECUTED = frozenset(_NOT_EXECUTED.split())
 

@@ -7,18 +7,17 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, end_of
 from polycnc.control.sinumerik import gcodes, tables
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
-from polycnc.control.sinumerik.frames import memory as frames
-from polycnc.control.sinumerik.limits import protection, working_area
-from polycnc.language.sinumerik.names.frame import NEUTRAL
+from polycnc.control.sinumerik.frames import active as frames
+from polycnc.control.sinumerik.limits import working_area
+from polycnc.control.sinumerik.motion import contour_reading
+from polycnc.control.sinumerik.tools import selection
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.data.machine_data import MachineData
     from polycnc.control.sinumerik.family import SinumerikChannel
-    from polycnc.control.sinumerik.memory import Memory
 
 #: Groups that a bit of MD20110 keeps over a reset.
 KEPT_BY_MASK = {4: "plane", 5: "wcs"}
-KEEPS_EDGE = 6
 
 
 def start_codes(channel: SinumerikChannel, data: MachineData) -> dict[str, str]:
@@ -27,6 +26,8 @@ def start_codes(channel: SinumerikChannel, data: MachineData) -> dict[str, str]:
     definition = channel.machine.channel(channel.number)
     if "X" in definition.geometry and not {"Y"} & {*definition.geometry, *definition.virtual}:
         codes["plane"] = "G18"
+    if not data.integer("$MC_ORIENTATION_IS_EULER"):
+        codes["orientation_angles"] = "ORIRPY"
     return codes | {group.name: code for group in gcodes.GROUPS if (code := _reset_value(group, data))}
 
 
@@ -58,35 +59,16 @@ def _kept_codes(channel: SinumerikChannel, data: MachineData) -> dict[str, str]:
     return {name: channel.mode[name] for name in kept}
 
 
-def _reset_edge(channel: SinumerikChannel, data: MachineData) -> None:
-    """The tool stays in the spindle; bit 6 of MD20110 keeps its offsets, else MD20130 says which hold."""
-    tools = channel.memory.tools
-    if data.integer("$MC_RESET_MODE_MASK") & (1 | 1 << KEEPS_EDGE) == 1:
-        edge, tool = data.integer("$MC_CUTTING_EDGE_RESET_VALUE"), tools.tools.get(tools.active)
-        tools.select_edge(edge if tool is not None and edge in tool.edges else 0)
-    tools.assign_lengths(channel.mode["plane"], data)
-
-
-def stop_spindles(memory: Memory) -> None:
-    """Spindles stop, but for those that MD35040 keeps turning."""
-    for number, spindle in memory.spindles.all.items():
-        if not memory.data.integer("$MA_SPIND_ACTIVE_AFTER_RESET", f"S{number}"):
-            spindle.direction = 0
-
-
 def reset(channel: SinumerikChannel) -> None:
     """Modal functions as at program start, programmed frames and compensations off; the axes stay where they are."""
-    memory = channel.memory
-    protection.leave(channel)
-    machine = channel.coordinates.machine
+    contour_reading.abandon(channel)
+    memory, machine = channel.memory, channel.coordinates.machine
     channel.mode = channel.modes.mode(start_codes(channel, memory.data) | _kept_codes(channel, memory.data))
-    stop_spindles(memory)
-    _reset_edge(channel, memory.data)
     channel.path.clear()
+    channel.turning = None
     end_of(channel, Lifetime.RESET)
-    memory.language.modal_call = None
     PathFeed.of(channel).mode = tables.feed_type(channel.mode).mode
-    memory.frames.programmable = NEUTRAL
+    selection.follow(channel)
     memory.frames.select(gcodes.number_of(channel.mode["wcs"]) - 1)
     frames.apply(channel)
     working_area.refresh(channel)

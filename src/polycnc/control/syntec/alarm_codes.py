@@ -120,6 +120,7 @@ ALARMS: dict[str, str] = {
     "retract_feed": "COR-045",
     # coordinates
     "rotation_angle": SEMANTIC,
+    "rotation_plane": SEMANTIC,
     "scale": SEMANTIC,
     "preset_rotary": "COR-115",
     # compensation

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.syntec.axis_groups import names
 from polycnc.control.word_address.block.codes import GCode
 from polycnc.control.word_address.block.plan import Builder
+from polycnc.machine.model import program_called
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
@@ -27,7 +28,7 @@ class SyntecBuilder(Builder):
     """Works out one plan.
 
     Attributes:
-        g_macros: Programs that G codes of the block call, in order.
+        g_macros: G codes of the block that call a program, each with it, in order.
         called_m: The registered M code of the block.
         plain: Registered codes act as standard codes.
     """
@@ -40,7 +41,7 @@ class SyntecBuilder(Builder):
         *,
         plain: bool = False,
     ) -> None:
-        self.g_macros: list[Program] = []
+        self.g_macros: list[tuple[str, Program]] = []
         self.called_m: int | None = None
         self.plain = plain
         self._plain_plan: Plan | None = None
@@ -56,11 +57,13 @@ class SyntecBuilder(Builder):
                 raise self.control.fail("argument", address=address, word=address)
 
     def _row(self, code: str) -> GCode:
-        """A code of the table, or one of a macro: G200 to G999, and G123.4 where its file exists."""
-        program = self._macro_program(code)
+        """A code of the table, or one of a macro: G200 to G999, G123.4 where its file exists, a machine's own."""
+        function = self.channel.machine.g_functions.get(code)
+        calls = function.calls if function is not None else ""
+        program = self.declared_program(calls) if calls else self._macro_program(code)
         if program is not None:
-            self.g_macros.append(program)
-            return GCode(code, axis_words=True)
+            self.g_macros.append((code, program))
+            return GCode(code, takes="P", axis_words=True)
         return super()._row(code)
 
     def _macro_program(self, code: str) -> Program | None:
@@ -84,6 +87,14 @@ class SyntecBuilder(Builder):
         program = self.channel.store.find_name(name)
         if program is None:
             raise self.control.fail("no_program", number=name)
+        return program
+
+    def declared_program(self, calls: str) -> Program:
+        """The program that a code of the machine file calls."""
+        called = program_called(calls)
+        if isinstance(called, str):
+            return self.code_program(called)
+        program: Program = self.channel.control.find_program(self.channel, called)
         return program
 
     def moves_by_words(self) -> bool:

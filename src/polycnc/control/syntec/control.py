@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cached_property
 from math import hypot, inf
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.stack import LevelKind
 from polycnc.compensation.policy import Policy
@@ -17,16 +17,17 @@ from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.coordinates import systems
 from polycnc.control.syntec.coordinates.systems import TurnState
 from polycnc.control.syntec.five_axes import normal_direction, spatial, tilted, tip_control
-from polycnc.control.syntec.macros import calls, interrupts, machine_parameters
+from polycnc.control.syntec.macros import calls, interrupts, single_block
 from polycnc.control.syntec.macros.variables import SpaceState, locals_of
 from polycnc.control.syntec.memory import SyntecMemory
 from polycnc.control.syntec.motion import arcs, moves, oscillation, polar, quiet
-from polycnc.control.syntec.motion.arcs import ArcState
 from polycnc.control.syntec.motion.moves import FeedState
 from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.syntec.plain import SyntecPlainBlocks
 from polycnc.control.syntec.units import decimals, least_unit
+from polycnc.control.word_address.auxiliary.interlocks import MOVES_RULE
 from polycnc.control.word_address.auxiliary.overrides import in_tapping_mode
+from polycnc.control.word_address.block import whole_numbers
 from polycnc.control.word_address.block.numbers import NumberRules
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.coordinates import frames
@@ -35,7 +36,6 @@ from polycnc.control.word_address.motion import nurbs
 from polycnc.control.word_address.transformations import normal_line
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.syntec import executable, iso_grammar
-from polycnc.language.syntec.blocks import TypedBlock
 from polycnc.messages import AlarmError
 from polycnc.program import Form
 from polycnc.program.split import split_channels
@@ -44,19 +44,18 @@ from polycnc.toolpath.modes import FeedMode
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.channel.stack import Executable, Level
-    from polycnc.channel.steps import Step as ProgramStep
+    from polycnc.channel.stack import Executable
     from polycnc.control.syntec.family import SyntecChannel
-    from polycnc.control.word_address.block.codes import GCode, Handler, MCode, Planner
+    from polycnc.control.word_address.block.codes import ContextStep, GCode, Handler, MCode, Planner
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.rules import Rule
+    from polycnc.control.word_address.block.single_block import Halts
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.geometry.arcs import Point
     from polycnc.language.bulk import Condition
     from polycnc.language.word_address import Grammar
     from polycnc.program import Program
-    from polycnc.toolpath import Context
     from polycnc.toolpath.motion_settings import MotionSettings
 
 
@@ -72,13 +71,14 @@ class SyntecMill(WordAddressControl):
     """SYNTEC milling controls of the 900M … 220MA-5 family."""
 
     id: ClassVar[str] = "syntec-mill"
-    parameter_file: ClassVar[str] = machine_parameters.FILE
+    parameter_files: ClassVar[tuple[str, ...]] = ("syntec/parameters.toml",)
     parameter_class: ClassVar = SyntecParameters
     alarm_series: ClassVar[Mapping[str, str] | None] = {"MAR": "MACRO"}
     NORMAL_LINE_RULES: ClassVar[normal_line.NormalLineRules] = normal_direction.RULES
     alarm_files: ClassVar[tuple[str, ...]] = ("syntec/alarms.toml", "syntec/alarms_special.toml")
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
+    context_steps: ClassVar[tuple[ContextStep, ...]] = (in_tapping_mode, moves.recorded)
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
@@ -89,17 +89,26 @@ class SyntecMill(WordAddressControl):
     INCH_CODE: ClassVar[str] = "G70"
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = False
     mdi_intervenes: ClassVar[bool] = False
+    last_bit: ClassVar[int] = 31
     only_context: ClassVar[frozenset[Handler]] = WordAddressControl.only_context | {systems.cutting_mode}
     repeated_codes: ClassVar[Mapping[str, Condition]] = moves.REPEATED
     #: A motion code cancels the cycle of its block, in whatever order they are typed (2.47.3, note 9).
     ENDED_ANYWHERE: ClassVar[frozenset[str]] = frozenset(G_CODES)
+    halts_behind: ClassVar[tuple[Halts, ...]] = (
+        single_block.not_where_forbidden,
+        arcs.not_at_mid_point,
+        single_block.behind_typed_blocks,
+        *WordAddressControl.halts_behind,
+    )
     builder: ClassVar[type[Builder]] = SyntecBuilder
     rules: ClassVar[tuple[Rule, ...]] = (
         polar.RULE,
+        frames.ROTATION_RULE,
         normal_line.RULE,
         oscillation.RULE,
         spatial.RULE,
         calls.RULE,
+        whole_numbers.RULE,
         tip_control.RULE,
         drilling_cycles.RULE,
         cycles.RULE,
@@ -108,6 +117,7 @@ class SyntecMill(WordAddressControl):
         interrupts.RULE,
         arcs.RULE,
         calls.MODAL_RULE,
+        MOVES_RULE,
     )
 
     # ---- programs ----------------------------------------------------------------------------------------
@@ -224,19 +234,7 @@ class SyntecMill(WordAddressControl):
         if len(channel.stack) >= calls.MAX_LEVELS:
             raise self.fail("nesting", hint="hint.syntec.levels")
 
-    def halts(self, channel: SyntecChannel, level: Level, step: ProgramStep) -> bool:
-        """Single block halts behind a block of words, but not at the mid point of an arc nor while #1502 forbids it."""
-        if SpaceState.of(channel).words.get(1502, 0) & 1 or ArcState.of(channel).mid_point is not None:
-            return False
-        if isinstance(step, TypedBlock):
-            return channel.level is level and not channel.finished
-        return super().halts(channel, level, step)
-
     # ---- alarms ------------------------------------------------------------------------------------------
-
-    def fail(self, mistake: str, **where: Any) -> AlarmError:
-        """The control's alarm for a named mistake; its text names the word."""
-        return super().fail(mistake, **{"word": where.get("address", ""), **where})
 
     def arithmetic_alarm(self, _error: ArithmeticError) -> AlarmError:
         """The alarm for a calculation whose result no variable can hold."""
@@ -324,13 +322,6 @@ class SyntecMill(WordAddressControl):
         return Policy(checks_direction=checked)
 
     # ---- reports -----------------------------------------------------------------------------------------
-
-    def context(self, channel: SyntecChannel) -> Context:
-        """The context that holds now; under G93 feeds are recorded per minute. G63 takes override and hold away."""
-        context = in_tapping_mode(channel, super().context(channel))
-        by_time = context.feed_mode is FeedMode.INVERSE_TIME
-        mode = FeedMode.PER_MINUTE if by_time else context.feed_mode
-        return replace(context, feed_mode=mode, rapid_speed=FeedState.of(channel).rapid_speed)
 
     def variable_names(self, channel: SyntecChannel) -> list[str]:
         """Names of all variables that hold something."""

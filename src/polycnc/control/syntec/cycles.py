@@ -148,7 +148,7 @@ def _feed_by_threads(channel: SyntecChannel, per_inch: float) -> None:
         raise AlarmError("COR-023", address="E", word="E")
     lead = INCH_MM / per_inch
     per_revolution = channel.mode["feed"] == "G95"
-    channel.feed = lead if per_revolution else lead * channel.memory.spindle_speed / 60.0
+    channel.feed = lead if per_revolution else lead * channel.memory.spindle.speed / 60.0
 
 
 # ---- radius compensation ----------------------------------------------------------------------------

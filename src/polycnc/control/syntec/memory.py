@@ -131,7 +131,7 @@ class SyntecMemory(Memory):
             raise KeyError(name)
         typed: Value = Text(value) if isinstance(value, str) else VACANT
         if isinstance(value, int | float):
-            typed = value
+            typed = int(value) if isinstance(value, bool) else value
         if family == "R":
             self.globals.registers[int(index)] = int(float(str(value)))
         elif family == "#":

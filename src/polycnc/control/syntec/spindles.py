@@ -82,7 +82,7 @@ def command_speed(channel: SyntecChannel, spindle: int, speed: float, *, active:
     memory: SyntecMemory = channel.memory
     state.speeds[spindle] = speed
     if active:
-        memory.spindle_speed = speed
+        memory.spindle.speed = speed
         channel.context_changed()
     _report(channel, spindle)
     for pair in state.pairs.values():

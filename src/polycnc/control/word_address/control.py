@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cached_property
-from importlib import resources
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.snapshot import unchanging
 from polycnc.compensation import Policy
+from polycnc.compensation.corner import CornerPolicy
 from polycnc.control.alarm_text import alarm_catalogue
-from polycnc.control.word_address.block.codes import GCode, MCode
+from polycnc.control.word_address.auxiliary import interlocks, machine_codes
 from polycnc.control.word_address.block.numbers import Convert, NumberRules, angle_converter, length_converter
 from polycnc.control.word_address.block.plain import PlainBlocks
 from polycnc.control.word_address.block.plan import Builder, Plan
+from polycnc.control.word_address.block.single_block import Halts, behind_words
+from polycnc.control.word_address.block.whole_numbers import DecimalPoint
 from polycnc.control.word_address.coordinates import frames, systems
 from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.cycles import drilling as drilling_cycles
@@ -22,15 +24,15 @@ from polycnc.control.word_address.cycles.drilling import Drilling
 from polycnc.control.word_address.memory import Memory, ParameterTable
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.path_modes import corner_mode
+from polycnc.control.word_address.motion.planes import PlaneAxes
 from polycnc.control.word_address.reset import reset
+from polycnc.control.word_address.tools import look_ahead
 from polycnc.control.word_address.transformations.cylinder import CylinderState
 from polycnc.control.word_address.transformations.normal_line import NormalLineRules
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.geometry.arcs import radius_mismatch
 from polycnc.language.bulk import Spelling
 from polycnc.language.word_address import Grammar, WordAddressProgram
-from polycnc.language.word_address.words import ExpressionBlock, WordBlock
-from polycnc.machine.plc import Plc, read_plc
 from polycnc.messages import AlarmError, Catalogue, text
 from polycnc.program import Form
 from polycnc.toolpath import Context
@@ -45,7 +47,15 @@ if TYPE_CHECKING:
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step as ProgramStep
     from polycnc.control.parameters import AxisParameters, ControlParameters
-    from polycnc.control.word_address.block.codes import Handler, Planner, Step
+    from polycnc.control.word_address.block.codes import (
+        ContextStep,
+        GCode,
+        Handler,
+        MCode,
+        MRow,
+        Planner,
+        Step,
+    )
     from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.memory import ToolOffset
@@ -65,10 +75,10 @@ class WordAddressControl:
         id: Control id.
         alarm_series: As `Control` says.
         alarm_files: Files with the alarm texts, as `folder/file`; of two texts for a number the later counts.
-        plc_files: The machine's own controller: its rules and its alarms, as `folder/file`.
         form: How program files are marked off.
         default_machine: Built-in machine of a run that names none.
         tools_have_names: Programs may call a tool by its name.
+        last_bit: The last bit of a parameter.
         g_codes: The G table.
         m_codes: The M table; a number that is not in it passes as an event.
         addresses: What words beside axis words and code arguments do (F, S, T, H, D …).
@@ -76,50 +86,67 @@ class WordAddressControl:
         alarms: Names of mistakes to alarm codes.
         only_context: Handlers that do no more than change the context.
         repeated_codes: When codes that are in force already change nothing; see `block/repeated_codes.py`.
-        foreign_codes: Codes of other makers to message ids of hints.
+        foreign_codes: Codes that the control writes otherwise, to message ids of hints.
+        acts: What M functions of a machine file can do in the control.
+        parameter_files: The list of its parameters, as `folder/file`; of two entries for a number the later counts.
+        parameter_class: The parameters as attributes, by the module that is written from the list.
         drilling: The drilling cycles.
+        m_rows: What gives M codes of a block another row than `m_codes`; the first that has one decides.
+        context_steps: What features change in a context, each what those in front of it have left.
         rules: What acts on blocks beside their codes and words, in the order in which it acts; see `block/rules.py`.
+        halts_behind: Behind which blocks single block halts; the first rule that knows decides.
         builder: What works out plans.
         FEED_AT_START: Feed that holds before any F (mm/s), or None for the alarm of a missing feed.
         DIAMETER_PROGRAMMING: Axes marked as transverse are programmed in diameters.
+        SCALE_CENTER_IS_ABSOLUTE: The centre of G51 is an absolute point under G91 too.
         CURVE_BEGINS_AT_TOOL: The first pole of a G06.2 curve must be where the tool stands.
         NORMAL_LINE_RULES: What G41.1 and G42.1 refuse.
         INCREMENTAL_ADDRESSES: Addresses that are increments of an axis whatever the mode (U is X …).
         LENGTH_TRAVELS_ALONE: G43 H without a Z word moves Z by the offset at once.
         LATER_AXIS_WORD_COUNTS: Of an absolute and an incremental word of one axis the later one counts alone.
         ENDED_ANYWHERE: Codes that a code of their block ends wherever it stands there; others only behind them.
-        POINT_IN_WHOLE_NUMBERS: A decimal point behind a whole number is read over where no point belongs.
+        CORNER_POLICY: What may stand between the two moves of a chamfer or rounding.
+        LOOPS: The largest number of a loop (DO m), and how deep loops nest.
+        POINT_IN_WHOLE_NUMBERS: What a decimal point does where none belongs.
     """
 
     id: ClassVar[str] = ""
     alarm_series: ClassVar[Mapping[str, str] | None] = None
     alarm_files: ClassVar[tuple[str, ...]] = ()
-    plc_files: ClassVar[tuple[str, ...]] = ()
     g_codes: ClassVar[Mapping[str, GCode]] = {}
     m_codes: ClassVar[Mapping[int, MCode]] = {}
+    m_rows: ClassVar[tuple[MRow, ...]] = ()
+    context_steps: ClassVar[tuple[ContextStep, ...]] = ()
     addresses: ClassVar[Mapping[str, Planner]] = {}
     power_on: ClassVar[Mapping[str, str]] = {}
     alarms: ClassVar[Mapping[str, str]] = {}
     only_context: ClassVar[frozenset[Handler]] = frozenset((systems.note_context,))
     repeated_codes: ClassVar[Mapping[str, Condition]] = {}
     foreign_codes: ClassVar[Mapping[str, str]] = {}
+    acts: ClassVar[Mapping[str, Handler]] = machine_codes.ACTS
+    parameter_files: ClassVar[tuple[str, ...]] = ()
     parameter_class: ClassVar[type[ControlParameters[AxisParameters]] | None] = None
     drilling: ClassVar[Drilling] = Drilling({})
     rules: ClassVar[tuple[Rule, ...]] = (drilling_cycles.RULE,)
+    halts_behind: ClassVar[tuple[Halts, ...]] = (behind_words,)
     builder: ClassVar[type[Builder]] = Builder
     FEED_AT_START: ClassVar[float | None] = None
     DIAMETER_PROGRAMMING: ClassVar[bool] = False
+    SCALE_CENTER_IS_ABSOLUTE: ClassVar[bool] = False
     CURVE_BEGINS_AT_TOOL: ClassVar[bool] = False
     NORMAL_LINE_RULES: ClassVar[NormalLineRules] = NormalLineRules()
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {}
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
     LATER_AXIS_WORD_COUNTS: ClassVar[bool] = False
     INCH_CODE: ClassVar[str] = "G20"
+    CORNER_POLICY: ClassVar[CornerPolicy] = CornerPolicy()
     ENDED_ANYWHERE: ClassVar[frozenset[str]] = frozenset()
-    POINT_IN_WHOLE_NUMBERS: ClassVar[bool] = True
+    LOOPS: ClassVar[tuple[int, int]] = (3, 3)
+    POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.READ_OVER
     form: ClassVar[Form] = Form.WORD_ADDRESS
     default_machine: ClassVar[str] = "mill3"
     tools_have_names: ClassVar[bool] = False
+    last_bit: ClassVar[int] = 7
     mdi_intervenes: ClassVar[bool] = True
 
     # ---- texts and alarms ---------------------------------------------------------------------------------------
@@ -129,18 +156,21 @@ class WordAddressControl:
         """Texts of the control's alarms."""
         return alarm_catalogue(*self.alarm_files)
 
-    @cached_property
-    def plc(self) -> Plc:
-        """The machine's own controller."""
-        return read_plc(*map(resources.files("polycnc.control").joinpath, self.plc_files))
-
     def fail(self, mistake: str, **where: Any) -> AlarmError:
-        """The control's alarm for a named mistake."""
-        return AlarmError(self.alarms[mistake], **where)
+        """The control's alarm for a named mistake; its text names the word or the code where that is told."""
+        address = where.get("address", "")
+        return AlarmError(self.alarms[mistake], **{"word": address, "code": address, **where})
+
+    @property
+    def known_codes(self) -> frozenset[str]:
+        """The codes that the control has in any case, though a program may not write them so now."""
+        return frozenset(self.g_codes)
 
     def unknown_code(self, code: str) -> AlarmError:
-        """The alarm for a G code that is not in the table; with a hint where the code is another maker's."""
-        return self.fail("improper_g", address=code, code=code, hint=self.foreign_codes.get(code, ""))
+        """The alarm for a G code that is in no table; with a hint on how it is written, or how it is declared."""
+        told = machine_codes.undeclared(code) if code not in self.known_codes else {"hint": ""}
+        hint = self.foreign_codes.get(code, told["hint"])
+        return self.fail("improper_g", address=code, **{**told, "hint": hint})
 
     def over_travel(self, axis: str, direction: int) -> AlarmError:
         """The alarm for a target beyond a limit."""
@@ -161,12 +191,9 @@ class WordAddressControl:
         return self.fail("zero_divide" if isinstance(error, ZeroDivisionError) else "overflow")
 
     def halts(self, channel: Channel, level: Level, step: ProgramStep) -> bool:
-        """Single block halts behind a block of words; macro statements, calls and returns do not count."""
-        if isinstance(step, WordBlock):
-            words = step.signature
-        else:
-            words = step.keys if isinstance(step, ExpressionBlock) else ()
-        return bool(words) and channel.level is level and not channel.finished
+        """Whether single block halts behind the block that `step` of `level` was."""
+        found = (rule(channel, level, step) for rule in self.halts_behind)
+        return bool(next((halts for halts in found if halts is not None), False))
 
     def untaken(self, address: str, _builder: Builder) -> AlarmError:
         """The alarm for a word that nothing in its block takes."""
@@ -177,7 +204,9 @@ class WordAddressControl:
     @cached_property
     def grammar(self) -> Grammar:
         """How programs are written."""
-        return Grammar(self.alarms, point_in_numbers=self.POINT_IN_WHOLE_NUMBERS)
+        last, deepest = self.LOOPS
+        reads_over = self.POINT_IN_WHOLE_NUMBERS is not DecimalPoint.REFUSED
+        return Grammar(self.alarms, point_in_numbers=reads_over, last_loop=last, deepest_loop=deepest)
 
     def compile(self, program: Program) -> Executable:
         """Make a program ready to run."""
@@ -200,7 +229,7 @@ class WordAddressControl:
         channel.mode = channel.modes.mode(self.start_codes(channel))
         channel.skip_levels = channel.setup.switches.block_skip_mask(plain=1)
         if channel.number == 1:
-            channel.memory.tool = channel.memory.next_tool = int(channel.setup.spindle_tool)
+            channel.memory.tool.number = channel.memory.tool.next = int(channel.setup.spindle_tool)
         if self.FEED_AT_START is not None:
             channel.feed = self.FEED_AT_START
         systems.refresh_zero(channel)
@@ -229,8 +258,8 @@ class WordAddressControl:
         """A reset in the midst of a program: blocks that were only prepared have changed no state that stays."""
         memory = channel.memory
         channel.mode = channel.modes.mode(modal)
-        ZeroState.of(channel).system, memory.spindle_speed = context.wcs, context.spindle_rpm
-        memory.spindle_direction = context.spindle_direction
+        ZeroState.of(channel).system, memory.spindle.speed = context.wcs, context.spindle_rpm
+        memory.spindle.direction = context.spindle_direction
         self.reset(channel)
 
     def stays_at_end(self, channel: Channel, code: int) -> bool:  # noqa: ARG002 - parameters decide on a lathe
@@ -239,7 +268,7 @@ class WordAddressControl:
 
     def stop_spindles(self, channel: Channel) -> None:
         """The drives are off."""
-        channel.memory.spindle_direction = 0
+        channel.memory.spindle.direction = 0
 
     def start_codes(self, channel: Channel) -> dict[str, str]:  # noqa: ARG002 - parameters decide on a lathe
         """Code of every modal group at program start."""
@@ -251,9 +280,13 @@ class WordAddressControl:
             raise self.fail("end_of_record")
         channel.pop()
 
-    def g_table(self, _channel: Channel) -> Mapping[str, GCode]:
+    def g_table(self, channel: Channel) -> Mapping[str, GCode]:
         """The G codes as programs of this channel write them; the rows carry the codes of `g_codes`."""
-        return self.g_codes
+        return self.with_machine_codes(channel, self.g_codes)
+
+    def with_machine_codes(self, channel: Channel, table: Mapping[str, GCode]) -> Mapping[str, GCode]:
+        """A G table with the codes that the machine file declares."""
+        return {**table, **machine_codes.g_rows(channel)} if channel.machine.g_functions else table
 
     def spindle_slot(self, _builder: Builder) -> int | None:
         """Index of the word by which a block names a spindle for its S and M; the word counts as taken."""
@@ -280,13 +313,17 @@ class WordAddressControl:
             if row.ends and row.ends in chosen:
                 yield row.ends, self.power_on[row.ends]
 
-    def m_code(self, number: int) -> MCode:
-        """The row of an M code; one that the table does not know is an event of the machine's builder."""
-        return self.m_codes.get(number) or MCode(number)
+    def m_row(self, builder: Builder, number: int) -> MCode:
+        """The row of an M code in a block, by `m_rows` and else by the table and the machine file."""
+        for find in self.m_rows:
+            row = find(builder, number)
+            if row is not None:
+                return row
+        return machine_codes.m_row(builder.channel, self.m_codes.get(number), number)
 
-    def m_row(self, _builder: Builder, number: int) -> MCode:
-        """The row of an M code in a block; where the block gives it another meaning, that."""
-        return self.m_code(number)
+    def guarded_word(self, builder: Builder, address: str, step: Step | None) -> Step | None:
+        """The step of a word of `addresses`, unless the machine refuses the word now."""
+        return interlocks.guarded_word(builder, address, step) if address[0] in "STB" else step
 
     def packs_repeats(self, _channel: Channel) -> bool:
         """Whether the digits of P in front of a four-digit program number are the repeats of a call."""
@@ -320,6 +357,10 @@ class WordAddressControl:
         """Allowed difference between the radii at start and end of an arc, mm."""
         return 0.01
 
+    def center_may_be_start(self, _channel: Channel) -> bool:
+        """Whether an arc whose centre is its start is no mistake of its own."""
+        return False
+
     def check_arc(self, channel: Channel, start: Point, end: Point, center: Point) -> None:
         """Alarm for an end point that is not on the circle."""
         if abs(radius_mismatch(start, end, center)) > self.arc_tolerance(channel) + 1e-9:
@@ -341,13 +382,39 @@ class WordAddressControl:
         """Factors of G51 on the geometry axes."""
         return (1.0, 1.0, 1.0)
 
+    def rotation_adds(self, _channel: Channel) -> bool:
+        """Whether R of a rotation counts from the angle of the one that it replaces."""
+        return False
+
+    def rotation_without_angle(self, _channel: Channel) -> float | None:
+        """Angle of a rotation without R, degrees; None where R must be there."""
+        return None
+
+    def keeps_point_at_rotation(self, _channel: Channel) -> bool:
+        """Whether an axis that the block behind a rotation does not name goes where the rotation turns its coordinate.
+
+        Otherwise it counts from where it stands.
+        """
+        return False
+
     def reference_point(self, channel: Channel, axis: int, number: int) -> float:
         """Machine position of a reference point of an axis, from 1."""
         return channel.axis_data[axis].reference_points[number - 1]
 
+    def leave_length(self, channel: Channel, axes: list[int], *, to_reference: bool) -> None:
+        """What becomes of the tool length of axes that G28 and G30, or else G53, have moved: it stays in force."""
+
+    def compensates_to_intermediate(self, _channel: Channel) -> bool:
+        """Whether G28 and G30 go to their intermediate point within radius compensation."""
+        return False
+
     def compensation_policy(self, _channel: Channel) -> Policy:
         """Rules of radius compensation."""
         return Policy()
+
+    def stops_reading(self, _channel: Channel, code: int) -> bool:
+        """Whether nothing is read behind an M code before it has run."""
+        return code in look_ahead.STOPS
 
     def nose_tip(self, _channel: Channel) -> tuple[float, float]:
         """Way from the centre of the tool to its programmed point, in the plane, in units of its radius."""
@@ -362,6 +429,10 @@ class WordAddressControl:
     def number_rules(self, _channel: Channel) -> NumberRules:
         """How numbers are read."""
         return NumberRules()
+
+    def whole_numbers(self, _channel: Channel) -> frozenset[str]:
+        """Addresses that are whole numbers wherever they stand, beside M and N."""
+        return frozenset()
 
     def is_diameter(self, channel: Channel, axis: int) -> bool:
         """Whether words of an axis are diameters."""
@@ -391,23 +462,31 @@ class WordAddressControl:
         return channel.axis_index[name], True
 
     def context(self, channel: Channel) -> Context:
-        """The context that holds now."""
+        """The context that holds now, with what features change in it."""
+        context = self._context(channel)
+        for step in self.context_steps:
+            context = step(channel, context)
+        return context
+
+    def _context(self, channel: Channel) -> Context:
         mode, memory, c = channel.mode, channel.memory, channel.coordinates
         diameters = sum(1 << i for i in range(len(channel.axes)) if self.is_diameter(channel, i))
         polar, unrolled = PolarState.of(channel), CylinderState.of(channel).active
         # A path that leads the axes leaves nothing to transform.
-        transformation = None if channel.path.leads_axes else c.transformation or memory.parallel
+        transformation = (
+            None if channel.path.leads_axes else c.transformation or PlaneAxes.of(channel).parallel
+        )
         return Context(
             plane=mode["plane"],
             inch=self.is_inch(mode),
             feed_mode=path.FEED_MODES[mode["feed"]],
             frame=c.zero,
             offsets=tuple(c.offsets),
-            tool=memory.tool,
-            spindle_rpm=memory.spindle_speed,
-            spindle_direction=memory.spindle_direction,
+            tool=memory.tool.number,
+            spindle_rpm=memory.spindle.speed,
+            spindle_direction=memory.spindle.direction,
             surface_speed=mode.codes.get("surface_speed") == "G96",
-            spindle_limit_rpm=memory.spindle_limit_rpm,
+            spindle_limit_rpm=memory.spindle.limit_rpm,
             corner_mode=corner_mode(channel),
             diameter_axes=diameters,
             wcs=ZeroState.of(channel).system,

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
+from polycnc.compensation.corner import CornerPolicy
 from polycnc.compensation.policy import Policy
-from polycnc.control.word_address.auxiliary.interlocks import BRAKE_RULE, guarded, unlisted
-from polycnc.control.word_address.block import repeated_codes
+from polycnc.control.word_address.auxiliary.interlocks import MOVES_RULE
+from polycnc.control.word_address.block import repeated_codes, whole_numbers
 from polycnc.control.word_address.block.codes import MCode
+from polycnc.control.word_address.coordinates import frames
+from polycnc.control.word_address.coordinates.frames import ROTATION_RULE
 from polycnc.control.word_address.cycles import drilling
 from polycnc.control.word_address.macro_b import code_calls, macro_calls, parameter_input
 from polycnc.control.word_address.macro_b.custom_macro import CustomMacroControl
 from polycnc.control.word_address.motion import corners, line_by_angle, nurbs, path
+from polycnc.control.word_address.tools import look_ahead
 from polycnc.control.word_address.tools.length import renew_length
 from polycnc.control.word_address.transformations import (
     cylinder,
@@ -24,9 +28,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.codes import Handler, MRow
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import MillingChannel
     from polycnc.language.bulk import Condition
 
 
@@ -35,42 +41,56 @@ if TYPE_CHECKING:
 HARTFORD = Policy(recommand_is_square=True, blind_start_is_square=False)
 
 
+def only_the_last(builder: Builder, number: int) -> MCode | None:
+    """Of several M codes in a block only the last acts, unless the control takes several."""
+    channel: MillingChannel = builder.channel
+    if number != builder.m_codes[-1] and not channel.control.several_m_codes(channel):
+        return MCode(number, silent=True)
+    return None
+
+
 class MillingControl(CustomMacroControl):
-    """A machining centre of the FANUC kind.
+    """A machining centre of the FANUC kind."""
 
-    Attributes:
-        OVERRUN_PARAMETER: Parameter of each axis with the overrun of G60.
-    """
-
-    OVERRUN_PARAMETER: ClassVar[int] = 5440
+    m_rows: ClassVar[tuple[MRow, ...]] = (only_the_last, *CustomMacroControl.m_rows)
+    acts: ClassVar[Mapping[str, Handler]] = {
+        **CustomMacroControl.acts,
+        "mirror_first_axis": frames.mirror_first_axis,
+        "mirror_second_axis": frames.mirror_second_axis,
+        "mirror_off": frames.end_mirror_by_m,
+    }
     repeated_codes: ClassVar[Mapping[str, Condition]] = repeated_codes.MILLING
+    CORNER_POLICY: ClassVar[CornerPolicy] = CornerPolicy(dwell_between=True)
     CURVE_BEGINS_AT_TOOL: ClassVar[bool] = True
     rules: ClassVar[tuple[Rule, ...]] = (
         normal_line.RULE,
         parameter_input.RULE,
+        ROTATION_RULE,
         polar_interpolation.rule("G90", "G91", "G94", "G95"),
-        cylinder.rule("G51", "G51.1", "G68", "G68.2", "G43.4", "G43.5"),
+        cylinder.rule("G51", "G51.1", "G68.2", "G43.4", "G43.5"),
         code_calls.RULE,
         macro_calls.RULE,
+        whole_numbers.RULE,
         corners.RULE,
         path.INVERSE_TIME_RULE,
         line_by_angle.RULE,
         tool_center_point.RULE,
+        look_ahead.STOP_RULE,
         drilling.RULE,
         nurbs.RULE,
-        BRAKE_RULE,
+        MOVES_RULE,
     )
 
     # ---- motion --------------------------------------------------------------------------------------
 
-    def spiral_tolerance(self, channel: Channel) -> float:
+    def spiral_tolerance(self, channel: MillingChannel) -> float:
         """What an arc takes up on its way; beyond it, where a parameter allows that, the rest is straight."""
-        limit, delivered = self.arc_tolerance(channel), self.ARC_TOLERANCE_PARAMETER[1]
+        limit, delivered = self.arc_tolerance(channel), self.parameter_class.arc_tolerance.delivered
         return min(limit, delivered) if limit > 0.0 else delivered
 
-    def scale_factors(self, channel: Channel, words: Words) -> tuple[float, float, float]:
-        """Factors of G51: P for all axes, or I J K; without a point in units of 5400#7."""
-        unit = 0.001 if channel.setup.parameters.bit(5400, 7) else 0.00001
+    def scale_factors(self, channel: MillingChannel, words: Words) -> tuple[float, float, float]:
+        """Factors of G51: P for all axes, or I J K; without a point in units of 5400#7 SCR."""
+        unit = 0.001 if channel.memory.parameters.SCR else 0.00001
         if "P" in words:
             factor = self._factor(words, "P", unit)
             return (factor, factor, factor)
@@ -86,19 +106,6 @@ class MillingControl(CustomMacroControl):
 
     # ---- machine -------------------------------------------------------------------------------------
 
-    def m_row(self, builder: Builder, number: int) -> MCode:
-        """The row of an M code behind the machine's interlocks; of several in a block only the last acts."""
-        if number != builder.m_codes[-1] and not self.several_m_codes(builder.channel):
-            return MCode(number, silent=True)
-        row = super().m_row(builder, number)
-        channel = builder.channel
-        named = number in channel.machine.m_functions or number in self.code_calls(channel).m
-        if named and number not in self.m_codes:
-            return row  # whoever names the code has given it a meaning
-        if number in self.m_codes or row.silent or self.plc.knows(f"M{number}"):
-            return guarded(row, self.plc)
-        return unlisted(row, self.plc)
-
     def several_m_codes(self, _channel: Channel) -> bool:
         """Whether a block may hold several M codes (Hartford manual 2.3.3: the last one counts)."""
         return False
@@ -109,15 +116,13 @@ class MillingControl(CustomMacroControl):
         """Rules of radius compensation."""
         return HARTFORD
 
-    def overrun(self, channel: Channel, axis: int) -> float:
+    def overrun(self, channel: MillingChannel, axis: int) -> float:
         """How far and on which side G60 positions past the target of an axis, mm (sign: last direction)."""
-        return channel.setup.parameters.number(self.OVERRUN_PARAMETER, channel.axes[axis])
+        return channel.memory.parameters.of(channel.axes[axis]).overrun
 
-    def measuring(self, channel: Channel, _words: Words) -> tuple[float, float, float]:
-        """G37: way before the target at feed (6251), allowed difference (6254), feed (6241)."""
-        number = channel.setup.parameters.number
-        name = channel.axes[channel.coordinates.geometry[2]]
-        return number(6251, name), number(6254, name), number(6241, name) / 60.0
+    def measuring(self, channel: MillingChannel, words: Words) -> tuple[float, float, float]:
+        """G37: way before the target at feed, allowed difference (both mm), feed (mm/s)."""
+        raise NotImplementedError
 
     def note_length(self, channel: Channel, number: int, change: float) -> None:
         """Add a measured difference to a length offset."""

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.geometry.frames import IDENTITY, Frame
+from polycnc.memory.encoding import encoded
 from polycnc.memory.retained import PARAMETERS, TOOL_OFFSETS, WORK_OFFSETS
 
 if TYPE_CHECKING:
@@ -15,12 +16,12 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.machine.setup.values import ParameterKey, Tool, Value
-    from polycnc.transformation.parallel import ParallelAxes
 
 #: Name of the offset that is added to every work coordinate system.
 EXTERNAL = "EXT"
 
 
+@encoded("tool offset")
 @dataclass(slots=True)
 class ToolOffset:
     """One number of the offset memory, mm: length and radius by geometry and wear, turning offsets by axis name."""
@@ -86,19 +87,14 @@ class ParameterTable(State, lifetime=Lifetime.RETAINED):
             channel.setup = replace(channel.setup, parameters=channel.setup.parameters.having(key, value))
 
 
-class ProgrammingFrames:
+@dataclass(slots=True)
+class ProgrammingFrames(State, lifetime=Lifetime.RESET):
     """The parts of a channel's programming frame: scaling or mirror, then rotation."""
 
-    def __init__(self) -> None:
-        self.scale = IDENTITY
-        self.mirror = IDENTITY
-        self.mirrored: dict[int, float] = {}
-        self.rotation = IDENTITY
-
-    def clear(self) -> None:
-        """Nothing is scaled, mirrored or turned."""
-        self.scale = self.mirror = self.rotation = IDENTITY
-        self.mirrored = {}
+    scale: Frame = IDENTITY
+    mirror: Frame = IDENTITY
+    mirrored: dict[int, float] = field(default_factory=dict)
+    rotation: Frame = IDENTITY
 
     @property
     def shift(self) -> list[float] | None:
@@ -111,18 +107,54 @@ class ProgrammingFrames:
         return IDENTITY if frame.is_identity else frame
 
 
+@dataclass(slots=True)
+class SpindleCommand(State, lifetime=Lifetime.POWER):
+    """What programs have commanded of the spindle; a reset leaves it to the machine.
+
+    Attributes:
+        speed: S, rpm or m/min.
+        direction: 1 for M03, -1 for M04, 0 for M05.
+        limit_rpm: Highest speed under constant surface speed, 0 for none.
+    """
+
+    speed: float = 0.0
+    direction: int = 0
+    limit_rpm: float = 0.0
+
+
+@dataclass(slots=True)
+class SentCodes(State, lifetime=Lifetime.POWER):
+    """The last codes that have gone to the machine.
+
+    Attributes:
+        m: The M code; 0 for none.
+    """
+
+    m: int = 0
+
+
+@dataclass(slots=True)
+class LoadedTool(State, lifetime=Lifetime.POWER):
+    """The tool in the spindle by its number, and the one that is selected as the next; 0 for none."""
+
+    number: int = 0
+    next: int = 0
+
+
 class Memory:
     """What features share of a control's state, beside modal codes and positions.
 
     Attributes:
         channel: The channel.
         work_offsets: Zero of each work coordinate system in machine coordinates, by name (`EXT`, `G54` …).
-        tool: Tool in the spindle; `next_tool` is selected.
-        last_m: The last M code sent to the machine.
-        machine_signals: What the program and the setup have told the machine; None where the main run asks it.
-        waited: Seconds that the clocks which a program reads (#3001) have counted.
-        basic_geometry: Axes X, Y, Z, whatever parallel ones a plane has chosen; `parallel` holds those.
+        tool: Tool in the spindle, and the one that is selected.
+        spindle: What programs have commanded of the spindle.
+        frames: The parts of the programming frame.
+        machine_refuses_moves: Whether the machine's controller may refuse moves.
+        basic_geometry: Axes X, Y, Z, whatever parallel ones a plane has chosen.
     """
+
+    frames_class: ClassVar[type[ProgrammingFrames]] = ProgrammingFrames
 
     def __init__(self, channel: WordAddressChannel) -> None:
         setup = channel.setup
@@ -135,21 +167,11 @@ class Memory:
             for name, values in setup.work_offsets.items():
                 shown = [values.get(axis, 0.0) for axis in channel.axes]
                 self.work_offsets[name] = self.from_setup(channel, shown)
-        self.tool = 0
-        self.next_tool = 0
-        self.last_m = 0
-        given = setup.switches.signals.items()
-        self.machine_signals: dict[str, float] | None = {
-            name: float(value) for name, value in given if isinstance(value, int | float)
-        }
-        self.waited = 0.0
-        self.spindle_speed = 0.0
-        self.spindle_direction = 0
-        self.spindle_limit_rpm = 0.0
-        self.skip_position: list[float] | None = None
-        self.frames = ProgrammingFrames()
+        self.tool = LoadedTool.of(channel)
+        self.spindle = SpindleCommand.of(channel)
+        self.frames = self.frames_class.of(channel)
+        self.machine_refuses_moves = bool(channel.machine.plc(channel.control.id).moves)
         self.basic_geometry = channel.coordinates.geometry
-        self.parallel: ParallelAxes | None = None
         self._count = count
 
     def from_setup(self, _channel: WordAddressChannel, shown: list[float]) -> list[float]:
@@ -162,10 +184,6 @@ class Memory:
     def work_offset(self, name: str) -> list[float]:
         """The offset of a work coordinate system; zero until it is set."""
         return self.work_offsets.setdefault(name, [0.0] * self._count)
-
-    def note_skip(self, position: list[float]) -> None:
-        """A skip move has ended here (absolute display)."""
-        self.skip_position = position
 
     def is_kept(self, _name: str) -> bool:
         """Whether a variable, as a user names it, has its value from an earlier power-on: the setup leaves it alone."""

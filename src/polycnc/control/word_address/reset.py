@@ -29,7 +29,6 @@ def reset(channel: WordAddressChannel) -> None:
     machine = channel.coordinates.machine
     channel.coordinates.transformation = None
     frames = memory.frames
-    frames.clear()
     channel.path.clear()
     channel.mode = channel.modes.mode(channel.control.start_codes(channel))
     channel.coordinates.set_programming(frames.product(), frames.shift)

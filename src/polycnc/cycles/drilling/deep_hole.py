@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.cycles.count import checked
 from polycnc.cycles.drilling.holes import Action, Stroke
 
 if TYPE_CHECKING:
@@ -30,6 +31,9 @@ def degressive_depths(first: float, total: float, by: float, shortest: float = 0
             one times its size; 0 for equal strokes. The last two strokes share what is left, so that none is a
             sliver.
         shortest: Least stroke under a factor.
+
+    Raises:
+        AlarmError: PC0002, there are more strokes than a program can mean.
     """
     depths = [total if first >= total - SAME_MM else first]
     nominal = first
@@ -43,6 +47,7 @@ def degressive_depths(first: float, total: float, by: float, shortest: float = 0
             nominal = max(nominal * abs(by), least) if by < 0.0 else first
             step = _by_factor(rest, nominal, least)
         depths.append(total if rest - step <= SAME_MM else depths[-1] + step)
+        checked(len(depths))
     return depths
 
 

@@ -57,6 +57,7 @@ class Action(Enum):
     DWELL = "stand still, seconds"
     SHIFT = "off the hole's axis by this part of the shift: 1 out, 0 back"
     SPINDLE = "direction against that before the cycle: 1 the same, -1 reversed, 0 stopped"
+    ORIENT = "stop the spindle at its angle"
     HALT = "wait for the operator"
     OUTPUT = "send this M code to the machine"
     RETURN = "to a level at rapid, and back over the hole on the way"
@@ -179,7 +180,7 @@ def bore_and_stop(hole: Hole) -> Iterator[Stroke]:
 def bore_and_shift(hole: Hole) -> Iterator[Stroke]:
     """Fine boring: feed in, oriented stop, off the wall, rapid out, back over the hole (G76)."""
     yield from feed_in(hole)
-    yield Stroke(Action.SPINDLE, 0.0)
+    yield Stroke(Action.ORIENT)
     yield Stroke(Action.SHIFT, 1.0)
     yield from leave(hole)
     yield Stroke(Action.SHIFT, 0.0)
@@ -188,14 +189,14 @@ def bore_and_shift(hole: Hole) -> Iterator[Stroke]:
 
 def bore_back(hole: Hole) -> Iterator[Stroke]:
     """Back boring: shifted through the hole to R below it, feed up to the bottom level, shifted out (G87)."""
-    yield Stroke(Action.SPINDLE, 0.0)
+    yield Stroke(Action.ORIENT)
     yield Stroke(Action.SHIFT, 1.0)
     yield Stroke(Action.RAPID, hole.r)
     yield Stroke(Action.SHIFT, 0.0)
     yield Stroke(Action.SPINDLE, 1.0)
     yield Stroke(Action.FEED, hole.bottom)
     yield Stroke(Action.DWELL, hole.dwell_s)
-    yield Stroke(Action.SPINDLE, 0.0)
+    yield Stroke(Action.ORIENT)
     yield Stroke(Action.SHIFT, 1.0)
     yield Stroke(Action.RAPID, hole.initial)
     yield Stroke(Action.SHIFT, 0.0)

@@ -37,15 +37,15 @@ def grid(start: Point, pitches: Point, columns: int, rows: int) -> Iterator[Poin
         yield start[0] + column * pitches[0], start[1] + row * pitches[1]
 
 
-def meander_cells(columns: int, rows: int) -> list[tuple[int, int]]:
+def meander_cells(columns: int, rows: int) -> Iterator[tuple[int, int]]:
     """Column and row of every point of a grid, row by row, to and fro."""
-    return [(i if j % 2 == 0 else columns - 1 - i, j) for j in range(rows) for i in range(columns)]
+    return ((i if j % 2 == 0 else columns - 1 - i, j) for j in range(rows) for i in range(columns))
 
 
 def frame_cells(columns: int, rows: int) -> list[tuple[int, int]]:
     """Column and row of the outer points of a grid, once round from (0, 0)."""
     if columns == 1 or rows == 1:
-        return meander_cells(columns, rows)
+        return list(meander_cells(columns, rows))
     right, top = columns - 1, rows - 1
     there = [(i, 0) for i in range(right)] + [(right, j) for j in range(top)]
     return there + [(i, top) for i in range(right, 0, -1)] + [(0, j) for j in range(top, 0, -1)]

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil
 from typing import TYPE_CHECKING
 
+from polycnc.cycles.count import parts
 from polycnc.cycles.milling.stroke import Place, cut, rapid
 
 if TYPE_CHECKING:
@@ -29,10 +29,10 @@ class Face:
         overrun: How far the tool leaves the face along the strips, beyond its own radius.
         overrun_across: How far it leaves the face at the last strip.
         across: Strips run along the width.
-        alternating: Strips run to and fro; else all in one direction, with a rapid way back.
+        alternating: Strips run to and fro; else all in one direction, with a rapid way back at the safety plane: beside
+            the strip that was cut the stock still stands.
         feed: Of the cuts.
         safe, retract: Level of the safety plane and of the end.
-        lift: Height over a strip on the way back.
     """
 
     place: Place
@@ -47,14 +47,13 @@ class Face:
     feed: float
     safe: float
     retract: float
-    lift: float
 
     def strips(self) -> list[tuple[Point, Point]]:
         """Ends of the strips, each in the direction of the first one."""
         along, over = (self.width, self.length) if self.across else (self.length, self.width)
         reach = self.radius + self.overrun
         total = abs(over) + self.overrun_across
-        count = max(1, ceil(total / self.step - _WHOLE))
+        count = max(1, parts(total, self.step, _WHOLE))
         found = []
         for k in range(1, count + 1):
             at = total * k / count - self.radius
@@ -70,7 +69,6 @@ class Face:
 def face(shape: Face, levels: Sequence[float]) -> Iterator[MillStroke]:
     """The strips level by level; every other level back from where the last one ended, if they alternate."""
     strips = shape.strips()
-    up = 1.0 if shape.safe > levels[-1] else -1.0
     ends = [(b, a) if shape.alternating and k % 2 else (a, b) for k, (a, b) in enumerate(strips)]
     yield rapid(ends[0][0])
     yield rapid(w=shape.safe)
@@ -80,7 +78,7 @@ def face(shape: Face, levels: Sequence[float]) -> Iterator[MillStroke]:
             if k and shape.alternating:
                 yield cut(shape.feed, first)
             elif k or number:
-                yield rapid(w=level + up * shape.lift)
+                yield rapid(w=shape.safe)
                 yield rapid(first)
             if not (k and shape.alternating):
                 yield cut(shape.feed, w=level)

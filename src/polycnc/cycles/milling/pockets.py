@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from math import ceil, radians, tan
+from math import radians, tan
 from typing import TYPE_CHECKING
 
+from polycnc.cycles.count import parts
 from polycnc.cycles.milling.stroke import Cavity, Place, arc, cut, rapid, ring, steps
 from polycnc.geometry.tolerances import NO_WAY
 
@@ -167,7 +168,7 @@ def _oscillate(pocket: Pocket, above: float, level: float) -> Iterator[MillStrok
     reach = max(half_length - half_width, half_length / 2.0)
     slope = tan(radians(pocket.insertion_size))
     down = -1.0 if level < above else 1.0
-    strokes = max(1, ceil(abs(level - above) / (2.0 * reach * slope)))
+    strokes = max(1, parts(abs(level - above), 2.0 * reach * slope))
     yield cut(pocket.feed, pocket.place(-reach, 0.0))
     for k in range(1, strokes + 1):
         side = reach if k % 2 else -reach
@@ -181,7 +182,7 @@ def clear(pocket: Pocket, allowance: float, below: float) -> Iterator[MillStroke
     half_length, half_width, corner = pocket.path(allowance)
     shorter = min(half_length, half_width)
     core = _core(pocket, below)
-    count = max(1, ceil(shorter / pocket.width - 1e-6)) if shorter > NO_WAY else 0
+    count = max(1, parts(shorter, pocket.width, 1e-6)) if shorter > NO_WAY else 0
     if half_length - half_width > NO_WAY and not core:
         yield cut(pocket.feed, pocket.place(half_width - half_length, 0.0))
         yield cut(pocket.feed, pocket.place(half_length - half_width, 0.0))

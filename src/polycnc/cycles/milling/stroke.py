@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil, nan
+from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.cycles.count import parts
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind
@@ -85,7 +86,7 @@ class Cavity:
 
 def steps(total: float, most: float) -> list[float]:
     """A way in equal steps of at most `most`, as ends of the steps; one step for a `most` of 0."""
-    count = max(1, ceil(total / most - _WHOLE)) if most > 0.0 else 1
+    count = max(1, parts(total, most, _WHOLE)) if most > 0.0 else 1
     return [total * k / count for k in range(1, count)] + [total]
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil
 from typing import TYPE_CHECKING
 
+from polycnc.cycles.count import parts
 from polycnc.cycles.milling.stroke import Place, arc, rapid
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ class MilledThread:
 def mill(thread: MilledThread) -> Iterator[MillStroke]:
     """Onto the thread on a half turn, full turns to the depth, off it on a half turn; the pitch holds throughout."""
     down = -1.0 if thread.depth < thread.reference else 1.0
-    turns = max(1, ceil(abs(thread.depth - thread.reference) / thread.lead - 1e-6))
+    turns = max(1, parts(abs(thread.depth - thread.reference), thread.lead, 1e-6))
     level = thread.depth - down * turns * thread.lead
     radius, half = thread.path_radius, down * thread.lead / 2.0
     far = 0.0 if thread.inside else radius + 2.0 * thread.clearance

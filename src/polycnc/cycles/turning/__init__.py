@@ -1,4 +1,5 @@
 """Turning cycles as strokes (`stroke`): `single`, `rough` with `pockets`, `pattern`, `peck`, `grinding`.
 
-`contour` and `stock_removal` cut a whole contour; `thread` is one pass and its run-out, `thread_chain` several parts.
+`cuts` is what roughing is told. `contour` and `stock_removal` cut a whole contour; `thread` is one pass and its
+run-out, `thread_chain` several parts.
 """

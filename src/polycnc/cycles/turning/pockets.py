@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from polycnc.cycles.turning.contour import Contour, Piece
-    from polycnc.cycles.turning.rough import Roughing
+    from polycnc.cycles.turning.cuts import Roughing
     from polycnc.geometry.arcs import Point
 
     #: A stroke, or what makes further ones.

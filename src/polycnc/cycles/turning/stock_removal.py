@@ -8,11 +8,14 @@ cut after what lies in front of it, from the level at which the summit closes it
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil, copysign
+from itertools import pairwise
+from math import copysign
 from typing import TYPE_CHECKING
 
+from polycnc.cycles.count import parts
 from polycnc.cycles.turning.contour import climb, gaps, points
 from polycnc.cycles.turning.stroke import PlaneStroke
+from polycnc.geometry import arcs
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -20,9 +23,12 @@ if TYPE_CHECKING:
 
     from polycnc.cycles.turning.contour import Contour, Gap
     from polycnc.geometry.arcs import Point
+    from polycnc.geometry.offset import Edge
 
 _HAIR = 1e-7
 _WHOLE = 1e-6
+#: Parts of an arc that a rapid way is compared with.
+_SAMPLES = 32
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,11 +67,14 @@ class Section:
 
 
 def sections(contour: Contour, towards: float) -> list[Section]:
-    """The parts of the contour between its summits, in its direction; the first one is open to the front."""
+    """The parts of the contour between its summits, in its direction; the first one is open to the front.
+
+    A contour that goes down from where it begins has its first summit there.
+    """
     heights = _heights(contour, towards)
     result: list[Section] = []
     top = max(height for _, height in heights)
-    lowest, summit, rising = heights[0], heights[0][1], False
+    lowest, summit, rising = heights[0], heights[0][1], True
     for a, height in heights[1:]:
         if rising and height < summit - _HAIR:
             result.append(Section(*lowest, top))
@@ -89,7 +98,7 @@ def _levels(section: Section, depth: float) -> list[float]:
     total = section.top - section.bottom
     if total <= _HAIR:
         return []
-    count = max(1, ceil(total / depth - _WHOLE))
+    count = max(1, parts(total, depth, _WHOLE))
     return [section.top - total * k / count for k in range(1, count)] + [section.bottom]
 
 
@@ -98,8 +107,12 @@ def remove(contour: Contour, removal: Removal) -> Iterator[Cut]:
     towards = removal.towards
     begin, end = contour[0].edge.start, contour[-1].edge.end
     onwards = copysign(1.0, end[0] - begin[0])
+    at: Point | None = None
+    cut_at = [max(height for _, height in _heights(contour, towards))]
     for section in sections(contour, towards):
         above = section.top
+        # Over a relief the stock stands up to the last cut that passed over the summit in front of it.
+        stock = min(height for height in cut_at if height >= above - _HAIR)
         for height in _levels(section, removal.depth):
             level = -towards * height
             # On the flat of a base the contour is not deeper than the cut: look a hair above it.
@@ -109,8 +122,53 @@ def remove(contour: Contour, removal: Removal) -> Iterator[Cut]:
                 continue
             front = abs(gap.start - begin[0]) <= 2.0 * _HAIR
             entry = begin[0] - onwards * removal.lift if front else gap.start
-            yield from _cut(contour, removal, gap, (entry, level, -towards * above), onwards, front=front)
-            above = height
+            place = (entry, level, -towards * above, -towards * stock)
+            cuts = list(_cut(contour, removal, gap, place, onwards, front=front))
+            if at is not None and above == section.top:
+                yield from map(
+                    Cut, way_over(contour, at, cuts[0].stroke.end, towards=towards, lift=removal.lift)
+                )
+            yield from cuts
+            at, above, stock = cuts[-1].stroke.end, height, height
+            cut_at.append(height)
+
+
+def way_over(contour: Contour, start: Point, end: Point, *, towards: float, lift: float) -> list[PlaneStroke]:
+    """The rapids before the last one on a way past the contour: axis by axis, out of the work first.
+
+    Out to the clearance over what lies between, or to the higher end, then across; the rapid to the end itself is the
+    caller's.
+    """
+    low, high = sorted((start[0], end[0]))
+    between = [height for a, height in _heights(contour, towards) if low < a < high]
+    if not between:
+        return []
+    level = -towards * max(max(between) + lift, -towards * start[1], -towards * end[1])
+    corners = [(start[0], level), (end[0], level)]
+    places = [place for before, place in pairwise([start, *corners]) if place != before]
+    return [PlaneStroke(Kind.RAPID, place) for place in places if place != end]
+
+
+def way_clear(
+    contour: Contour, start: Point, end: Point, *, towards: float, lift: float
+) -> list[PlaneStroke]:
+    """As `way_over` where a straight rapid would touch the contour; nothing where it passes clear of it."""
+    low, high = sorted((start[0], end[0]))
+    for piece in contour:
+        for k in range(1 + (_SAMPLES if piece.edge.center is not None else 1)):
+            a, b = _point_of(piece.edge, k)
+            if low < a < high:
+                on_way = start[1] + (end[1] - start[1]) * (a - start[0]) / (end[0] - start[0])
+                if towards * (on_way - b) > -_HAIR:
+                    return way_over(contour, start, end, towards=towards, lift=lift)
+    return []
+
+
+def _point_of(edge: Edge, k: int) -> Point:
+    """An end of a line, or a point of an arc by its number."""
+    if edge.center is None:
+        return edge.end if k else edge.start
+    return arcs.point_on_arc(edge.start, edge.end, edge.center, edge.ccw, k / _SAMPLES)
 
 
 def _gap_at(contour: Contour, level: float, towards: float, place: float) -> Gap | None:
@@ -126,18 +184,18 @@ def _cut(
     contour: Contour,
     removal: Removal,
     gap: Gap,
-    at: tuple[float, float, float],
+    at: tuple[float, float, float, float],
     onwards: float,
     *,
     front: bool,
 ) -> Iterator[Cut]:
-    """One cut; `at` is where it begins, its level, and the level of the cut before."""
-    entry, level, former = at
+    """One cut; `at` is where it begins, its level, the level of the cut before, and the top of the stock."""
+    entry, level, former, stock = at
     towards, lift = removal.towards, removal.lift
     if front:
         yield Cut(PlaneStroke(Kind.RAPID, (entry, level)))
     else:
-        yield Cut(PlaneStroke(Kind.RAPID, (entry, former - towards * lift)))
+        yield Cut(PlaneStroke(Kind.RAPID, (entry, stock - towards * lift)))
         yield Cut(PlaneStroke(Kind.FEED, (entry, level)), is_relief=True)
     yield Cut(PlaneStroke(Kind.FEED, (gap.end, level)), is_straight=True)
     last = (gap.end, level)

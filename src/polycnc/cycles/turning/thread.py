@@ -26,9 +26,9 @@ class Runout:
 def thread_strokes(
     begin: Point, end: Point, retract: float, runout: Runout, start_angle_deg: float = 0.0
 ) -> Iterator[PlaneStroke]:
-    """One pass from `begin` to `end`: straight, then out towards `retract` on the second axis."""
+    """One pass from `begin` to `end`: straight, then out towards `retract` on the second axis, and no farther."""
     way = end[0] - begin[0]
-    length = min(runout.length, abs(way))
+    length = min(runout.length, abs(way)) if end[1] != retract else 0.0
     if length <= 0.0:
         yield PlaneStroke(Kind.THREAD, end, start_angle_deg=start_angle_deg)
         return
@@ -36,8 +36,13 @@ def thread_strokes(
     leaving = (begin[0] + part * way, begin[1] + part * (end[1] - begin[1]))
     if part > 0.0:
         yield PlaneStroke(Kind.THREAD, leaving, start_angle_deg=start_angle_deg)
-    rise = copysign(length * tan(radians(runout.angle_deg)), retract - leaving[1])
-    yield PlaneStroke(Kind.THREAD, (end[0], leaving[1] + rise), start_angle_deg=start_angle_deg)
+    rise, room = length * tan(radians(runout.angle_deg)), retract - leaving[1]
+    share = min(1.0, abs(room) / rise)
+    out = (
+        leaving[0] + share * (end[0] - leaving[0]),
+        retract if share < 1.0 else leaving[1] + copysign(rise, room),
+    )
+    yield PlaneStroke(Kind.THREAD, out, start_angle_deg=start_angle_deg)
 
 
 def thread_pass(
@@ -45,8 +50,9 @@ def thread_pass(
 ) -> Iterator[PlaneStroke]:
     """One pass of a cycle: to where it begins, along the thread, off it, and back to the start."""
     yield rapid(*begin)
-    yield from thread_strokes(begin, last, start[1], runout, start_angle_deg)
-    yield rapid(last[0], start[1])
+    strokes = list(thread_strokes(begin, last, start[1], runout, start_angle_deg))
+    yield from strokes
+    yield rapid(strokes[-1].end[0], start[1])
     yield rapid(*start)
 
 

@@ -164,6 +164,57 @@ def within_limits(state: State) -> bool:
     return True
 
 
+def circle_within_limits(state: State, rules: Ints32, rule: int, center_u: float, center_v: float) -> bool:
+    """Whether the whole circle of an arc lies within the travel, at the height of its start and of its end."""
+    if not state.scan.limited:
+        return True
+    u, v, w = rules[rule + Rule.PLANE], rules[rule + Rule.PLANE + 1], rules[rule + Rule.PLANE + 2]
+    first, second, third = state.geometry[u], state.geometry[v], state.geometry[w]
+    radius = sqrt((state.programmed[first] - center_u) ** 2 + (state.programmed[second] - center_v) ** 2)
+    if state.scan.has_programming:
+        radius *= reach_of(state.programming, u)
+    for at_end in range(2):
+        height = 0.0
+        if third >= 0:
+            height = state.new_programmed[third] if at_end else state.programmed[third]
+        x = center_u if u == 0 else (center_v if v == 0 else height)
+        y = center_u if u == 1 else (center_v if v == 1 else height)
+        z = center_u if u == 2 else (center_v if v == 2 else height)
+        if not ball_within_limits(state, x, y, z, radius):
+            return False
+    return True
+
+
+def reach_of(frame: Floats, column: int) -> float:
+    """How long a frame makes a unit of an axis."""
+    a, b, c = frame[column], frame[3 + column], frame[6 + column]
+    return sqrt(a * a + b * b + c * c)
+
+
+def ball_within_limits(state: State, x: float, y: float, z: float, radius: float) -> bool:
+    """Whether all points of the display about a programmed point lie within the travel."""
+    if state.scan.has_programming:
+        frame = state.programming
+        x, y, z = mapped(frame, 0, x, y, z), mapped(frame, 1, x, y, z), mapped(frame, 2, x, y, z)
+    if state.scan.shifted:
+        x += state.shift[state.geometry[0]] if state.geometry[0] >= 0 else 0.0
+        y += state.shift[state.geometry[1]] if state.geometry[1] >= 0 else 0.0
+        z += state.shift[state.geometry[2]] if state.geometry[2] >= 0 else 0.0
+    for i in range(3):
+        axis = state.geometry[i]
+        if axis >= 0:
+            value, reach = (x if i == 0 else (y if i == 1 else z)), radius
+            if state.scan.has_zero:
+                frame = state.zero
+                value = mapped(frame, i, x, y, z)
+                a, b, c = frame[3 * i], frame[3 * i + 1], frame[3 * i + 2]
+                reach = radius * sqrt(a * a + b * b + c * c)
+            value += state.offsets[axis]
+            if value - reach < state.low[axis] or value + reach > state.high[axis]:
+                return False
+    return True
+
+
 def arrive(state: State, moves: bool) -> None:
     """The block is done: positions are the new ones."""
     axes = state.scan.axes
@@ -237,6 +288,8 @@ def arc(
         stop = sqrt((end_u - center_u) ** 2 + (end_v - center_v) ** 2)
         found = start > SHORTEST_CHORD and abs(stop - start) <= state.scan.tolerance + SLACK
     if not found or barely_rises(state, rules, rule) or not within_limits(state):
+        return False
+    if not circle_within_limits(state, rules, rule, center_u, center_v):
         return False
     for i in range(3):
         state.last_center[i] = 0.0

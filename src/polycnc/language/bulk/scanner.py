@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 WORTHWHILE = 16
 #: Notes that one call of the kernel may give.
 MOST_NOTES = 4096
-#: Programs shorter than this are left to the interpreter: with the kernel ready, and when it must be compiled.
-READY_LINES, COMPILE_LINES = 5_000, 200_000
+#: Programs shorter than this are left to the interpreter.
+FEWEST_LINES = 1_000
 
 
 @unchanging
@@ -38,29 +38,23 @@ class Bulk:
     """Whether and how plain blocks are scanned.
 
     Attributes:
-        fewest_lines: Shorter programs are left to the interpreter; None decides by whether the kernel is ready.
+        fewest_lines: Shorter programs are left to the interpreter.
         scan: The kernel; None for the compiled one.
         rooms: Rows that one call of the kernel may give.
         most_patience: Blocks that are interpreted at the most between two tries.
     """
 
-    fewest_lines: int | None = None
+    fewest_lines: int = FEWEST_LINES
     scan: Callable[[Tables, State, Columns], int] | None = None
     rooms: int = CHUNK_ROWS
     most_patience: int = 4096
 
     def pays(self, lines: int) -> bool:
         """Whether a program is long enough."""
-        if self.fewest_lines is not None:
-            return lines >= self.fewest_lines
-        if lines < READY_LINES:
-            return False
-        from polycnc.language.bulk.compiled import LIBRARY
-
-        return LIBRARY.ready or lines >= COMPILE_LINES
+        return lines >= self.fewest_lines
 
     def scanner(self, channel: Channel) -> Scanner | None:
-        """What scans for a channel; None where its control has no plain blocks, or the kernel cannot be compiled."""
+        """What scans for a channel; None where its control has no plain blocks, or there is no compiled kernel."""
         dialect: Dialect | None = channel.control.plain_blocks(channel)
         if dialect is None:
             return None
@@ -168,6 +162,7 @@ class Scanner:
         self._generation: Hashable = None
         self._window = Window()
         self._patience = 1
+        self._next_try = 0
         self._most_patience = settings.most_patience
         self._state = new_state(axes)
         self._columns = (
@@ -182,11 +177,16 @@ class Scanner:
     def lead(self, channel: ScannedChannel) -> range:
         """Work off plain blocks; gives as many numbers as blocks are the interpreter's before the next try.
 
-        Where hardly any block is plain, tries become rare.
+        Where hardly any block is plain, tries become rare: also from call to call, for a program whose blocks call
+        is entered again behind each of them.
         """
-        taken = self.run(channel)
-        self._patience = 1 if taken >= WORTHWHILE else min(2 * self._patience, self._most_patience)
-        return range(self._patience)
+        ahead = self._next_try - channel.blocks
+        if not 0 < ahead <= self._patience:  # behind it, or counted in another run
+            taken = self.run(channel)
+            self._patience = 1 if taken >= WORTHWHILE else min(2 * self._patience, self._most_patience)
+            self._next_try = channel.blocks + self._patience
+            ahead = self._patience
+        return range(ahead)
 
     def run(self, channel: ScannedChannel) -> int:
         """Work off plain blocks from where the channel stands; gives their number."""

@@ -8,17 +8,21 @@ from __future__ import annotations
 
 import ast
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
+from sys import float_info
+from typing import Generic, NamedTuple, TypeVar
 
 from polycnc.language.expressions import code
-
-if TYPE_CHECKING:
-    from polycnc.language.expressions.code import Code
+from polycnc.language.expressions.code import Code, Lifted
 
 #: How deep an expression may be nested, in brackets, signs and operators; Python's own limit is not far.
 MAX_DEPTH = 200
 #: Power of signs: their operand holds no other operators.
 TIGHTEST = 100
+
+#: Operators whose results may be greater than both operands, and those that may count up by a number.
+_GROWING, _COUNTING = (ast.Add, ast.Sub, ast.Mult, ast.Div), (ast.Add, ast.Sub)
+_OVERFLOW = code.call("overflow")
+_IN_RANGE = f"r if {-float_info.max!r} <= (r := {{0}}) <= {float_info.max!r} else overflow()"
 
 V = TypeVar("V")
 M = TypeVar("M")
@@ -110,6 +114,39 @@ def applied(gives: type[ast.AST] | str, left: Code, right: Code) -> Code:
         return code.compared(left, gives, right)
     assert issubclass(gives, ast.boolop)
     return code.either(gives, left, right)
+
+
+def calculated(gives: type[ast.AST] | str, left: Code, right: Code) -> Code:
+    """The code of an operator between numbers; `overflow()` is called where its result is not finite.
+
+    A chain of operators is asked at its end: what has left the range on its left does not come back. A sum is not asked
+    for a number of the block, which leads nothing out of the range. The namespace of the code has `overflow`.
+    """
+    if gives not in _GROWING:
+        return applied(gives, left, right)
+    chain = _asked(left)
+    result = applied(gives, chain or left, right)
+    counts = gives in _COUNTING and (isinstance(left, Lifted) or isinstance(right, Lifted))
+    return result if counts and chain is None else code.quoted(_IN_RANGE, result)
+
+
+def overflow() -> None:
+    """The result of a calculation is no number of the control: `Control.arithmetic_alarm` says its alarm.
+
+    Raises:
+        OverflowError: Always.
+    """
+    raise OverflowError
+
+
+def _asked(value: Code) -> Code | None:
+    """What is asked whether it is finite; None for any other code."""
+    test = value[1] if value.kind is ast.IfExp and value[3] == _OVERFLOW else None
+    if not isinstance(test, Code) or not isinstance(test[3], tuple):
+        return None
+    result = test[3][0][2]
+    assert isinstance(result, Code)
+    return result
 
 
 def applied_to_one(gives: type[ast.AST] | str, operand: Code) -> Code:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.language.expressions.code import Code, constant, quoted, sequence
 from polycnc.language.sinumerik import keywords, runtime
+from polycnc.language.sinumerik.actions.block import action
 from polycnc.language.sinumerik.emitter import Emitter, provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, syntax
 from polycnc.language.sinumerik.expressions import ExpressionReader
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
     from polycnc.language.sinumerik.executable import SinumerikProgram
     from polycnc.language.sinumerik.names.places import Place
     from polycnc.language.sinumerik.names.scope import Scope
+
+_SKIPPED = "if channel.control.skipped(channel, {0}): channel.off_path = channel.attention; return"
 
 
 class CompiledBlock(NamedTuple):
@@ -94,7 +97,7 @@ class BlockCompiler(ExpressionReader):
         return len(name) > 1 and not is_word(name, self.scope) and not _assigns(self.ahead())
 
     def _mixed(self) -> None:
-        """Assignments, or functions, words and procedures; the two do not mix (12080, 1.25.2.6)."""
+        """Assignments, or words and procedures: the two do not mix (12080, 1.25.2.6); G functions go with both."""
         assigned: Token | None = None
         worded = False
         self.emitter.can_join = True
@@ -104,10 +107,14 @@ class BlockCompiler(ExpressionReader):
                 assigned = assigned or token
                 self.assignment()
             else:
-                worded = True
+                functions = len(self.words.functions)
                 self.words.read()
+                worded = worded or len(self.words.functions) == functions
             if assigned is not None and worded:
                 raise syntax(assigned.column, f"{assigned.text}=")
+        if assigned is not None and self.words.functions:
+            self.emitter.can_join = False
+            self.words.dynamic = True
         self.words.finish()
 
     # ---- assignments ---------------------------------------------------------------------------------------
@@ -157,6 +164,7 @@ class BlockCompiler(ExpressionReader):
             self.emitter.run(quoted("repeat_element({0}, {1}, {2}, {3})", items, start, value, count))
 
     def _system_fill(self, place: SystemPlace, values: Code) -> None:
+        place.prepare_write(self)
         written = "set_system_elements(channel, {0}, {1}, {2})"
         self.emitter.run(quoted(written, place.code, place.indices, values))
 
@@ -195,7 +203,7 @@ class BlockCompiler(ExpressionReader):
 
     def call_procedure(self, token: Token, arguments: Code) -> None:
         """Add the call of a procedure of the control; its block runs alone, as it may do anything."""
-        self.emitter.knows_place = True
+        self.emitter.knows_place = self.emitter.is_block = True
         self.emitter.can_join = False
         column = self.emitter.object(token.column)
         written = "channel.control.procedure(channel, {0}, {1}, {2})"
@@ -218,6 +226,7 @@ def is_word(name: str, scope: Scope) -> bool:
     """Whether a name has a meaning in a block of words."""
     return (
         name in scope.control.g_groups
+        or name in keywords.SPELLINGS
         or name in keywords.ADDRESSES
         or name in keywords.PROCEDURES
         or name in keywords.INDEXED_WORDS
@@ -256,7 +265,7 @@ def compile_block(program: SinumerikProgram, index: int, channel: Channel) -> Co
     compiler = BlockCompiler(tokens, program, index, channel)
     compiler.marked = prefix.skip >= 0 or bool(prefix.label)
     if prefix.skip >= 0:
-        compiler.emitter.add(quoted("if channel.control.skipped(channel, {0}): return", prefix.skip))
+        compiler.emitter.add(quoted(_SKIPPED, prefix.skip))
     compiler.statement()
     return CompiledBlock(compiler.emitter.step(), compiler.emitter, compiler.columns)
 
@@ -287,7 +296,8 @@ _STATEMENTS: dict[str, Callable[[BlockCompiler], None]] = {
     **definitions.STATEMENTS,
     **redefinitions.STATEMENTS,
     **calls.STATEMENTS,
-    **dict.fromkeys(keywords.SYNCHRONOUS | keywords.NOT_EXECUTED, _not_yet),
+    **dict.fromkeys(keywords.SYNCHRONOUS, action),
+    **dict.fromkeys(keywords.NOT_EXECUTED, _not_yet),
     **dict.fromkeys(keywords.PARTS | keywords.OPERATORS, _alone),
 }
 

@@ -43,8 +43,11 @@ CAUGHT = ("AlarmError", "ZeroDivisionError", "OverflowError")
 FAIL = (run(quoted("fail(error, channel)")),)
 _LOCALS, _MAIN = name("L"), name("M")
 _STOP = quoted("if channel.control.preprocessing_stop(channel): return")
+_ON_CLOCK = run(quoted("channel.on_clock()"))
 _FETCH_LOCALS, _FETCH_MAIN = quoted("L = channel.level.locals"), quoted("M = channel.stack[0].locals")
 _INDEX = quoted("channel.level.index")
+#: A block that only calculates or goes elsewhere is none for stages that look ahead; asked for where there are any.
+OFF_PATH = quoted("channel.off_path = channel.attention")
 
 
 class Number(NamedTuple):
@@ -87,6 +90,7 @@ class Emitter:
     Attributes:
         shapes: Compiled code of the control.
         statements: What the block does.
+        uses_clock: A block reads or writes what only a program has that is executed in time.
         numbers: Numbers of the block that the code has as parameters.
         objects: Objects that the code uses.
         branch: How the block goes on, if it belongs to a control structure.
@@ -94,6 +98,7 @@ class Emitter:
         knows_place: The code holds step numbers or columns: it is good for this block only.
         can_join: The block is of a kind that may run in one function with others.
         acts: The control acts in it: the channel may have to look after something behind it.
+        is_block: It has words or procedures; else it only calculates or goes elsewhere, and the main run gets nothing.
         leaves: A statement ends the step before its end.
         temporaries: How many temporary names the code uses.
     """
@@ -105,12 +110,13 @@ class Emitter:
         self.objects: list[object] = []
         self.uses_locals = False
         self.uses_main = False
-        self.uses_stop = False
+        self.uses_stop = self.uses_clock = False
         self.branch: Branch | None = None
         self.execution: Execution | None = None
         self.knows_place = False
         self.can_join = False
         self.acts = False
+        self.is_block = False
         self.leaves = False
         self.temporaries = 0
 
@@ -182,7 +188,9 @@ class Emitter:
 
     def body(self) -> Body:
         """The statements of the step."""
-        body: list[Code] = []
+        body: list[Code] = [] if self.is_block else [OFF_PATH]
+        if self.uses_clock:
+            body.append(_ON_CLOCK)
         if self.uses_stop:
             body.append(_STOP)
         if self.uses_locals:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from array import array
 from bisect import bisect_left
-from functools import partial
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.snapshot import unchanging
@@ -30,6 +29,7 @@ from polycnc.language.sinumerik.statements.definitions import NO_HEADER, Header,
 from polycnc.language.sinumerik.statements.labels import Labels
 from polycnc.language.sinumerik.statements.structures import Structure, structures_of
 from polycnc.messages import AlarmError
+from polycnc.program.names import DEF_DIR
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -40,6 +40,8 @@ if TYPE_CHECKING:
 _DEFINITION = re.compile(r"[ \t]*(?:DEF|REDEF|DEFINE|PROC|EXTERN)\b", re.IGNORECASE)
 #: Type of comments and of the screens of own cycles (cov.com, uc.com, 1.25.4): texts, not programs.
 _COMMENT_FILE = "_COM"
+#: Joined steps that a block may be part of: a program that is entered at many places is not joined from each anew.
+MOST_JOINS = 8
 #: Texts of EXECSTRING whose steps are kept.
 _MOST_TEXTS = 1024
 #: A line that begins with none of these is a block.
@@ -54,13 +56,15 @@ class SinumerikProgram:
     Args:
         program: The text.
         control: The control that runs it.
-        definitions: The text is a definition file (GUD, macros), not a part program.
+
+    Attributes:
+        is_definition_file: It lies where GUD and macros are defined.
     """
 
-    def __init__(self, program: Program, control: LanguageControl, *, definitions: bool = False) -> None:
+    def __init__(self, program: Program, control: LanguageControl) -> None:
         self.program = program
         self.control = control
-        self.is_definition_file = definitions
+        self.is_definition_file = program.directory == DEF_DIR
         self.declared: dict[str, int] = {}
         lines = enumerate(program.lines)
         self._lines = array("I", (i for i, line in lines if line[:1] not in _BLANK or not _EMPTY.match(line)))
@@ -78,6 +82,7 @@ class SinumerikProgram:
         self._texts: dict[str, Step] = {}
         self._singles: dict[int, Step] = {}
         self._joins: dict[int, set[int]] = {}
+        self._joined_into = bytearray(len(self._reached))
         self._shapes = Shapes()
 
     @property
@@ -195,6 +200,9 @@ class SinumerikProgram:
         def source(at: int) -> Emitter | None:
             if at >= len(self._lines) or not self._reached[at] or prefix_of(self.text(at)).skip >= 0:
                 return None
+            if self._joined_into[at] >= MOST_JOINS:
+                return None
+            self._joined_into[at] += 1
             try:
                 emitter = self.compiled(at, channel).emitter
             except AlarmError:
@@ -225,6 +233,7 @@ class SinumerikProgram:
             if len(self._texts) >= _MOST_TEXTS:
                 self._texts.clear()
             self._texts[text] = step
+        channel.off_path = False
         step(channel)
 
     def tokens(self, index: int, channel: Channel) -> list[Token]:
@@ -246,12 +255,10 @@ class SinumerikProgram:
             if not self.is_definition_file:
                 own = memory.directory_levels.get(self.program.directory, rights.LOWEST)
                 self._scope.level = min(memory.access_level, own)
-            memory.programs.append(self)
+            memory.programs.add(self)
             if not memory.definitions_loaded:
                 memory.definitions_loaded = True
-                load_definitions(
-                    channel, partial(SinumerikProgram, control=channel.control, definitions=True)
-                )
+                load_definitions(channel)
             self.header(channel)
         return self._scope
 
@@ -348,3 +355,4 @@ class SinumerikProgram:
 
 def _skipped(channel: Channel) -> None:
     """A block that the operator has switched off."""
+    channel.off_path = channel.attention

@@ -21,6 +21,7 @@ from polycnc.language.expressions.operators import (
     OperatorReader,
     applied,
     applied_to_one,
+    calculated,
 )
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.errors import NcSyntaxError, syntax
@@ -179,6 +180,8 @@ class ExpressionReader(Cursor[Token], OperatorReader[Token, Expr]):
         gives = operator.gives
         if mark.text == "DIV" and type_ is Type.INT:
             gives = "int_quotient"
+        if Type.REAL in (left.type, right.type):
+            return Expr(calculated(gives, left.code, right.code), Type.REAL)
         return Expr(applied(gives, left.code, right.code), Type.REAL if mark.text == "/" else type_)
 
     def _comparison(self, operator: Operator, mark: Token, left: Expr, right: Expr) -> Code:

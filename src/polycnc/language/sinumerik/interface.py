@@ -6,15 +6,20 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from polycnc.channel.stack import Executable
+from polycnc.channel.states.snapshot import unchanging
+from polycnc.channel.states.state import Lifetime, State, lasting, retained
+from polycnc.language.sinumerik.names.values import Axis
+from polycnc.memory.retained import USER_VARIABLES, VARIABLES
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from polycnc.channel.channel import Channel
     from polycnc.language.expressions.shapes import Shapes
+    from polycnc.language.sinumerik.actions.code import ActionCode
     from polycnc.language.sinumerik.executable import SinumerikProgram
     from polycnc.language.sinumerik.names.initialisation import FirstValues
-    from polycnc.language.sinumerik.names.values import Axis, Type
+    from polycnc.language.sinumerik.names.values import Type
     from polycnc.language.sinumerik.names.variables import Variable
     from polycnc.language.sinumerik.words import Block
 
@@ -43,6 +48,7 @@ class SystemVariable(Protocol):
     Attributes:
         type: Type of its values.
         stop: Reading or writing it in a program waits for the main run (implicit preprocessing stop).
+        goes_along: Writing it does not wait: the value goes along with the path.
     """
 
     @property
@@ -52,6 +58,25 @@ class SystemVariable(Protocol):
     @property
     def stop(self) -> bool:
         """Whether it belongs to the main run."""
+
+    @property
+    def goes_along(self) -> bool:
+        """Whether a value that is written goes along with the path."""
+
+    @property
+    def timed(self) -> bool:
+        """Whether only a program that is executed in time can read or write it."""
+
+    @property
+    def of_actions(self) -> bool:
+        """Whether synchronised actions alone can write it."""
+
+    @property
+    def name(self) -> str:
+        """With its `$`."""
+
+    def element_count(self, channel: Channel) -> int | None:
+        """How many elements an array with one index has; None where that is not told."""
 
     def read(self, channel: Channel, indices: tuple[Any, ...]) -> Any:
         """The value; indices are ints, axes or frame components (text) as programmed."""
@@ -70,6 +95,9 @@ class LanguageControl(Protocol):
     def shapes(self) -> Shapes:
         """Compiled code of the control's programs."""
 
+    def language_memory(self, channel: Channel) -> LanguageMemory:
+        """What the language begins with at power-on."""
+
     def g_function(self, group: int, number: int) -> str:
         """The function of `G[group]=number`; alarm 12470 for none, or a group that is not modal."""
 
@@ -78,6 +106,11 @@ class LanguageControl(Protocol):
 
     def procedure(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> None:
         """Run a predefined procedure or a cycle; an argument left out is None, VAR is a `Reference`."""
+
+    def define_action(
+        self, channel: Channel, code: ActionCode, number: int | None, frozen: tuple[Any, ...]
+    ) -> None:
+        """A synchronised action begins with the next block, with the values that were worked out now."""
 
     def function(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> Any:
         """The value of a function that depends on the control's state; `keywords.py` knows its type."""
@@ -107,13 +140,38 @@ class LanguageControl(Protocol):
         """What a subprogram with SAVE brings back at its end."""
 
 
+#: No axis: what NO_AXIS means where MD20082 names none.
+NO_AXIS = Axis("")
+
+
+@unchanging
+class CompiledPrograms:
+    """The programs of a channel that have resolved names. Snapshots leave them as they are, and so their list too."""
+
+    def __init__(self) -> None:
+        self._programs: list[SinumerikProgram] = []
+
+    def add(self, program: SinumerikProgram) -> None:
+        """A program has resolved its names."""
+        self._programs.append(program)
+
+    def forget_steps(self) -> None:
+        """Files, search paths or block skip have changed: names are looked up again, blocks read again."""
+        for program in self._programs:
+            program.forget_steps()
+
+
 @dataclass(slots=True, eq=False)
-class LanguageMemory:
-    """What the NC language keeps for one channel: the control puts it into `channel.memory.language`.
+class LanguageMemory(State, lifetime=Lifetime.POWER):
+    """What the NC language keeps for one channel; it is `channel.memory.language`, and begins as the control says.
 
     Attributes:
+        r_parameters: The R parameters by their name, retained.
+        user_variables: Values of global user variables of the channel by declaration, one list for each; retained.
+        nck_user_variables: Values of those that all channels share.
         r: R parameters. Compiled blocks hold this very list: change it in place only.
         axes: Every axis and spindle identifier of the channel (channel, geometry and machine axes, `S1`…), upper case.
+        default_axis: The axis that AXIS variables have before anything is assigned, NO_AXIS (MD20082).
         exact_order: `<` and `>` compare exactly (MD10280 bit 0); otherwise equal within 1E-12 is neither.
         main_variables_everywhere: Variables of the main program are known in subprograms (MD11120).
         global_variables: User variables of the definition files (GUD), upper case.
@@ -128,11 +186,15 @@ class LanguageMemory:
         definitions_loaded: The definition files have been read.
         user_data: Limits and units that REDEF has given R parameters and user data of the control, by name.
         first_values: Init times and first values that REDEF has given data of the control, by name.
-        programs: Every compiled program; they forget what they have resolved when files or search paths change.
+        programs: Every compiled program.
     """
 
-    r: list[float]
-    axes: Mapping[str, Axis]
+    r_parameters: dict[str, list[float]] = retained(VARIABLES)
+    user_variables: dict[str, list[Any]] = retained(USER_VARIABLES)
+    nck_user_variables: dict[str, list[Any]] = retained(USER_VARIABLES, of_control=True)
+    r: list[float] = field(default_factory=list)
+    axes: Mapping[str, Axis] = field(default_factory=dict)
+    default_axis: Axis = NO_AXIS
     exact_order: bool = False
     main_variables_everywhere: bool = False
     global_variables: dict[str, Any] = field(default_factory=dict)
@@ -143,8 +205,14 @@ class LanguageMemory:
     nck_variables: dict[str, Any] = field(default_factory=dict)
     macros: dict[str, str] = field(default_factory=dict)
     call_path: str = ""
-    modal_call: Callable[[Channel], None] | None = None
+    modal_call: Callable[[Channel], None] | None = lasting(Lifetime.RESET, None)
     definitions_loaded: bool = False
     user_data: dict[str, Variable] = field(default_factory=dict)
     first_values: dict[str, FirstValues] = field(default_factory=dict)
-    programs: list[Any] = field(default_factory=list)
+    programs: CompiledPrograms = field(default_factory=CompiledPrograms)
+
+    @classmethod
+    def first(cls, channel: Channel[Any, Any, Any]) -> LanguageMemory:
+        """What the control says."""
+        control: LanguageControl = channel.control
+        return control.language_memory(channel)

@@ -50,7 +50,7 @@ from polycnc.language.expressions.joined import (
 )
 from polycnc.language.expressions.joined import BLOCKS as ALL_BLOCKS
 from polycnc.language.expressions.shapes import Function, TooDeepError
-from polycnc.language.sinumerik.emitter import CAUGHT, FAIL
+from polycnc.language.sinumerik.emitter import CAUGHT, FAIL, OFF_PATH
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -69,6 +69,8 @@ _BLOCKS, _ROOM = name("blocks"), name("room")
 _COUNT = added(_BLOCKS, 1)
 _PASSES = call("range", constant(BURST))
 _LEAVE = given()
+#: What is said to stages that look ahead when such a block, or one that only calculates, hands over.
+_ON_PATH = {True: (quoted("channel.off_path = False"),), False: ()}
 
 
 class _Stretch(NamedTuple):
@@ -118,6 +120,7 @@ class Joiner:
         statements = (
             assigned(_ROOM, binary(ast.Sub, ROOM, ALL_BLOCKS)),
             when(compared(_ROOM, ast.Lt, constant(0)), near_limit),
+            OFF_PATH,
             assigned(LEVEL, attribute(CHANNEL, "level")),
             assigned(name("L"), attribute(LEVEL, "locals")),
             assigned(_BLOCKS, constant(-1)),  # the channel counts the step itself
@@ -175,7 +178,7 @@ class Joiner:
         body += [_COUNT, *self._statements(emitter)]
         if emitter.acts:
             jumped = compared(INDEX, ast.NotEq, constant(index + 1))
-            body.append(when(either(ast.Or, ATTENTION, jumped), (_LEAVE,)))
+            body.append(when(either(ast.Or, ATTENTION, jumped), (*_ON_PATH[emitter.is_block], _LEAVE)))
         return body
 
     def _statements(self, emitter: Emitter) -> list[Code]:

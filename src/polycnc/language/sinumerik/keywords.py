@@ -3,7 +3,7 @@
 Every word is in one of these tables; a word that is known but in none of the executed ones raises an alarm
 that says so. Arguments are written as letters: I INT, R REAL, B BOOL, C CHAR, S STRING, A AXIS, F FRAME, `?`
 any value, `*` any number of any values, `V` a variable to write to (array, element or single), `[` a whole
-array; a small letter may be left out.
+array, `W` a row of an array (`TABLE[1]`); a small letter may be left out.
 """
 
 from __future__ import annotations
@@ -92,7 +92,7 @@ ADDFRAME    (FS)        INT
 AXTOSPI     (A)         INT
 CALCDAT     ([I[)       BOOL
 CALCPOSI    ([[[[bi)    INT
-CHKDNO      (iii)       BOOL
+CHKDNO      (jjj)       BOOL
 CHKDM       (ii)        INT
 CROTS       (*)         FRAME
 CRPL        (IR)        FRAME
@@ -122,6 +122,7 @@ CTABTMAX    (Iaa)       REAL
 CTABTMIN    (Iaa)       REAL
 CTABTSP     (Iva)       REAL
 CTABTSV     (Iva)       REAL
+DELDL       (ii)        INT
 GETACTTD    (VI)        INT
 GETDNO      (II)        INT
 GETFREELOC  (VVIII)     INT
@@ -130,7 +131,7 @@ GETT        (Si)        INT
 GETTCOR     ([ssiii)    INT
 GETTENV     (SV)        INT
 DELTOOLENV  (s)         INT
-INTERSEC    ([[[)       BOOL
+INTERSEC    (WW[i)      BOOL
 ISAXIS      (I)         BOOL
 LENTOAX     ([[sb)      INT
 MEAFRAME    ([[V)       FRAME
@@ -141,6 +142,7 @@ POSRANGE    (ARRi)      BOOL
 SETDNO      (III)       BOOL
 SETTCOR     ([siiiiii)  INT
 SPI         (I)         AXIS
+SPRINT      (*)         STRING
 TOOLENV     (S)         INT
 """)
 
@@ -179,12 +181,18 @@ PROCEDURES: dict[str, str] = {
     "CONTPRON": "[?V?",
     "CONTDCON": "[?",
     "EXECUTE": "V",
-    "EXECTAB": "V",
+    "EXECTAB": "W",
     "GETSELT": "Vi",
     "GETEXET": "Vi",
     "GETACTT": "VS",
     "SETDNO": "III",
 }
+
+#: Newer spellings of G functions.
+SPELLINGS = {"RMIBL": "RMI", "RMBBL": "RMB", "RMEBL": "RME", "RMNBL": "RMN"}
+
+#: Names whose arguments may stand in square brackets: `DELDL[1,2]` (7.2.3).
+SQUARE = frozenset({"DELDL"})
 
 #: Procedures whose axis may stand in brackets: `FINEA[X]`.
 BRACKETED = frozenset({"FINEA", "COARSEA", "IPOENDA"})
@@ -205,8 +213,8 @@ CYCLES = _words(
 #: Addresses of NC words beside the axes. Any of them may have an index in brackets; the control checks that.
 ADDRESSES = _words(
     """
-    A2 A3 A4 A5 A6 A7 B2 B3 B4 B5 B6 B7 C2 C3 C4 C5 C6 C7 ACC ACCLIMA ADIS ADISPOS ADISPOSA ALF ANG AP AR ATOL AX
-    CHF CHR CR CTOL CUTMOD D DILF DISC DISCL DISPR DISR DITE DITS DL F FA FAD FB FD FDA FGREF FL FMA FP
+    A2 A3 A4 A5 A6 A7 A8 B2 B3 B4 B5 B6 B7 B8 C2 C3 C4 C5 C6 C7 C8 ACC ACCLIMA ADIS ADISPOS ADISPOSA ALF ANG AP AR
+    ATOL AX CHF CHR CR CTOL CUTMOD D DILF DISC DISCL DISPR DISR DITE DITS DL F FA FAD FB FD FDA FGREF FL FMA FP
     FRC FRCM FXS FXST FXSW FZ H I I1 IP ISD J J1 JERKLIM JERKLIMA K K1 LEAD LIMS M MEAC MEAS MEASA MEAW
     MEAWA MOV NUT OFFN OMA1 OMA2 OMA3 OMA4 OMA5 ORIS OS OSB OSCILL OSCTRL OSE OSNSC OSP1 OSP2 OST1 OST2
     OTOL OVR OVRA OVRRAP P PHI PL PO POLF POLFA POS POSA POSP PSI PW RND RNDM RP RPL S SCPARA SD SF SPN
@@ -259,12 +267,12 @@ OPERATORS = frozenset({"AND", "OR", "NOT", "XOR", "B_AND", "B_OR", "B_NOT", "B_X
 PARTS = _words(
     """
     ACTBLOCNO DISPLOF DISPLON APR APRB APRP APW APWB APWP APX AS AXIS BLOCK BLSYNC BOOL CHAN CHAR
-    DEFAULT EX FALSE FRAME GP INICF INIPO INIRE INT LIFTFAST LLI NCK OF PHU PREPRO PRIO PRLOC REAL REP
+    DEFAULT EX FALSE FRAME GP INICF INIPO INIRE INT LIFTFAST LLI NCK NO_AXIS OF PHU PREPRO PRIO PRLOC REAL REP
     SAVE SET STRING SYNR SYNRW SYNW TO TRUE ULI VAR
     """
 )
 
-#: Synchronised actions, and what else polycnc knows but does not execute yet.
+#: Words that begin a synchronised action, and what polycnc knows but does not execute yet.
 SYNCHRONOUS = frozenset({"ID", "IDS", "DO", "WHEN", "WHENEVER", "FROM", "EVERY"})
 NOT_EXECUTED = frozenset({"STRINGFELD", "STRINGVAR", "ENDPROC"})
 

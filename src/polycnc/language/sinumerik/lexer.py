@@ -8,6 +8,7 @@ A letter followed by digits is one token (`word`), because only the parser knows
 from __future__ import annotations
 
 import re
+from math import isinf
 from typing import NamedTuple
 
 from polycnc.language.sinumerik.errors import NcSyntaxError, syntax
@@ -59,6 +60,7 @@ PREFIX = re.compile(
     r"[ \t]*(?:/(?P<skip>\d?)[ \t]*)?(?:(?P<number>N[ \t]*\d+|:[ \t]*\d+)[ \t]*)?", re.IGNORECASE | re.ASCII
 )
 MAX_EXPONENT = 300
+JUMPS = frozenset({"GOTO", "GOTOF", "GOTOB", "GOTOC", "GOTOS"})
 
 
 def number_of(text: str, column: int = 0) -> int | float:
@@ -69,7 +71,10 @@ def number_of(text: str, column: int = 0) -> int | float:
     if exponent:
         return float(f"{mantissa}e{exponent}")
     if "." in text or len(text) > 10:
-        return float(text)
+        value = float(text)
+        if isinf(value):
+            raise NcSyntaxError("12160", column, text)
+        return value
     value = int(text)
     return value if value < 2**31 else float(value)
 
@@ -139,6 +144,6 @@ def prefix_of(line: str) -> Prefix:
     if number:
         number = number[0].upper() + str(int(number[1:]))
     label = LABEL.match(line, end)
-    if label is None or label[1].upper().startswith("GOTO"):  # GOTOF :20 is a jump to a main block
+    if label is None or label[1].upper() in JUMPS:  # GOTOF :20 is a jump to a main block
         return Prefix(skip, number or "", "", end)
     return Prefix(skip, number or "", label[1].upper(), label.end())

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 from typing import TYPE_CHECKING
 
-from polycnc.language.expressions.code import Code, assigned, constant, quoted, sequence
+from polycnc.language.expressions.code import Code, Lifted, assigned, constant, quoted, sequence
 from polycnc.language.expressions.operators import TIGHTEST
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import Execution, provide
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 #: Addresses whose numbers stay INT where they are written so; all others become REAL.
 _NONE = constant(None)
 _SINGLE_BLOCK = quoted("channel.level.data['single_block']")
+#: What polynomials of the orientation stand for (6.3, 6.5.2).
+_OF_ORIENTATION = frozenset({"PHI", "PSI", "THT", "XH", "YH", "ZH"})
 _WHOLE_NUMBERS = frozenset({"M", "H", "T", "D", "DL"})
 
 
@@ -59,7 +62,7 @@ class WordReader:
         if not self.codes and not self.shapes:
             return
         emitter = self.compiler.emitter
-        emitter.acts = True
+        emitter.acts = emitter.is_block = True
         execute = emitter.object(self.compiler.scope.execute)
         if self.dynamic:
             code = quoted("block_of({0}, {1})", sequence(self.codes), sequence(self.shape_codes))
@@ -115,7 +118,7 @@ class WordReader:
         elif letter == "G":
             code = f"G{token.value}"
             if code not in scope.control.g_groups:
-                raise NcSyntaxError("12470", token.column, token.text)
+                raise NcSyntaxError("12470", token.column, token.text, hint="hint.builder-g")
             self._g_function(token, code)
         elif letter in scope.memory.axes or letter in keywords.ADDRESSES:
             self._add(token, letter, None, _NONE, "", self._literal(letter, token))
@@ -123,6 +126,8 @@ class WordReader:
             raise self.compiler.error(token)
 
     def _named_word(self, token: Token) -> None:
+        if token.text in keywords.SPELLINGS:
+            token = token._replace(text=keywords.SPELLINGS[token.text])
         compiler, name = self.compiler, token.text
         scope = compiler.scope
         if name in keywords.OWN_BLOCK and not self._assigned():
@@ -209,7 +214,12 @@ class WordReader:
         compiler, name = self.compiler, token.text
         index: object = None
         code = _NONE
-        if compiler.at("["):
+        if name == "PO" and compiler.at("[") and compiler.ahead().text in _OF_ORIENTATION:
+            compiler.take()
+            index = compiler.take().text
+            compiler.expect("]")
+            code = constant(index)
+        elif compiler.at("["):
             index, code = self._index()
         elif name == "PO" and compiler.accept("("):  # the denominator, in the newer spelling
             listed = self._list()
@@ -317,6 +327,8 @@ class WordReader:
         value = self.compiler.expression()
         if value.type is Type.CHAR:
             return quoted("chr({0})", value.code)
+        if value.type is Type.REAL and not _is_written(value.code):
+            return quoted("finite({0})", value.code)
         if value.type is Type.INT and address not in _WHOLE_NUMBERS:
             return self.compiler.emitter.as_real(value.code)
         return value.code
@@ -409,3 +421,9 @@ def axis_name(index: object) -> str:
 
 
 provide(position_attribute=position_attribute, axis_name=axis_name, Axis=Axis)
+
+
+def _is_written(code: Code) -> bool:
+    """Whether a value is a number of the block, with a minus or without."""
+    operand = code[2] if code.kind is ast.UnaryOp else code
+    return isinstance(operand, Lifted)

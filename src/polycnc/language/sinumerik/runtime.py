@@ -15,6 +15,7 @@ from math import (
     floor,
     fmod,
     isclose,
+    isfinite,
     log,
     radians,
     sin,
@@ -24,6 +25,7 @@ from math import (
 )
 from typing import TYPE_CHECKING, Any
 
+from polycnc.language.expressions.operators import overflow
 from polycnc.language.sinumerik.errors import arithmetic
 from polycnc.language.sinumerik.lexer import number_of
 from polycnc.language.sinumerik.names import frame as nc_frame
@@ -98,9 +100,16 @@ def root(x: float) -> float:
     return sqrt(x)
 
 
+def finite(x: float) -> float:
+    """A number as it is; alarm 14051 for one that has grown beyond the range of REAL."""
+    if isfinite(x):
+        return x
+    raise arithmetic()
+
+
 def square(x: float) -> float:
-    """POT."""
-    return float(x * x)
+    """POT; alarm 14051 beyond the range of REAL."""
+    return finite(float(x * x))
 
 
 def natural_log(x: float) -> float:
@@ -278,7 +287,7 @@ def with_component(frame: NcFrame, axis: Axis, component: str, value: float) -> 
 def default_value(type_: Type, memory: LanguageMemory) -> Any:
     """The value of a variable that nothing has set (1.1.7)."""
     if type_ is Type.AXIS:
-        return next(iter(memory.axes.values()), Axis("X"))
+        return memory.default_axis
     return _DEFAULTS[type_]
 
 
@@ -299,6 +308,6 @@ NAMESPACE: dict[str, Any] = {
         real_quotient, remainder, number_in, is_number, axis_named, first_of, part_of, char_at, with_char,
         fitting, limited, out_of_range, set_elements, repeat_element, set_system_elements, frame_of,
         inverse_frame, frame_component, with_component, joined, real_text, round_half_up, checked_int,
-        checked_char, char_of_text, trunc, floor, ceil,
+        checked_char, char_of_text, trunc, floor, ceil, finite,
     )
-} | {"near": near}  # fmt: skip
+} | {"near": near, "overflow": overflow}  # fmt: skip

@@ -63,11 +63,12 @@ class WordAlarm(AlarmError):  # noqa: N818 - an alarm is what it is called on th
     Args:
         code: The control's alarm code.
         position: Which word of the block, from 0.
+        hint: Message id of what the user can do about this very case.
         args: Values for the placeholders of the text.
     """
 
-    def __init__(self, code: str, position: int, **args: object) -> None:
-        super().__init__(code)
+    def __init__(self, code: str, position: int, *, hint: str = "", **args: object) -> None:
+        super().__init__(code, hint=hint)
         self.args_by_name = args
         self.position = position
 

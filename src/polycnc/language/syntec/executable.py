@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.snapshot import unchanging
 from polycnc.channel.steps import several
+from polycnc.language.syntec.blocks import TypedBlock
 from polycnc.language.syntec.expressions import syntec_shapes
 from polycnc.language.syntec.layout import NO_SEQUENCE
 from polycnc.language.syntec.statements import StatementReader
 from polycnc.language.syntec.tokens import tokenize
 from polycnc.language.word_address.executable import Grammar, WordAddressProgram, empty_block
+from polycnc.language.word_address.words import WordBlock
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
     from polycnc.program import Program
 
 NO_LINE = "COR-018"
+_BLOCKS = (WordBlock, TypedBlock)
 _START = attrgetter("start")
 _BLANKS = str.maketrans("", "", " \t")
 _HEAD = re.compile(r"[ \t]*[O:][ \t]*\d+", re.IGNORECASE)
@@ -66,9 +69,9 @@ class MacroProgram:
         text = self.program.lines[self.line(index) - self.program.first_line].upper()
         return text.find(address) + 1 if address else 0
 
-    def counts(self, _index: int) -> bool:
-        """Every step is a block for stages that look ahead."""
-        return True
+    def counts(self, index: int) -> bool:
+        """Whether a step is a block for stages that look ahead: assignments, tests and jumps are none."""
+        return index >= len(self.steps) or isinstance(self.steps[index], _BLOCKS)
 
     def line_of_step(self, index: int) -> int:
         """Index of a step's line in the program's text; that behind the last line for no step."""

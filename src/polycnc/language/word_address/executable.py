@@ -31,18 +31,23 @@ MAX_BLOCK_LENGTH = 4096
 #: A number can match in one way only, so a line that fails does so at once.
 _PLAIN = re.compile(r"(?:[A-Z][-+]?(?:\d+(?:\.\d*)?|\.\d+)[ \t]*)+;?")
 _WORD = re.compile(r"([A-Z])([-+]?)([\d.]+)")
+_BLANK = re.compile(r"[ \t]*%?[ \t]*")
 _COMMENT = re.compile(r"\([^)]*\)?")
 _SEQUENCE = re.compile(r"[ \t]*(?:/\d?[ \t]*)*N[ \t]*(\d+)", re.IGNORECASE)
 _STATEMENT = re.compile(rf"[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*(?:{KEYWORD.pattern})")
 _NUMBERS = re.compile(
     r"^[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*"
 )
-_LOOP = re.compile(r"(?<![A-Z])(DO|END)[ \t]*(\d)")
+_SEQUENCE_WORD = re.compile(r"N[ \t]*\d+\.?\d*")
+_LOOP = re.compile(r"(?<![A-Z])(DO|END)[ \t]*(\d+)")
 _HEAD = re.compile(r"[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?")
 _SKIP = re.compile(r"[ \t]*/[ \t]*(\d?)")
 _NUMBER_TEXT = re.compile(r"[ \t]*([-+]?)[ \t]*(\d+\.?\d*|\.\d+)")
 _VALUE = re.compile(r"[ \t]*[-+]?[ \t]*[#\[]")
 _NAME = re.compile(r"[ \t]*P?[ \t]*(<[^<>]+>)")
+
+#: Runs of a step after which it is joined with those behind it.
+JOINED_FROM = 8
 
 
 @dataclass(frozen=True)
@@ -54,7 +59,8 @@ class Grammar:
         max_digits: Digits that a number may have.
         comma_addresses: Letters that may follow a comma (`,R` `,C`); they become addresses `,R`.
         letters: Letters that may be addresses.
-        point_in_numbers: Whether a block number or an M code may have a decimal point (`M3.`), which means nothing.
+        point_in_numbers: Whether a block number may have a decimal point (`N3.`), which means nothing.
+        last_loop: The largest number of a loop (DO m); `deepest_loop` is how deep loops nest.
         shapes: The compiled code of the control's expressions.
     """
 
@@ -63,6 +69,8 @@ class Grammar:
     comma_addresses: str = "RCAD"
     letters: str = "ABCDEFGHIJKLMNPQRSTUVWXYZ"
     point_in_numbers: bool = True
+    last_loop: int = 3
+    deepest_loop: int = 3
     shapes: Shapes = field(default_factory=macro_shapes, compare=False, repr=False)
 
 
@@ -85,6 +93,7 @@ class WordAddressProgram:
         self.lines = program.lines
         self.steps = kept_steps(len(self.lines))
         self._reached = bytearray(len(self.lines))
+        self._singles: dict[int, Step] = {}
         self._sequences: dict[int, list[int]] | None = None
         self._loops: dict[tuple[int, int], int] = {}
         #: The line in the file of a step. Asked for every row, so it is the range's own method.
@@ -93,25 +102,35 @@ class WordAddressProgram:
     # ---- what the channel asks ----------------------------------------------------------------------------------
 
     def step(self, index: int) -> Step | None:
-        """The step of a line; kept from its second run on, so that a long program does not fill the memory."""
+        """The step of a line; kept from its second run on, so that a long program does not fill the memory.
+
+        It is joined with those behind it when it has run so often that the time for it comes back.
+        """
         if index >= len(self.lines):
             return None
-        step = self.compile(self.lines[index], index)
-        if self._reached[index]:
-            if isinstance(step, JOINABLE):
-                step = self._joined(step, index)
-            self.steps[index] = step
-        self._reached[index] = 1
+        step = self._single(index)
+        reached, joinable = self._reached[index], isinstance(step, JOINABLE)
+        if reached >= JOINED_FROM or (reached and not joinable):
+            step = self.steps[index] = self._joined(step, index) if joinable else step
+        elif reached:
+            self._singles[index] = step
+        self._reached[index] = min(reached + 1, JOINED_FROM)
         return step
 
+    def _single(self, index: int) -> Step:
+        return self._singles.get(index) or self.compile(self.lines[index], index)
+
     def _joined(self, first: Step, index: int) -> Step:
-        """A step together with those behind it that have been reached too; a jump still finds each one."""
+        """A step together with those behind it that have been reached too; a jump still finds each one.
+
+        It ends in front of one that is kept: what a program enters at many places is joined once, not from each anew.
+        """
         stretch = [(index, first)]
         for i in range(index + 1, min(index + MAX_JOINED, len(self.lines))):
-            following = self.compile(self.lines[i], i) if self._reached[i] else None
+            following = self._single(i) if self._reached[i] else None
             if isinstance(following, LoopEnd):
                 return led_by(first, join_loop(self.grammar.shapes, stretch, i, following))
-            if not isinstance(following, JOINABLE):
+            if not isinstance(following, JOINABLE) or self.steps[i] is not None:
                 break
             stretch.append((i, following))
         return led_by(first, join(self.grammar.shapes, stretch)) if len(stretch) > 1 else first
@@ -148,16 +167,31 @@ class WordAddressProgram:
         return 0
 
     def counts(self, index: int) -> bool:
-        """Whether a line is a block for stages that look ahead: macro statements are none (FANUC macro B §7)."""
-        return index >= len(self.lines) or not _STATEMENT.match(self.blank_comments(self.lines[index]))
+        """Whether a line is a block for stages that look ahead.
+
+        Macro statements are none (FANUC macro B §7), and blank lines only set a text out; a comment, or `;` alone,
+        is an empty block.
+        """
+        if index >= len(self.lines):
+            return True
+        return not (_BLANK.fullmatch(self.lines[index]) or self.is_statement(index))
+
+    def is_statement(self, index: int) -> bool:
+        """Whether a line is a macro statement."""
+        return index < len(self.lines) and bool(_STATEMENT.match(self.blank_comments(self.lines[index])))
 
     def has_words(self, index: int) -> bool:
         """Whether a line holds a block of words."""
-        if index >= len(self.lines) or not self.counts(index):
+        if index >= len(self.lines) or self.is_statement(index):
             return False
         return bool(_NUMBERS.sub("", self.blank_comments(self.lines[index])).strip(" \t;%"))
 
     # ---- jumps --------------------------------------------------------------------------------------------------
+
+    @property
+    def last_loop(self) -> int:
+        """The largest number of a loop (DO m)."""
+        return self.grammar.last_loop
 
     def find_sequence(self, number: int, index: int, mistake: str = "no_sequence") -> int:
         """The step of `N number`: the first behind `index`, else the first from the top."""
@@ -195,6 +229,8 @@ class WordAddressProgram:
                 if n in open_loops:
                     break
                 open_loops.append(n)
+                if len(open_loops) > self.grammar.deepest_loop:
+                    raise AlarmError(self.grammar.alarms["loop_number"], number=n)
             elif open_loops[-1] != n:
                 break
             else:
@@ -222,8 +258,8 @@ class WordAddressProgram:
         values: list[float] = []
         max_digits = self.grammar.max_digits
         for letter, sign, number in _WORD.findall(text):
-            if letter in "MN" and "." in number and not self.grammar.point_in_numbers:
-                raise AlarmError(self.grammar.alarms["point"], address=letter)
+            if letter == "N" and (sign or "." in number):
+                self._check_number(sign, number)
             if letter in "GM" and not sign:
                 signature.append(code_key(letter, number))
                 continue
@@ -237,10 +273,21 @@ class WordAddressProgram:
             values.append(float(sign + number))
         return WordBlock(tuple(signature), values)
 
+    def _check_number(self, sign: str, number: str) -> None:
+        """The alarm for a sequence number with a sign, or with a point where that is refused."""
+        if sign:
+            raise AlarmError(self.grammar.alarms["minus"], address="N")
+        if "." in number and not self.grammar.point_in_numbers:
+            raise AlarmError(self.grammar.alarms["point"], address="N")
+
     def blank_comments(self, line: str) -> str:
         """The line in upper case with its comments turned into blanks of the same length."""
         if "(" in line:
+            nested = any("(" in match.group()[1:] for match in _COMMENT.finditer(line))
             line = _COMMENT.sub(lambda match: " " * len(match.group()), line)
+            if nested:
+                # A comment ends at its first bracket; what was to close the outer one is read over.
+                line = line.replace(")", " ")
         return line.upper()
 
     def _general(self, line: str, index: int) -> Step:
@@ -266,7 +313,9 @@ class WordAddressProgram:
         head = _HEAD.match(text)
         reader.pos = head.end() if head else 0
         levels = reader.skip_levels()
-        reader.match(re.compile(r"N[ \t]*\d+"))
+        number = reader.match(_SEQUENCE_WORD)
+        if "." in number:
+            self._check_number("", number)
         levels |= reader.skip_levels()
         keyword = reader.match(KEYWORD)
         if keyword:
@@ -310,8 +359,6 @@ class WordAddressProgram:
         if number:
             sign, digits = number[1], number[2]
             reader.pos = number.end()
-            if address in ("M", "N") and "." in digits and not self.grammar.point_in_numbers:
-                raise reader.fail("point", start)
             if address in ("G", "M") and not sign:
                 words.keys.append(code_key(address, digits))
                 return
@@ -412,5 +459,6 @@ class SkippedBlock:
         return bool(channel.skip_levels & self._levels) and self._on is empty_block
 
     def __call__(self, channel: Channel) -> None:
-        """Run the step that the switches choose."""
+        """Run the step that the switches choose; a block that is left out is none of the path."""
+        channel.off_path = self.is_left_out(channel)
         (self._on if channel.skip_levels & self._levels else self._off)(channel)

@@ -10,6 +10,7 @@ import math
 from typing import Any
 
 from polycnc.geometry.frames import cos_sin_deg
+from polycnc.language.expressions.operators import overflow
 
 #: Results this close to the next integer count as it: what the control's decimal arithmetic gives.
 GUARD = 1e-9
@@ -179,5 +180,5 @@ def joined_(m: Any, left: bool, operator: str, right: bool) -> bool:
 
 #: What generated code may call.
 NAMESPACE: dict[str, object] = {name: value for name, value in globals().items() if name.endswith("_")} | {
-    "__builtins__": {}, "range": range, "len": len, "min": min,
+    "__builtins__": {}, "range": range, "len": len, "min": min, "overflow": overflow,
 }  # fmt: skip

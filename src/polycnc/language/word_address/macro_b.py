@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import ast
 import re
+from math import isinf
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.language.expressions.code import (
@@ -23,7 +24,13 @@ from polycnc.language.expressions.code import (
     item,
     name,
 )
-from polycnc.language.expressions.operators import TIGHTEST, Operator, OperatorReader, applied, applied_to_one
+from polycnc.language.expressions.operators import (
+    TIGHTEST,
+    Operator,
+    OperatorReader,
+    applied_to_one,
+    calculated,
+)
 from polycnc.language.expressions.shapes import Function, Shapes, TooDeepError
 from polycnc.language.word_address.functions import NAMESPACE
 from polycnc.messages import AlarmError
@@ -181,7 +188,7 @@ class Reader(OperatorReader[int, Code]):
         """Two operands."""
         if operator.family != VACANT_TOO:
             left, right = number_of(left), number_of(right)
-        return applied(operator.gives, left, right)
+        return calculated(operator.gives, left, right)
 
     def too_deep(self) -> AlarmError:
         """More than Python takes."""
@@ -209,8 +216,12 @@ class Reader(OperatorReader[int, Code]):
         if char == "[":
             named = _NAMED.match(self.text, self.pos)
             return self.named_variable(named) if named else self.bracket()
+        start = self.pos
         if number := self.match(_NUMBER):
-            return self.lift(float(number))
+            value = float(number)
+            if isinf(value):
+                raise self.fail("too_many_digits", start)
+            return self.lift(value)
         if function := self.match(_FUNCTION):
             return self.function(function.strip())
         raise self.fail("expression")

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from polycnc.language.expressions.code import assigned
 from polycnc.language.word_address.functions import round_half_away
+from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,9 +20,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
     from polycnc.language.expressions.code import Code
-    from polycnc.language.word_address.executable import WordAddressProgram
     from polycnc.language.word_address.macro_b import Evaluate, Lifting, Reader
-    from polycnc.messages import AlarmError
 
 KEYWORD = re.compile(r"IF|WHILE|WH(?=\s*\[)|GOTO|GO(?=\s*[\d#\[])|DO|END|POPEN|PCLOS|DPRNT|BPRNT|SETVN|#")
 _INTEGER = re.compile(r"\d+")
@@ -29,7 +28,21 @@ _PRINT_FORMAT = re.compile(r"#\s*(\[[^\]]*\]|\d+)\s*\[\s*(\d)\s*(\d)?\s*\]")
 MAX_SEQUENCE_NUMBER = 99_999_999
 
 
-def parse_statement(reader: Reader, keyword: str, program: WordAddressProgram, index: int) -> Step:
+class StatementProgram(Protocol):
+    """What statements ask of the program that they stand in."""
+
+    @property
+    def last_loop(self) -> int:
+        """The largest number of a loop."""
+
+    def find_sequence(self, number: int, index: int) -> int:
+        """The step of `N number`, looked for from step `index` on."""
+
+    def loop_end(self, index: int, number: int) -> int:
+        """The step of the END that belongs to the DO in step `index`."""
+
+
+def parse_statement(reader: Reader, keyword: str, program: StatementProgram, index: int) -> Step:
     """The step of the macro statement that begins with `keyword` (already read)."""
     parser = _PARSERS[keyword]
     step = parser(reader, program, index)
@@ -41,7 +54,7 @@ def parse_statement(reader: Reader, keyword: str, program: WordAddressProgram, i
 # ---- assignments ----------------------------------------------------------------------------------------------------
 
 
-def parse_assignment(reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
+def parse_assignment(reader: Reader, _program: StatementProgram, _index: int) -> Step:
     """`#n = expression`, `#[expression] = …`, `#3000 = n (TEXT)`."""
     if reader.peek() == "[":
         target: Evaluate | int = reader.evaluator(reader.bracket())
@@ -99,7 +112,7 @@ class ConditionalJump:
             self.jump(channel)
 
 
-def parse_names(reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
+def parse_names(reader: Reader, _program: StatementProgram, _index: int) -> Step:
     """`SETVN n[NAME,NAME]`: names for common variables."""
     digits = reader.match(_INTEGER)
     if not digits or not reader.accept("["):
@@ -128,7 +141,7 @@ def parse_names(reader: Reader, _program: WordAddressProgram, _index: int) -> St
 # ---- flow -----------------------------------------------------------------------------------------------------------
 
 
-def parse_goto(reader: Reader, program: WordAddressProgram, index: int) -> Step:
+def parse_goto(reader: Reader, program: StatementProgram, index: int) -> Step:
     """`GOTO n`, with a constant, a variable or an expression."""
     if digits := reader.match(_INTEGER):
         number = int(digits)
@@ -154,7 +167,7 @@ def parse_goto(reader: Reader, program: WordAddressProgram, index: int) -> Step:
     return computed_jump
 
 
-def parse_if(reader: Reader, program: WordAddressProgram, index: int) -> Step:
+def parse_if(reader: Reader, program: StatementProgram, index: int) -> Step:
     """`IF [c] GOTO n` and `IF [c] THEN statement`."""
     if reader.peek() != "[":
         raise reader.fail("if_format")
@@ -170,14 +183,14 @@ def parse_if(reader: Reader, program: WordAddressProgram, index: int) -> Step:
     return ConditionalJump(condition, _PARSERS[keyword](reader, program, index))
 
 
-def parse_while(reader: Reader, program: WordAddressProgram, index: int) -> Step:
+def parse_while(reader: Reader, program: StatementProgram, index: int) -> Step:
     """`WHILE [c] DO m`."""
     if reader.peek() != "[":
         raise reader.fail("while_format")
     condition = Condition(reader)
     if not reader.accept("DO"):
         raise reader.fail("while_format")
-    number = _loop_number(reader)
+    number = _loop_number(reader, program)
 
     def test(channel: Channel) -> None:
         end = program.loop_end(index, number)
@@ -190,9 +203,9 @@ def parse_while(reader: Reader, program: WordAddressProgram, index: int) -> Step
     return test
 
 
-def parse_do(reader: Reader, program: WordAddressProgram, index: int) -> Step:
+def parse_do(reader: Reader, program: StatementProgram, index: int) -> Step:
     """`DO m`: an endless loop."""
-    number = _loop_number(reader)
+    number = _loop_number(reader, program)
 
     def enter(channel: Channel) -> None:
         channel.level.data[number] = Loop(index, program.loop_end(index, number), None)
@@ -223,9 +236,9 @@ class Condition:
         return bool(self._function(channel.memory))
 
 
-def parse_end(reader: Reader, _program: WordAddressProgram, index: int) -> Step:
+def parse_end(reader: Reader, program: StatementProgram, index: int) -> Step:
     """`END m`."""
-    return LoopEnd(_loop_number(reader), index, reader.fail("missing_do", 0))
+    return LoopEnd(_loop_number(reader, program), index, reader.fail("missing_do", 0))
 
 
 class LoopEnd:
@@ -250,9 +263,9 @@ class LoopEnd:
             del level.data[self.number]
 
 
-def _loop_number(reader: Reader) -> int:
+def _loop_number(reader: Reader, program: StatementProgram) -> int:
     digits = reader.match(_INTEGER)
-    if digits not in ("1", "2", "3"):
+    if not digits or not 1 <= int(digits) <= program.last_loop:
         raise reader.fail("loop_number")
     return int(digits)
 
@@ -264,17 +277,17 @@ def _open_or_close(_channel: Channel) -> None:
     """Lines that are printed are events: nothing has to be opened for them."""
 
 
-def parse_open(_reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
+def parse_open(_reader: Reader, _program: StatementProgram, _index: int) -> Step:
     """`POPEN`."""
     return _open_or_close
 
 
-def parse_close(_reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
+def parse_close(_reader: Reader, _program: StatementProgram, _index: int) -> Step:
     """`PCLOS`."""
     return _open_or_close
 
 
-def parse_print(reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
+def parse_print(reader: Reader, _program: StatementProgram, _index: int) -> Step:
     """`DPRNT[text#n[cd]…]`: `*` prints a blank, `#n[cd]` c digits before and d behind the point (FANUC macro B §8)."""
     if not reader.accept("["):
         raise reader.fail("print_format")
@@ -307,12 +320,14 @@ def parse_print(reader: Reader, _program: WordAddressProgram, _index: int) -> St
     return print_line
 
 
-def parse_binary_print(reader: Reader, _program: WordAddressProgram, _index: int) -> Step:
+def parse_binary_print(reader: Reader, _program: StatementProgram, _index: int) -> Step:
     """`BPRNT[…]`: known, not executed: its binary output has no text form in a trace."""
-    raise reader.fail("not_supported")
+    raise AlarmError(
+        reader.alarms["not_supported"], column=reader.pos + 1, hint="hint.not-supported", code="BPRNT"
+    )
 
 
-_PARSERS: dict[str, Callable[[Reader, WordAddressProgram, int], Step]] = {
+_PARSERS: dict[str, Callable[[Reader, StatementProgram, int], Step]] = {
     "#": parse_assignment,
     "IF": parse_if,
     "WHILE": parse_while,

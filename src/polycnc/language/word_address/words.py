@@ -11,6 +11,7 @@ A key of the signature is a code (`G1`, `G54.1`, `M30`) or an address and how it
     `X:`  four decimals              `X;`  more decimals, which a control may cut off
     `X#`  from an expression         (a vacant variable leaves the word out)
     `X"`  a text                     `<NAME>`  the name of a program that the block calls
+    `M3.` an M code with a point     `M#`  one from an expression that is not a whole number
 
 An address is a letter, `,R`, or a letter with an index (`X1`, where the control writes `X1=50.`).
 """
@@ -31,9 +32,13 @@ FORMS = '.:;#"'
 
 @lru_cache(maxsize=1024)
 def code_key(letter: str, number: str) -> str:
-    """The signature key of a G or M code: `G01` is `G1`, `G54.10` is `G54.10`, `M03` is `M3`."""
+    """The signature key of a G or M code: `G01` is `G1`, `G54.10` is `G54.10`, `M03` is `M3`.
+
+    The point of an M code stays: a control may refuse it, and as an argument of a macro M is a number like any other.
+    """
     whole, point, fraction = number.partition(".")
-    return letter + (whole.lstrip("0") or "0") + (point + fraction if fraction.strip("0") else "")
+    tail = point + fraction if letter == "M" or fraction.strip("0") else ""
+    return letter + (whole.lstrip("0") or "0") + tail
 
 
 def word_key(letter: str, number: str) -> str:
@@ -111,8 +116,11 @@ class ExpressionBlock:
             value = next(numbers)
             if value is None:
                 continue
-            if key in ("G", "M"):
+            if key == "G" or (key == "M" and value >= 0.0 and value == int(value)):
                 signature.append(code_key(key, f"{round(value, 1):g}"))
+            elif key == "M":
+                signature.append("M#")
+                present.append(value)
             else:
                 signature.append(key)
                 present.append(value)

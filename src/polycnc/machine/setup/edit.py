@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeAlias
 
+from polycnc.machine.documents import yaml_values
 from polycnc.machine.setup.file import load_setup, parse_setup
+from polycnc.messages.files import read_utf_8
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -28,9 +30,7 @@ def read_document(path: Path) -> Document:
     if not path.exists():
         return {}
     load_setup(path)
-    import yaml
-
-    found: object = yaml.safe_load(path.read_text(encoding="utf-8-sig"))
+    found = yaml_values(read_utf_8(path))
     return found if isinstance(found, dict) else {}
 
 

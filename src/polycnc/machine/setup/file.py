@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from polycnc.geometry.surfaces import Surface
+from polycnc.machine.documents import DocumentError, toml_values, yaml_values
 from polycnc.machine.errors import SetupError, nearest
-from polycnc.machine.places import Key, toml_error_place, toml_place, yaml_place
+from polycnc.machine.places import Key, toml_place, yaml_place
 from polycnc.machine.setup.values import (
     Interrupt,
     Offsets,
@@ -36,7 +37,14 @@ T = TypeVar("T")
 K = TypeVar("K")
 Where = tuple[Key, ...]
 Reader = Callable[[Where, object], Any]
+#: No axis of a machine reaches farther, mm or degrees; no whole number of a setup is greater.
+FARTHEST, MOST_WHOLE = 1e9, 999_999_999
+#: Greatest value of a variable or a parameter: far beyond any length, and its square is a number still.
+LARGEST = 1e100
 _LAST_SKIP_LEVEL = 9
+_LAST_TIP = 9
+#: Bits of the widest parameters there are.
+_LAST_BIT = 31
 #: Names of work offsets on all controls: G54 to G59, G59.1 …, G54.1 P1 (G54 P1), G500, G505 …, and the external one.
 _WORK_OFFSET = re.compile(r"EXT|G5[4-9](\.\d)?( ?P\d+)?|G5\d\d")
 #: Operating modes, as the controls name them.
@@ -86,7 +94,7 @@ def load_setup(path: str | Path) -> Setup:
     except (OSError, UnicodeError) as error:
         raise SetupError(str(path), 0, 0, "unreadable", detail=reason_of(error)) from error
     is_toml = path.suffix.lower() == ".toml"
-    data = _toml_data(path, text) if is_toml else _yaml_data(path, text)
+    data = _document(path, text, is_toml=is_toml)
     try:
         return Setup() if data is None else _setup((), data)
     except _BadValueError as bad:
@@ -105,37 +113,40 @@ def check_axes(setup: Setup, machine: Machine, path: str | Path = "") -> None:
     from polycnc.machine.setup.check import foreign_axes
 
     where = next(foreign_axes(setup, machine), None)
-    if where is None:
-        return
+    if where is not None:
+        axes = listed(axis.name for axis in machine.axes)
+        raise _misfit(path, where, "no-such-axis", machine=machine.id, axes=axes)
+
+
+def check_bits(setup: Setup, control: str, last: int, path: str | Path = "") -> None:
+    """Raise `SetupError` where a setup names a bit that parameters of the control do not have.
+
+    Args:
+        setup: What has been read.
+        control: Id of the control.
+        last: The last bit of its parameters.
+        path: The file that it was read from; empty where there is none.
+    """
+    for key in setup.parameters:
+        if key.bit is not None and key.bit > last:
+            number = f"{key.id}#{key.bit}" + (f" {key.axis}" if key.axis else "")
+            raise _misfit(path, ("parameters", number), "no-such-bit", control=control, last=last)
+
+
+def _misfit(path: str | Path, where: Where, message: str, **args: object) -> SetupError:
+    """The error for what does not fit the machine or the control; with its line where a file is known."""
     line = column = 0
     if path:
         text = read_utf_8(path)
         line, column = (toml_place if Path(path).suffix.lower() == ".toml" else yaml_place)(text, where)
-    axes = listed(axis.name for axis in machine.axes)
-    named = ".".join(map(str, where))
-    raise SetupError(str(path), line, column, "no-such-axis", where=named, machine=machine.id, axes=axes)
+    return SetupError(str(path), line, column, message, where=".".join(map(str, where)), **args)
 
 
-def _toml_data(path: Path, text: str) -> object:
-    import tomllib
-
+def _document(path: Path, text: str, *, is_toml: bool) -> object:
     try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        detail, (line, column) = toml_error_place(str(error), text)
-        raise SetupError(str(path), line, column, "not-toml", detail=detail) from error
-
-
-def _yaml_data(path: Path, text: str) -> object:
-    import yaml
-
-    try:
-        return yaml.safe_load(text)
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        line, column = (mark.line + 1, mark.column + 1) if mark else (0, 0)
-        detail = getattr(error, "problem", None) or str(error)
-        raise SetupError(str(path), line, column, "not-yaml", detail=detail) from error
+        return toml_values(text) if is_toml else yaml_values(text)
+    except DocumentError as bad:
+        raise SetupError(str(path), bad.line, bad.column, bad.message, **bad.args_by_name) from None
 
 
 # Readers of single values.
@@ -146,8 +157,10 @@ def _bad(where: Where, message: str, value: object, **args: object) -> NoReturn:
 
 
 def _number(where: Where, value: object) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
+    if isinstance(value, bool) or not isinstance(value, int | float) or value != value:
         _bad(where, "needs-number", value)
+    if not -FARTHEST <= value <= FARTHEST:
+        _bad(where, "out-of-range", value, detail=f"-{FARTHEST:.0e} … {FARTHEST:.0e}")
     return float(value)
 
 
@@ -156,6 +169,8 @@ def _whole(where: Where, value: object) -> int:
         return int(value)
     if isinstance(value, bool) or not isinstance(value, int):
         _bad(where, "needs-whole-number", value)
+    if abs(value) > MOST_WHOLE:
+        _bad(where, "out-of-range", value, detail=f"{-MOST_WHOLE} … {MOST_WHOLE}")
     return value
 
 
@@ -177,6 +192,8 @@ def _value(where: Where, value: object) -> Value:
         return tuple(_value((*where, number), element) for number, element in enumerate(value))
     if isinstance(value, float) and not isfinite(value):
         _bad(where, "needs-value", value)
+    if isinstance(value, int | float) and abs(value) > LARGEST:
+        _bad(where, "out-of-range", value, detail=f"-{LARGEST:.0e} … {LARGEST:.0e}")
     if value is None or isinstance(value, bool | int | float | str):
         return value
     _bad(where, "needs-value", value)
@@ -203,7 +220,13 @@ def _items(where: Where, value: object) -> Iterable[tuple[Key, object]]:
 def _map_of(
     read_key: Callable[[Where], K], read: Callable[[Where, object], T], where: Where, value: object
 ) -> dict[K, T]:
-    return {read_key((*where, key)): read((*where, key), element) for key, element in _items(where, value)}
+    table: dict[K, T] = {}
+    for key, element in _items(where, value):
+        own = read_key((*where, key))
+        if own in table:
+            raise _BadValueError((*where, key), "key-twice", name=key)
+        table[own] = read((*where, key), element)
+    return table
 
 
 def _list_of(read: Callable[[Where, object], T], where: Where, value: object) -> tuple[T, ...]:
@@ -251,14 +274,20 @@ def _offset_key(where: Where) -> str:
 
 def _number_key(where: Where) -> int:
     key = str(where[-1])
-    if not key.isascii() or not key.isdigit():
+    if not _is_number(key):
         _bad(where, "needs-whole-number", key)
     return int(key)
 
 
 def _tool_key(where: Where) -> int | str:
     key = str(where[-1])
-    return int(key) if key.isascii() and key.isdigit() else key
+    if not key:
+        _bad(where, "needs-text", key)
+    return int(key) if _is_number(key) else key
+
+
+def _is_number(key: str) -> bool:
+    return key.isascii() and key.isdigit() and len(key) <= len(str(MOST_WHOLE))
 
 
 _position = partial(_map_of, _axis_key, _number)
@@ -280,6 +309,14 @@ def _tool_called(where: Where, value: object) -> int | str:
     return number
 
 
+def _tip(where: Where, value: object) -> int:
+    """Where the tip of a turning tool points: 1 to 8, 0 and 9 for its centre."""
+    tip = _whole(where, value)
+    if not 0 <= tip <= _LAST_TIP:
+        _bad(where, "out-of-range", value, detail=f"0 … {_LAST_TIP}")
+    return tip
+
+
 def _offset_set(where: Where, value: object) -> Offsets:
     return Offsets(**_record(_OFFSETS, where, value))
 
@@ -290,7 +327,7 @@ def _tool(where: Where, value: object) -> Tool:
 
 _TOOL: dict[str, Reader] = {
     **_OFFSETS,
-    "tip": _whole,
+    "tip": _tip,
     "type": _whole,
     "name": _word,
     "wear": _offset_set,
@@ -308,6 +345,8 @@ def _parameters(where: Where, value: object) -> Parameters:
             raise _BadValueError((*where, name), "bad-parameter") from None
         if key in values:
             raise _BadValueError((*where, name), "parameter-twice")
+        if key.bit is not None and key.bit > _LAST_BIT:
+            raise _BadValueError((*where, name), "bad-parameter")
         values[key] = _value((*where, name), element)
         if key.bit is not None and values[key] not in (0, 1):
             _bad((*where, name), "out-of-range", element, detail="0, 1")

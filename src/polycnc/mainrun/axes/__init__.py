@@ -3,6 +3,8 @@
 axis           an axis and its sources; how another one is added
 hand           jog, steps, handwheel, reference approach
 manual_offset  what an operator has moved while a program waits, until the program takes it back
+commanded      what an action, or a positioning word, moves of an axis beside the path
+overlay        a shift beside everything else
 channel_axes   the axes of a channel, all at once
 machine_axes   the axes of the machine, and which channel leads each
 """

@@ -30,6 +30,13 @@ class Source(Protocol):
         """What is due at this time happens."""
 
 
+class Command(Source, Protocol):
+    """Something that moves an axis in place of its program: coordinates know of its share, displays show it."""
+
+    def rebase(self) -> None:
+        """The axis stands, and the path has it there: the share is nothing from now on."""
+
+
 class Axis:
     """An axis with its sources.
 
@@ -40,21 +47,27 @@ class Axis:
 
     Attributes:
         name: Its name on the machine.
+        ramp: Seconds over which motions of its own are averaged (limited jerk); 0 without.
         offset: What an operator has moved while its program waited.
         hand: What he moves now.
     """
 
     def __init__(self, data: AxisData, ramp: float, path: Source) -> None:
         self.name = data.name
-        self.data = data
+        self.data, self.ramp = data, ramp
         self.offset = ManualOffset()
         self.hand = Hand(data, ramp)
         self._path = path
         self._added: list[Source] = []
+        self._commands: list[Command] = []
 
     def add(self, source: Source) -> None:
         """From now on a source moves the axis too."""
         self._added.append(source)
+
+    def command(self, source: Command) -> None:
+        """From now on an action moves the axis too: its path is where that has it, beside what is added."""
+        self._commands.append(source)
 
     def remove(self, source: Source) -> None:
         """A source moves the axis no more: it is without its share at once."""
@@ -63,7 +76,7 @@ class Axis:
     @property
     def sources(self) -> tuple[Source, ...]:
         """All that moves the axis."""
-        return (self._path, self.offset, self.hand, *self._added)
+        return (self._path, self.offset, self.hand, *self._commands, *self._added)
 
     def setpoint(self, time: float) -> float:
         """Where the axis shall be, the sum of its sources."""
@@ -71,16 +84,25 @@ class Axis:
 
     def beside(self, time: float) -> float:
         """How far the axis is beside its path at a time, all sources together."""
-        return self.uncounted(time) + self.offset.pending + self.hand.at(time)
+        return self.uncounted(time) + self.counted(time) + self.hand.at(time)
 
     def uncounted(self, time: float) -> float:
         """The part of it that coordinates do not know of."""
         return self.offset.shift + sum(source.at(time) for source in self._added)
 
+    def counted(self, time: float) -> float:
+        """The part that they do know of, but for the hand."""
+        return self.offset.pending + sum(source.at(time) for source in self._commands)
+
+    def rebase(self) -> None:
+        """The axis stands, and its path has it where it stands."""
+        for source in self._commands:
+            source.rebase()
+
     @property
     def due(self) -> float:
         """When something happens to one of the sources next; inf where nothing will."""
-        if not self._added:
+        if not self._added and not self._commands:
             return self.hand.due
         return min(source.due for source in self.sources)
 

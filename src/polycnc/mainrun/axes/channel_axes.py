@@ -48,13 +48,19 @@ class ChannelAxes:
         """Where they would be if no operator moved them."""
         time = self._clock.time
         return [
-            place + axis.uncounted(time) + axis.offset.pending
+            place + axis.uncounted(time) + axis.counted(time)
             for place, axis in zip(path, self._axes, strict=True)
         ]
 
     def counted(self, path: Sequence[float]) -> list[float]:
         """What the coordinates know when the path is here."""
-        return [place + axis.offset.pending for place, axis in zip(path, self._axes, strict=True)]
+        time = self._clock.time
+        return [place + axis.counted(time) for place, axis in zip(path, self._axes, strict=True)]
+
+    def rebase(self) -> None:
+        """The axes stand, and the path has them where they stand, but for what coordinates do not know of."""
+        for axis in self._axes:
+            axis.rebase()
 
     def uncounted(self) -> list[float]:
         """What lies between that and the axes."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.mainrun.motion.axis_move import AxisMove, axis_move
-from polycnc.mainrun.motion.follower import Law
+from polycnc.motion.law import Law
 
 if TYPE_CHECKING:
     from polycnc.machine.model import Axis as AxisData

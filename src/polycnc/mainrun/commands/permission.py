@@ -8,23 +8,23 @@ from polycnc.mainrun.commands.states import is_allowed
 from polycnc.mainrun.errors import CommandRefused
 
 if TYPE_CHECKING:
-    from polycnc.control.interface import Control
     from polycnc.mainrun.commands.states import Command
     from polycnc.mainrun.signals.interlocks import Interlocks
     from polycnc.mainrun.status import Status
+    from polycnc.messages import Catalogue
 
 
 class Permission:
     """Asked in front of every command.
 
     Args:
-        control: The control, which knows the texts of refusals.
+        catalogue: The texts of refusals.
         status: Mode and state.
         interlocks: What the machine's controller refuses.
     """
 
-    def __init__(self, control: Control, status: Status, interlocks: Interlocks) -> None:
-        self._control = control
+    def __init__(self, catalogue: Catalogue, status: Status, interlocks: Interlocks) -> None:
+        self._catalogue = catalogue
         self._status = status
         self._interlocks = interlocks
 
@@ -46,5 +46,5 @@ class Permission:
         """
         for word in words:
             if code := self._interlocks.refuses(word):
-                text = self._control.catalogue.text(code)
+                text = self._catalogue.text(code)
                 raise CommandRefused("mainrun.machine", code=code, text=text)

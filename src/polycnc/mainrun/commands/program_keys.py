@@ -8,6 +8,7 @@ from polycnc.mainrun.commands.search import search
 from polycnc.mainrun.commands.states import Command, Mode, State
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.execution.operation import AT_END
+from polycnc.mainrun.signals.machine_states import axis_names
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -32,50 +33,57 @@ class ProgramCommands:
         self._programs = programs
         self._permission = permission
         self._status, self._signals = operation.status, operation.signals
-        self._typed: Program | None = None
-        self._tape: Program | None = None
+        self._typed: dict[int, Program] = {}
+        self._tape: dict[int, Program] = {}
 
     # ---- programs ------------------------------------------------------------------------------------------
 
-    def load(self, source: str | bytes | Path) -> None:
-        """Load a program."""
+    def load(self, source: str | bytes | Path, channel: int) -> None:
+        """Load a program into a channel."""
         self._permission.ask(Command.LOAD)
-        self._programs.load(source)
+        runs = self._operation.runs
+        number = runs.named(channel).number
+        program = self._programs.load(source, number)
         self._signals[AT_END] = 0.0
-        for run in self._operation.runs:
+        for run in runs:
             run.channel.store = self._programs.store
+        runs.group.select(number, program)
 
-    def load_tape(self, source: str | bytes | Path) -> None:
-        """Give the program that comes from outside."""
+    def select(self, program: Program, channel: int) -> None:
+        """A program of the memory becomes the main program of a channel."""
+        number = self._operation.runs.named(channel).number
+        self._programs.select(program, number)
+        self._signals[AT_END] = 0.0
+        self._operation.runs.group.select(number, program)
+
+    def load_tape(self, source: str | bytes | Path, channel: int) -> None:
+        """Give the program of a channel that comes from outside."""
         self._permission.ask(Command.LOAD)
-        self._tape = self._programs.from_outside(source)
+        self._tape[self._operation.runs.named(channel).number] = self._programs.from_outside(source)
 
-    def mdi(self, text: str) -> None:
-        """Type blocks in and start them."""
+    def mdi(self, text: str, channel: int) -> None:
+        """Type blocks in for a channel and start them."""
         self._permission.ask(Command.MDI)
-        self._typed = self._programs.typed(text)
+        self._typed = {self._operation.runs.named(channel).number: self._programs.typed(text)}
         self.cycle_start()
 
-    def teach(self, words: str, line: int | None) -> str:
-        """Write a block with the present position into the loaded program."""
+    def teach(self, words: str, line: int | None, channel: int) -> str:
+        """Write a block with the present position into the program that is loaded in a channel."""
         self._permission.ask(Command.TEACH)
         operation = self._operation
-        position = operation.runs.first.positions(operation.switches.locked_at).work
+        position = operation.positions(operation.runs.named(channel)).work
         block = " ".join(filter(None, (words, *(_word(a, v) for a, v in position.items()))))
-        self._programs.insert(block, line)
+        self._programs.insert(block, line, channel)
         return block
 
-    def block_search(self, target: int | str) -> None:
+    def block_search(self, target: int | str, channel: int) -> None:
         """Search a block with calculation."""
         self._permission.ask(Command.BLOCK_SEARCH)
         operation = self._operation
         if operation.runs.move_by_hand:
             raise CommandRefused("mainrun.moving")
-        program = self._programs.main
-        line = self._programs.line_of(target)
-        if program is None:
-            raise CommandRefused("mainrun.no-program")
-        run = operation.runs.first
+        run = operation.runs.named(channel)
+        program, line = self._programs.main(channel), self._programs.line_of(target, channel)
         here = run.machine_position
         operation.program_mode = Mode.AUTO
         operation.prepare(run)
@@ -87,7 +95,8 @@ class ProgramCommands:
             raise CommandRefused("mainrun.search", target=target)
         run.execution.stand_before(found.position, found.context, found.modal)
         run.take_in_hand(here)
-        operation.collected, operation.searched = found.functions, True
+        operation.collected, operation.searched = {channel: found.functions}, True
+        operation.mains = {channel}
         self._status.become(State.STOPPED, halt="search")
 
     # ---- running -------------------------------------------------------------------------------------------
@@ -106,7 +115,9 @@ class ProgramCommands:
             raise CommandRefused("mainrun.other-mode", mode=operation.program_mode)
         else:
             self._permission.ask_machine("CYCLE_START")
-            returns = operation.searched or operation.runs.first.preprocessing.returns_to_path
+            returns = operation.searched or any(
+                run.preprocessing.returns_to_path for run in operation.runs if run.is_active
+            )
             if operation.runs.left_path and returns:
                 operation.lead_back()
             else:
@@ -115,8 +126,8 @@ class ProgramCommands:
     def _start(self) -> None:
         """A program begins from its top."""
         operation, mode = self._operation, self._status.mode
-        program = {Mode.MDI: self._typed, Mode.TAPE: self._tape}.get(mode, self._programs.main)
-        if program is None:
+        programs = {Mode.MDI: self._typed, Mode.TAPE: self._tape}.get(mode, self._programs.mains)
+        if not programs:
             raise CommandRefused("mainrun.no-program")
         if mode is Mode.AUTO and self._signals[AT_END]:
             raise CommandRefused("mainrun.at-end")
@@ -124,10 +135,12 @@ class ProgramCommands:
         operation.program_mode = mode
         self._status.pulse("STARTED")
         operation.set_rates()
-        run = operation.runs.first
-        operation.prepare(run)
-        run.machinery.reset()
-        run.preprocessing.start(program, run.execution.position)
+        operation.mains = set(programs)
+        for number in sorted(programs):
+            run = operation.runs.named(number)
+            operation.prepare(run)
+            run.machinery.reset()
+            run.preprocessing.start(programs[number], run.execution.position)
         operation.resume()
 
     @property
@@ -137,14 +150,17 @@ class ProgramCommands:
 
     def _intervene(self) -> None:
         """Run what was typed in while a program waits (FANUC 0i-TF Plus II.5.4.7, MDI intervention)."""
-        operation, first = self._operation, self._operation.runs.first
-        others = any(run.is_active for run in operation.runs if run is not first)
-        if self._typed is None or operation.searched or others or not first.preprocessing.is_bare:
+        operation = self._operation
+        active = [run.number for run in operation.runs if run.is_active]
+        if active != list(self._typed) or operation.searched:
+            raise CommandRefused("mainrun.prepared", mode=operation.program_mode)
+        run = operation.runs[active[0]]
+        if not run.preprocessing.is_bare:
             raise CommandRefused("mainrun.prepared", mode=operation.program_mode)
         self._permission.ask_machine("CYCLE_START")
         operation.waiting_mode, operation.program_mode = operation.program_mode, Mode.MDI
-        operation.switches.apply_to(first.channel, typed=True)
-        first.preprocessing.intervene(self._typed)
+        operation.switches.apply_to(run.channel, typed=True)
+        run.preprocessing.intervene(self._typed[run.number])
         operation.go_on_from_here()
 
     def feed_hold(self) -> None:
@@ -176,7 +192,7 @@ class ProgramCommands:
         if self._status.state is State.OFF:
             return
         self._operation.brake(State.OFF)
-        for rule in self._operation.control.plc.rules:
+        for rule in self._operation.machine.plc(self._operation.control.id).rules:
             if rule.latch:
                 self._signals[rule.output] = 0.0
 
@@ -186,7 +202,7 @@ class ProgramCommands:
             return
         runs = self._operation.runs
         if self._signals["INCREMENTAL_ENCODERS"]:
-            for axis in runs.first.channel.axes:
+            for axis in {axis for run in runs for axis in axis_names(run.channel)}:
                 self._signals[f"NOT_REFERENCED_{axis}"] = 1.0
         for run in runs:
             run.forget_shift()
@@ -207,6 +223,9 @@ class ProgramCommands:
                 self.feed_hold()
             self._operation.runs.brake_hands()
             self._status.turn_to(wanted)
+            for run in self._operation.runs:
+                run.interpolator.runs_programs = wanted is self._operation.program_mode
+                run.interpolator.wake()
 
 
 def _word(axis: str, value: float) -> str:

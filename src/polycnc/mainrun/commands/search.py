@@ -17,9 +17,10 @@ if TYPE_CHECKING:
 #: M functions of which the last one before the block is put out, by what they switch. Others belong to their block.
 LASTING = ((3, 4, 5, 13, 14, 19), (7, 8, 9), (50,), (10, 11), (68, 69))
 #: How often the program may compute for an interpolation cycle without coming to a block.
-PATIENCE = 1000
-#: What is looked through at most: a program that begins again at its end (M99) never comes to an end.
-LONGEST = 1_000_000
+PATIENCE = 10_000
+#: What is looked through at most without a block that was not there before: a program that begins again at its end
+#: (M99) never comes to an end.
+LONGEST = 200_000
 
 
 @dataclass(slots=True)
@@ -44,6 +45,7 @@ def search(preprocessing: Preprocessing, program: str, line: int) -> Found | Non
     found = Found(preprocessing.position, Context())
     functions: dict[object, Happening] = {}
     patience, left = PATIENCE, LONGEST
+    blocks: set[tuple[str, int]] = set()
     while patience > 0 and left > 0:
         left -= 1
         patience = PATIENCE if preprocessing.fill() else patience - 1
@@ -61,8 +63,10 @@ def search(preprocessing: Preprocessing, program: str, line: int) -> Found | Non
                 found.functions = list(functions.values())
                 return found
             found.modal = item.modal
+            left = left if (item.program, item.line) in blocks else LONGEST
+            blocks.add((item.program, item.line))
         if isinstance(item, Move):
-            piece, _ = preprocessing.pop_piece()
+            piece, _ = preprocessing.queue.pop_piece()
             found.position, found.context = piece.at(1.0), piece.context
             continue
         preprocessing.items.popleft()

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.motion.skip import LastSkip
 from polycnc.mainrun.commands.programs import text_of
+from polycnc.mainrun.execution.interpolator import ChannelInterpolator
 from polycnc.mainrun.reading.snapshot import ActiveBlock, ChannelSnapshot, Positions, SpindleState, ToolState
 from polycnc.motion.frames import carried, without_transformation
+from polycnc.motion.waits import rpm_at
 from polycnc.toolpath import Context
 
 if TYPE_CHECKING:
@@ -37,6 +40,8 @@ class ChannelRun:
         axes: Its axes, with what moves them beside the path.
         rates: What the operator has set.
         machine_axes: All axes of the machine.
+        parts: How often a program that an operator has started has come to its end.
+        interpolator: The channel as its synchronised actions see it.
     """
 
     channel: Channel
@@ -47,6 +52,12 @@ class ChannelRun:
     axes: ChannelAxes
     rates: Rates
     machine_axes: MachineAxes
+    parts: int = 0
+    interpolator: ChannelInterpolator = field(init=False)
+
+    def __post_init__(self) -> None:
+        """What its actions see of it."""
+        self.interpolator = ChannelInterpolator(self, self.execution.clock)
 
     @property
     def number(self) -> int:
@@ -134,7 +145,7 @@ class ChannelRun:
         """The skip input comes now; the channel knows where the axes are, if a skip move runs."""
         here = self.execution.skip_signal()
         if here is not None:
-            self.channel.memory.note_skip(self.display.work_of(here, self.execution.context))
+            LastSkip.of(self.channel).position = self.display.work_of(here, self.execution.context)
 
     def forget_shift(self) -> None:
         """What was moved with manual absolute off shifts the coordinates no more."""
@@ -147,6 +158,7 @@ class ChannelRun:
         """The real axes stand here and no program runs."""
         path = self.axes.path_at(position)  # while everything is still where it was
         self.axes.leave()
+        self.axes.rebase()
         self.execution.position, self.execution.place = path, Context()
         self.preprocessing.clear(self.execution.position)
         self.show_own_state()
@@ -178,12 +190,16 @@ class ChannelRun:
     def spindle(self) -> SpindleState:
         """The spindle of the block in execution."""
         context = self.execution.context
-        spindle = self.channel.machine.spindle.get(context.spindle)
-        top = spindle.max_rpm if spindle is not None else inf
-        turning = 0.0 if context.surface_speed or not context.spindle_direction else context.spindle_rpm
-        override = self.rates.spindle if context.spindle_override else 1.0
-        rpm = min(turning * override, top)
+        rpm = self.spindle_rpm(context) if context.spindle_direction else 0.0
         return SpindleState(context.spindle, context.spindle_rpm, rpm, context.spindle_direction)
+
+    def spindle_rpm(self, context: Context) -> float:
+        """What the spindle of a context turns with while it turns: by its override, under G96 where the tool is now."""
+        spindle = self.channel.machine.spindle.get(context.spindle)
+        facing = self.display.geometry[0]
+        radius = abs(self.work_position[facing]) if context.surface_speed and facing >= 0 else 0.0
+        override = self.rates.spindle if context.spindle_override else 1.0
+        return min(rpm_at(context, radius, spindle) * override, spindle.max_rpm if spindle else inf)
 
     @property
     def tool(self) -> ToolState:
@@ -191,22 +207,23 @@ class ChannelRun:
         context = self.execution.context
         return ToolState(context.tool, context.tool_name, self.machinery.next_tool)
 
-    @property
-    def snapshot(self) -> ChannelSnapshot:
-        """Everything at once, of one moment."""
+    def snapshot(self, program: str, positions: Positions, spindle: SpindleState) -> ChannelSnapshot:
+        """Everything at once, of one moment; which program is loaded, what is shown, and what turns, others know."""
         execution = self.execution
         return ChannelSnapshot(
             number=self.number,
             runs=self.is_active,
             waits=execution.waits_for_channel,
             halt=execution.halt,
-            positions=self.positions(),
+            positions=positions,
             feed=60.0 * execution.speed,
             block=self.active_block,
             modal=self.modal,
-            spindle=self.spindle,
+            spindle=spindle,
             tool=self.tool,
             messages=tuple(self.machinery.messages),
+            program=program,
+            parts=self.parts,
         )
 
     def show_own_state(self) -> None:
@@ -218,6 +235,7 @@ class ChannelRun:
         """The axes stand: the program is given up, the channel is as after reset."""
         running, modal, context = self.execution.block, self.execution.modal, self.execution.context
         self.execution.abandon()
+        self.interpolator.end(reset=True)
         self.machinery.reset()
         if running is None:
             self.channel.control.reset(self.channel)

@@ -17,6 +17,7 @@ from polycnc.mainrun.execution.machinery import Machinery, Observer
 from polycnc.mainrun.preparation.preprocessing import Preprocessing
 from polycnc.mainrun.reading.display import MainRunDisplay
 from polycnc.mainrun.reading.view import Executed
+from polycnc.mainrun.signals.machine_states import axis_states
 from polycnc.mainrun.signals.program_signals import connect
 from polycnc.messages import AlarmError
 from polycnc.messages.catalogue import listed
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from polycnc.mainrun.preparation.items import Rates
     from polycnc.mainrun.signals.image import SignalImage
     from polycnc.mainrun.signals.interlocks import Interlocks
+    from polycnc.memory.retained import RetainedStore
 
 
 class Supervisor(Observer, Protocol):
@@ -58,6 +60,8 @@ class ChannelRuns:
         signals: The signal image.
         interlocks: What the machine's controller refuses.
         supervisor: Is told of what happens.
+        retained: What outlives the power, of all channels.
+        adopted: Channels that have run so far without a clock, and go on in time; None to make new ones.
 
     Attributes:
         first: The channel that a control has in any case.
@@ -76,14 +80,31 @@ class ChannelRuns:
         signals: SignalImage,
         interlocks: Interlocks,
         supervisor: Supervisor,
+        retained: RetainedStore,
+        adopted: ChannelGroup | None = None,
     ) -> None:
+        self._adopted = adopted is not None
         self._control, self._machine, self._setup, self._programs = control, machine, setup, programs
         self._clock, self._rates, self._signals, self._interlocks = clock, rates, signals, interlocks
-        self._supervisor = supervisor
+        self._supervisor, self._retained = supervisor, retained
         self._runs: dict[int, ChannelRun] = {}
         self.axes = MachineAxes(machine, self._runs)
-        self.first = self._make(machine.channels[0].number, setup)
-        self.group = ChannelGroup(self.first.channel, self._further, supervisor.started)
+        self.first = self._make(
+            machine.channels[0].number, setup, adopted.first if adopted is not None else None
+        )
+        if adopted is None:
+            self.group = ChannelGroup(self.first.channel, self._further, supervisor.started)
+            return
+        self.group = adopted
+        for channel in adopted.channels[1:]:
+            self._make(channel.number, setup, channel)
+
+    def go_on(self) -> None:
+        """The channels that were adopted go on with what they run."""
+        for number, (under_way, wait) in self.group.drive(self._further, self._supervisor.started).items():
+            run = self._runs[number]
+            self._use(run)
+            run.preprocessing.go_on(under_way, run.execution.position, wait)
 
     def __iter__(self) -> Iterator[ChannelRun]:
         return iter(tuple(self._runs.values()))
@@ -150,18 +171,21 @@ class ChannelRuns:
 
     # ---- making channels -----------------------------------------------------------------------------------
 
-    def _make(self, number: int, setup: Setup) -> ChannelRun:
+    def _make(self, number: int, setup: Setup, channel: Channel | None = None) -> ChannelRun:
         """A channel; `switch_on` starts it."""
         machine = self._machine
-        preprocessing = Preprocessing(machine, number, self.axes)
-        channel = Channel(
-            self._control,
-            machine,
-            setup,
-            self._programs.store,
-            number=number,
-            toolpath=preprocessing.toolpath,
-        )
+        known = None if channel is None else channel.toolpath
+        preprocessing = Preprocessing(machine, number, self.axes, known)
+        if channel is None:
+            channel = Channel(
+                self._control,
+                machine,
+                setup,
+                self._programs.store,
+                number=number,
+                toolpath=preprocessing.toolpath,
+                retained=self._retained,
+            )
         machinery = Machinery(number, machine, self._signals, self._clock, self._interlocks, self._supervisor)
         axes = ChannelAxes(
             self.axes.of(number, channel.axis_data, self._control.motion_settings(channel)), self._clock
@@ -175,7 +199,10 @@ class ChannelRuns:
             MainRunDisplay(preprocessing.toolpath, machine, number),
             axes, self._rates, self.axes,
         )  # fmt: skip
-        channel.actual = Executed(run)
+        if known is None:
+            channel.actual = Executed(run)
+        # An axis that several channels have is that of the one made first.
+        self._signals.states = axis_states(channel) | self._signals.states
         return run
 
     def _further(self, number: int) -> Channel:
@@ -194,6 +221,14 @@ class ChannelRuns:
             self._control.start(channel)
         except AlarmError as error:
             self._supervisor.failed(error)
+        except ArithmeticError as error:
+            self._supervisor.failed(self._control.arithmetic_alarm(error))
+        self._use(run)
+
+    def _use(self, run: ChannelRun) -> None:
+        """A channel, which stands, is executed from here on."""
+        channel = run.channel
+        channel.actual = Executed(run)
         connect(channel, self._signals)
         run.preprocessing.use(channel, self._control.motion_settings(channel))
         run.preprocessing.clear(channel.coordinates.machine)

@@ -7,63 +7,41 @@ are, and an override or a hold takes effect at the very moment it is given.
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.intervention import NOTHING_BACK
 from polycnc.channel.waits import TYPED_BLOCKS_DONE, Why
-from polycnc.geometry.tolerances import NO_WAY
+from polycnc.mainrun.execution.beside_path import beyond_limits, stops_beside, taken_back
 from polycnc.mainrun.motion.follower import Follower
-from polycnc.mainrun.motion.geometry import Line
-from polycnc.mainrun.motion.piece_motion import AxesMotion, Motion, PathMotion
-from polycnc.mainrun.preparation.items import Block, BlockEnd, Happening, Move, Rates, Standing
-from polycnc.mainrun.preparation.reapproach import can_begin_elsewhere
-from polycnc.motion.frames import real_of
-from polycnc.motion.kernels.columns import PieceRecord
+from polycnc.mainrun.motion.piece_motion import NO_WAYS, AxesMotion, Motion, PathMotion
+from polycnc.mainrun.motion.speed import FREE, Calm
+from polycnc.mainrun.preparation.items import (
+    Block,
+    BlockEnd,
+    ChannelRates,
+    Happening,
+    Move,
+    Rates,
+    Standing,
+)
+from polycnc.motion.kernels.columns import Form, PieceRecord
 from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.events import Deed
 
 if TYPE_CHECKING:
+    from array import array
     from collections.abc import Callable, Mapping, Sequence
 
+    from polycnc.channel.interpolator import Influence
     from polycnc.mainrun.axes.channel_axes import ChannelAxes
     from polycnc.mainrun.execution.clock import Clock
-    from polycnc.mainrun.preparation.items import Item, Piece
+    from polycnc.mainrun.execution.outside import Machinery
+    from polycnc.mainrun.preparation.items import Piece
     from polycnc.mainrun.preparation.preprocessing import Preprocessing
-    from polycnc.messages import AlarmError
 
 #: Squared speed below which the axes stand, (mm/s)².
 REST2 = 1e-9
-#: Points at which an arc beside its path is held against the limits.
-ARC_POINTS = 48
-
-
-class Machinery(Protocol):
-    """What carries out the program's events on the machine."""
-
-    def skip(self) -> None:
-        """The skip input comes, and goes."""
-
-    def perform(self, happening: Happening) -> None:
-        """An event of the program."""
-
-    def synchronise(self) -> None:
-        """The program is about to read signals."""
-
-    def enter(self, block: Block) -> None:
-        """A block begins."""
-
-    def halted(self, reason: str) -> None:
-        """The run has halted of its own accord."""
-
-    @property
-    def busy(self) -> bool:
-        """Whether functions are under way that the next block waits for."""
-
-    @property
-    def due(self) -> float:
-        """When something happens on the machine next; inf where nothing will."""
-
-    def advance(self, time: float) -> None:
-        """Let happen what is due."""
+#: What the control needs for a block, s; so many are prepared when the axes rest, and executed in no time.
+BLOCK_S, PREPARED = 0.001, 512
 
 
 class Execution:
@@ -71,7 +49,7 @@ class Execution:
 
     Args:
         preprocessing: What is prepared.
-        rates: What the operator has set; tell `revise` when it changes.
+        rates: What the operator has set, for all channels; tell `revise` when it changes.
         machinery: Carries out events.
         axes: The axes of the channel.
         position: Machine position at the start.
@@ -87,6 +65,8 @@ class Execution:
         context: What holds in it.
         axes: The axes, with what moves them beside the path.
         position: Where on the path the axes last were at a joint, and `place` what held there.
+        rates: The speeds of this channel.
+        lingers: Says whether the end of the program has to wait for actions; None where there are none.
     """
 
     def __init__(
@@ -100,7 +80,10 @@ class Execution:
         skip_after_s: float | None = None,
     ) -> None:
         self.preprocessing = preprocessing
-        self.rates = rates
+        self.rates = ChannelRates(rates)
+        self.lingers: Callable[[], bool] | None = None
+        self._gated = False
+        self._awaits: Callable[[], bool] | None = None
         self.clock = clock
         self.running = False
         self.halt = ""
@@ -125,7 +108,9 @@ class Execution:
         self._skips_at = inf
         self._follower = Follower()
         self._behind = 0.0
+        self._calm = FREE
         self._rest_time = 0.0
+        self._worked_until = -inf
 
     # ---- what a panel reads --------------------------------------------------------------------------------
 
@@ -134,6 +119,13 @@ class Execution:
         """Whether the axes move now."""
         leads = self.motion is not None and self.motion.speed(self.clock.time) > 0.0
         return leads or self.clock.time < self._rest_time
+
+    @property
+    def rests(self) -> bool:
+        """Whether no motion is under way, nor comes next."""
+        items = self.preprocessing.items
+        comes = bool(items) and isinstance(items[0], Move) and self.running
+        return self.motion is None and not comes and self.clock.time >= self._rest_time
 
     @property
     def speed(self) -> float:
@@ -188,6 +180,8 @@ class Execution:
             elif self.motion is not None:
                 if self.motion.end <= self.clock.time:
                     self._arrive()
+                elif self.rates.stops and self.motion.rest <= self.clock.time:
+                    self._drop()
             elif self._go_on():
                 self._blocked = False
             else:
@@ -227,6 +221,8 @@ class Execution:
         assert motion is not None
         self._x2 = motion.end2 if motion.end2 > REST2 else 0.0
         self.position = motion.piece.at(1.0)
+        if isinstance(motion, PathMotion):
+            self._calm = motion.calm(self.clock.time)
         self.motion, self._skips_at = None, inf
         if motion.piece.left > 0.0 and isinstance(motion, PathMotion):
             self._coast(motion, 0.5 * self._follower.window)
@@ -258,7 +254,7 @@ class Execution:
             self._lead()
         self._x2, self._moved_on = 0.0, True
         while self.preprocessing.items and isinstance(self.preprocessing.items[0], Move):
-            self.preprocessing.pop_piece()
+            self.preprocessing.queue.pop_piece()
 
     def skip_signal(self) -> list[float] | None:
         """The skip input comes now: where the axes are if a skip move runs, else None."""
@@ -272,11 +268,41 @@ class Execution:
             self._come_to_rest()
         return here
 
+    def drop_rest(self) -> bool:
+        """The axes brake on the path, and what is left of the move that runs is dropped; whether one runs."""
+        if self.motion is None or self.rates.stops:
+            return False
+        motion = self.motion
+        self.preprocessing.cut(motion.piece.row)
+        self.rates.stops = True
+        self.revise()
+        if motion.rest <= self.clock.time:
+            self._drop()
+        return True
+
+    def _drop(self) -> None:
+        """The axes have braked: what is left of the block is no more."""
+        if self.motion is not None:
+            self.position = self.motion.machine(self.clock.time)
+            self.motion = None
+            self._come_to_rest()
+        self.rates.stops, self._moved_on = False, True
+        self._x2, self._skips_at = 0.0, inf
+        while self.preprocessing.items and isinstance(self.preprocessing.items[0], Move):
+            self.preprocessing.queue.pop_piece()
+
     def _go_on(self) -> bool:
         """Begin what comes next; false where nothing can begin now."""
         self._waiting = False
         if not self.running:
             return False
+        if self.rates.stops and self._x2 == 0.0:
+            self._drop()
+        if self._awaits is not None and self._awaits():
+            due = self.axes.due
+            self._until = max(self.clock.time + self.clock.cycle_s, due if due < inf else 0.0)
+            return True
+        self._awaits = None
         filled = self.preprocessing.fill(one_block=self.single_block)
         if self.preprocessing.revised:
             self._look_ahead()
@@ -285,6 +311,9 @@ class Execution:
         item = self.preprocessing.items[0]
         if isinstance(item, Move):
             return self._begin(item)
+        if self.rates.influence.holds_next and self._x2 == 0.0 and isinstance(item, Block):
+            self._until = self.clock.time + self.clock.cycle_s
+            return True
         held = self.context.feed_hold or (isinstance(item, Block) and self._may_hold())
         held = self.rates.gives_up or (self.rates.hold and held)
         if held and self._x2 == 0.0 and not isinstance(item, BlockEnd):
@@ -323,6 +352,9 @@ class Execution:
 
     def _end(self, reason: str) -> bool:
         """What runs is over once the machine has done its functions; whether that is still to come."""
+        if self.lingers is not None and self.lingers():
+            self._until = self.clock.time + self.clock.cycle_s
+            return True
         self._waiting = self._machinery.busy
         if not self._waiting:
             self.preprocessing.proceed()
@@ -354,6 +386,7 @@ class Execution:
         self.preprocessing.items.popleft()
         if isinstance(item, Block):
             self._enter(item)
+            self._work()
         elif isinstance(item, BlockEnd):
             if self.single_block and self._x2 == 0.0 and not self.preprocessing.typed_blocks_end:
                 self._stop("single-block")
@@ -364,9 +397,17 @@ class Execution:
             self.context = item.context
             self._machinery.perform(item)
             self._waiting = item.stands
+            self._awaits = item.event.awaits if isinstance(item.event, Deed) else None
             if self._machinery.busy:
                 self._look_ahead()
         return self.running
+
+    def _work(self) -> None:
+        """A block costs the control its time: a loop without a way, which has used up what was prepared, lasts."""
+        ready = self.clock.time - BLOCK_S * PREPARED
+        self._worked_until = max(self._worked_until, ready) + BLOCK_S
+        if self._x2 == 0.0:
+            self._until = max(self._until, self._worked_until)
 
     def _enter(self, block: Block) -> None:
         self.block, self.modal = block, block.modal
@@ -375,7 +416,7 @@ class Execution:
     def _begin(self, move: Move) -> bool:
         """Start along the next piece of a move."""
         if self._x2 == 0.0 and self.axes.have_offset:
-            if (error := self._beyond(move)) is not None:
+            if (error := beyond_limits(move, self.axes, self.preprocessing.channel)) is not None:
                 self.preprocessing.refuse(error)
                 return True
             if self._take_back(move, self.position):
@@ -387,7 +428,7 @@ class Execution:
         if self._x2 == 0.0 and cap2 == 0.0:
             return False
         preprocessing = self.preprocessing
-        piece, record = preprocessing.pop_piece()
+        piece, record = preprocessing.queue.pop_piece()
         self.context = self.place = piece.context
         self._cap2 = cap2
         if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
@@ -414,9 +455,21 @@ class Execution:
                 preprocessing.reach2,
                 cap2,
                 follower.window,
+                *self._steadiness(record),
             )
         self._lead()
+        if not self.preprocessing.queue.suits(self.rates, at_rest=False):
+            self._lay_again(self.motion)
         return True
+
+    def _steadiness(self, record: array[Any]) -> tuple[Calm, tuple[float, float]]:
+        """Of a piece of a line from rest to rest: how long it keeps its speed, and how far behind it the axes rest."""
+        ramp = record[PieceRecord.RAMP]
+        if record[PieceRecord.BLEND] != 0.0 or record[PieceRecord.FORM] != Form.STRAIGHT or ramp == 0.0:
+            return FREE, NO_WAYS
+        if self._x2 == 0.0:
+            self._calm = Calm(ramp)
+        return self._calm, self.preprocessing.ways_to_rest
 
     # ---- changes -------------------------------------------------------------------------------------------
 
@@ -425,9 +478,11 @@ class Execution:
         self.preprocessing.revise(
             self.rates,
             self._cap2,
-            gated=self._machinery.busy,
+            gated=self._gated or self._machinery.busy,
             single_block=self.single_block,
-            stops=self._stops_beside() if self.axes.have_offset else None,
+            stops=stops_beside(self.block, self.axes, self.preprocessing.channel)
+            if self.axes.have_offset
+            else None,
         )
 
     def revise(self) -> None:
@@ -435,13 +490,66 @@ class Execution:
         self._blocked = False
         motion = self.motion
         if motion is None:
+            if not self.preprocessing.queue.suits(self.rates, at_rest=self._x2 == 0.0):
+                self.preprocessing.queue.lay_again(self.rates)
             self._look_ahead()
+            return
+        if not self.preprocessing.queue.suits(self.rates, at_rest=False) and self._lay_again(motion):
             return
         piece = motion.piece
         self._cap2 = self.rates.cap2(piece, piece.cap2, piece.asked)
         self._look_ahead()
+        if isinstance(motion, PathMotion) and motion.is_bound:
+            motion.ahead = self.preprocessing.ways_to_rest
         motion.revise(self.clock.time, self.preprocessing.reach2, self._cap2, self.rates)
         self._lead()
+
+    def _lay_again(self, motion: Motion) -> bool:
+        """Lay out again what lies ahead; true where the motion goes on along another piece of its row.
+
+        Bounds of faster curves reach farther back. Where the axes could not brake to these any more, it stays as it is.
+        """
+        time, follower = self.clock.time, self._follower
+        open_row = isinstance(motion, PathMotion) and not motion.is_bound and not motion.piece.is_coasting
+        done = motion.done(time) if isinstance(motion, PathMotion) else 0.0
+        found = self.preprocessing.queue.lay_again(self.rates, motion.piece.row if open_row else None, done)
+        if found is None or not isinstance(motion, PathMotion):
+            return False
+        piece, record, here = found
+        speed, cap2 = motion.speed(time), self._cap2
+        self._cap2 = self.rates.cap2(piece, piece.cap2, piece.asked)
+        self._look_ahead()
+        left = record[PieceRecord.LENGTH] - here
+        reach2 = self.preprocessing.reach2 + 2.0 * record[PieceRecord.PULL] * left
+        if record[PieceRecord.FORM] != Form.CURVED and speed * speed > reach2 + REST2:
+            self.preprocessing.queue.lay_back()
+            self._cap2 = cap2
+            return False
+        if follower.window > 0.0:
+            follower.exchange(piece, record[PieceRecord.LENGTH], done - here)
+        self.motion = PathMotion(
+            piece, record, self.preprocessing.limits, time, speed * speed, self.preprocessing.reach2, self._cap2,
+            follower.window, done=here,
+        )  # fmt: skip
+        self._lead()
+        return True
+
+    def influence(self, influence: Influence) -> None:
+        """What actions make of the speeds from now on."""
+        if influence != self.rates.influence:
+            self.rates.influence = influence
+            self.revise()
+
+    def gate(self, *, closed: bool) -> None:
+        """Whether every block ends in an exact stop, because an action may hold the next one."""
+        if closed is not self._gated:
+            self._gated = closed
+            self.revise()
+
+    def place_axis(self, column: int, position: float) -> None:
+        """An axis, which stands, is elsewhere than the path has led it; the path goes on from there."""
+        self.position[column] = position
+        self.preprocessing.place_axis(column, position)
 
     # ---- beside the path -----------------------------------------------------------------------------------
 
@@ -454,54 +562,17 @@ class Execution:
 
     def _take_back(self, piece: Move | Piece, here: Sequence[float]) -> bool:
         """Let the row of a piece go to its end from where the axes are; false where it does not do that."""
-        if self.block is None or not can_begin_elsewhere(piece):
-            return False
-        back = self.block.takes_back
-        moved = sum(1 << i for i, (a, b) in enumerate(zip(here, piece.way.end, strict=True)) if a != b)
-        axes = back.at_once | (back.by_move & moved)
-        if not self.axes.is_pending(axes):
-            return False
-        taken = self.axes.take_back(axes)
-        self.position = [a + b for a, b in zip(here, taken, strict=True)]
-        self.preprocessing.begin_elsewhere(piece, self.position)
-        return True
-
-    def _stops_beside(self) -> Callable[[Item], bool]:
-        """Says of one item after the other whether the axes stand in front of it: it leads them back, or too far."""
-        back = self.block.takes_back if self.block is not None else NOTHING_BACK
-
-        def stops(item: Item) -> bool:
-            nonlocal back
-            if isinstance(item, Block):
-                back = item.takes_back
-                return self.axes.is_pending(back.at_once | back.by_move)
-            if not isinstance(item, Move):
-                return False
-            return (item.done == 0.0 and self.axes.is_pending(back.by_move)) or self._beyond(item) is not None
-
-        return stops
-
-    def _beyond(self, move: Move) -> AlarmError | None:
-        """The alarm of a move that would lead the axes, which are beside the path, out of their limits."""
-        channel = self.preprocessing.channel
-        shares = (1.0,) if isinstance(move.way, Line) else (k / ARC_POINTS for k in range(1, ARC_POINTS + 1))
-        for share in shares:
-            place = move.way.at(share)
-            end = self.axes.without_hand(real_of(place, move.context, channel.coordinates.geometry))
-            for axis, (value, (low, high)) in enumerate(zip(end, channel.limits, strict=False)):
-                if not low - NO_WAY <= value <= high + NO_WAY:
-                    error: AlarmError = channel.control.over_travel(
-                        channel.axes[axis], 1 if value > high else -1
-                    )
-                    error.line = move.line
-                    return error
-        return None
+        taken = taken_back(self.block, piece, here, self.axes)
+        if taken is not None:
+            self.position = taken
+            self.preprocessing.begin_elsewhere(piece, taken)
+        return taken is not None
 
     def _take_in_offset(self) -> None:
         """Nothing is prepared: what the axes were moved by hand is where the program goes on from."""
         if self.axes.have_pending:
-            self.position = self.axes.counted(self.position)
             self._by_hand = tuple(self.axes.take_back(-1))
+            self.position = [a + b for a, b in zip(self.position, self._by_hand, strict=True)]
             self._moved_on = True
 
     def stand_before(self, position: list[float], context: Context, modal: Mapping[str, str]) -> None:
@@ -509,14 +580,18 @@ class Execution:
         self.position, self.modal = position, modal
         self.context = self.place = context
 
+    @property
+    def knows_when(self) -> bool:
+        """Whether it is known when what is waited for comes, and not soon: a dwell."""
+        return self._awaits is None and self._until > self.clock.time + 1.0
+
     def start(self) -> None:
         """Go on, or begin."""
         self.running, self.halt = True, ""
         self.revise()
 
     def _stop(self, reason: str) -> None:
-        self.running, self.halt, self.attention = False, reason, True
-        self._x2 = 0.0
+        self.running, self.halt, self.attention, self._x2 = False, reason, True, 0.0
         self._machinery.halted(reason)
 
     def stop(self, reason: str) -> None:
@@ -527,9 +602,8 @@ class Execution:
         """Give up what is left: reset. The axes stand where they are, or have been braked before."""
         self.position = self.axes.counted(self.machine)
         self.axes.take_back(-1)
-        self.motion = None
-        self.running, self.halt = False, ""
-        self._x2, self._until, self._skips_at = 0.0, self.clock.time, inf
-        self._rest_time = self.clock.time
-        self.block = None
+        self.axes.rebase()
+        self.motion, self.running, self.halt = None, False, ""
+        self._x2, self._until, self._rest_time, self._skips_at = 0.0, self.clock.time, self.clock.time, inf
+        self.block, self.rates.stops, self._awaits = None, False, None
         self.preprocessing.clear(self.position)

@@ -9,12 +9,15 @@ from polycnc.mainrun.signals.interlocks import word_of
 from polycnc.motion.waits import ORIENT
 from polycnc.toolpath.events import (
     Auxiliary,
+    BuilderCode,
+    Deed,
     InterlockQuery,
     Message,
     Print,
     Raised,
     SignalWrite,
     Stop,
+    StoredWrite,
     ToolSelection,
 )
 
@@ -86,7 +89,7 @@ class Machinery:
         self._signals = signals
         self._clock = clock
         self._number, self._interlocks, self._observer = number, interlocks, observer
-        self._running: dict[int, float] = {}
+        self._running: dict[str, float] = {}
 
     @property
     def busy(self) -> bool:
@@ -98,19 +101,19 @@ class Machinery:
         """When a function is done, or a rule of the machine acts."""
         if not self._running:
             return self._signals.due
-        if any(end == inf and self._signals.is_done(code) for code, end in self._running.items()):
+        if any(end == inf and self._signals.is_done(word) for word, end in self._running.items()):
             return self._clock.time
         return min(min(self._running.values(), default=inf), self._signals.due)
 
     def advance(self, time: float) -> None:
         """Let functions end and rules act."""
         self._signals.advance(time)
-        for code in [code for code, end in self._running.items() if end <= time]:
-            del self._running[code]
-            self._signals.finish(code)
-        for code in [code for code in self._running if self._signals.is_done(code)]:
-            del self._running[code]
-            self._signals.finish(code)
+        for word in [word for word, end in self._running.items() if end <= time]:
+            del self._running[word]
+            self._signals.finish(word)
+        for word in [word for word in self._running if self._signals.is_done(word)]:
+            del self._running[word]
+            self._signals.finish(word)
 
     def skip(self) -> None:
         """The skip input comes, and goes."""
@@ -133,18 +136,27 @@ class Machinery:
         """Carry out an event."""
         event = happening.event
         if isinstance(event, InterlockQuery):
-            self._interlocks.refuses(event.word)
+            if not self._interlocks.refuses(event.word):
+                self._interlocks.answer(event.word)
             return
         self._observer.performs(self._number, event)
+        if isinstance(event, Deed):
+            event.do()
+            return
         if isinstance(event, ToolSelection):
             self.next_tool = event.tool if isinstance(event.tool, str) else int(event.tool)
         word = word_of(event)
         if word and ((self.mst_lock and word not in PROGRAM_ENDS) or self._interlocks.refuses(word)):
             return
         if isinstance(event, Auxiliary):
-            self._begin(event.code, happening.context)
+            self._begin(word, self._seconds(event, happening.context))
+        elif isinstance(event, BuilderCode):
+            function = self._machine.g_functions.get(event.code)
+            self._begin(word, function.seconds if function is not None else 0.0)
         elif word:
             self._interlocks.answer(word)
+        elif isinstance(event, StoredWrite):
+            event.store()
         elif isinstance(event, SignalWrite):
             self._signals[event.name] = event.value
         elif isinstance(event, Message | Print):
@@ -154,20 +166,24 @@ class Machinery:
         elif isinstance(event, Stop) and (event.code not in OPTIONAL_STOPS or self.optional_stop):
             self._observer.stops(self._number, event.code)
 
-    def _begin(self, code: int, context: Context) -> None:
-        """An M function goes out to the machine."""
-        function = self._machine.m_functions.get(code)
+    def _seconds(self, event: Auxiliary, context: Context) -> float:
+        """How long an M function takes."""
+        function = self._machine.m_functions.get(event.code)
         seconds = function.seconds if function is not None else 0.0
-        if code == ORIENT:
+        if event.code == ORIENT:
             spindle = self._machine.spindle.get(context.spindle)
             seconds += spindle.orient_s if spindle is not None else 0.0
-        awaited = self._signals.begin(code)
+        return seconds
+
+    def _begin(self, word: str, seconds: float) -> None:
+        """A function goes out to the machine."""
+        awaited = self._signals.begin(word)
         if awaited:
-            self._running[code] = inf
+            self._running[word] = inf
         elif seconds > 0.0:
-            self._running[code] = self._clock.time + seconds
+            self._running[word] = self._clock.time + seconds
         else:
-            self._signals.finish(code)
+            self._signals.finish(word)
 
     def reset(self) -> None:
         """Forget functions under way and messages."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from math import inf
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from polycnc.channel.waits import TYPED_BLOCKS_DONE
@@ -11,7 +12,7 @@ from polycnc.mainrun.commands.states import Mode, State
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.execution.channel_runs import ChannelRuns
 from polycnc.mainrun.execution.machinery import SKIP_SIGNAL
-from polycnc.mainrun.signals.machine_states import axis_states, machine_states, turn_magazine
+from polycnc.mainrun.signals.machine_states import axis_names, machine_states, turn_magazine
 from polycnc.mainrun.signals.program_signals import give
 from polycnc.messages import Alarm, AlarmError
 from polycnc.toolpath.events import Auxiliary
@@ -19,18 +20,21 @@ from polycnc.toolpath.events import Auxiliary
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
+    from polycnc.channel.group import ChannelGroup
     from polycnc.channel.waits import Wait
     from polycnc.control.interface import Control
     from polycnc.machine.model import Machine
     from polycnc.machine.setup.values import Setup
     from polycnc.mainrun.commands.programs import Programs
-    from polycnc.mainrun.commands.switches import Switches
+    from polycnc.mainrun.commands.settings import Switches
     from polycnc.mainrun.execution.channel_run import ChannelRun
     from polycnc.mainrun.execution.clock import Clock
     from polycnc.mainrun.preparation.items import Block, Happening
+    from polycnc.mainrun.reading.snapshot import Positions
     from polycnc.mainrun.signals.image import SignalImage
     from polycnc.mainrun.signals.interlocks import Interlocks
     from polycnc.mainrun.status import Status
+    from polycnc.memory.retained import RetainedStore
     from polycnc.toolpath import Event
 
 #: Programmed stops that the machine's rules know of.
@@ -46,6 +50,11 @@ FEED_IS_100 = "F_100"
 #: What the reasons of a halt lead to; every other one stops.
 HALTS = {"end": State.READY, "alarm": State.ALARM}
 
+#: What the signals begin with that programs read as variables of the same names.
+READ_IN_PROGRAMS = "$A_"
+
+_number = attrgetter("number")
+
 
 class Operation:
     """The channels of a control, and what it does with them.
@@ -60,6 +69,8 @@ class Operation:
         signals: The signal image.
         interlocks: What the machine's controller refuses.
         status: Mode, state and alarms.
+        retained: What outlives the power.
+        adopted: Channels that have run so far without a clock; None to switch new ones on.
 
     Attributes:
         runs: The channels.
@@ -67,7 +78,8 @@ class Operation:
         program_mode: The mode in which the program was started that runs or waits.
         waiting_mode: The same of a program that waits while typed blocks run in its midst.
         searched: A block search has come to its block; cycle start leads the axes there.
-        collected: Auxiliary functions that the search has collected.
+        collected: Auxiliary functions that the search has collected, by channel.
+        mains: Channels whose programs the operator has started; programs start those of others.
     """
 
     def __init__(
@@ -81,23 +93,40 @@ class Operation:
         signals: SignalImage,
         interlocks: Interlocks,
         status: Status,
+        retained: RetainedStore,
+        adopted: ChannelGroup | None = None,
     ) -> None:
+        self._resets_at_end = adopted is None
         self.control, self.machine = control, machine
         self.clock, self.switches, self.signals, self.interlocks = clock, switches, signals, interlocks
-        self.status = status
+        self.status, self._retained = status, retained
         self.keys: Mapping[str, Callable[[], None]] = {}
         self.program_mode = self.waiting_mode = Mode.AUTO
         self.searched = False
-        self.collected: list[Happening] = []
+        self.collected: dict[int, list[Happening]] = {}
+        self.mains: set[int] = set()
         self._giving_up = self._returning = False
         self._pressed: list[str] = []
         signals.on_edge = self._edge
         interlocks.on_alarm = self._machine_alarm
         self.runs = ChannelRuns(
-            control, machine, setup, programs, clock, switches.rates, signals, interlocks, self
+            control,
+            machine,
+            setup,
+            programs,
+            clock,
+            switches.rates,
+            signals,
+            interlocks,
+            self,
+            retained,
+            adopted,
         )
-        signals.states = {**machine_states(self), **axis_states(self)}
-        self.runs.switch_on(self.runs.first)
+        signals.states |= machine_states(
+            self.runs.first.channel, self.runs, switches, lambda: self.program_spindle
+        )
+        if adopted is None:
+            self.runs.switch_on(self.runs.first)
         status.show()
         signals.scan()
         interlocks.look()
@@ -134,8 +163,13 @@ class Operation:
         if self.status.mode is Mode.REFERENCE and not goals:
             self._note_references()
 
+    def positions(self, run: ChannelRun) -> Positions:
+        """Positions of a channel as its displays show them."""
+        return run.positions(self.switches.locked_at.get(run.number))
+
     def prepare(self, run: ChannelRun) -> None:
-        """Before a program of a channel begins: it is where its axes are."""
+        """Before a program of a channel begins: it is where its axes are, and locked axes stand there."""
+        self.switches.lock(run)
         run.channel.coordinates.arrive_machine(list(run.execution.position))
         self.switches.apply_to(run.channel, typed=self.program_mode is Mode.MDI)
 
@@ -145,6 +179,8 @@ class Operation:
         self._returning = self.searched = rates.hold = rates.gives_up = False
         for run in self.runs:
             run.axes.leave()
+            run.interpolator.runs_programs = True
+            run.interpolator.hold()
         self._end_halt()
         self.status.become(State.RUNNING)
         for run in self.runs:
@@ -161,9 +197,10 @@ class Operation:
     def lead_back(self) -> None:
         """Axes that were moved by hand go to where the program waits, which then goes on."""
         self.status.become(State.RUNNING)
-        for happening in self.collected:
-            self.runs.first.machinery.perform(happening)
-        self.collected = []
+        for number, happenings in self.collected.items():
+            for happening in happenings:
+                self.runs[number].machinery.perform(happening)
+        self.collected = {}
         self._returning = True
         for run in self.runs:
             if run.axes.by_hand:
@@ -187,6 +224,8 @@ class Operation:
         self.switches.rates.hold = True
         self.runs.revise()
         self.runs.brake_hands()
+        for run in self.runs:
+            run.interpolator.hold()
         self._returning = False
 
     def give_up(self) -> None:
@@ -203,8 +242,9 @@ class Operation:
                 self.control.stop_spindles(run.channel)
             run.stand_at(position)
             self.prepare(run)
+        self._retained.commit()
         if not self.status.is_locked:
-            self.status.alarms = ()
+            self.status.show_alarms(())
             self.status.become(State.READY)
             self.interlocks.look()
 
@@ -217,7 +257,7 @@ class Operation:
 
     def _note_references(self) -> None:
         """Axes that have come to their reference points know their position."""
-        for name in self.runs.first.channel.axes:
+        for name in {name for run in self.runs for name in axis_names(run.channel)}:
             if self.signals[f"NOT_REFERENCED_{name}"] and self.signals[f"{name}_AT_REFERENCE"]:
                 self.signals[f"NOT_REFERENCED_{name}"] = 0.0
 
@@ -226,13 +266,13 @@ class Operation:
         here = [run for run in self.runs if run.is_active]
         if not here or any(not run.execution.waits_for_channel for run in here):
             return
-        first = self.runs.first
-        if first.is_active:
+        first = min((run for run in here if run.number in self.mains), key=_number, default=None)
+        if first is not None:
             first.preprocessing.fail(AlarmError("PC0005"))
             first.execution.start()
             return
         for run in here:
-            run.give_up()  # the run ends with the first channel
+            run.give_up()  # the run ends with what the operator has started
         if self.status.state is State.RUNNING:
             self.status.become(State.READY, halt="end")
 
@@ -248,9 +288,6 @@ class Operation:
         switches.set_rates(
             feed_is_100=bool(self.signals[FEED_IS_100]), dry_run=settings.dry_run if in_dry_run else None
         )
-        dry = switches.rates.dry_run
-        for run in self.runs:
-            run.preprocessing.free_threads(free=dry is not None and dry.with_spindle)
         self.runs.revise()
 
     # ---- what happens on the channels ----------------------------------------------------------------------
@@ -260,7 +297,7 @@ class Operation:
         run = self.runs[number]
         self.prepare(run)
         run.machinery.reset()
-        self.runs.first.execution.attention = True
+        self._call_attention()
         run.preprocessing.begin(waits, run.execution.position)
         run.execution.single_block = bool(self.switches.panel.single_block)
         if self.status.state is State.RUNNING:
@@ -274,21 +311,22 @@ class Operation:
         """An event of a program is carried out."""
         self.status.report("event", number, type=event.type, **event.data)
         code = event.code if isinstance(event, Auxiliary) else -1
-        if code in PROGRAM_ENDS and self.control.stays_at_end(self.runs.first.channel, code):
+        if code in PROGRAM_ENDS and self.control.stays_at_end(self.runs[number].channel, code):
             self.signals[AT_END] = 1.0
 
     def enters(self, number: int, block: Block) -> None:
         """A block begins."""
         self.status.report("block", number, program=block.program, line=block.line)
+        self.runs[number].interpolator.enter(block)
 
     def reads_signals(self, number: int) -> None:
         """A program is about to read signals."""
-        give(self.runs[number].channel, self.signals)
+        give(self.runs[number].channel, self.signals.values)
 
     def stops(self, number: int, code: str) -> None:
         """A programmed stop, or `alarm`."""
         if code == "alarm":
-            self.status.alarms = tuple(self.runs.first.channel.alarms)
+            self.status.show_alarms(tuple(self.runs[number].channel.alarms))
         self.runs[number].execution.stop(code)
 
     def halted(self, number: int, reason: str) -> None:
@@ -311,20 +349,34 @@ class Operation:
         if reason == "alarm" and others:
             self.switches.rates.hold = True
             self.runs.revise()
-        if reason == "end" and run is self.runs.first:
-            self.status.parts += self.program_mode is not Mode.MDI
+        if reason == "end":
+            run.interpolator.end(reset=False)
+        elif reason == "alarm":
+            run.interpolator.stop_axes()
+        if reason == "end" and number in self.mains and self._resets_at_end:
+            run.parts += self.program_mode is not Mode.MDI
             if self.program_mode is not Mode.MDI:
                 self.control.reset(run.channel)
             run.show_own_state()
+            self._retained.commit()
+
+    def _call_attention(self) -> None:
+        """Something has happened that channels which run freely have to look up for."""
+        for run in self.runs:
+            run.execution.attention = True
 
     # ---- what happens on the machine -----------------------------------------------------------------------
 
     def _edge(self, name: str, value: float) -> None:
         """A signal has changed."""
         self.status.report("signal", name=name, value=value)
+        if name.startswith(READ_IN_PROGRAMS):
+            for run in self.runs:
+                give(run.channel, {name: value})
+                run.interpolator.wake()
         if name in self.keys and value:
             self._pressed.append(name)
-            self.runs.first.execution.attention = True
+            self._call_attention()
         if name == SKIP_SIGNAL and value:
             for run in self.runs:
                 run.skip_signal()
@@ -338,10 +390,13 @@ class Operation:
         status = self.status
         if any(alarm.code == code for alarm in status.alarms):
             return
-        block = self.runs.first.execution.block if status.state is State.RUNNING else None
-        place = (block.program, block.line) if block is not None else ("", 0)
-        status.alarms = (*status.alarms, Alarm(self.control.id, code, *place))
-        status.report("event", 1, type="alarm", code=code, line=place[1], program=place[0])
+        number, place = self.runs.first.number, ("", 0)
+        if status.state is State.RUNNING:
+            blocks = ((run.number, run.execution.block) for run in self.runs)
+            found = ((at, (block.program, block.line)) for at, block in blocks if block is not None)
+            number, place = next(found, (number, place))
+        status.show_alarms((*status.alarms, Alarm(self.control.id, code, *place)))
+        status.report("event", number, type="alarm", code=code, line=place[1], program=place[0])
         if not status.is_locked and status.state is not State.BRAKING:
             self._bring_to_rest()
             status.become(State.ALARM, halt="alarm")
@@ -351,4 +406,4 @@ class Operation:
         """Direction in which a program that waits wants to find the spindle turning: 1, -1, 0 for none."""
         if self.collected or self.switches.panel.mst_lock:  # cycle start starts it, or the program cannot
             return 0
-        return self.runs.first.execution.context.spindle_direction
+        return next(filter(None, (run.execution.context.spindle_direction for run in self.runs)), 0)

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from math import copysign
 
 from polycnc.geometry.tolerances import NO_WAY
-from polycnc.mainrun.motion.speed import Phase, Profile, straight_profile
+from polycnc.mainrun.motion.speed import FREE, Calm, Profile, straight_profile
 from polycnc.motion.averaging import way_after
+from polycnc.motion.law import Phase
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +47,13 @@ class AxisMove:
 
 
 def axis_move(
-    position: float, velocity: float, target: float, speed: float, pull: float, since: float
+    position: float,
+    velocity: float,
+    target: float,
+    speed: float,
+    pull: float,
+    since: float,
+    calm: Calm = FREE,
 ) -> AxisMove:
     """The quickest way to rest at a target, or as near behind it as the axis can brake, and then back.
 
@@ -57,11 +64,13 @@ def axis_move(
         speed: How fast it may move; 0 lets it brake where it is.
         pull: Its acceleration.
         since: The time.
+        calm: How long it must keep its speed before its acceleration, signed, changes its sign.
     """
     phases: list[Phase] = []
     place, braking = position, velocity * velocity / (2.0 * pull)
     if speed <= 0.0:
-        target = position + copysign(braking, velocity)
+        wait = calm.before_down if velocity > 0.0 else calm.before_up
+        target = position + copysign(braking + abs(velocity) * wait, velocity)
     way = target - position
     if velocity and (way * velocity <= 0.0 or braking > abs(way) + NO_WAY):
         seconds = abs(velocity) / pull
@@ -71,6 +80,7 @@ def axis_move(
     if abs(way) > NO_WAY and (speed > 0.0 or velocity):
         cap = speed if speed > 0.0 else abs(velocity)
         sign = copysign(1.0, way)
-        profile: Profile = straight_profile(abs(way), velocity * velocity, 0.0, cap * cap, pull)
+        own = calm if sign > 0.0 else Calm(calm.level, calm.before_down, calm.before_up)
+        profile: Profile = straight_profile(abs(way), velocity * velocity, 0.0, cap * cap, pull, own)
         phases += [Phase(p.seconds, sign * p.way, sign * p.speed, sign * p.pull) for p in profile.phases]
     return AxisMove(position, tuple(phases), since, target)

@@ -9,85 +9,21 @@ interpolator.
 
 from __future__ import annotations
 
-from bisect import bisect_right
-from math import inf
+from bisect import bisect_left, bisect_right
 from typing import TYPE_CHECKING
 
-from polycnc.motion.averaging import PARTS, TENT, area_after, average, way_after
+from polycnc.motion.averaging import under_tent
 from polycnc.motion.kernels.jerk import window_s
+from polycnc.motion.law import Law
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
-    from polycnc.mainrun.motion.speed import Phase
     from polycnc.mainrun.preparation.items import Piece
+    from polycnc.motion.law import Phase
 
 #: Phases that are kept before old ones are dropped.
 KEPT = 256
-
-
-class Law:
-    """One place over time: phases of constant acceleration, at rest before and behind them.
-
-    Args:
-        time: When it begins.
-        place: Where it is then.
-    """
-
-    def __init__(self, time: float, place: float) -> None:
-        # When a phase begins, where, speed and pull in it, and the area below the places before it.
-        self._rows = [(time, place, 0.0, 0.0, 0.0)]
-        self._origin = place
-
-    def run(self, time: float, place: float, phases: Iterable[Phase]) -> None:
-        """What happens from a time on, in place of what was said before."""
-        rows = self._rows
-        while len(rows) > 1 and rows[-1][0] >= time:
-            rows.pop()
-        area = self._area(time)
-        for phase in phases:
-            rows.append((time, place, phase.speed, phase.pull, area))
-            area += area_after(phase.seconds, place - self._origin, phase.speed, phase.pull)
-            time, place = time + phase.seconds, place + phase.way
-        rows.append((time, place, 0.0, 0.0, area))
-
-    def forget(self, before: float) -> None:
-        """Nobody will ask for a time before this one; areas count from there, so that they stay small and exact."""
-        last = bisect_right(self._rows, (before, inf)) - 1
-        if last > 0:
-            since, origin, _, _, gone = self._rows[last]
-            rise = origin - self._origin
-            self._rows = [
-                (time, place, speed, pull, area - gone - rise * (time - since))
-                for time, place, speed, pull, area in self._rows[last:]
-            ]
-            self._origin = origin
-
-    @property
-    def phases(self) -> int:
-        """How many phases are kept."""
-        return len(self._rows)
-
-    def at(self, time: float) -> float:
-        """The place at a time."""
-        start, place, speed, pull, _ = self._rows[max(bisect_right(self._rows, (time, inf)) - 1, 0)]
-        seconds = max(time - start, 0.0)
-        return place + way_after(seconds, speed, pull)
-
-    def mean(self, time: float, window: float) -> float:
-        """The average place over the time `window` before."""
-        if window <= 0.0:
-            return self.at(time)
-        return self._origin + average(self._area(time - window), self._area(time), window)
-
-    def mean_speed(self, time: float, window: float) -> float:
-        """The average speed over the time `window` before, which is not nothing."""
-        return average(self.at(time - window), self.at(time), window)
-
-    def _area(self, time: float) -> float:
-        """The integral of the places, counted from the origin, over the time before."""
-        start, place, speed, pull, area = self._rows[max(bisect_right(self._rows, (time, inf)) - 1, 0)]
-        return area + area_after(max(time - start, 0.0), place - self._origin, speed, pull)
 
 
 class Follower:
@@ -108,7 +44,7 @@ class Follower:
         self.window = 0.0
         self._ramp = self._blend = 0.0
         self._law = Law(0.0, 0.0)
-        self._alone: list[Law] = []
+        self._alone: list[tuple[Law, float]] = []
         self._ways: list[float] = []
         self._pieces: list[tuple[float, Piece]] = []
 
@@ -129,6 +65,15 @@ class Follower:
         self._ways.append(self._ways[-1] + behind if self._ways else 0.0)
         self._pieces.append((length, piece))
 
+    def exchange(self, piece: Piece, length: float, behind: float) -> None:
+        """Another piece takes the place of the last one; it begins `behind` mm after its beginning, or before it."""
+        begins = self._ways[-1] + behind
+        while self._ways and self._ways[-1] >= begins:
+            self._ways.pop()
+            self._pieces.pop()
+        self._ways.append(begins)
+        self._pieces.append((length, piece))
+
     def follow(self, time: float, done: float, phases: Sequence[Phase]) -> None:
         """From a time on the interpolator runs these phases, `done` mm behind the start of the last piece."""
         self._law.run(time, self._ways[-1] + done, phases)
@@ -138,11 +83,11 @@ class Follower:
             del self._ways[:kept], self._pieces[:kept]
             self._law.forget(before)
 
-    def follow_alone(self, time: float, moves: Sequence[tuple[float, Sequence[Phase]]]) -> None:
-        """From a time on every axis runs phases of its own, from a position."""
+    def follow_alone(self, time: float, moves: Sequence[tuple[float, Sequence[Phase], float]]) -> None:
+        """From a time on every axis runs phases of its own, from a position, and is averaged over a time of its own."""
         if not self._alone:
-            self._alone = [Law(time, position) for position, _ in moves]
-        for law, (position, phases) in zip(self._alone, moves, strict=True):
+            self._alone = [(Law(time, position), ramp) for position, _, ramp in moves]
+        for (law, _), (position, phases, _) in zip(self._alone, moves, strict=True):
             law.run(time, position, phases)
 
     def machine(self, time: float) -> list[float]:
@@ -155,21 +100,25 @@ class Follower:
 
     def _machine(self, time: float) -> list[float]:
         if self._alone:
-            return [law.mean(time, self._ramp) for law in self._alone]
+            return [law.mean(time, ramp) for law, ramp in self._alone]
         if self._blend == 0.0:
             return self._place(time)
-        places = self._places(time)
-        return [sum(w * p for w, p in zip(TENT, axis, strict=True)) for axis in zip(*places, strict=True)]
+        middle = time - self._blend
+        return under_tent(self._place, middle, self._blend, self._edges(middle))
 
     def speed(self, time: float) -> float:
         """Speed along the path, or of the fastest axis where each runs by itself."""
         middle = time - self._blend
-        laws = self._alone or [self._law]
-        return max(abs(law.mean_speed(middle, self._ramp)) for law in laws)
+        laws = self._alone or [(self._law, self._ramp)]
+        return max(abs(law.mean_speed(middle, ramp)) for law, ramp in laws)
 
-    def _places(self, time: float) -> list[list[float]]:
-        step = self._blend / PARTS
-        return [self._place(time - k * step) for k in range(2 * PARTS, -1, -1)]
+    def _edges(self, middle: float) -> list[float]:
+        """When, around a time, the averaged way begins to follow another rule, or comes to another piece."""
+        first, last = middle - self._blend, middle + self._blend
+        edges = self._law.edges(first, last, self._ramp)
+        low = bisect_right(self._ways, self._law.mean(first, self._ramp))
+        high = bisect_left(self._ways, self._law.mean(last, self._ramp))
+        return edges + [self._law.when_mean(way, self._ramp) for way in self._ways[low:high]]
 
     def _place(self, time: float) -> list[float]:
         """Where on the path the averaged way is."""

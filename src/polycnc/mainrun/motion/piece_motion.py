@@ -8,15 +8,27 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from polycnc.mainrun.motion.axis_move import AxisMove, axis_move
 from polycnc.mainrun.motion.geometry import Line
-from polycnc.mainrun.motion.speed import NO_WAY_MM, profile_of
+from polycnc.mainrun.motion.speed import (
+    FREE,
+    NO_WAY_MM,
+    Calm,
+    calm_after,
+    first_part,
+    profile_of,
+    straight_profile,
+)
 from polycnc.motion.kernels.columns import Limits, PieceRecord
-from polycnc.motion.kernels.jerk import axis_pull
+from polycnc.motion.limits import axis_rapids
 
 if TYPE_CHECKING:
     from array import array
 
     from polycnc.mainrun.motion.follower import Follower
-    from polycnc.mainrun.preparation.items import Piece, Rates
+    from polycnc.mainrun.preparation.items import ChannelRates, Piece
+
+
+#: Of a piece that belongs to no line from rest to rest.
+NO_WAYS = (0.0, 0.0)
 
 
 class Motion(Protocol):
@@ -40,11 +52,14 @@ class Motion(Protocol):
     def speed(self, time: float) -> float:
         """Path speed."""
 
-    def revise(self, time: float, aim2: float, cap2: float, rates: Rates) -> None:
+    def revise(self, time: float, aim2: float, cap2: float, rates: ChannelRates) -> None:
         """The limits of the speed have changed."""
 
     def lead(self, follower: Follower) -> None:
         """Say what the axes follow from now on."""
+
+    def done(self, time: float) -> float:
+        """How far along the piece the motion is, mm."""
 
 
 class PathMotion:
@@ -59,6 +74,9 @@ class PathMotion:
         aim2: Largest squared speed at its end.
         cap2: Largest squared speed on it.
         window: Seconds by which the axes are behind.
+        calm: How long a line from rest to rest keeps its speed, and `ahead` the ways behind the piece to where
+            the axes shall rest, and to where they rest in any case.
+        done: How far along the piece the motion begins, mm.
     """
 
     def __init__(
@@ -71,17 +89,28 @@ class PathMotion:
         aim2: float,
         cap2: float,
         window: float = 0.0,
+        calm: Calm = FREE,
+        ahead: tuple[float, float] = NO_WAYS,
+        done: float = 0.0,
     ) -> None:
         self.piece = piece
         self._window = window
+        self._calm, self.ahead = calm, ahead
         self._record = record
         self._limits = limits
         self._axes = len(piece.way.start)
-        self._run(since, 0.0, start2, aim2, cap2)
+        self._run(since, done, start2, aim2, cap2)
 
     def _run(self, since: float, done: float, start2: float, aim2: float, cap2: float) -> None:
         aim2 = max(aim2, self.coasting2)
-        profile = profile_of(self._record, done, start2, aim2, cap2, self._axes, self._limits)
+        if self.is_bound and max(self.ahead) > 0.0:
+            left, pull = self.length - done, self._record[PieceRecord.PULL]
+            brakes = 0.5 * start2 / pull + sqrt(start2) * self._calm.before_down
+            stop, rest = self.ahead
+            way = left + (stop if left + stop >= brakes else rest)
+            profile = first_part(straight_profile(way, start2, 0.0, cap2, pull, self._calm), left)
+        else:
+            profile = profile_of(self._record, done, start2, aim2, cap2, self._axes, self._limits, self._calm)
         self._profile, self._since, self._done = profile, since, done
         over = since + profile.seconds
         self.end, self.rest = (over, inf) if profile.arrives else (inf, over)
@@ -103,7 +132,8 @@ class PathMotion:
     @property
     def coasting2(self) -> float:
         """Largest squared speed at its end from which the axes rest within the way that is left behind it."""
-        pull, left, late = float(self._record[PieceRecord.PULL]), self.piece.left, 0.5 * self._window
+        pull, left = float(self._record[PieceRecord.PULL]), self.piece.left
+        late = max(0.5 * self._window, self._calm.level)
         if late == 0.0 or left <= 0.0:
             return 2.0 * pull * left
         speed = pull * (sqrt(late * late + 2.0 * left / pull) - late)
@@ -118,6 +148,11 @@ class PathMotion:
         """Say what the axes follow from now on."""
         follower.follow(self._since, self._done, self._profile.phases)
 
+    @property
+    def is_bound(self) -> bool:
+        """Whether it leads to the end of a line from rest to rest, which keeps the average that it has begun with."""
+        return self._calm.level > 0.0
+
     def done(self, time: float) -> float:
         """How far along the piece the motion is."""
         return self._after(time)[0]
@@ -128,6 +163,8 @@ class PathMotion:
         It goes on for `late` seconds, if the signal comes when the axes are where this motion is now.
         """
         way, speed = self._after(time)
+        calm = self.calm(time)
+        late = max(late, calm.before_down)
         brakes = speed * speed / (2.0 * self._record[PieceRecord.PULL]) + speed * late
         if brakes <= NO_WAY_MM:
             return None
@@ -140,12 +177,18 @@ class PathMotion:
         )
         record = self._record[:]
         record[PieceRecord.LENGTH] = brakes
-        return PathMotion(rest, record, self._limits, time, speed * speed, 0.0, speed * speed, self._window)
+        speed2 = speed * speed
+        return PathMotion(rest, record, self._limits, time, speed2, 0.0, speed2, self._window, calm)
 
-    def revise(self, time: float, aim2: float, cap2: float, rates: Rates) -> None:  # noqa: ARG002 - are in cap2
+    def revise(self, time: float, aim2: float, cap2: float, rates: ChannelRates) -> None:  # noqa: ARG002 - are in cap2
         """The limits of the speed have changed."""
         done, speed = self._after(time)
+        self._calm = self.calm(time)
         self._run(time, done, speed * speed, aim2, cap2)
+
+    def calm(self, time: float) -> Calm:
+        """How long the speed must be kept at a time before the acceleration changes its sign."""
+        return calm_after(self._calm, self._profile.phases, self._since, time)
 
 
 class AxesMotion:
@@ -156,17 +199,21 @@ class AxesMotion:
         limits: The machine, as the planner's kernels take it.
         since: When it begins.
         rates: What the operator has set.
-        ramp: Seconds over which the axes' motion is averaged.
+        ramp: Seconds over which the motion of the slowest axis is averaged (`motion/kernels/alone.py`).
     """
 
-    def __init__(self, piece: Piece, limits: Limits, since: float, rates: Rates, ramp: float = 0.0) -> None:
+    def __init__(
+        self, piece: Piece, limits: Limits, since: float, rates: ChannelRates, ramp: float = 0.0
+    ) -> None:
         self.piece = piece
         self.end2 = 0.0
-        n = len(piece.way.start)
-        own = piece.context.rapid_top
-        self._top = tuple(own(top) for top in limits.top_rapid)
-        self._pull = tuple(axis_pull(ramp, limits, i) for i in range(n))
+        ways = [b - a for a, b in zip(piece.way.start, piece.way.end, strict=True)]
+        alone = axis_rapids(ways, piece.context, limits, soft=ramp > 0.0)
+        self._top = tuple(piece.context.rapid_top(top) for top in limits.top_rapid)
+        self._pull = tuple(own.pull for own in alone)
+        self._ramps, self._ramp = tuple(own.ramp for own in alone), ramp
         self._moves = tuple(AxisMove(start, (), since, start) for start in piece.way.start)
+        self._calm = tuple(Calm(own.ramp) for own in alone)
         self.revise(since, 0.0, 0.0, rates)
 
     def machine(self, time: float) -> list[float]:
@@ -175,20 +222,33 @@ class AxesMotion:
 
     def lead(self, follower: Follower) -> None:
         """Say what the axes follow from now on."""
-        follower.follow_alone(self._moves[0].since, [(move.start, move.phases) for move in self._moves])
+        moves = zip(self._moves, self._ramps, strict=True)
+        follower.follow_alone(self._moves[0].since, [(move.start, move.phases, ramp) for move, ramp in moves])
 
     def speed(self, time: float) -> float:
         """Speed of the fastest axis."""
         return max(abs(move.after(time)[1]) for move in self._moves)
 
-    def revise(self, time: float, aim2: float, cap2: float, rates: Rates) -> None:  # noqa: ARG002 - it ends in rest
+    def done(self, time: float) -> float:
+        """How far along the piece the axis with the longest way is."""
+        start, end, length = self.piece.way.start, self.piece.way.end, self.piece.length
+        column = max(range(len(start)), key=lambda i: abs(end[i] - start[i]))
+        way = end[column] - start[column]
+        return length * (self._moves[column].after(time)[0] - start[column]) / way if way else length
+
+    def revise(self, time: float, aim2: float, cap2: float, rates: ChannelRates) -> None:  # noqa: ARG002 - it ends in rest
         """Another override; a speed of 0 brakes every axis."""
         speeds = [rates.axis_speed(self.piece, top) for top in self._top]
+        self._calm = tuple(
+            calm_after(calm, move.phases, move.since, time)
+            for calm, move in zip(self._calm, self._moves, strict=True)
+        )
         self._moves = tuple(
-            axis_move(*move.after(time), end, speed, pull, time)
-            for move, end, speed, pull in zip(
-                self._moves, self.piece.way.end, speeds, self._pull, strict=True
+            axis_move(*move.after(time), end, speed, pull, time, calm)
+            for move, end, speed, pull, calm in zip(
+                self._moves, self.piece.way.end, speeds, self._pull, self._calm, strict=True
             )
         )
-        over = max(move.end for move in self._moves)
+        ends = zip(self._moves, self._ramps, strict=True)
+        over = max(time, *(move.end + ramp - self._ramp for move, ramp in ends))
         self.end, self.rest = (over, inf) if all(speeds) else (inf, over)

@@ -13,28 +13,23 @@ from math import inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.averaging import way_after
+from polycnc.motion.kernels.alone import level_peak
 from polycnc.motion.kernels.columns import Form, PieceRecord
 from polycnc.motion.kernels.columns import Limits as MachineLimits
 from polycnc.motion.kernels.speeds import bound2, curved_time
+from polycnc.motion.law import Phase
 
 if TYPE_CHECKING:
-    from collections.abc import MutableSequence, Sequence
+    from collections.abc import Iterable, MutableSequence, Sequence
 
 #: Relative difference of squared speeds, and a way in mm, that count as none.
 SAME, NO_WAY_MM = 1e-12, 1e-12
 
 
+#: Relative difference of bounds that meet where the axes can only just go on.
+CLOSE = 1e-9
 #: A phase shorter than this is rounding: it has no acceleration worth the name.
 LEAST_PHASE_S = 1e-12
-
-
-class Phase(NamedTuple):
-    """Constant acceleration `pull` for `seconds` from `speed` on, over `way`."""
-
-    seconds: float
-    way: float
-    speed: float
-    pull: float
 
 
 class Profile(NamedTuple):
@@ -67,6 +62,42 @@ class Profile(NamedTuple):
         return way, sqrt(self.end2)
 
 
+class Calm(NamedTuple):
+    """How long a line from rest to rest must keep its speed before its acceleration changes its sign.
+
+    Such a line uses the whole jerk for one step of acceleration (`motion/kernels/alone.py`); two of them may not come
+    within the time that it is averaged over.
+
+    Attributes:
+        level: That time.
+        before_up: What is left of it, by what has been run last, before the axes may accelerate.
+        before_down: The same before they may brake.
+    """
+
+    level: float = 0.0
+    before_up: float = 0.0
+    before_down: float = 0.0
+
+
+#: A motion that may change its acceleration at any moment.
+FREE = Calm()
+
+
+def calm_after(calm: Calm, phases: Iterable[Phase], since: float, time: float) -> Calm:
+    """What holds at a time, behind phases that have begun at another one, at which `calm` held."""
+    level, up, down = calm.level, calm.before_up - (time - since), calm.before_down - (time - since)
+    for phase in phases:
+        if since >= time or level == 0.0:
+            break
+        since += phase.seconds
+        left = level - max(time - since, 0.0)
+        if phase.pull > 0.0:
+            down = max(down, left)
+        elif phase.pull < 0.0:
+            up = max(up, left)
+    return Calm(level, max(up, 0.0), max(down, 0.0))
+
+
 def ramp(way: float, start2: float, end2: float) -> Phase:
     """The phase that leads over a way from one squared speed to another."""
     start, end = sqrt(start2), sqrt(end2)
@@ -74,7 +105,9 @@ def ramp(way: float, start2: float, end2: float) -> Phase:
     return Phase(seconds, way, start, (end - start) / seconds if seconds > LEAST_PHASE_S else 0.0)
 
 
-def straight_profile(length: float, start2: float, aim2: float, cap2: float, pull: float) -> Profile:
+def straight_profile(
+    length: float, start2: float, aim2: float, cap2: float, pull: float, calm: Calm = FREE
+) -> Profile:
     """Phases over a straight way.
 
     Args:
@@ -83,23 +116,55 @@ def straight_profile(length: float, start2: float, aim2: float, cap2: float, pul
         aim2: Squared speed wanted at the end; no more than what can be reached there is taken.
         cap2: Largest squared speed; above it the axes brake first.
         pull: Acceleration along the way.
+        calm: How long the speed must stay before the acceleration changes its sign.
     """
     phases: list[Phase] = []
+    if calm.level > 0.0 and max(start2, cap2) > 0.0:
+        wait = _kept_speed(length, start2, aim2, cap2, pull, calm)
+        if wait.seconds > 0.0:
+            phases.append(wait)
+            length -= wait.way
+        elif calm.before_up > 0.0:
+            cap2 = min(cap2, start2)
     if start2 > cap2 * (1.0 + SAME):
         brake = (start2 - cap2) / (2.0 * pull)
         if brake >= length:
             end2 = max(start2 - 2.0 * pull * length, 0.0)
-            return Profile((ramp(length, start2, end2),), end2, arrives=True)
+            return Profile((*phases, ramp(length, start2, end2)), end2, arrives=True)
         phases.append(ramp(brake, start2, cap2))
         length, start2 = length - brake, cap2
     if cap2 <= 0.0:
         return Profile(tuple(phases), 0.0, arrives=False)
     end2 = min(max(min(aim2, cap2), start2 - 2.0 * pull * length, 0.0), start2 + 2.0 * pull * length)
-    peak2 = max(min(cap2, 0.5 * (start2 + end2) + pull * length), start2, end2)
+    peak = level_peak(start2, end2, length, pull, calm.level)
+    peak2 = max(min(cap2, peak * peak), start2, end2)
     up, down = (peak2 - start2) / (2.0 * pull), (peak2 - end2) / (2.0 * pull)
     level = max(length - up - down, 0.0)
     phases += [ramp(up, start2, peak2), ramp(level, peak2, peak2), ramp(down, peak2, end2)]
-    return Profile(tuple(phase for phase in phases if phase.way > 0.0), end2, arrives=True)
+    return Profile(tuple(phase for phase in phases if phase.seconds > 0.0), end2, arrives=True)
+
+
+def first_part(profile: Profile, length: float) -> Profile:
+    """The phases of a profile over the first part of its way."""
+    phases: list[Phase] = []
+    for phase in profile.phases:
+        left = length - sum(before.way for before in phases)
+        if phase.way > left:
+            end2 = max(phase.speed * phase.speed + 2.0 * phase.pull * left, 0.0)
+            part = ramp(left, phase.speed * phase.speed, end2)
+            return Profile((*phases, part), end2, arrives=True)
+        phases.append(phase)
+    return profile
+
+
+def _kept_speed(length: float, start2: float, aim2: float, cap2: float, pull: float, calm: Calm) -> Phase:
+    """The phase at the present speed that must come first; of no duration where none must, or none can."""
+    speed, brakes = sqrt(start2), max(start2 - aim2, 0.0) / (2.0 * pull)
+    slower = start2 > cap2 * (1.0 + SAME) or brakes >= length
+    seconds = calm.before_down if slower else calm.before_up
+    way = speed * seconds
+    room = length if slower else length - brakes
+    return Phase(seconds, way, speed, 0.0) if way <= room else Phase(0.0, 0.0, speed, 0.0)
 
 
 class Limits(NamedTuple):
@@ -149,13 +214,13 @@ def curved_profile(
     length, curve = record[PieceRecord.LENGTH], limits_of(record, axes, limits)
     low, high = curve.lowest(length, start2), bound2(record, 0, axes, limits, start2, False)[0]
     end2 = min(aim2, max(high, 0.0), cap2)
-    if start2 > cap2 * (1.0 + SAME) or end2 < low:
+    if start2 > cap2 * (1.0 + SAME) or end2 < low * (1.0 - CLOSE):
         hardest = curve.brake(start2)
         rest2 = start2 - 2.0 * hardest * length
         if rest2 < 0.0 and cap2 <= 0.0:
             way = start2 / (2.0 * hardest)
             return Profile((ramp(way, start2, 0.0),) if way > 0.0 else (), 0.0, arrives=False)
-        end2 = max(min(max(low, end2), start2), 0.0) if low <= high else max(rest2, 0.0)
+        end2 = max(min(max(low, end2), start2), 0.0) if low <= high * (1.0 + CLOSE) else max(rest2, 0.0)
     if cap2 <= 0.0 and start2 <= 0.0:
         return Profile((), 0.0, arrives=False)
     if end2 <= 0.0 and cap2 <= 0.0:
@@ -185,6 +250,7 @@ def profile_of(
     cap2: float,
     axes: int,
     limits: MachineLimits,
+    calm: Calm = FREE,
 ) -> Profile:
     """Phases over what is left of a piece.
 
@@ -196,12 +262,13 @@ def profile_of(
         cap2: Largest squared speed on it.
         axes: Number of axes.
         limits: The machine, as the planner's kernels take it.
+        calm: How long a line from rest to rest keeps its speed.
     """
     length = record[PieceRecord.LENGTH] - done
     if length <= NO_WAY_MM:
         return Profile((), start2, arrives=True)
     if record[PieceRecord.FORM] != Form.CURVED:
-        return straight_profile(length, start2, aim2, cap2, record[PieceRecord.PULL])
+        return straight_profile(length, start2, aim2, cap2, record[PieceRecord.PULL], calm)
     return curved_profile(_rest_of(record, done, axes), start2, aim2, cap2, axes, limits)
 
 

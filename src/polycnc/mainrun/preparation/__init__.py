@@ -3,5 +3,8 @@
 preprocessing  the channel's rows become pieces of the path and events, in order
 items          what is prepared and not yet executed
 piece_buffer   the planner's records of the pieces, and how fast each may be entered
+layout         for which overrides rows are laid out, and from what
+queue          pieces are taken one by one, and laid out again for other overrides
+run_blocks     where blocks begin and end among what is prepared
 reapproach     a row that begins elsewhere than its program has led the axes
 """

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.channel.interpolator import Influence
 from polycnc.channel.intervention import NOTHING_BACK
 
 if TYPE_CHECKING:
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.intervention import TakesBack
     from polycnc.mainrun.motion.geometry import Segment
+    from polycnc.mainrun.preparation.layout import Laid
     from polycnc.toolpath import Context, Event
     from polycnc.toolpath.motion_settings import DryRun
 
@@ -26,12 +28,14 @@ class Block:
         line: Its line in that program's file.
         modal: Active code of every modal group behind it.
         takes_back: What it takes back of a manual intervention.
+        is_silent: It does nothing on the machine, but for beginning and ending synchronised actions.
     """
 
     program: str
     line: int
     modal: Mapping[str, str]
     takes_back: TakesBack = NOTHING_BACK
+    is_silent: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,10 +106,12 @@ class Move(Row):
     Attributes:
         asks: Speed that the program asks for up to a share of the way, mm/s; infinite where it asks for none.
         total: Length of its pieces, mm, and `done` the share of those that have been taken.
+        laid: From what it has been laid out; None for one that begins elsewhere than its program has led the axes.
     """
 
     asks: tuple[tuple[float, float], ...]
     total: float
+    laid: Laid | None = None
     done: float = 0.0
 
     def asked(self, share: float) -> float:
@@ -140,6 +146,8 @@ class Piece(Row):
         return self.way.at(1.0 if last else self.first + self.share * share)
 
 
+#: No action changes the speeds.
+UNINFLUENCED = Influence()
 Item = Block | BlockEnd | Happening | Standing | Move
 
 
@@ -169,11 +177,11 @@ class Rates:
         """Rapid override that acts on a move."""
         return self.rapid if move.context.rapid_override else 1.0
 
-    def axis_speed(self, move: Row, top: float) -> float:
+    def axis_speed(self, move: Row, top: float, own: Influence = UNINFLUENCED) -> float:
         """Speed of an axis that runs a rapid alone and could go as fast as `top`."""
         if self.gives_up or (self.hold and move.context.feed_hold):
             return 0.0
-        return min(top * self.rapid_on(move), self._dry_rapid)
+        return min(top * self.rapid_on(move), self._dry_rapid) * own.factor
 
     @property
     def _dry_rapid(self) -> float:
@@ -181,8 +189,11 @@ class Rates:
         dry = self.dry_run
         return dry.speed * self.feed if dry is not None and dry.rapids else inf
 
-    def cap2(self, move: Row, cap2: float, asked: float) -> float:
-        """Largest squared speed on a piece of a move, where the axes allow `cap2` and the program asks for `asked`."""
+    def cap2(self, move: Row, cap2: float, asked: float, own: Influence = UNINFLUENCED) -> float:
+        """Largest squared speed on a piece of a move, where the axes allow `cap2` and the program asks for `asked`.
+
+        `own` is what the actions of its channel make of it; threads and taps know nothing of that.
+        """
         context = move.context
         if self.gives_up:
             return 0.0
@@ -197,14 +208,75 @@ class Rates:
         if self.hold and context.feed_hold:
             return 0.0
         if move.by_axis:
-            return self.axis_speed(move, 1.0) ** 2
+            return self.axis_speed(move, 1.0, own) ** 2
         if move.rapid:
-            return min(cap2 * self.rapid_on(move) ** 2, self._dry_rapid**2)
+            return min(cap2 * self.rapid_on(move) ** 2, self._dry_rapid**2) * min(own.factor, 1.0) ** 2
         if dry is not None:
-            speed = dry.speed_for(asked) * self.feed
+            speed = dry.speed_for(asked) * self.feed * own.factor
             return min(cap2, speed * speed)
-        feed = self.feed if context.feed_override else 1.0
-        speed = asked * feed if feed > 0.0 else 0.0
+        feed = (self.feed if context.feed_override else 1.0) * own.factor
+        speed = max(asked * feed + own.addend, 0.0) if feed > 0.0 else 0.0
         if move.per_revolution and context.spindle_override:
             speed *= self.spindle
         return min(cap2, speed * speed)
+
+
+class ChannelRates:
+    """The speeds of one channel: what the operator has set, and what its actions make of them.
+
+    Args:
+        operator: What the operator has set, for all channels.
+
+    Attributes:
+        influence: What the actions have last made of it.
+        stops: The axes brake on the path, whatever else is set; the rest of the block is dropped then.
+    """
+
+    def __init__(self, operator: Rates) -> None:
+        self.operator = operator
+        self.influence = UNINFLUENCED
+        self.stops = False
+
+    @property
+    def hold(self) -> bool:
+        """Feed hold."""
+        return self.operator.hold
+
+    @property
+    def feed(self) -> float:
+        """Feed override."""
+        return self.operator.feed * self.influence.factor
+
+    @property
+    def spindle(self) -> float:
+        """Spindle override."""
+        return self.operator.spindle
+
+    @property
+    def dry_run(self) -> DryRun | None:
+        """What a dry run does; None while none is on."""
+        return self.operator.dry_run
+
+    @property
+    def gives_up(self) -> bool:
+        """Reset or emergency stop."""
+        return self.operator.gives_up
+
+    def cap2(self, move: Row, cap2: float, asked: float) -> float:
+        """Largest squared speed on a piece of a move, where the axes allow `cap2` and the program asks for `asked`."""
+        return 0.0 if self.stops else self.operator.cap2(move, cap2, asked, self._own(move))
+
+    def axis_speed(self, move: Row, top: float) -> float:
+        """Speed of an axis that runs a rapid alone and could go as fast as `top`."""
+        return 0.0 if self.stops else self.operator.axis_speed(move, top, self._own(move))
+
+    def _own(self, move: Row) -> Influence:
+        """What actions make of a move: the least override of the axes that it moves counts too."""
+        own = self.influence
+        if not own.of_axes:
+            return own
+        start, end = move.way.start, move.way.end
+        least = min(
+            (share for column, share in own.of_axes.items() if start[column] != end[column]), default=1.0
+        )
+        return Influence(own.factor * least, own.addend * least)

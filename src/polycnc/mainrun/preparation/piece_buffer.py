@@ -1,27 +1,26 @@
 """Rows laid out: the planner's records of the pieces that lie ahead, and how fast each may be entered.
 
-Records in front that have been taken stay in the buffer until it is full, so that taking one moves nothing. The kernels
-run as they are; from some rows on their machine code, where it is there already, or where so many rows come that
-compiling pays. Both give the same numbers.
+Records in front that have been taken stay in the buffer until it is full, so that taking one moves nothing.
 """
 
 from __future__ import annotations
 
 from array import array
 from math import sqrt
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from polycnc.motion.compiled import PLAIN, compiled_kernels, ready
+from polycnc.mainrun.preparation.layout import Before
+from polycnc.motion.compiled import kernels
 from polycnc.motion.kernels.alone import settle_alone
-from polycnc.motion.kernels.columns import Form, Limits, PieceRecord, Rows, new_state, piece_width
+from polycnc.motion.kernels.columns import MAIN_RUN, TAP, Form, Limits, PieceRecord, new_state, piece_width
 from polycnc.motion.kernels.jerk import window_s
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from polycnc.mainrun.preparation.layout import Laid, Layout
 
-#: Rows from which on compiled kernels are used: where they are in the cache, and where they must be compiled first.
-READY_ROWS, COMPILE_ROWS = 400, 20_000
+
 ROOM = 256
 
 
@@ -37,9 +36,12 @@ class PieceBuffer:
         limits: The machine, as the kernels take it.
     """
 
+    UNFOLLOWED: ClassVar[frozenset[str]] = frozenset({"_kernels"})
+
     def __init__(self, axes: int) -> None:
         self.state = new_state(axes)
-        self.state.run.free, self.state.run.stop = 1.0, 0.0
+        self.state.run.free, self.state.run.stop = MAIN_RUN, 0.0
+        self._rested = False  # before the next row, for what is none
         self.contexts = array("d")
         self.limits: Limits
         self._axes = axes
@@ -50,8 +52,7 @@ class PieceBuffer:
         self._next = 0  # of the planned ones
         self._way = 0.0  # ahead, mm
         self._rests = 0  # pieces ahead at whose start the axes rest
-        self._kernels = PLAIN
-        self._rows = 0
+        self._kernels = kernels()
 
     def __len__(self) -> int:
         return self.state.run.pieces - self._taken
@@ -62,10 +63,6 @@ class PieceBuffer:
         self._way = 0.0
         del self._planned[:]
 
-    def free_threads(self, *, free: bool) -> None:
-        """Whether rows that come bound threads by the spindle, or a dry run will say how fast they are."""
-        self.state.run.free = 2.0 if free else 1.0
-
     # ---- rows ----------------------------------------------------------------------------------------------
 
     @property
@@ -75,7 +72,7 @@ class PieceBuffer:
 
     def stand_at(self, position: Sequence[float]) -> None:
         """The axes stand elsewhere than the rows have led them."""
-        self.state.run.stop = 1.0
+        self.state.run.stop, self._rested = 1.0, True
         self.state.position[:] = array("d", position)
 
     def move_axis(self, column: int, position: float) -> None:
@@ -84,27 +81,25 @@ class PieceBuffer:
 
     def end_in_rest(self) -> None:
         """The axes come to rest behind the last row."""
-        self.state.run.stop = 1.0
+        self.state.run.stop, self._rested = 1.0, True
         settle_alone(self._records, self._axes, self.limits, self.state)
 
-    def lay(
-        self, rows: Rows, curves: array[float], number: int, limits: Limits, called: float = -1.0
-    ) -> list[int]:
-        """Lay a row out; where the records of its pieces begin.
+    def note_rest(self) -> bool:
+        """Whether the axes rest before the next row for what is none, such as an auxiliary function; asked once."""
+        rested, self._rested = self._rested, False
+        return rested
 
-        Args:
-            rows: The columns of that row.
-            curves: Parameters of curves.
-            number: Number of the row.
-            limits: The machine, as a transformation shows it.
-            called: Number that its pieces get, where the row is a leg of another one.
-        """
-        self._rows += 1
-        called = called if called >= 0.0 else number
-        if self._rows in (READY_ROWS, COMPILE_ROWS):
-            self._choose_kernels()
-        state = self.state
-        while not self._kernels.lay(rows, 0, curves, number, self.contexts, limits, self._records, state):
+    def lay(self, laid: Laid, layout: Layout) -> list[int]:
+        """Lay a row out for overrides; where the records of its pieces begin."""
+        if laid.records is not None:
+            self._add(laid.records)
+            return []
+        rows, number, called, state = laid.rows_for(layout), laid.number, laid.called, self.state
+        # What a tap may do at an override, others decide (`Rates`).
+        state.run.free = 1.0 if rows.kind[0] == TAP and layout.free <= 0.0 else layout.free
+        while not self._kernels.lay(
+            rows, 0, laid.curves, number, self.contexts, laid.limits, self._records, state
+        ):
             self._make_room()
         width, records = self._width, self._records
         at = (state.run.pieces - 1) * width
@@ -119,7 +114,90 @@ class PieceBuffer:
             self._rests += records[found[0] + PieceRecord.PAUSE] > 0.0
         return found
 
-    def add(self, records: array[float]) -> None:
+    def lay_again(
+        self, rows: Sequence[Laid], layout: Layout, way: float | None = None
+    ) -> tuple[array[Any], float] | None:
+        """Lay out rows again that make up the end of what is prepared.
+
+        Args:
+            rows: The rows, in order.
+            layout: For these overrides.
+            way: How far the axes have come on the first one, mm; None where none of its pieces has been taken.
+
+        Returns:
+            Of the piece on which the axes are: its record, taken, and how far they have come on it.
+        """
+        state, width, rested = self.state, self._width, self._rested
+        first, called = self._taken, rows[0].called
+        while way is not None and first > 0 and self._row_of(first - 1) == called:
+            first -= 1
+        while way is None and self._row_of(first) != called:
+            first += 1
+        taken, self._taken = self._taken, 0
+        for at in range(0, taken * width, width):
+            self._records[at + PieceRecord.FORM] = Form.CURVED  # its bounds reach ahead, and it is never cut
+        rows[0].before.restore(state)
+        if way is None:
+            state.run.stop, state.run.alone = 1.0, 0.0
+        state.run.pieces = first
+        for k, laid in enumerate(rows):
+            if k and laid.rests:
+                self.end_in_rest()
+            state.position[:] = laid.before.vectors[0]
+            self.lay(laid, layout)
+        if rested:
+            self.end_in_rest()
+        self._rested, self._taken = rested, taken if way is None else first
+        record, done = None, way or 0.0
+        while way is not None:
+            at = self._taken * width
+            length = self._records[at + PieceRecord.LENGTH]
+            self._taken += 1
+            if done < length or self._taken == state.run.pieces or self._row_of(self._taken) != called:
+                record = self._records[at : at + width]
+                break
+            done -= length
+        for at in range(0, self._taken * width, width):
+            self._records[at + PieceRecord.FORM] = Form.TIMED
+        ahead = range(self._taken * width, state.run.pieces * width, width)
+        self._way = sum(self._records[at + PieceRecord.LENGTH] for at in ahead)
+        self._rests = sum(self._records[at + PieceRecord.PAUSE] > 0.0 for at in ahead)
+        return None if record is None else (record, done)
+
+    def noted(self) -> Callable[[], None]:
+        """What brings all pieces back as they are now."""
+        end = self.state.run.pieces * self._width
+        records, before, limits = self._records[:end], Before.of(self.state), (self._taken, self._rests)
+        way, rested = self._way, self._rested
+
+        def back() -> None:
+            self._records[: len(records)] = records
+            before.restore(self.state)
+            (self._taken, self._rests), self._way, self._rested = limits, way, rested
+
+        return back
+
+    @property
+    def last_length(self) -> float:
+        """Length of the piece that has been taken last, mm."""
+        return self._records[(self._taken - 1) * self._width + PieceRecord.LENGTH] if self._taken else 0.0
+
+    def goes_on(self, row: float) -> bool:
+        """Whether the piece in front belongs to a row."""
+        return len(self) > 0 and self._row_of(self._taken) == row
+
+    def rows_from_rest(self) -> set[float]:
+        """The rows ahead before which the axes rest."""
+        found: set[float] = set()
+        for piece in range(self._taken, self.state.run.pieces):
+            if self._records[piece * self._width + PieceRecord.PAUSE] > 0.0:
+                found.add(self._row_of(piece))
+        return found
+
+    def _row_of(self, piece: int) -> float:
+        return self._records[piece * self._width + PieceRecord.ROW]
+
+    def _add(self, records: array[float]) -> None:
         """Pieces that a row does not make: the axes rest before and behind them."""
         self.end_in_rest()
         width, count = self._width, self.state.run.pieces
@@ -145,11 +223,6 @@ class PieceBuffer:
         first = self._taken * width
         self._records[: count * width] = self._records[first : first + count * width]
         self.state.run.pieces, self._taken = count, 0
-
-    def _choose_kernels(self) -> None:
-        fast = compiled_kernels()
-        if fast is not None and (ready() or self._rows >= COMPILE_ROWS):
-            self._kernels = fast
 
     def field(self, at: int, name: int) -> float:
         """A field of the record that begins at a place."""
@@ -223,6 +296,23 @@ class PieceBuffer:
         return self._planned[self._next + PieceRecord.REACH2] if self._next < len(self._planned) else 0.0
 
     @property
+    def ways_to_rest(self) -> tuple[float, float]:
+        """Way of the pieces ahead up to where the axes shall rest, and up to where they rest in any case, mm."""
+        width, way, stop = self._width, 0.0, -1.0
+        for k, at in enumerate(range(self._taken * width, self.state.run.pieces * width, width)):
+            planned = self._next + k * width
+            if (
+                stop < 0.0
+                and planned < len(self._planned)
+                and self._planned[planned + PieceRecord.ENTRY2] == 0.0
+            ):
+                stop = way
+            if self._records[at + PieceRecord.PAUSE] > 0.0:
+                break
+            way += self._records[at + PieceRecord.LENGTH]
+        return (way if stop < 0.0 else stop), way
+
+    @property
     def early(self) -> float:
         """Seconds by which the next piece may begin before the axes rest: strokes of drilling cycles overlap."""
         return min(self.front(PieceRecord.EARLY), self.front(PieceRecord.PAUSE)) if len(self) else 0.0
@@ -235,9 +325,15 @@ class PieceBuffer:
         if self._rests > (self.front(PieceRecord.PAUSE) > 0.0):
             return True
         reach = 0.5 * sqrt(self.state.run.top2) * self.state.run.window
-        return self._way - self.front(PieceRecord.LENGTH) >= reach
+        return not self.is_open and self._way - self.front(PieceRecord.LENGTH) >= reach
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the piece in front belongs to a line from rest that rows to come may still go on with."""
+        run = self.state.run
+        return run.alone == 2.0 and run.pieces - run.straight_pieces <= self._taken
 
     @property
     def may_change(self) -> bool:
         """Whether a row to come may still bound the piece in front."""
-        return self.state.run.stop == 0.0 and (len(self) <= 1 or not self.reaches)
+        return self.is_open or (self.state.run.stop == 0.0 and (len(self) <= 1 or not self.reaches))

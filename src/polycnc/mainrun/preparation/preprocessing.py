@@ -10,19 +10,36 @@ from array import array
 from collections import deque
 from functools import partial
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.waits import PREPROCESSING, TYPED_BLOCKS_DONE, Wait, Why
 from polycnc.mainrun.motion.geometry import row_arc, row_line, turn_arc
-from polycnc.mainrun.preparation.items import Block, BlockEnd, Happening, Item, Move, Piece, Rates, Standing
+from polycnc.mainrun.preparation.items import (
+    Block,
+    BlockEnd,
+    ChannelRates,
+    Happening,
+    Item,
+    Move,
+    Piece,
+    Standing,
+)
+from polycnc.mainrun.preparation.layout import Before, Laid
 from polycnc.mainrun.preparation.piece_buffer import PieceBuffer
+from polycnc.mainrun.preparation.queue import Queue
 from polycnc.mainrun.preparation.reapproach import line_from
+from polycnc.mainrun.preparation.run_blocks import (
+    RunBlocks,
+    acts_on_machine,
+    is_silent,
+    largest_override,
+    without_function,
+)
 from polycnc.motion.frames import real_of
 from polycnc.motion.kernels.arcs import facing_radius
 from polycnc.motion.kernels.columns import (
-    LARGEST_OVERRIDE,
     SHARES,
     ContextRecord,
     Form,
@@ -34,22 +51,22 @@ from polycnc.motion.kernels.columns import (
 from polycnc.motion.kernels.feeds import asked_speed, faster, follows_radius, is_rapid
 from polycnc.motion.limits import averages, context_fields
 from polycnc.motion.transformed import Bounds, RealAxes
-from polycnc.motion.waits import ORIENT, Waits
+from polycnc.motion.waits import Waits
 from polycnc.toolpath import Context, Kind, Toolpath
-from polycnc.toolpath.events import Auxiliary, Stop
+from polycnc.toolpath.events import Auxiliary, BuilderCode, Deed, Stop
 from polycnc.toolpath.kinds import ARC_KINDS
 from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from polycnc.channel.channel import Channel
-    from polycnc.channel.intervention import TakesBack
     from polycnc.machine.model import Machine
     from polycnc.mainrun.axes.machine_axes import MachineAxes
     from polycnc.messages import AlarmError
     from polycnc.motion.pole import Turn
     from polycnc.program import Program
+    from polycnc.toolpath import Event
     from polycnc.toolpath.motion_settings import MotionSettings
     from polycnc.toolpath.table import Chunk
 
@@ -58,7 +75,7 @@ FULL, LOW = 512, 128
 #: Items that are prepared at most where short pieces do not make up the way that a bound reaches (`hold.py`).
 MOST = 4096
 #: Blocks that the channel runs in one interpolation cycle while it makes no item.
-BLOCKS_A_CYCLE = 1000
+BLOCKS_A_CYCLE = 100
 #: Waits of the channel behind a block that counts as one even without rows.
 BEHIND_A_BLOCK = frozenset({Why.SINGLE_BLOCK, Why.STOP})
 #: Kinds of rows that may be arcs, and those that the spindle leads.
@@ -77,6 +94,7 @@ class Preprocessing:
         machine: The machine.
         number: Number of the channel.
         machine_axes: The axes of the machine, which channels may share.
+        toolpath: The rows of a channel that has run so far without a clock; else they are kept here.
 
     Attributes:
         items: What is prepared, in order.
@@ -85,10 +103,18 @@ class Preprocessing:
         finished: The program is at its end, or none runs.
         revised: The speeds ahead have to be worked out again.
         has_caught_up: Everything that the channel has written is executed.
+        queue: Takes pieces from the items, and lays them out again for other overrides.
+        on_step: Called when the channel has run a block; None where nobody asks.
+        stop_behind_next: Preparation waits behind the next block that does something on the machine.
     """
 
-    def __init__(self, machine: Machine, number: int, machine_axes: MachineAxes) -> None:
-        self.toolpath = Toolpath(machine.channel_axes(number), chunk_rows=1, on_full=self._take)
+    def __init__(
+        self, machine: Machine, number: int, machine_axes: MachineAxes, toolpath: Toolpath | None = None
+    ) -> None:
+        self.toolpath = Toolpath(machine.channel_axes(number)) if toolpath is None else toolpath
+        self.toolpath.hand_on_blocks(self._take, keep=toolpath is not None)
+        self.on_step: Callable[[], None] | None = None
+        self.stop_behind_next, self._is_noting, self._cut = False, False, -1
         self.items: deque[Item] = deque()
         self.channel: Channel
         self.waiting: Wait | None = None
@@ -99,13 +125,13 @@ class Preprocessing:
         self._axes = len(self.toolpath.axes)
         self._settings: MotionSettings
         self._buffer = PieceBuffer(self._axes)
+        self.queue = Queue(self.items, self._buffer)
         self._machine, self._number = machine, number
         self._stations: dict[tuple[object, ...], int] = {}
         self._known_contexts = 0
         self._delays: dict[int, list[tuple[str, float]]] = {}
         self._waits = Waits(machine, self.toolpath.contexts, 0, self._delay)
-        self._blocks: deque[tuple[tuple[int, int], str, Mapping[str, str], TakesBack]] = deque()
-        self._open: tuple[tuple[int, int], str] | None = None
+        self._blocks = RunBlocks(self.items, self.toolpath.programs)
         self._stopped = self._skips = False
         self._geometry = machine.geometry_indices(number)
         self._last_context, self._machine_axes = Context(), machine_axes
@@ -129,11 +155,15 @@ class Preprocessing:
         self.channel.alarms.clear()
         self.begin(self.channel.run(program, power_on=False), position)
 
-    def begin(self, run: Iterator[Wait], position: Sequence[float]) -> None:
-        """Begin with a run of the channel; the axes stand at a machine position."""
+    def go_on(self, run: Iterator[Wait], position: Sequence[float], wait: Wait | None = None) -> None:
+        """Go on with a run that is under way, and may wait; the axes stand at a machine position."""
         self.clear(position)
         self.finished = self.has_caught_up = False
-        self._run = run
+        self._run, self.waiting = run, wait
+
+    def begin(self, run: Iterator[Wait], position: Sequence[float]) -> None:
+        """Begin with a run of the channel; the axes stand at a machine position."""
+        self.go_on(run, position)
         if self.channel.group is not None:
             self.channel.group.begin(self._number, run)
 
@@ -143,7 +173,6 @@ class Preprocessing:
         self._buffer.clear()
         self._waits.settle(0)
         self._blocks.clear()
-        self._open = None
         self._last_context = Context()
         self._real.stand(position)
         self.stand_at(position)
@@ -168,7 +197,8 @@ class Preprocessing:
         typed_in = self.channel.stack and self.channel.level.kind is LevelKind.TYPED_IN
         if one_block and not typed_in and any(isinstance(item, BlockEnd) for item in self.items):
             return True
-        return len(self.items) > items and (len(self.items) > MOST or self._buffer.reaches)
+        prepared = len(self.items)
+        return prepared > items and (self._buffer.reaches or prepared > MOST - FULL + items)
 
     def _rests(self) -> bool:
         """Whether the channel does not go on by itself."""
@@ -209,14 +239,35 @@ class Preprocessing:
         """What the channel waited for has happened, and everything before it is executed."""
         self.waiting, self.has_caught_up = None, True
 
+    def release(self) -> bool:
+        """The channel need not wait for what is prepared: what it asks for is read now. Whether it has waited."""
+        waits = self.waiting is PREPROCESSING and not self.finished
+        if waits:
+            self.proceed()
+        return waits
+
+    def note(self, event: Event, block: Block | None) -> None:
+        """Keep an event that the main run itself has put out among the rows; it is executed already."""
+        context = self.channel.context_number()
+        program = self.toolpath.program_number(block.program) if block is not None else 0
+        position = self.channel.coordinates.position
+        self._is_noting = True
+        self.toolpath.append_event(event, program, block.line if block is not None else 0, context, position)
+        self.toolpath.block_boundary()
+        self._is_noting = False
+
+    def cut(self, row: float) -> None:
+        """The rest of a row is dropped; where it ends is known when the axes stand."""
+        self._cut = int(row)
+
+    def place_axis(self, column: int, position: float) -> None:
+        """An axis is elsewhere than the rows have led it."""
+        self._buffer.move_axis(column, position)
+
     @property
     def returns_to_path(self) -> bool:
         """Whether cycle start leads axes back that were moved by hand."""
         return self._settings.returns_to_path
-
-    def free_threads(self, *, free: bool) -> None:
-        """Whether a dry run, not the spindle, says how fast the threads to come are."""
-        self._buffer.free_threads(free=free)
 
     @property
     def position(self) -> list[float]:
@@ -231,6 +282,9 @@ class Preprocessing:
         self.stand_at(position)
         real = real_of(position, self._last_context, self._geometry)
         self.channel.coordinates.arrive_machine(real)
+        if self._cut >= 0:
+            self.toolpath.set_end(self._cut, self.channel.coordinates.position)
+            self._cut = -1
         self.channel.moved_by_hand = MovedByHand(tuple(real), tuple(by_hand)) if by_hand else None
 
     def stand_at(self, position: Sequence[float]) -> None:
@@ -244,61 +298,41 @@ class Preprocessing:
         level = channel.stack[-1] if channel.stack else None
         if level is not None and (len(channel.toolpath.chunk) or (wait and wait.reason in BEHIND_A_BLOCK)):
             halts = wait is not None and wait.reason is Why.SINGLE_BLOCK and not channel.finished
-            self._note_block(level.program_number, level.line_of(level.current), wait if halts else None)
+            line, code = level.line_of(level.current), wait.code if halts and wait is not None else ""
+            key = level.program_number, line
+            self._blocks.note(
+                key, code or (str(line) if halts else ""), channel.mode.codes, channel.takes_back
+            )
+            channel.takes_back = NOTHING_BACK
         self._stopped = self._skips = self.has_caught_up = False
+        if self.stop_behind_next:
+            channel.flush()
+        acts = acts_on_machine(self.toolpath.chunk, waits=wait is not None and wait.reason in BEHIND_A_BLOCK)
         self.toolpath.block_boundary()
+        if self.on_step is not None:
+            self.on_step()
         if wait is None:
             self._end_waits()
-            self._close_blocks()
+            self._blocks.close()
             self.finished = True
         elif channel.path.head is None:
-            self._close_blocks()
+            self._blocks.close()
         if wait is not None and wait.reason not in PASSING and (wait.reason is not Why.STOP or self._stopped):
             self.waiting = wait
         elif self._skips:
             self.waiting = PREPROCESSING
+        if self.stop_behind_next and acts:
+            self.waiting = self.waiting or PREPROCESSING
+            self.stop_behind_next = False
         if self._rests():
             self.end_in_rest()
-
-    # ---- blocks --------------------------------------------------------------------------------------------
-
-    def _note_block(self, program: int, line: int, halt: Wait | None) -> None:
-        """The channel has run a block; its rows may come later, if a stage of the path holds them back."""
-        code = "" if halt is None else halt.code or str(line)
-        channel = self.channel
-        self._blocks.append(((program, line), code, channel.mode.codes, channel.takes_back))
-        channel.takes_back = NOTHING_BACK
-
-    def _enter_block(self, key: tuple[int, int]) -> None:
-        """A row of a block comes: every block run before that one is over."""
-        if self._open is not None and self._open[0] == key:
-            return
-        if not any(block[0] == key for block in self._blocks):
-            return  # a row that a stage has added counts for the block before it
-        self._end_block()
-        while self._blocks:
-            found, code, modal, back = self._blocks.popleft()
-            self.items.append(Block(self.toolpath.programs[found[0]], found[1], modal, back))
-            self._open = (found, code)
-            if found == key:
-                return
-            self._end_block()
-
-    def _end_block(self) -> None:
-        if self._open is not None and self._open[1]:
-            self.items.append(BlockEnd(self._open[1]))
-        self._open = None
-
-    def _close_blocks(self) -> None:
-        """Nothing is held back: every block that was run is over."""
-        if self._blocks:
-            self._enter_block(self._blocks[-1][0])
-        self._end_block()
 
     # ---- rows ----------------------------------------------------------------------------------------------
 
     def _take(self, chunk: Chunk) -> bool:
         """Turn the rows of a block into items."""
+        if self._is_noting:
+            return True
         self._add_contexts()
         self._take_over()
         self._real.go_on_from(self._buffer.position)
@@ -308,18 +342,20 @@ class Preprocessing:
         self._waits.parallel.clear()
         contexts = self.toolpath.contexts
         for row in range(len(chunk)):
-            self._enter_block((chunk.program[row], chunk.line[row]))
             number, context, kind = chunk.first + row, contexts[chunk.context[row]], chunk.kind[row]
             delays = self._delays.get(number, [])
             event = chunk.events[chunk.curve[row]] if kind == Kind.EVENT else None
-            if isinstance(event, Auxiliary):
-                delays = _without_function(delays, event.code)
+            self._blocks.enter((chunk.program[row], chunk.line[row]), is_silent=is_silent(event))
+            if isinstance(event, Auxiliary | BuilderCode):
+                delays = without_function(delays, event)
             self.items.extend(Standing(why, seconds, context) for why, seconds in delays)
             if event is not None:
                 stands = self._waits.stands_for(event)
                 self.items.append(Happening(event, context, stands))
                 if stands:
                     self.end_in_rest()
+                for column, place in event.places if isinstance(event, Deed) else ():
+                    self._buffer.move_axis(column, place)
                 self._stopped = self._stopped or isinstance(event, Stop)
             elif kind == Kind.DWELL:
                 self.end_in_rest()
@@ -382,30 +418,47 @@ class Preprocessing:
         """The rotary axis turns at the pole."""
         context, kind = self.toolpath.contexts[chunk.context[row]], chunk.kind[row]
         records = self._real.turn(turn, context, kind, called, 0)
-        self._buffer.add(records)
+        before, rests = Before.of(self._buffer.state), self._buffer.note_rest()
+        limits = self._real.limits(context.transformation)
+        laid = Laid(None, array("d"), 0, called, limits, 0.0, context, False, rests, before, records)
+        self._buffer.lay(laid, self.queue.layout)
         way = turn_arc(turn, records, self._axes)
         program, line, rapid = self.toolpath.programs[chunk.program[row]], chunk.line[row], kind == Kind.RAPID
         total = sum(records[PieceRecord.LENGTH :: piece_width(self._axes)])
         self.items.append(
             Move(
                 way, called, kind, context, program, line, rapid, False, False, 0.0, False, False, False, 1.0,
-                inf, ((1.0, inf),), total,
+                inf, ((1.0, inf),), total, laid,
             )
         )  # fmt: skip
 
     def _lay(self, chunk: Chunk, row: int, rows: Rows, curves: array[float], called: float) -> None:
-        """Lay a row or a leg of it out as pieces. Its feed is FREE, so that the pieces know what the axes allow."""
+        """Lay a row or a leg of it out as pieces."""
         n, buffer, kind = self._axes, self._buffer, chunk.kind[row]
         context = self.toolpath.contexts[chunk.context[row]]
         start, limits = tuple(buffer.position), self._real.limits(context.transformation)
-        found = buffer.lay(rows, curves, chunk.first + row, limits, called)
+        record = chunk.context[row] * (ContextRecord.OFFSETS + n)
+        per_revolution = buffer.contexts[record + ContextRecord.PER_REVOLUTION] != 0.0
+        before, rests = Before.of(buffer.state), buffer.note_rest()
+        laid = Laid(
+            rows,
+            curves[:],
+            chunk.first + row,
+            called,
+            limits,
+            rows.feed[0],
+            context,
+            per_revolution,
+            rests,
+            before,
+        )
+        found = buffer.lay(laid, self.queue.layout)
         if not found:
             return
         self._skips = self._skips or kind == Kind.SKIP
         form = buffer.field(found[0], PieceRecord.FORM)
         is_arc = kind in ARC_WAYS and form != Form.STRAIGHT
         way = row_arc(start, buffer.state, limits) if is_arc else row_line(start, buffer.state)
-        record = chunk.context[row] * (ContextRecord.OFFSETS + n)
         self.items.append(
             Move(
                 way,
@@ -416,7 +469,7 @@ class Preprocessing:
                 chunk.line[row],
                 is_rapid(buffer.state),
                 kind in BOUND_TO_SPINDLE,
-                buffer.contexts[record + ContextRecord.PER_REVOLUTION] != 0.0,
+                per_revolution,
                 chunk.curves[chunk.curve[row] * CURVE_WIDTH]
                 if kind == Kind.SKIP and chunk.curve[row] >= 0
                 else 0.0,
@@ -424,22 +477,20 @@ class Preprocessing:
                 kind == Kind.TAP and self._settings.taps_overridden,
                 kind == Kind.TAP and self._settings.taps_held,
                 faster(chunk.curves, buffer.state),
-                self._largest_override(chunk, row),
-                self._asks(curves, record, found, is_arc=is_arc),
+                largest_override(chunk, row),
+                self._asks(curves, record, found, laid.factor(self.queue.layout), is_arc=is_arc),
                 sum(buffer.field(at, PieceRecord.LENGTH) for at in found),
+                laid,
             )
         )
 
-    def _largest_override(self, chunk: Chunk, row: int) -> float:
-        """Of a tap, by its record of parameters; any for other moves."""
-        if chunk.kind[row] != Kind.TAP or chunk.curve[row] < 0:
-            return inf
-        return chunk.curves[chunk.curve[row] * CURVE_WIDTH + LARGEST_OVERRIDE] or inf
-
     def _asks(
-        self, curves: array[float], record: int, found: Sequence[int], *, is_arc: bool
+        self, curves: array[float], record: int, found: Sequence[int], factor: float, *, is_arc: bool
     ) -> tuple[tuple[float, float], ...]:
-        """Speeds that the program asks for in the row laid last, by shares of its way; `found` are its pieces."""
+        """Speeds that the program asks for in the row laid last, by shares of its way.
+
+        `found` are its pieces, `factor` that of overrides on its feed.
+        """
         state, contexts = self._buffer.state, self._buffer.contexts
         follows = self._facing >= 0 and follows_radius(contexts, record)
         lengths = [self._buffer.field(at, PieceRecord.LENGTH) for at in found] if follows else [1.0]
@@ -449,7 +500,7 @@ class Preprocessing:
             radius = self._radius(record, done + 0.5 * share, is_arc=is_arc)
             speed = asked_speed(curves, contexts, record, state, state.run.length, radius)
             done += share
-            asks.append((done, speed if speed > 0.0 else inf))
+            asks.append((done, speed / factor if speed > 0.0 else inf))
         return tuple(asks)
 
     def _radius(self, record: int, middle: float, *, is_arc: bool) -> float:
@@ -466,7 +517,7 @@ class Preprocessing:
 
     def revise(
         self,
-        rates: Rates,
+        rates: ChannelRates,
         cap2: float,
         *,
         gated: bool,
@@ -486,7 +537,7 @@ class Preprocessing:
         self.revised = False
 
     def _entries(
-        self, rates: Rates, cap2: float, gated: bool, single_block: bool, stops: Callable[[Item], bool] | None,
+        self, rates: ChannelRates, cap2: float, gated: bool, single_block: bool, stops: Callable[[Item], bool] | None,
         records: array[float], width: int,
     ) -> Iterator[tuple[int, float]]:  # fmt: skip
         """The largest squared speed at the start of each piece, by what the operator has set."""
@@ -513,6 +564,11 @@ class Preprocessing:
         return self._buffer.reach2
 
     @property
+    def ways_to_rest(self) -> tuple[float, float]:
+        """Way of the pieces ahead up to where the axes shall rest, and up to where they rest in any case, mm."""
+        return self._buffer.ways_to_rest
+
+    @property
     def early(self) -> float:
         """Seconds by which the next piece may begin before the axes rest."""
         return self._buffer.early
@@ -522,35 +578,17 @@ class Preprocessing:
         """The machine, as the planner's kernels take it."""
         return self._buffer.limits
 
-    def front_cap2(self, rates: Rates) -> float:
+    def front_cap2(self, rates: ChannelRates) -> float:
         """Largest squared speed on the piece in front."""
         move = self.items[0]
         assert isinstance(move, Move)
         middle = move.done + 0.5 * self._buffer.front(PieceRecord.LENGTH) / move.total
         return rates.cap2(move, self._buffer.front(PieceRecord.CAP2), move.asked(middle))
 
-    def pop_piece(self) -> tuple[Piece, array[Any]]:
-        """Take the piece in front, and its record; its move leaves the queue with its last one."""
-        move, buffer = self.items[0], self._buffer
-        assert isinstance(move, Move)
-        is_last = buffer.is_last_of_row
-        record = buffer.take()
-        share = 1.0 - move.done if is_last else record[PieceRecord.LENGTH] / move.total
-        piece = Piece(
-            move.way, move.row, move.kind, move.context, move.program, move.line, move.rapid, move.fixed,
-            move.per_revolution, move.left if is_last else 0.0, move.by_axis, move.overridden, move.held,
-            move.faster, move.largest_override, record[PieceRecord.LENGTH], move.done, share, record[PieceRecord.CAP2],
-            move.asked(move.done + 0.5 * share),
-        )  # fmt: skip
-        move.done += share
-        if is_last:
-            self.items.popleft()
-        return piece, record
-
     def begin_elsewhere(self, move: Move | Piece, start: Sequence[float]) -> None:
         """The rest of a row goes to its end from another start; the axes rest at both."""
         while self.items and isinstance(self.items[0], Move) and self.items[0].row == move.row:
-            self.pop_piece()
+            self.queue.pop_piece()
         fields = self._buffer.context_fields(
             self.toolpath.context_number(move.context), ContextRecord.OFFSETS + self._axes
         )
@@ -567,9 +605,3 @@ class Preprocessing:
     def axes(self) -> int:
         """Number of axes."""
         return self._axes
-
-
-def _without_function(delays: list[tuple[str, float]], code: int) -> list[tuple[str, float]]:
-    """Delays of a row without what its M function takes: that is up to the machine's own controller."""
-    kept = [delay for delay in delays if delay[0] != "auxiliary_s"]
-    return kept[:-1] if code == ORIENT and kept else kept

@@ -46,12 +46,15 @@ class MainRunDisplay:
         position, target = self.work_of(machine, context), self.work_of(end, context)
         work, goal = display.work(position, context), display.work(target, context)
         factors = display.scale(context)
-        left = [(b - a) * f for a, b, f in zip(position, target, factors.work, strict=True)]
+        left = {axis: goal[axis] - value for axis, value in work.items()}
+        if context.shown_by is None:
+            ways = zip(context.names or self.axes, position, target, factors.work, strict=True)
+            left = {axis: (b - a) * f for axis, a, b, f in ways if axis}
         shown = [value * f for value, f in zip(real, factors.machine, strict=True)]
         return Positions(
             work=work,
             machine=display.machine(position, context),
-            to_go={axis: round(value, 7) + 0.0 for axis, value in zip(goal, left, strict=True)},
+            to_go={axis: round(value, 7) + 0.0 for axis, value in left.items()},
             real={axis: round(value, 7) + 0.0 for axis, value in zip(self.axes, shown, strict=True)},
         )
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun.commands.states import State
@@ -14,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.mainrun.commands.programs import Programs
+    from polycnc.mainrun.execution.channel_run import ChannelRun
     from polycnc.mainrun.execution.operation import Operation
     from polycnc.mainrun.reading.snapshot import ChannelSnapshot, Positions, SpindleState
 
@@ -34,33 +34,46 @@ class Readings:
     @property
     def positions(self) -> Positions:
         """Positions as the displays show them."""
-        return self._runs.first.positions(self._operation.switches.locked_at)
+        return self._operation.positions(self._runs.first)
 
     @property
     def channels(self) -> Mapping[int, ChannelSnapshot]:
         """Every channel that has been spoken of, by number."""
-        return {run.number: run.snapshot for run in sorted(self._runs, key=lambda run: run.number)}
+        runs = sorted(self._runs, key=lambda run: run.number)
+        return {
+            run.number: run.snapshot(
+                self._loaded_in(run.number), self._operation.positions(run), self._spindle_of(run)
+            )
+            for run in runs
+        }
+
+    def _loaded_in(self, channel: int) -> str:
+        """Name of the program that is loaded in a channel; empty for none."""
+        program = self._programs.mains.get(channel)
+        return program.name if program is not None else ""
 
     @property
     def program(self) -> str:
         """Name of the loaded program; empty for none."""
-        return self._programs.main.name if self._programs.main is not None else ""
+        return self._loaded_in(self._runs.first.number)
 
     @property
     def spindle(self) -> SpindleState:
         """The spindle of the block in execution; where the machine's rules drive it, as they do."""
-        operation, run = self._operation, self._runs.first
-        signals, spindle = operation.signals, run.spindle
-        if not operation.interlocks.drives_spindle:
+        return self._spindle_of(self._runs.first)
+
+    def _spindle_of(self, run: ChannelRun) -> SpindleState:
+        """The same of any channel; rules drive the machine's first spindle."""
+        operation, spindle = self._operation, run.spindle
+        signals = operation.signals
+        if not operation.interlocks.drives_spindle or spindle.number != min(
+            operation.machine.spindle, default=1
+        ):
             return spindle
         direction = int(signals["SPINDLE_CW"] - signals["SPINDLE_CCW"])
         if not direction or not signals["SPINDLE_TURNS"]:
             return replace(spindle, rpm=0.0, direction=0)
-        context, data = run.execution.context, operation.machine.spindle.get(spindle.number)
-        override = operation.switches.rates.spindle if context.spindle_override else 1.0
-        top = data.max_rpm if data is not None else inf
-        rpm = 0.0 if context.surface_speed else min(spindle.programmed_rpm * override, top)
-        return replace(spindle, rpm=rpm, direction=direction)
+        return replace(spindle, rpm=run.spindle_rpm(run.execution.context), direction=direction)
 
     @property
     def restart(self) -> Mapping[str, tuple[float, float]]:
@@ -105,7 +118,7 @@ class Readings:
             signals=operation.signals.values,
             alarms=status.alarms,
             messages=tuple(run.machinery.messages),
-            parts=status.parts,
+            parts=run.parts,
             channels=self.channels,
             notices=operation.interlocks.messages,
         )

@@ -105,6 +105,8 @@ class ChannelSnapshot:
         spindle: The spindle.
         tool: The tool.
         messages: Texts that its program has put out.
+        program: Name of the program that is loaded in it; empty for none.
+        parts: How often a program that an operator has started in it has come to its end.
     """
 
     number: int
@@ -118,6 +120,8 @@ class ChannelSnapshot:
     spindle: SpindleState
     tool: ToolState
     messages: tuple[str, ...] = ()
+    program: str = ""
+    parts: int = 0
 
 
 @dataclass(frozen=True, slots=True)

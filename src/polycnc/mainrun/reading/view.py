@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from polycnc.channel.interpolator import Interpolator
     from polycnc.mainrun.execution.channel_run import ChannelRun
 
 
@@ -23,9 +24,15 @@ class Executed:
     @property
     def machine(self) -> list[float]:
         """Machine position, mm (radius) and degrees."""
-        return self._run.machine_position
+        seen = self._run.interpolator.seen
+        return self._run.machine_position if seen is None else seen
 
     @property
     def work(self) -> list[float]:
         """Position in the work coordinate system that holds in the block in execution."""
         return self._run.work_position
+
+    @property
+    def clocked(self) -> Interpolator:
+        """What executes the channel's rows in time."""
+        return self._run.interpolator

@@ -7,6 +7,7 @@ it takes in: `FIN_M8` when M8 is done (only asked for where a rule of the machin
 
 from __future__ import annotations
 
+import re
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,8 @@ if TYPE_CHECKING:
     from polycnc.machine.rules import Rule
     from polycnc.mainrun.execution.clock import Clock
 
-#: In front of the M function that a rule says is done.
+_FUNCTION = re.compile(r"M\d+|G\d+(?:\.\d+)?")
+#: In front of the function that a rule says is done.
 DONE = "FIN_"
 #: Rounds of the rules at one moment, after which outputs that chase each other wait for the next cycle.
 ROUNDS = 50
@@ -44,7 +46,7 @@ class SignalImage:
         self._answered = frozenset(rule.output for rule in rules if rule.output.startswith(DONE))
         self.on_edge: Callable[[str, float], None] | None = None
         self._clock = clock
-        self.states: Mapping[str, Callable[[], bool]] = {}
+        self.states: dict[str, Callable[[], bool]] = {}
         self._acted = [False] * len(rules)
         self._scanning = False
         self.due = inf
@@ -117,22 +119,22 @@ class SignalImage:
         if self.due <= time:
             self.scan()
 
-    # ---- M functions ---------------------------------------------------------------------------------------
+    # ---- M functions and G codes of the builder --------------------------------------------------------------
 
-    def begin(self, code: int) -> bool:
-        """An M function goes out; whether a rule of the machine says when it is done."""
-        self[f"M{code}"] = 1.0
-        return f"{DONE}M{code}" in self._answered
+    def begin(self, word: str) -> bool:
+        """A function goes out, as `M8`; whether a rule of the machine says when it is done."""
+        self[word] = 1.0
+        return f"{DONE}{word}" in self._answered
 
-    def is_done(self, code: int) -> bool:
+    def is_done(self, word: str) -> bool:
         """Whether the machine has said that a function is done."""
-        return bool(self[f"{DONE}M{code}"])
+        return bool(self[f"{DONE}{word}"])
 
-    def finish(self, code: int) -> None:
+    def finish(self, word: str) -> None:
         """A function is done."""
-        self[f"M{code}"] = 0.0
+        self[word] = 0.0
 
     def reset(self) -> None:
         """Functions under way are given up."""
-        for name in [name for name in self._values if name[:1] == "M" and name[1:].isdigit()]:
+        for name in [name for name in self._values if _FUNCTION.fullmatch(name)]:
             self[name] = 0.0

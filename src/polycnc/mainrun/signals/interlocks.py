@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.toolpath.events import Auxiliary, SecondAuxiliary, SpindleSpeed, ToolSelection
+from polycnc.toolpath.events import Auxiliary, BuilderCode, SecondAuxiliary, SpindleSpeed, ToolSelection
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,7 +19,9 @@ EVENT_WORDS = {SpindleSpeed: "S_CODE", ToolSelection: "T_CODE", SecondAuxiliary:
 
 def word_of(event: Event) -> str:
     """The word that an event asks the machine for; empty where it asks for none."""
-    return f"M{event.code}" if isinstance(event, Auxiliary) else EVENT_WORDS.get(type(event), "")
+    if isinstance(event, Auxiliary):
+        return f"M{event.code}"
+    return event.code if isinstance(event, BuilderCode) else EVENT_WORDS.get(type(event), "")
 
 
 class Interlocks:

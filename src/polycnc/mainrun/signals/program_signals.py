@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.machine_words import MachineSignals
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.control.syntec.macros.variables import BitState
 from polycnc.control.syntec.memory import SyntecMemory
-from polycnc.control.word_address.macro_b.variables import MacroMemory
-from polycnc.control.word_address.memory import Memory
+from polycnc.control.word_address.macro_b.variables import MacroMemory, MacroSignals
 from polycnc.toolpath.events import SignalWrite
 
 if TYPE_CHECKING:
@@ -46,17 +46,17 @@ def connect(channel: Channel, image: SignalImage) -> None:
     """Let the programs of a channel use the signal image; `#1000`, `READDI` and their likes."""
     memory = channel.memory
     if isinstance(memory, MacroMemory):
-        memory.signals = ProgramSignals(memory.signals, channel, image)
+        signals = MacroSignals.of(channel)
+        signals.values = ProgramSignals(signals.values, channel, image)
     if isinstance(memory, SyntecMemory):
         bits = BitState.of(channel)
         bits.bits = ProgramSignals(bits.bits, channel, image)
-    if isinstance(memory, Memory):
-        memory.machine_signals = None  # the machine's controller is asked when a word reaches it
+    MachineSignals.of(channel).known = None  # the machine's controller is asked when a word reaches it
 
 
-def give(channel: Channel, image: SignalImage) -> None:
-    """Give the inputs to programs that keep them in variables (`$A_IN[1]`), before they are read."""
-    for name, value in image.values.items():
+def give(channel: Channel, signals: Mapping[str, float]) -> None:
+    """Give signals to programs that keep them in variables (`$A_IN[1]`): before they are read, or when one changes."""
+    for name, value in signals.items():
         variable, _, index = name.partition("[")
         if variable.startswith("$A_") and index[:-1].isdigit():
             values = Stored.of(channel).of_name(variable)

@@ -18,6 +18,6 @@ machine's axes by it: an axis has the velocity `q'·v` and the acceleration `q''
 acceleration along the path.
 
 The functions know no class of the project beside the columns (`columns.py`). They run as they are on
-`array.array`, the faster way for a short program, and as machine code on the same memory (`motion/compiled.py`); both
+`array.array`, and as machine code on the same memory (`motion/compiled.py`); both
 give the same numbers.
 """

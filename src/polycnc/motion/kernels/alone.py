@@ -1,9 +1,10 @@
 """Limited jerk: a line from rest to rest has averages of its own, and corners at which it pays to rest.
 
-Averaged over T, a line from rest to rest may accelerate by `u = j·T/2` (`jerk.py`): a long T delays its end, a short
-one takes the acceleration. Without a level part the time `2·√(L/u) + T` is least for `T = ∛(2·L/j)`, with one
-(`L/v + v/u + T`) for `T = √(2·v/j)`; the smaller of the two holds. That is 3·∛(2·L/j), a fifth more than any motion
-within the jerk could do. Positions need no average, for there is no corner. Lines that go on in one direction at one
+Averaged over T, a line from rest to rest may accelerate by `u = j·T` if its level part lasts T at least: then the
+average sees no more than one of its two steps of acceleration at a time. With `T = a/j`, and a speed v at which the
+level part still lasts so long, that is the quickest motion within speed, acceleration and jerk, `L/v + v/a + a/j`. If
+the way or the speed is too small to reach the acceleration a, `T = ∛(L/2j)` or `T = √(v/j)` is, with `v = j·T²`:
+4·∛(L/2j) on a short way. Positions need no average, for there is no corner. Lines that go on in one direction at one
 speed are one line.
 
 A corner that is passed at c holds both lines at c on `c·W/2` around it (`hold.py`): it costs W at least. A rest there
@@ -26,20 +27,33 @@ SHARED = 0.35
 
 
 def best_ramp(length: float, top: float, pull: float, jerk: float) -> float:
-    """Seconds to average a line from rest to rest over, so that it takes the least time.
+    """Seconds to average a line from rest to rest over, so that it takes the least time."""
+    ramp: float = min(pull / jerk, (0.5 * length / jerk) ** (1.0 / 3.0))
+    return min(ramp, sqrt(top / jerk)) if top < inf else ramp
 
-    More than it takes to allow the whole acceleration is of no use.
-    """
-    ramp: float = min(2.0 * pull / jerk, (2.0 * length / jerk) ** (1.0 / 3.0))
-    return min(ramp, sqrt(2.0 * top / jerk)) if top < inf else ramp
+
+def alone_pull(ramp: float, pull: float, jerk: float) -> float:
+    """Acceleration of a line from rest to rest that is averaged over `ramp` seconds (0: the jerk has no limit)."""
+    return min(pull, jerk * ramp) if ramp > 0.0 else pull
+
+
+def level_peak(start2: float, end2: float, length: float, pull: float, level: float) -> float:
+    """Highest speed on a way at whose peak the speed stays for `level` seconds at least."""
+    slow = pull * level
+    return 0.5 * (sqrt(slow * slow + 4.0 * pull * length + 2.0 * (start2 + end2)) - slow)
+
+
+def alone_top(length: float, top: float, pull: float, ramp: float) -> float:
+    """Highest speed of a line from rest to rest that is averaged over `ramp` seconds."""
+    return min(top, level_peak(0.0, 0.0, length, pull, ramp)) if ramp > 0.0 else top
 
 
 def goes_straight_on(n: int, state: State, wanted: float) -> bool:
     """Whether the line at hand goes on with a straight run from rest, in its direction and at its speed.
 
-    Where overrides will act, pieces are run before the end of the run is known.
+    In a dry run pieces are run before the end of the run is known.
     """
-    if state.run.alone != 2.0 or state.run.stop != 0.0 or state.run.free != 0.0 or state.row.shares > 0.0:
+    if state.run.alone != 2.0 or state.run.stop != 0.0 or state.run.free > 0.0 or state.row.shares > 0.0:
         return False
     if abs(wanted - state.run.wanted) > SAME_SPEED * wanted:
         return False
@@ -68,11 +82,34 @@ def settle_alone(pieces: Floats, n: int, limits: Limits, state: State) -> None:
             jerk = min(jerk, ease * limits.jerk[i] / share)
     top = min(sqrt(pieces[at + PieceRecord.CAP2]), state.run.wanted)
     ramp = best_ramp(run, top, pull, jerk)
+    pull = alone_pull(ramp, pull, jerk)
+    top = alone_top(run, top, pull, ramp)
+    if state.run.free != 0.0:
+        # Overrides act on a line that has begun, and the main run keeps its level part (`mainrun/motion/speed.py`).
+        top = overridden_top(pieces, at, n, limits, state)
     for p in range(first, count):
         at = p * width
-        pieces[at + PieceRecord.PULL] = min(pull, 0.5 * jerk * ramp)
+        pieces[at + PieceRecord.PULL] = pull
+        pieces[at + PieceRecord.CAP2] = top * top
+        if p > first:
+            pieces[at + PieceRecord.ENTRY2] = top * top
         pieces[at + PieceRecord.RAMP], pieces[at + PieceRecord.BLEND] = ramp, 0.0
     pieces[first * width + PieceRecord.PAUSE] = ramp
+
+
+def overridden_top(pieces: Floats, at: int, n: int, limits: Limits, state: State) -> float:
+    """Highest speed of a line at the largest override: that of its axes; a rapid has no override above 100 %."""
+    own = sqrt(pieces[at + PieceRecord.CAP2])
+    if int(pieces[at + PieceRecord.SLOT]) % 2 == 0 or state.row.top < inf:
+        return own
+    here, top = at + PieceRecord.VECTORS + PLACES * n, limits.path.path_feed
+    if limits.path.block_s > 0.0:
+        top = min(top, pieces[at + PieceRecord.LENGTH] / limits.path.block_s)
+    for i in range(n):
+        way = abs(pieces[here + n + i] - pieces[here + i])
+        if way > 0.0:
+            top = min(top, limits.top_feed[i] * pieces[at + PieceRecord.LENGTH] / way)
+    return max(top, own)
 
 
 def pays_to_rest(
@@ -102,7 +139,8 @@ def pays_to_rest(
                 pull = min(pull, limits.acceleration[i] / share)
                 jerk = min(jerk, limits.jerk[i] / share)
         ramp = best_ramp(way, top, pull, jerk)
-        resting += ramp + rest_to_rest(way, 0.0, top, min(pull, 0.5 * jerk * ramp))
+        own = alone_pull(ramp, pull, jerk)
+        resting += ramp + rest_to_rest(way, 0.0, alone_top(way, top, own, ramp), own)
         held = corner * window
         if held >= way:
             passing += way / corner

@@ -22,6 +22,7 @@ from polycnc.motion.kernels.columns import (
 from polycnc.motion.kernels.corners import join
 from polycnc.motion.kernels.feeds import (
     asked_speed,
+    block_top,
     bound,
     bounded,
     drive_factor,
@@ -164,7 +165,7 @@ def lay_arc(
     that much.
     """
     sweep, gentle = state.arc.sweep, contexts[record + ContextRecord.RAMP_S] > 0.0
-    parts = ceil(sweep * PIECES_PER_TURN / (2.0 * pi) - 1e-9)
+    parts = max(ceil(sweep * PIECES_PER_TURN / (2.0 * pi) - 1e-9), 1)
     if not has_room(pieces, contexts, record, state, parts + state.row.shares, n):
         return False
     step = sweep / parts
@@ -173,7 +174,7 @@ def lay_arc(
     way = arc_point(0.0, n, limits, weight, state)
     length = 0.5 * (way + end_way) * sweep
     radius, highest = facing_radius(0.0, limits, state), limits.path.path_feed
-    highest = min(highest, state.row.top)
+    highest = min(highest, state.row.top, block_top(length, limits, state))
     speed = min(bounded(asked_speed(curves, contexts, record, state, length, radius), state), highest)
     entry2, pull = point_cap2(n, limits, state, margin), inf
     if gentle:

@@ -62,11 +62,13 @@ class PathLimits(Structure):
         rapid_stops: Whether the axes stop between rapid and cutting (1).
         path_feed: Highest speed of a cut.
         corner_speed: Highest step of an axis's velocity at a corner of two cuts.
+        block_s: How long a cut lasts at least, because the control processes no more blocks a second (0: any).
     """
 
     rapid_stops: float
     path_feed: float
     corner_speed: float
+    block_s: float
 
 
 class Limits(NamedTuple):
@@ -213,7 +215,8 @@ class RunState(Structure):
         window: Seconds that a change of speed is spread over.
         alone: The last row is a line (1), and one from rest (2).
         wanted: Speed that it asks for.
-        free: Whether overrides will act on feeds (not the planner's): 1, or 2 if a dry run will act on threads.
+        free: Who says how fast feeds are (0: the plan): MAIN_RUN with overrides, 1 a dry run, 2 one that acts on
+            threads too. `kernels/feeds.py` says what 1 and 2 mean, `kernels/alone.py` what MAIN_RUN does.
         straight_pieces: Of the straight run from rest that the row at hand goes on with.
         ease: Factor on the limits at the end of the row before; `corner_ease` for its corner.
         overlap: OVERLAP of the row before.
@@ -356,6 +359,8 @@ PIECES_PER_TURN = 48
 FACING_PIECES = 16
 #: Cosine of the angle between two spline chords from which on it counts as a corner.
 SMOOTH_COS = 0.8
+#: FREE in the main run: overrides act, for which rows are laid out again.
+MAIN_RUN = -1.0
 #: Two ends of an arc nearer than this (mm) make it a full circle.
 SAME_POINT_MM = 1e-7
 

@@ -165,6 +165,12 @@ def bound(asked: float, state: State) -> float:
     return inf if is_free or not asked > 0.0 else asked
 
 
+def block_top(length: float, limits: Limits, state: State) -> float:
+    """Highest speed of the row at hand, a cut, at which the control keeps up; threads and taps follow their spindle."""
+    is_bound = state.row.kind == THREAD or state.row.kind == TAP or is_rapid(state)
+    return inf if limits.path.block_s == 0.0 or is_bound else length / limits.path.block_s
+
+
 def follows_radius(contexts: Floats, record: int) -> bool:
     """Whether the feed changes with the turning radius: per revolution, under constant surface speed."""
     return (

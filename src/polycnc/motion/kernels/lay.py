@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.kernels.alone import best_ramp, goes_straight_on, settle_alone
+from polycnc.motion.kernels.alone import alone_pull, alone_top, best_ramp, goes_straight_on, settle_alone
 from polycnc.motion.kernels.arcs import find_arc, lay_arc
 from polycnc.motion.kernels.columns import (
     AT_END,
@@ -35,6 +35,7 @@ from polycnc.motion.kernels.corners import join
 from polycnc.motion.kernels.feeds import (
     asked_speed,
     axes_of,
+    block_top,
     bound,
     bounded,
     drive_factor,
@@ -49,7 +50,7 @@ from polycnc.motion.kernels.feeds import (
     place,
 )
 from polycnc.motion.kernels.hold import hold
-from polycnc.motion.kernels.jerk import axis_pull, line_pull, window_s
+from polycnc.motion.kernels.jerk import line_pull, window_s
 from polycnc.motion.kernels.speeds import straight_time
 
 
@@ -193,34 +194,39 @@ def overlap(contexts: Floats, record: int, pieces: Floats, first: int, n: int, s
 def lay_rapid_by_axis(
     contexts: Floats, record: int, n: int, limits: Limits, pieces: Floats, state: State
 ) -> bool:
-    """A rapid on which every axis runs alone, from rest to rest: as long as the slowest axis takes."""
+    """A rapid on which every axis runs alone, from rest to rest; the average of the slowest one counts."""
     delta = state.delta
     if not has_room(pieces, contexts, record, state, 1, n):
         return False
     settle_alone(pieces, n, limits, state)
     state.run.alone = 0.0
-    seconds, ramp, own = 0.0, 0.0, contexts[record + ContextRecord.RAPID_SPEED]
-    own, faster = own if own > 0.0 else inf, contexts[record + ContextRecord.RAPID_SHARE]
+    gentle, longest, ramp = contexts[record + ContextRecord.RAMP_S] > 0.0, 0.0, 0.0
     for i in range(n):
-        way = abs(delta[i])
-        if way > 0.0 and contexts[record + ContextRecord.RAMP_S] > 0.0:
-            top, jerk = min(faster * limits.top_rapid[i], own), limits.jerk[i]
-            ramp = max(ramp, best_ramp(way, top, limits.acceleration[i], jerk))
-    for i in range(n):
-        way, top = abs(delta[i]), min(faster * limits.top_rapid[i], own)
+        way, top = abs(delta[i]), rapid_top(contexts, record, limits, i)
         if way > 0.0:
-            pull = axis_pull(ramp, limits, i)
-            seconds = max(seconds, straight_time(0.0, 0.0, top * top, pull, way))
-    if seconds > 0.0:
+            own = best_ramp(way, top, limits.acceleration[i], limits.jerk[i]) if gentle else 0.0
+            pull = alone_pull(own, limits.acceleration[i], limits.jerk[i])
+            top = alone_top(way, top, pull, own)
+            seconds = own + straight_time(0.0, 0.0, top * top, pull, way)
+            if seconds > longest:
+                longest, ramp = seconds, own
+    if longest > 0.0:
         at = next_piece(pieces, state, Form.TIMED, 0.0, n)
         place(pieces, at, n, state, 0.0, 1.0)
         pieces[at + PieceRecord.LENGTH] = norm(delta, n, limits, 1.0)
         pieces[at + PieceRecord.CAP2] = pieces[at + PieceRecord.ENTRY2] = 0.0
-        pieces[at + PieceRecord.PULL] = seconds
+        pieces[at + PieceRecord.PULL] = longest - ramp
         pieces[at + PieceRecord.PAUSE] = pieces[at + PieceRecord.RAMP] = ramp
         pieces[at + PieceRecord.BLEND] = 0.0
         state.run.stop = 1.0
     return True
+
+
+def rapid_top(contexts: Floats, record: int, limits: Limits, i: int) -> float:
+    """Highest speed of an axis that runs a rapid alone."""
+    own: float = contexts[record + ContextRecord.RAPID_SPEED]
+    top: float = contexts[record + ContextRecord.RAPID_SHARE] * limits.top_rapid[i]
+    return min(top, own) if own > 0.0 else top
 
 
 def lay_straight(
@@ -325,6 +331,7 @@ def line_limits(
     tops = limits.top_rapid if is_rapid(state) else limits.top_feed
     faster = contexts[record + ContextRecord.RAPID_SHARE] if is_rapid(state) else 1.0
     top = state.row.top if is_rapid(state) else min(limits.path.path_feed, state.row.top)
+    top = min(top, block_top(length, limits, state))
     pull = inf
     for i in range(n):
         unit[i] = delta[i] / length

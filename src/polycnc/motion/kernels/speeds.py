@@ -46,7 +46,7 @@ def forward(
     limits: Limits,
     end2: float,
     slots: Floats,
-    row_s: Floats,
+    rows: Floats,
     first_row: int,
 ) -> None:
     """Choose SPEED2, END2 and TIME of the first `count` pieces, given SPEED2 of the first and REACH2 of all.
@@ -58,8 +58,8 @@ def forward(
         limits: The machine.
         end2: Reach behind the last of them.
         slots: Seconds and length of every slot, in turn; the pieces' are added.
-        row_s: Seconds of every row from `first_row` on; the pieces' are added.
-        first_row: Number of the first row in `row_s`.
+        rows: Seconds and length of every row from `first_row` on, in turn; the pieces' are added.
+        first_row: Number of the first row in `rows`.
     """
     width = piece_width(n)
     x2 = pieces[PieceRecord.SPEED2]
@@ -90,7 +90,9 @@ def forward(
         slot = 2 * int(pieces[at + PieceRecord.SLOT])
         slots[slot] += seconds
         slots[slot + 1] += length
-        row_s[int(pieces[at + PieceRecord.ROW]) - first_row] += seconds
+        row = 2 * (int(pieces[at + PieceRecord.ROW]) - first_row)
+        rows[row] += seconds
+        rows[row + 1] += length
 
 
 def straight_time(start2: float, end2: float, cap2: float, pull: float, length: float) -> float:

@@ -1,90 +1,32 @@
 """A run: what the axes do from one standstill to the next, as a function of time.
 
-A run is made of planned pieces. Its time law along the path is exact, and so is the average of the way over RAMP_S; the
-average of an axis's position over BLEND_S, twice, is a sum over moments (`averaging.py`).
+A run is made of planned pieces. Its law along the path is exact, and so are the averages: of the way over RAMP_S
+(`law.py`), and of every axis's position over BLEND_S, twice (`averaging.py`).
 """
 
 from __future__ import annotations
 
+from functools import cached_property
 from math import sqrt
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from polycnc.motion.averaging import HALF, PARTS, TENT, area_after, average, tent_acceleration, way_after
+from polycnc.motion.averaging import tent_acceleration, under_tents
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord
 from polycnc.motion.kernels.jerk import window_s
+from polycnc.motion.law import STEPS, Law
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
+    from polycnc.motion.limits import AxisRapid
+
 Numbers: TypeAlias = "NDArray[np.float64]"
 #: Position, velocity and acceleration, or what stands for them along the path.
 Moved: TypeAlias = "tuple[Numbers, Numbers, Numbers]"
-
-
-class TimeLaw:
-    """Way along a path in time: phases of constant acceleration, one behind the other from time 0 and way 0.
-
-    Args:
-        seconds: Of each phase, (m,).
-        speed: At the start of each, (m,).
-        rate: Acceleration of each, (m,).
-    """
-
-    def __init__(self, seconds: Numbers, speed: Numbers, rate: Numbers) -> None:
-        keep = seconds > 0.0
-        speed, rate, seconds = speed[keep], rate[keep], seconds[keep]
-        self._start: Numbers = np.concatenate([[0.0], np.cumsum(seconds)])
-        ways = way_after(seconds, speed, rate)
-        self._way: Numbers = np.concatenate([[0.0], np.cumsum(ways)])
-        sums = area_after(seconds, self._way[:-1], speed, rate)
-        self._sum: Numbers = np.concatenate([[0.0], np.cumsum(sums)])
-        # At rest behind the last phase.
-        self._speed: Numbers = np.append(speed, 0.0)
-        self._rate: Numbers = np.append(rate, 0.0)
-
-    @property
-    def seconds(self) -> float:
-        """Duration."""
-        return float(self._start[-1])
-
-    def at(self, time: Numbers) -> tuple[Numbers, Numbers, Numbers, Numbers]:
-        """Integral of the way, way, speed, acceleration at times; at rest outside of the run."""
-        inside = time > 0.0
-        time = np.maximum(time, 0.0)
-        k = np.searchsorted(self._start, time, "right") - 1
-        dt, speed, rate = time - self._start[k], self._speed[k], self._rate[k]
-        place = self._way[k]
-        way = place + way_after(dt, speed, rate)
-        total = self._sum[k] + area_after(dt, place, speed, rate)
-        return total, way, np.where(inside, speed + rate * dt, 0.0), np.where(inside, rate, 0.0)
-
-    def when(self, way: float) -> float:
-        """The time at which a way has been gone."""
-        k = min(max(int(np.searchsorted(self._way, way, "right")) - 1, 0), len(self._speed) - 1)
-        left, speed, rate = max(way - float(self._way[k]), 0.0), float(self._speed[k]), float(self._rate[k])
-        fast = sqrt(max(speed * speed + 2.0 * rate * left, 0.0)) + speed
-        return float(self._start[k]) + (2.0 * left / fast if fast > 0.0 else 0.0)
-
-    def lag(self, speed: float) -> float:
-        """Seconds that getting up to a speed from rest costs against having had it."""
-        k = int(np.argmax(self._speed >= speed * (1.0 - 1e-9))) if speed > 0.0 else 0
-        return float(self._start[k]) - float(self._way[k]) / speed if k else 0.0
-
-    def averaged(self, time: Numbers, window: float) -> Moved:
-        """Way, speed and acceleration, averaged over a window around each time."""
-        if window == 0.0:
-            return self.at(time)[1:]
-        total, way, speed, _ = self.at(time - 0.5 * window)
-        later, way_later, speed_later, _ = self.at(time + 0.5 * window)
-        return (
-            average(total, later, window),
-            average(way, way_later, window),
-            average(speed, speed_later, window),
-        )
 
 
 class Run:
@@ -93,10 +35,10 @@ class Run:
     Args:
         pieces: Records of planned pieces, (m, width), from rest to rest.
         n: Number of axes.
-        limits: For a rapid of each axis by itself: velocity and acceleration of every axis.
+        limits: For a rapid of each axis by itself: how each runs.
     """
 
-    def __init__(self, pieces: Numbers, n: int, limits: Sequence[tuple[float, float]] = ()) -> None:
+    def __init__(self, pieces: Numbers, n: int, limits: Sequence[AxisRapid] = ()) -> None:
         self._ramp, self._blend, self._n = (
             float(pieces[0, PieceRecord.RAMP]),
             float(pieces[0, PieceRecord.BLEND]),
@@ -115,12 +57,15 @@ class Run:
         chord = self._end - self._start
         self._leave = np.where(bent, block[0] * scale, chord)
         self._arrive = np.where(bent, block[1] * scale, chord)
-        self._alone: list[TimeLaw] = []
+        self._alone: list[Law] = []
         if pieces[0, PieceRecord.FORM] == Form.TIMED:
-            self._alone = [_trapezoid(abs(way), *limit) for way, limit in zip(chord[0], limits, strict=True)]
-            self.law = max(self._alone, key=lambda law: law.seconds)
+            ways = np.abs(chord[0]).tolist()
+            self._alone = [_trapezoid(way, own.top, own.pull) for way, own in zip(ways, limits, strict=True)]
+            self._ramps = [own.ramp for own in limits]
+            ends = [law.seconds + own for law, own in zip(self._alone, self._ramps, strict=True)]
+            self.law = self._alone[ends.index(max(ends))]
         else:
-            self.law = TimeLaw(*_phases(pieces))
+            self.law = Law.of(*_phases(pieces))
 
     @property
     def seconds(self) -> float:
@@ -154,25 +99,34 @@ class Run:
 
     def piece_at(self, time: Numbers) -> NDArray[np.intp]:
         """Index of the piece at times from the start of the run."""
-        way = self.law.averaged(time - 0.5 * self._ramp - self._blend, self._ramp)[0]
-        return self._index(way)
+        return self._index(self.law.mean(time - self._blend, self._ramp))
 
     def at(self, time: Numbers) -> Moved:
         """Position, velocity and acceleration of the axes at times from the start of the run, each (k, n)."""
-        time = np.asarray(time) - 0.5 * self._ramp - self._blend
-        blend = self._blend
+        middle, blend = np.asarray(time) - self._blend, self._blend
         if blend == 0.0:
-            return self._on_path(time)
-        steps = blend / PARTS
-        places = np.stack([self._on_path(time + k * steps)[0] for k in range(-PARTS, PARTS + 1)])
-        before, after = (np.tensordot(HALF, places[k : k + PARTS + 1], 1) for k in (0, PARTS))
-        position = np.tensordot(TENT, places, 1)
-        acceleration = tent_acceleration(places[0, ...], places[PARTS, ...], places[-1, ...], blend)
-        return position, average(before, after, blend), acceleration
+            return self._on_path(middle)
+        position, velocity = under_tents(
+            lambda moments: self._on_path(moments)[0], middle, blend, self._edges
+        )
+        first, here, last = (self._on_path(middle + late)[0] for late in (-blend, 0.0, blend))
+        return position, velocity, tent_acceleration(first, here, last, blend)
 
     def on_path(self, time: Numbers) -> Numbers:
         """Positions on the path itself, before they are averaged, at times from the start of the run, (k, n)."""
-        return self._on_path(np.asarray(time) - 0.5 * self._ramp - self._blend)[0]
+        return self._on_path(np.asarray(time) - self._blend)[0]
+
+    @cached_property
+    def _edges(self) -> Numbers:
+        """When the axes' averaged way begins to follow another rule, or comes to another piece."""
+        low = np.array([self.law.when(way) for way in self._ways[1:-1].tolist()])
+        high = low + self._ramp
+        for _ in range(STEPS if self._ramp else 0):
+            middle = 0.5 * (low + high)
+            before = self.law.mean(middle, self._ramp) < self._ways[1:-1]
+            low, high = np.where(before, middle, low), np.where(before, high, middle)
+        phases = self.law.edges(-1.0, self.law.seconds + self._ramp + 1.0, self._ramp)
+        return np.unique(np.concatenate([np.array(phases), high]))
 
     def _index(self, way: Numbers) -> NDArray[np.intp]:
         return np.clip(np.searchsorted(self._ways, way, "right") - 1, 0, len(self._length) - 1)
@@ -181,7 +135,7 @@ class Run:
         """Position, velocity and acceleration on the path itself."""
         if self._alone:
             return self._each_alone(time)
-        way, speed, rate = (value[:, None] for value in self.law.averaged(time, self._ramp))
+        way, speed, rate = (value[:, None] for value in _averaged(self.law, time, self._ramp))
         k = self._index(way[:, 0])
         f = np.clip((way - self._ways[k][:, None]) / self._length[k][:, None], 0.0, 1.0)
         start, chord, length = self._start[k], self._end[k] - self._start[k], self._length[k][:, None]
@@ -193,37 +147,41 @@ class Run:
         return position, first * speed / length, second * (speed / length) ** 2 + first * rate / length
 
     def _each_alone(self, time: Numbers) -> Moved:
-        """Every axis by its own time law."""
+        """Every axis by its own law."""
         columns: list[Moved] = []
-        for i, law in enumerate(self._alone):
+        for i, (law, ramp) in enumerate(zip(self._alone, self._ramps, strict=True)):
             start, end = float(self._start[0, i]), float(self._end[0, i])
             sense = 1.0 if end >= start else -1.0
-            way, speed, rate = law.averaged(time, self._ramp)
+            way, speed, rate = _averaged(law, time, ramp)
             columns.append((start + sense * way, sense * speed, sense * rate))
         position, velocity, acceleration = (np.stack(values, axis=1) for values in zip(*columns, strict=True))
         return position, velocity, acceleration
 
 
+def _averaged(law: Law, time: Numbers, ramp: float) -> Moved:
+    """Way, speed and acceleration along the path, averaged over the time `ramp` before each of these."""
+    return law.mean(time, ramp), law.mean_speed(time, ramp), law.mean_pull(time, ramp)
+
+
 def _phases(pieces: Numbers) -> Moved:
-    """Three phases a piece: to its peak, along it, and down."""
-    start, peak, end = (
-        np.sqrt(pieces[:, field]) for field in (PieceRecord.SPEED2, PieceRecord.PEAK2, PieceRecord.END2)
+    """Three phases a piece, to its peak, along it and down: their seconds, ways and first speeds."""
+    start2, peak2, end2 = (
+        pieces[:, field] for field in (PieceRecord.SPEED2, PieceRecord.PEAK2, PieceRecord.END2)
     )
-    rate = np.where(pieces[:, PieceRecord.RATE] > 0.0, pieces[:, PieceRecord.RATE], 1.0)
-    up, down = (peak - start) / rate, (peak - end) / rate
-    level = pieces[:, PieceRecord.LENGTH] - 0.5 * (up * (start + peak) + down * (end + peak))
-    level = np.maximum(level, 0.0) / np.where(peak > 0.0, peak, 1.0)
-    seconds = np.stack([up, level, down], axis=1).ravel()
-    speed = np.stack([start, peak, peak], axis=1).ravel()
-    rates = np.stack([rate, np.zeros_like(rate), -rate], axis=1).ravel()
-    return np.where(seconds > 0.0, seconds, 0.0), speed, rates
+    length, rate = pieces[:, PieceRecord.LENGTH], pieces[:, PieceRecord.RATE]
+    rate = np.where(rate > 0.0, rate, np.inf)
+    up = np.minimum(0.5 * (peak2 - start2) / rate, length)
+    down = np.minimum(0.5 * (peak2 - end2) / rate, length - up)
+    ways = np.stack([up, length - up - down, down], axis=1).ravel()
+    speeds = np.sqrt(np.stack([start2, peak2, peak2, end2], axis=1))
+    sums = (speeds[:, :-1] + speeds[:, 1:]).ravel()
+    return 2.0 * ways / np.where(sums > 0.0, sums, np.inf), ways, speeds[:, :-1].ravel()
 
 
-def _trapezoid(way: float, top: float, pull: float) -> TimeLaw:
+def _trapezoid(way: float, top: float, pull: float) -> Law:
     """From rest to rest."""
     peak = min(top, sqrt(way * pull))
-    ramp = peak / pull
-    level = (way - peak * ramp) / peak if peak > 0.0 else 0.0
-    return TimeLaw(
-        np.array([ramp, max(level, 0.0), ramp]), np.array([0.0, peak, peak]), np.array([pull, 0.0, -pull])
-    )
+    up = 0.5 * peak * peak / pull
+    ways, speeds = np.array([up, max(way - 2.0 * up, 0.0), up]), np.array([0.0, peak, peak])
+    sums = np.array([peak, 2.0 * peak, peak])
+    return Law.of(2.0 * ways / np.where(sums > 0.0, sums, np.inf), ways, speeds)

@@ -44,7 +44,6 @@ def share_after(channel: Channel, end: list[float], feed: float, seconds: float)
 
     Planner(
         toolpath, channel.machine, channel=channel.number, start=start, settings=settings, on_pieces=keep,
-        compiled=False,
     ).finish()  # fmt: skip
     if not found:
         return None

@@ -62,7 +62,7 @@ def test_every_group_has_a_code_at_power_on_and_each_such_code_is_known(control_
 
 def test_a_negative_number_registers_a_modal_call() -> None:
     channel = run("M30\n", setup={"parameters": {"6050": -150, "6051": 65, "6080": 30, "6079": 40}})
-    calls = registered_codes(channel)
+    calls = registered_codes(channel.memory.parameters)
     assert {code: (call.program, call.kind) for code, call in calls.g.items()} == {"G150": (9010, "modal")}
     assert {code: (call.program, call.kind) for code, call in calls.m.items()} == {40: (9009, "sub")}
 

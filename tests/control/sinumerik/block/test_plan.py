@@ -38,7 +38,7 @@ def test_words_act_before_the_motion_and_stops_after_it() -> None:
         ("G0 X=ACP(3)", "16810"),
         ("G0 X=ACN(3)", "16820"),
         ("G0 X=CAC(3)", "17500"),
-        ("TCARR=1", "PC0001"),
+        ("TCARR=1", "14150"),
         ("SCPARA[X]=7", "12560"),
         ("DL=7", "12560"),
         ("G4 X3", "PC0001"),

@@ -13,7 +13,9 @@ AXES = {"X": "X", "X1": "X", "AX1": "X", "Y": "Y"}
 
 
 def data(**parameters: Value) -> MachineData:
-    return MachineData(Parameters({parameter_key(key): value for key, value in parameters.items()}), AXES)
+    return MachineData.of_setup(
+        Parameters({parameter_key(key): value for key, value in parameters.items()}), AXES
+    )
 
 
 def test_a_number_and_an_identifier_mean_the_same_datum() -> None:

@@ -7,9 +7,14 @@ from typing import Any
 
 import pytest
 
+from polycnc.channel.channel import Channel
+from polycnc.control.alarm_text import catalogue_of
 from polycnc.control.registry import control
-from polycnc.machine.plc import PlcAlarm
-from tests.support import codes, run
+from polycnc.machine import load_machine
+from polycnc.machine.plc import Plc, PlcAlarm
+from polycnc.messages import Catalogue
+from tests import support
+from tests.support import codes
 
 #: Alarms and messages that a program, a key or a state of the control brings about: without any input of the machine.
 RAISED = {
@@ -95,19 +100,26 @@ WITHOUT_A_RULE = {
 }
 
 
-def tables(control_id: str) -> Any:
-    chosen: Any = control(control_id)
-    return chosen.plc
+def tables(control_id: str) -> Plc:
+    return load_machine("hartford").plc(control_id)
+
+
+def texts(control_id: str) -> Catalogue:
+    return catalogue_of(control(control_id), load_machine("hartford"))
+
+
+def run(text: str, control_id: str = "fanuc-m", machine: str = "hartford", **more: Any) -> Channel:
+    return support.run(text, control_id, machine=machine, **more)
 
 
 @pytest.mark.parametrize("control_id", RAISED)
 def test_every_alarm_of_the_tables_is_in_the_catalogue(control_id: str) -> None:
-    assert {row.code for row in tables(control_id).alarms} <= set(control(control_id).catalogue)
+    assert {row.code for row in tables(control_id).alarms} <= set(texts(control_id))
 
 
 @pytest.mark.parametrize("control_id", RAISED)
 def test_every_alarm_with_a_text_has_a_rule(control_id: str) -> None:
-    listed = {code for code in control(control_id).catalogue if code.isdigit()}
+    listed = {code for code in texts(control_id) if code.isdigit()}
     assert listed - {row.code for row in tables(control_id).alarms} == WITHOUT_A_RULE[control_id]
 
 
@@ -203,19 +215,19 @@ def test_inputs_of_the_machine_refuse_too(control_id: str, text: str, signal: st
 
 @pytest.mark.parametrize(("control_id", "code"), [("fanuc-m", "1097"), ("meldas-m", "3008")])
 def test_a_clamped_axis_does_not_move(control_id: str, code: str) -> None:
-    assert codes(run("M24\nG0 X5.\nA90.\nM30\n", control_id, machine="mill4")) == [code]
-    assert codes(run("M24\nM25\nG1 A90. F500\nM30\n", control_id, machine="mill4")) == []
+    assert codes(run("M24\nG0 X5.\nA90.\nM30\n", control_id, machine=support.HARTFORD_MILL4)) == [code]
+    assert codes(run("M24\nM25\nG1 A90. F500\nM30\n", control_id, machine=support.HARTFORD_MILL4)) == []
 
 
 def test_plain_blocks_are_asked_for_too_while_a_brake_is_on() -> None:
     plain = "".join(f"G1 X{i} A{i}. F500\n" for i in range(200))
-    assert codes(run(f"{plain}M24\n{plain}M30\n", machine="mill4")) == ["1097"]
-    assert codes(run(f"M24\nM25\n{plain}M30\n", machine="mill4")) == []
+    assert codes(run(f"{plain}M24\n{plain}M30\n", machine=support.HARTFORD_MILL4)) == ["1097"]
+    assert codes(run(f"M24\nM25\n{plain}M30\n", machine=support.HARTFORD_MILL4)) == []
 
 
 def test_the_fifth_axis_has_its_own_brake() -> None:
-    assert codes(run("M26\nG0 A9.\nM30\n", "meldas-m", machine="mill5-ac-table")) == []
-    assert codes(run("M26\nG0 C9.\nM30\n", "meldas-m", machine="mill5-ac-table")) == ["3075"]
+    assert codes(run("M26\nG0 A9.\nM30\n", "meldas-m", machine=support.HARTFORD_MILL5)) == []
+    assert codes(run("M26\nG0 C9.\nM30\n", "meldas-m", machine=support.HARTFORD_MILL5)) == ["3075"]
 
 
 def test_maintenance_codes_need_mdi_and_their_switch() -> None:

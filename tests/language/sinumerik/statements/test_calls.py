@@ -85,7 +85,7 @@ def test_r_parameters_may_be_handed_over_by_reference() -> None:
         ("(VAR INT PP[2])", "SUBB(AA)", "12360"),
         ("(VAR INT PP)", "SUBB(BB)", "12360"),
         ("(VAR INT PP[,])", "SUBB(BB)", "12360"),
-        ("(REAL PP)", "SUBB(1,2)", "12080"),
+        ("(REAL PP)", "SUBB(1,2)", "12340"),
         ("", "SUBB(1)", "12340"),
         ("(REAL PP)", 'SUBB("a")', "12150"),
         ("(STRING[2] PP)", 'SUBB("abc")', "12210"),

@@ -9,7 +9,6 @@ from polycnc.control.fanuc.lathe.cycles import grinding
 from polycnc.control.fanuc.lathe.motion.drawing import DrawingState
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block.plan import NOT_YET
-from polycnc.language.bulk import Note, declare, declared
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -55,21 +54,6 @@ def wait_for_blocks(channel: LatheChannel, _words: Words) -> None:
     """G04.1: blocks behind are taken in when those in front have ended."""
     channel.flush()
     channel.synchronise()
-
-
-def plan_spindle_speed(builder: Builder) -> Step:
-    """S: a whole number without sign."""
-    slot, form = builder.slots["S"]
-    if form not in ("", "#"):
-        raise builder.control.fail("point", address="S")
-    set_speed = functions.plan_spindle_speed(builder)
-
-    def checked(channel: LatheChannel, values: list[float]) -> None:
-        if values[slot] < 0.0:
-            raise channel.control.fail("minus", address="S")
-        set_speed(channel, values)
-
-    return checked if declared(set_speed) is None else declare(checked, Note(slot, lowest=0.0))
 
 
 def plan_second_auxiliary(builder: Builder) -> Step | None:

@@ -11,8 +11,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.channel.waits import PreprocessingStop
 from polycnc.control.fanuc.lathe.cycles.single import CYCLES
 from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.motion.path import target
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -30,9 +32,15 @@ RAPID, LINE = "G0", "G1"
 
 @dataclass(slots=True)
 class BalanceState(State, lifetime=Lifetime.RESET):
-    """The paths that cut together; none where this one cuts by itself."""
+    """The paths that cut together; none where this one cuts by itself.
+
+    Attributes:
+        paths: Their numbers.
+        has_met: The running block has met those of the other paths.
+    """
 
     paths: frozenset[int] = frozenset()
+    has_met: bool = False
 
 
 def is_available(channel: LatheChannel) -> bool:
@@ -83,10 +91,15 @@ def together(builder: Builder, plan: Plan, move: Step | None) -> Step | None:
         return move
 
     def cut(channel: LatheChannel, values: list[float]) -> None:
-        before = list(channel.coordinates.position)
+        state = BalanceState.of(channel)
+        travels = motion != LINE or target(channel, plan.axis_words, values) != channel.coordinates.programmed
+        if travels and not state.has_met:
+            _meet(channel, CUT, state.paths)
+            if channel.wait is not None:
+                state.has_met = True
+                raise PreprocessingStop
+        state.has_met = False
         move(channel, values)
-        if motion != LINE or channel.coordinates.position != before:
-            _meet(channel, CUT, BalanceState.of(channel).paths)
 
     return cut
 
@@ -122,6 +135,7 @@ def _meet(channel: LatheChannel, mark: int, paths: Iterable[int]) -> None:
     others = [number for number in paths if number != channel.number and group.is_selected(number)]
     if others:
         channel.flush()
+        channel.synchronise()  # they meet when their axes are there, not when the block is prepared
         group.meet(channel, mark, others)
 
 

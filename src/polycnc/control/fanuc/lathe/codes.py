@@ -6,7 +6,7 @@ whatever the system: that of system A, and of B and C where A has none. So handl
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -67,6 +67,11 @@ def _point(code: str, handler: object, takes: str = "") -> GCode:
     return GCode(code, handler=handler, takes=takes, axis_words=True, order=Order.MOTION)  # type: ignore[arg-type]
 
 
+def _cycle(code: str, handler: object) -> GCode:
+    """A multiple repetitive cycle: its P and D may be depths and allowances."""
+    return replace(_point(code, handler, repetitive.WORDS), reals="PD")
+
+
 ROWS: tuple[Row, ...] = (
     *same(_motion("G0", drawing.plan_rapid)),
     *same(_motion("G1", drawing.plan_line)),
@@ -124,7 +129,7 @@ ROWS: tuple[Row, ...] = (
     *same(_point("G52", systems.set_local_system)),
     *same(_point("G53", systems.move_in_machine_system, "P")),
     *same(_point("G53.2", systems.feed_in_machine_system)),
-    *same(GCode("G54", "wcs", systems.select_work_offset, takes="P"), "G54.1"),
+    *same(GCode("G54", "wcs", systems.select_work_offset, takes="P", gives_way="P"), "G54.1"),
     *(row for n in range(55, 60) for row in same(GCode(f"G{n}", "wcs", systems.select_work_offset))),
     *same(GCode("G61", "path", coordinates.note_context, only_changes=True)),
     *same(GCode("G63", "path", coordinates.note_context, only_changes=True)),
@@ -136,12 +141,12 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G68.1", "rotation", systems.rotate, takes="R", axis_words=True)),
     *same(GCode("G69.1", "rotation", frames.end_rotation)),
     *by_system("G70", "G70", "G72", _point("G70", repetitive.finish, "P Q")),
-    *by_system("G71", "G71", "G73", _point("G71", repetitive.rough_turning, repetitive.WORDS)),
-    *by_system("G72", "G72", "G74", _point("G72", repetitive.rough_facing, repetitive.WORDS)),
-    *by_system("G73", "G73", "G75", _point("G73", repetitive.repeat_pattern, repetitive.WORDS)),
-    *by_system("G74", "G74", "G76", _point("G74", repetitive.peck_facing, repetitive.WORDS)),
-    *by_system("G75", "G75", "G77", _point("G75", repetitive.groove, repetitive.WORDS)),
-    *by_system("G76", "G76", "G78", _point("G76", repetitive.thread, repetitive.WORDS)),
+    *by_system("G71", "G71", "G73", _cycle("G71", repetitive.rough_turning)),
+    *by_system("G72", "G72", "G74", _cycle("G72", repetitive.rough_facing)),
+    *by_system("G73", "G73", "G75", _cycle("G73", repetitive.repeat_pattern)),
+    *by_system("G74", "G74", "G76", _cycle("G74", repetitive.peck_facing)),
+    *by_system("G75", "G75", "G77", _cycle("G75", repetitive.groove)),
+    *by_system("G76", "G76", "G78", _cycle("G76", repetitive.thread)),
     *same(GCode("G80", "cycle")),
     *by_system("G90", "G77", "G20", _motion("G90", single.plan_single_cycle)),
     *by_system("G92", "G78", "G21", _motion("G92", single.plan_single_cycle)),
@@ -228,6 +233,15 @@ def g_table(
     }
 
 
+#: All codes, as any system writes them.
+WRITTEN = frozenset(
+    code
+    for row in (*ROWS, *MEASURING_37, *MEASURING_36, *GRINDING, *BALANCE, *MIRROR)
+    for code in row.codes
+    if code
+) | {*NORMAL_CYCLES, *SERIES_15_CYCLES}
+
+
 @cache
 def written_codes(system: str) -> Mapping[tuple[str, str], str]:
     """How a modal code, by group and inner name, is written in a system."""
@@ -256,7 +270,7 @@ M_CODES = m_table(
 
 ADDRESSES = {
     "F": functions.plan_feed,
-    "S": turning_auxiliary.plan_spindle_speed,
+    "S": functions.plan_spindle_speed,
     "T": offsets.plan_tool,
     "B": turning_auxiliary.plan_second_auxiliary,
 }

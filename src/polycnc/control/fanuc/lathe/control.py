@@ -6,14 +6,15 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.stack import LevelKind
-from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES, HINTED_WORDS
-from polycnc.control.fanuc.code_calls import PROGRAM_M, registered_codes
+from polycnc.control.fanuc.alarm_codes import ALARMS, HINTED_WORDS
+from polycnc.control.fanuc.code_calls import registered_codes
 from polycnc.control.fanuc.lathe import auxiliary, balance
 from polycnc.control.fanuc.lathe import reset as turning_reset
 from polycnc.control.fanuc.lathe.codes import (
     ADDRESSES,
     M_CODES,
     POWER_ON,
+    WRITTEN,
     g_table,
     missing_codes,
     written_codes,
@@ -33,13 +34,16 @@ from polycnc.control.fanuc.lathe.motion import drawing, threads
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools import data_input, files, nose_radius, offsets
 from polycnc.control.fanuc.lathe.variables import TURNING_VARIABLES
-from polycnc.control.fanuc.operation import dry_run
-from polycnc.control.word_address.auxiliary.overrides import OverrideState
-from polycnc.control.word_address.block.codes import MCode
-from polycnc.control.word_address.cycles.drilling import CycleState
+from polycnc.control.fanuc.operation import dry_run, suppresses_reading
+from polycnc.control.word_address.auxiliary.interlocks import MOVES_RULE
+from polycnc.control.word_address.block import whole_numbers
+from polycnc.control.word_address.block.whole_numbers import DecimalPoint
+from polycnc.control.word_address.coordinates.frames import ROTATION_RULE
 from polycnc.control.word_address.macro_b import code_calls, interruption, macro_calls
 from polycnc.control.word_address.macro_b.custom_macro import CustomMacroControl
 from polycnc.control.word_address.motion import path
+from polycnc.control.word_address.tools import look_ahead
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations import cylinder, normal_line, polar_interpolation
 from polycnc.control.word_address.transformations.normal_line import NormalLineRules
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
@@ -48,20 +52,32 @@ from polycnc.toolpath.modes import FeedMode
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.channel.stack import Level
-    from polycnc.channel.steps import Step as ProgramStep
     from polycnc.compensation.policy import Policy
     from polycnc.control.data_files import DataFiles
     from polycnc.control.fanuc.lathe.family import LatheChannel
-    from polycnc.control.word_address.block.codes import GCode, Handler, Planner, Step
+    from polycnc.control.word_address.block.codes import (
+        ContextStep,
+        GCode,
+        Handler,
+        MCode,
+        MRow,
+        Planner,
+        Step,
+    )
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.rules import Rule
+    from polycnc.control.word_address.block.single_block import Halts
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
     from polycnc.language.bulk import Condition
     from polycnc.messages import AlarmError
-    from polycnc.toolpath import Context
     from polycnc.toolpath.motion_settings import MotionSettings
+
+#: What this control refuses on an unrolled cylinder beside `cylinder.REFUSED`: threads, measuring, rotation and cycles.
+NOT_ON_CYLINDERS = frozenset({
+    "G31.8", "G32", "G34", "G35", "G36", "G50", "G50.3", "G53.2", "G68.1",
+    "G70", "G71", "G72", "G73", "G74", "G75", "G76", "G90", "G94",
+})  # fmt: skip
 
 
 class FanucTurning(CustomMacroControl):
@@ -71,6 +87,17 @@ class FanucTurning(CustomMacroControl):
     alarm_files: ClassVar[tuple[str, ...]] = ("fanuc/alarms.toml",)
     default_machine: ClassVar[str] = "lathe2"
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
+    m_rows: ClassVar[tuple[MRow, ...]] = (
+        drilling.clamp_row,
+        code_calls.m_row,
+        modal.silent_row,
+        interruption.m_row,
+    )
+    context_steps: ClassVar[tuple[ContextStep, ...]] = (
+        *CustomMacroControl.context_steps,
+        threads.locked,
+        drilling.in_cycle,
+    )
     only_context: ClassVar[frozenset[Handler]] = CustomMacroControl.only_context | {auxiliary.surface_speed}
     repeated_codes: ClassVar[Mapping[str, Condition]] = systems.REPEATED
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
@@ -82,32 +109,38 @@ class FanucTurning(CustomMacroControl):
         "comp_avoidance_dangerous": "PS5447",
         "comp_avoidance_interferes": "PS5448",
     }
-    foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
     data_files: ClassVar[DataFiles] = files
-    parameter_file: ClassVar[str] = "fanuc/lathe/parameters.toml"
+    parameter_files: ClassVar[tuple[str, ...]] = ("fanuc/parameters.toml", "fanuc/lathe/parameters.toml")
     parameter_class: ClassVar = LatheParameters
     EXTENDED_WORK_SYSTEMS: ClassVar[int] = 48
     DIAMETER_PROGRAMMING: ClassVar[bool] = True
-    POINT_IN_WHOLE_NUMBERS: ClassVar[bool] = False
+    POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.REFUSED
     NORMAL_LINE_RULES: ClassVar[NormalLineRules] = NormalLineRules(preset="G50")
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z", "H": "C"}
     LATER_AXIS_WORD_COUNTS: ClassVar[bool] = True
     #: A motion code in the block of a tap cancels the tap, wherever it stands (II.4.5.1, "cancel").
     ENDED_ANYWHERE: ClassVar[frozenset[str]] = tapping.TAPS
+    halts_behind: ClassVar[tuple[Halts, ...]] = (
+        threads.not_between_threads,
+        *CustomMacroControl.halts_behind,
+    )
     rules: ClassVar[tuple[Rule, ...]] = (
         intervention.RULE,
+        ROTATION_RULE,
         normal_line.RULE,
         data_input.RULE,
         polar_interpolation.rule("G98", "G99"),
-        cylinder.rule("G50", "G90", "G94"),
+        cylinder.rule(*NOT_ON_CYLINDERS),
         repetitive.RULE,
         code_calls.RULE,
         macro_calls.RULE,
+        whole_numbers.RULE,
         nose_radius.CORNER_RULE,
         tapping.WAITING_RULE,
         drilling.RULE,
         single.ROTATION_RULE,
         nose_radius.RULE,
+        look_ahead.STOP_RULE,
         threads.RULE,
         shape.INTERRUPTION_RULE,
         balance.RULE,
@@ -115,6 +148,7 @@ class FanucTurning(CustomMacroControl):
         single.CLEARING_RULE,
         tapping.LEAVING_RULE,
         drawing.RULE,
+        MOVES_RULE,
     )
 
     # ---- state -----------------------------------------------------------------------------------------------
@@ -135,11 +169,20 @@ class FanucTurning(CustomMacroControl):
             balance=balance.is_available(channel),
             missing=missing_codes(channel.memory.parameters),
         )
-        return self.with_calls(channel, table)
+        return self.with_calls(channel, self.with_machine_codes(channel, table))
+
+    @property
+    def known_codes(self) -> frozenset[str]:
+        """The codes of all systems, with those that a parameter takes away."""
+        return WRITTEN
+
+    def rotation_adds(self, channel: LatheChannel) -> bool:
+        """5400#0 RIN: under G91 R of G68.1 is an increment; system A has no G91."""
+        return channel.mode["distance"] == "G91" and channel.memory.parameters.RIN
 
     def code_calls(self, channel: LatheChannel) -> CodeCalls:
         """Codes registered by 6050 to 6089 and 6001#5."""
-        return registered_codes(channel)
+        return registered_codes(channel.memory.parameters)
 
     def written_code(self, channel: LatheChannel, group: str) -> str:
         """The active code of a modal group as the program writes it."""
@@ -159,6 +202,7 @@ class FanucTurning(CustomMacroControl):
             taps_held=parameters.FHD,
             returns_to_path=parameters.MIT,
             dry_run=dry_run(parameters),
+            slowest_rapid=parameters.rapid_f0 / 60.0,
         )
 
     def stays_at_end(self, channel: LatheChannel, code: int) -> bool:
@@ -188,15 +232,6 @@ class FanucTurning(CustomMacroControl):
     def reset(self, channel: LatheChannel) -> None:
         """The state after reset, and after the end of a program."""
         turning_reset.reset(channel)
-
-    def halts(self, channel: LatheChannel, level: Level, step: ProgramStep) -> bool:
-        """Single block halts behind the first block that is no thread (II.3.1)."""
-        if (
-            threads.ThreadState.of(channel).step == level.current
-            and channel.mode["motion"] in offsets.THREADS
-        ):
-            return False
-        return super().halts(channel, level, step)
 
     def start_codes(self, channel: LatheChannel) -> dict[str, str]:
         """Code of every modal group at power-on (3402)."""
@@ -247,24 +282,6 @@ class FanucTurning(CustomMacroControl):
             return None if index is None else (index, builder.mode["distance"] == "G91")
         return super().axis_of_address(channel, address, builder)
 
-    def reference_point(self, channel: LatheChannel, axis: int, number: int) -> float:
-        """Machine position of a reference point; the parameter of a diameter axis is a diameter."""
-        of = channel.memory.parameters.of(channel.axes[axis])
-        shown = (of.reference_point_1, of.reference_point_2, of.reference_point_3, of.reference_point_4)[
-            number - 1
-        ]
-        if shown is None:
-            return channel.axis_data[axis].reference_points[number - 1]
-        return channel.memory.radius_of(axis, shown)
-
-    def context(self, channel: LatheChannel) -> Context:
-        """The context that holds now, with what threads and taps keep from the operator."""
-        context = threads.locked(channel, super().context(channel))
-        tapping, overlap = OverrideState.of(channel).tapping, CycleState.of(channel).overlap
-        if tapping or overlap != context.overlap:
-            return replace(context, feed_hold=context.feed_hold and not tapping, overlap=overlap)
-        return context
-
     # ---- motion ----------------------------------------------------------------------------------------------
 
     def check_nesting(self, channel: LatheChannel, kind: LevelKind) -> None:
@@ -279,6 +296,10 @@ class FanucTurning(CustomMacroControl):
             repetitive.end_of_shape(channel)
         else:
             super().end_of_program(channel)
+
+    def center_may_be_start(self, channel: LatheChannel) -> bool:
+        """Nose radius compensation has an alarm of its own for such an arc (II.5.2.5)."""
+        return RadiusState.of(channel).side != 0
 
     def plan_arc_without_center(self, builder: Builder, plan: Plan) -> Step | None:
         """G02/G03 without R, I, K: a straight line; PS0022 by 3403#5 CIR."""
@@ -303,32 +324,23 @@ class FanucTurning(CustomMacroControl):
         return not drilling.is_series_15(channel)
 
     def spindle_slot(self, builder: Builder) -> int | None:
-        """P beside S or M names the spindle (3703#3 MPP, or the builder's), where no code takes it."""
+        """P beside S or M names the spindle (3703#3 MPP), where no code takes it; that of a builder's M is its own."""
         if not builder.has("P"):
             return None
-        names_spindle = builder.m_codes or builder.channel.memory.parameters.MPP
+        by_parameter = builder.channel.memory.parameters.MPP
+        m_rows = [self.m_codes[number] for number in builder.m_codes if number in self.m_codes]
+        names_spindle = builder.m_codes or by_parameter
         if any(
             ("P" in row.takes and not (row.code == "G96" and names_spindle)) or row.takes == "*"
             for row in builder.codes
         ):
             return None
-        if any("P" in self.m_code(number).takes for number in builder.m_codes):
+        if any("P" in row.takes for row in m_rows) or not (m_rows or by_parameter or builder.has("S")):
             return None
         if builder.mode["cycle"] != "G80" or not (builder.m_codes or builder.has("S")):
             return None
         builder.take("P")
         return builder.slot("P")
-
-    def m_row(self, builder: Builder, number: int) -> MCode:
-        """The row of an M code in a block; clamp codes of drilling blocks belong to the cycle."""
-        if builder.mode["cycle"] != "G80" and drilling.is_clamp(builder.channel, number):
-            return MCode(number, handler=drilling.note_clamp(number), silent=True)
-        called = code_calls.m_row(builder, number)
-        if called is not None:
-            return called
-        if builder.mode.codes.get(modal.GROUP) == modal.READING and number not in PROGRAM_M:
-            return MCode(number, silent=True)
-        return interruption.m_code(builder.channel, number) or self.m_code(number)
 
     # ---- offsets ---------------------------------------------------------------------------------------------
 
@@ -339,6 +351,14 @@ class FanucTurning(CustomMacroControl):
     def nose_tip(self, channel: LatheChannel) -> tuple[float, float]:
         """Way from the nose centre to the imaginary tip, in units of the radius."""
         return offsets.nose_tip(channel)
+
+    def stops_reading(self, channel: LatheChannel, code: int) -> bool:
+        """M codes that stop the program, and those of 3411 to 3432."""
+        return super().stops_reading(channel, code) or suppresses_reading(channel.memory.parameters, code)
+
+    def compensates_to_intermediate(self, channel: LatheChannel) -> bool:
+        """5003#2 CCN: the vector vanishes behind the intermediate point of G28 and G30."""
+        return channel.memory.parameters.CCN
 
     def compensation_policy(self, channel: LatheChannel) -> Policy:
         """Rules of nose radius compensation by 5003, 5008, 5010, 19607, 19625."""

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
 
+from polycnc.channel.states.state import Lifetime, lasting
 from polycnc.control.word_address.macro_b.parameter_input import set_parameter
 from polycnc.control.word_address.macro_b.variables import MacroMemory
 from polycnc.control.word_address.memory import ProgrammingFrames
@@ -15,22 +17,31 @@ if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.parameters import LatheParameters
     from polycnc.control.parameters import Parameter
     from polycnc.control.word_address.family import WordAddressChannel
-    from polycnc.control.word_address.macro_b.variables import Registry
 
 
+@dataclass(slots=True)
 class TurningFrames(ProgrammingFrames):
-    """The programming frame of a lathe: rotation or mirror first, then tool offsets that move the point."""
+    """The programming frame of a lathe: rotation or mirror first, then tool offsets that move the point.
 
-    def __init__(self, axes: int, geometry: tuple[int, int, int]) -> None:
-        super().__init__()
-        self.offset = [0.0] * axes
-        self.turret = IDENTITY
-        self._geometry = geometry
+    Attributes:
+        turret: X of the opposite turret, mirrored (G68).
+        offset: Offsets of all axes that move the point; a parameter says whether a reset ends them.
+        geometry: Columns of the geometry axes.
+    """
+
+    turret: Frame = IDENTITY
+    offset: list[float] = lasting(Lifetime.POWER, factory=list)
+    geometry: tuple[int, int, int] = lasting(Lifetime.POWER, (-1, -1, -1))
+
+    @classmethod
+    def first(cls, channel: Channel) -> TurningFrames:
+        """Nothing moves the point."""
+        return cls(offset=[0.0] * len(channel.axes), geometry=channel.coordinates.geometry)
 
     def product(self) -> Frame:
         """The whole frame of the geometry axes."""
-        x, y, z = (self.offset[i] if i >= 0 else 0.0 for i in self._geometry)
-        frame = self.turret @ translation(x, y, z) @ super().product()
+        x, y, z = (self.offset[i] if i >= 0 else 0.0 for i in self.geometry)
+        frame = self.turret @ translation(x, y, z) @ super(TurningFrames, self).product()
         return IDENTITY if frame.is_identity else frame
 
     def set_turret(self, distance: float | None) -> None:
@@ -47,7 +58,7 @@ class TurningFrames(ProgrammingFrames):
     @property
     def shift(self) -> list[float] | None:
         """The offset of axes beside the geometry; None where there is none."""
-        shift = [0.0 if i in self._geometry else value for i, value in enumerate(self.offset)]
+        shift = [0.0 if i in self.geometry else value for i, value in enumerate(self.offset)]
         return shift if any(shift) else None
 
 
@@ -56,10 +67,8 @@ class TurningMemory(MacroMemory):
 
     channel: LatheChannel
     parameters: LatheParameters
-
-    def __init__(self, channel: Channel, registry: Registry) -> None:
-        super().__init__(channel, registry)
-        self.frames: TurningFrames = TurningFrames(len(channel.axes), channel.coordinates.geometry)
+    frames: TurningFrames
+    frames_class: ClassVar[type[ProgrammingFrames]] = TurningFrames
 
     def from_setup(self, channel: WordAddressChannel, shown: list[float]) -> list[float]:
         """Offsets as radii, where the setup says diameters."""

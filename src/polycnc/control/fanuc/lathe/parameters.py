@@ -2,24 +2,15 @@
 
 from __future__ import annotations
 
-from polycnc.control.parameters import AxisParameters, Bit, ControlParameters, Number, Whole
+from polycnc.control.fanuc.parameters import FanucAxisParameters, FanucParameters
+from polycnc.control.parameters import Bit, Number, Whole
 
 
-class LatheAxisParameters(AxisParameters):
+class LatheAxisParameters(FanucAxisParameters):
     """The parameters that every axis has."""
 
     #: 1006#3: words of the axis are radius values (0) or diameters (1); delivered 1 for X.
     DIA = Bit(1006, 3, delivered=None)
-    #: 1022: Axis of the basic coordinate system: 1, 2, 3 for X, Y, Z; 5, 6, 7 for their parallels.
-    basic_axis = Whole(1022, delivered=None)
-    #: 1240: First reference point, machine coordinates [mm].
-    reference_point_1 = Number(1240, delivered=None)
-    #: 1241: Second reference point, machine coordinates [mm].
-    reference_point_2 = Number(1241, delivered=None)
-    #: 1242: Third reference point, machine coordinates [mm].
-    reference_point_3 = Number(1242, delivered=None)
-    #: 1243: Fourth reference point, machine coordinates [mm].
-    reference_point_4 = Number(1243, delivered=None)
     #: 1310#0: the axis is checked against zone 2.
     OT2 = Bit(1310, 0, delivered=False)
     #: 1310#1: the axis is checked against zone 3.
@@ -48,15 +39,9 @@ class LatheAxisParameters(AxisParameters):
     thread_time_constant = Number(1626, delivered=0.0)
     #: 1627: FL speed of the exponential acceleration in thread cycles [mm/min].
     thread_fl_speed = Number(1627, delivered=0.0)
-    #: 6241: Speed of automatic tool offset [mm/min].
-    measuring_feed = Number(6241, delivered=0.0)
-    #: 6251: Automatic tool offset: deceleration distance [mm].
-    measuring_deceleration = Number(6251, delivered=0.0)
-    #: 6254: Automatic tool offset: window of the signal [mm].
-    measuring_window = Number(6254, delivered=0.0)
 
 
-class LatheParameters(ControlParameters["LatheAxisParameters"]):
+class LatheParameters(FanucParameters["LatheAxisParameters"]):
     """The parameters of the control."""
 
     axis_class = LatheAxisParameters
@@ -65,18 +50,12 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     INI = Bit(0, 2, delivered=False)
     #: 1#1: program format, normal (0) or Series 15 (1).
     FCV = Bit(1, 1, delivered=False)
-    #: 1013#0: least input increment 0.01 mm.
-    ISA = Bit(1013, 0, delivered=False)
-    #: 1013#1: least input increment 0.0001 mm.
-    ISC = Bit(1013, 1, delivered=False)
     #: 1202#3: a reset cancels the local coordinate system.
     RLC = Bit(1202, 3, delivered=False)
     #: 1205#7: the preset of the coordinate system keeps the tool offset.
     WTC = Bit(1205, 7, delivered=False)
     #: 1290: Distance of the opposite turrets for the mirror of G68 [mm].
     turret_distance = Number(1290, delivered=0.0)
-    #: 1300#0: inside (0) or outside (1) of zone 2 is forbidden.
-    OUT = Bit(1300, 0, delivered=False)
     #: 1330: TY: the chuck holds at the inner (0) or outer (1) face.
     jaw_kind = Whole(1330, delivered=0)
     #: 1331: L: length of a chuck jaw [mm].
@@ -107,16 +86,8 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     tailstock_hole = Number(1347, delivered=0.0)
     #: 1348: TZ: position of the tailstock, Z [mm].
     tailstock_z = Number(1348, delivered=0.0)
-    #: 1401#1: rapids run every axis by itself (0) or on a line (1).
-    LRP = Bit(1401, 1, delivered=False)
-    #: 1401#5: a dry run acts on threads and taps (0) or not (1).
-    TDR = Bit(1401, 5, delivered=False)
-    #: 1401#6: a dry run acts on rapids (1).
-    RDR = Bit(1401, 6, delivered=False)
     #: 1403#4: the rapid override does not act on the retract of thread cutting cycles.
     ROC = Bit(1403, 4, delivered=False)
-    #: 1410: Speed of a dry run; 0 for 1000 mm/min [mm/min].
-    dry_run_speed = Number(1410, delivered=0.0)
     #: 1466: Speed of the retract in thread cutting cycles; 0 for rapid traverse [mm/min].
     thread_retract_speed = Number(1466, delivered=0.0)
     #: 1611#0: the retract of thread cutting cycles runs at 1466 (0) or at rapid traverse (1).
@@ -145,8 +116,6 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     locked_offset = Whole(3294, delivered=0)
     #: 3295: How many offset numbers cannot be typed in.
     locked_offsets = Whole(3295, delivered=0)
-    #: 3401#0: words without a point are least increments (0) or millimetres, inches, seconds (1).
-    DPI = Bit(3401, 0, delivered=False)
     #: 3401#6: G code system B.
     GSB = Bit(3401, 6, delivered=False)
     #: 3401#7: G code system C.
@@ -165,8 +134,6 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     CLR = Bit(3402, 6, delivered=False)
     #: 3402#7: G23 at power-on.
     start_g23 = Bit(3402, 7, delivered=False)
-    #: 3403#5: an arc without R and centre is a line (0) or the alarm PS0022 (1).
-    CIR = Bit(3403, 5, delivered=False)
     #: 3404#4: rewinds the program (0), or it stays at its end (1).
     M30 = Bit(3404, 4, delivered=False)
     #: 3404#5: rewinds the program (0), or it stays at its end (1).
@@ -184,8 +151,6 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     C01 = Bit(3406, 1, delivered=False)
     #: 3407#2: a reset keeps the codes of group 10.
     C10 = Bit(3407, 2, delivered=False)
-    #: 3410: Allowed difference of the radii of an arc; 0: no check [mm].
-    arc_tolerance = Number(3410, delivered=0.0)
     #: 3453#0: chamfer and corner R by I, K, R (0) or drawing dimensions (1).
     CRD = Bit(3453, 0, delivered=False)
     #: 3458#7: Signs of chamfers and radii of drawing dimensions are read over.
@@ -208,10 +173,6 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     LWM = Bit(5002, 6, delivered=False)
     #: 5002#7: the tip number is that of geometry (0) or wear (1).
     WNP = Bit(5002, 7, delivered=False)
-    #: 5003#0: start-up and cancel of compensation, type A (0) or B (1).
-    SUP = Bit(5003, 0, delivered=False)
-    #: 5003#1: start-up and cancel of compensation, type C.
-    SUV = Bit(5003, 1, delivered=False)
     #: 5003#7: a reset cancels the shift by geometry.
     TGC = Bit(5003, 7, delivered=False)
     #: 5004#1: offsets are diameters (0) or radius values (1).
@@ -230,8 +191,6 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     CNV = Bit(5008, 3, delivered=False)
     #: 5008#4: intersections of compensation.
     MCR = Bit(5008, 4, delivered=False)
-    #: 5010: Corner moves shorter than this are left out in compensation [mm].
-    least_corner_move = Number(5010, delivered=0.001)
     #: 5015: Face of the touch sensor for contact +X, machine coordinates [mm].
     sensor_x_plus = Number(5015, delivered=0.0)
     #: 5016: Face of the touch sensor for contact -X, machine coordinates [mm].
@@ -300,10 +259,6 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     clamp_code = Whole(5110, delivered=0)
     #: 5111: Dwell after the C axis is unclamped [ms].
     unclamp_dwell = Number(5111, delivered=0.0)
-    #: 5114: Retract of high speed pecking [mm].
-    peck_retract = Number(5114, delivered=0.0)
-    #: 5115: Clearance of deep hole pecking [mm].
-    peck_clearance = Number(5115, delivered=0.0)
     #: 5124#0: the way off at 45 degrees is feed (0) or rapid (1).
     CBR = Bit(5124, 0, delivered=False)
     #: 5125#2: single block in G73 stops at every block (0) or at the way off and every pass (1).
@@ -356,8 +311,6 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     G84 = Bit(5200, 0, delivered=False)
     #: 5200#4: extraction override of rigid tapping.
     DOV = Bit(5200, 4, delivered=False)
-    #: 5200#5: pecking taps break chips (0) or clear them (1).
-    PCP = Bit(5200, 5, delivered=False)
     #: 5200#6: feed hold and single block act in rigid tapping.
     FHD = Bit(5200, 6, delivered=False)
     #: 5201#3: 5211 counts 10 per cent.
@@ -370,8 +323,6 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     RTX = Bit(5209, 0, delivered=False)
     #: 5211: Extraction override of rigid tapping [%].
     tap_extraction_override = Number(5211, delivered=0.0)
-    #: 5213: Retract of a pecking tap [mm].
-    tap_peck_retract = Number(5213, delivered=0.0)
     #: 5241: Highest speed of rigid tapping in gear 1 [rev/min].
     tap_speed_gear_1 = Number(5241, delivered=0.0)
     #: 5242: Highest speed of rigid tapping in gear 2 [rev/min].
@@ -382,103 +333,8 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     tap_speed_gear_4 = Number(5244, delivered=0.0)
     #: 5400#0: R of G68.1 is absolute (0) or incremental by G91 (1).
     RIN = Bit(5400, 0, delivered=False)
-    #: 5410: Angle of G68.1 without R [degrees].
-    rotation_angle = Number(5410, delivered=0.0)
     #: 5450#0: X of polar interpolation is a radius (0) or a diameter (1).
     PDI = Bit(5450, 0, delivered=False)
-    #: 5460: Linear axis of polar interpolation.
-    polar_linear_axis = Whole(5460, delivered=None)
-    #: 5461: Rotary axis of polar interpolation.
-    polar_rotary_axis = Whole(5461, delivered=None)
-    #: 5480: Rotary axis of normal line control.
-    normal_axis = Whole(5480, delivered=None)
-    #: 5481: Normal line control: feed of turns; 0 for that of the cut [degrees/min].
-    normal_turn_feed = Number(5481, delivered=0.0)
-    #: 5482: Normal line control: turns up to this angle are left out [degrees].
-    normal_least_turn = Number(5482, delivered=0.0)
-    #: 5483: Normal line control: in moves up to this length the axis stands [mm].
-    normal_shortest_move = Number(5483, delivered=0.0)
-    #: 6000#0: G67 without a modal call is an alarm (0) or nothing (1).
-    G67 = Bit(6000, 0, delivered=True)
-    #: 6000#5: single block halts behind macro statements (1).
-    SBM = Bit(6000, 5, delivered=False)
-    #: 6000#7: single block halts behind macro statements whatever #3003 says (1).
-    SBV = Bit(6000, 7, delivered=False)
-    #: 6001#1: DPRNT prints blanks in front of a number (0) or none (1).
-    PRT = Bit(6001, 1, delivered=False)
-    #: 6001#5: T calls O9000 (1).
-    TCS = Bit(6001, 5, delivered=False)
-    #: 6003#2: an interruption macro waits for the end of the block (1).
-    MIN = Bit(6003, 2, delivered=False)
-    #: 6003#5: the interruption program has local variables of its own, as a macro (0), or those of the
-    #: program (1).
-    MSB = Bit(6003, 5, delivered=False)
-    #: 6003#7: M96 and M97 are those of the interruption macro (1).
-    MUS = Bit(6003, 7, delivered=False)
-    #: 6004#0: results of ATAN are 0 to 360 (0) or -180 to 180 degrees (1).
-    NAT = Bit(6004, 0, delivered=False)
-    #: 6006#0: conditions may be joined by AND, OR, XOR (1).
-    MLG = Bit(6006, 0, delivered=False)
-    #: 6050: G code that calls O9010; negative: a modal call.
-    g_code_of_o9010 = Whole(6050, delivered=0)
-    #: 6051: G code that calls O9011; negative: a modal call.
-    g_code_of_o9011 = Whole(6051, delivered=0)
-    #: 6052: G code that calls O9012; negative: a modal call.
-    g_code_of_o9012 = Whole(6052, delivered=0)
-    #: 6053: G code that calls O9013; negative: a modal call.
-    g_code_of_o9013 = Whole(6053, delivered=0)
-    #: 6054: G code that calls O9014; negative: a modal call.
-    g_code_of_o9014 = Whole(6054, delivered=0)
-    #: 6055: G code that calls O9015; negative: a modal call.
-    g_code_of_o9015 = Whole(6055, delivered=0)
-    #: 6056: G code that calls O9016; negative: a modal call.
-    g_code_of_o9016 = Whole(6056, delivered=0)
-    #: 6057: G code that calls O9017; negative: a modal call.
-    g_code_of_o9017 = Whole(6057, delivered=0)
-    #: 6058: G code that calls O9018; negative: a modal call.
-    g_code_of_o9018 = Whole(6058, delivered=0)
-    #: 6059: G code that calls O9019; negative: a modal call.
-    g_code_of_o9019 = Whole(6059, delivered=0)
-    #: 6071: M code that calls O9001 as a subprogram.
-    m_code_of_o9001 = Whole(6071, delivered=0)
-    #: 6072: M code that calls O9002 as a subprogram.
-    m_code_of_o9002 = Whole(6072, delivered=0)
-    #: 6073: M code that calls O9003 as a subprogram.
-    m_code_of_o9003 = Whole(6073, delivered=0)
-    #: 6074: M code that calls O9004 as a subprogram.
-    m_code_of_o9004 = Whole(6074, delivered=0)
-    #: 6075: M code that calls O9005 as a subprogram.
-    m_code_of_o9005 = Whole(6075, delivered=0)
-    #: 6076: M code that calls O9006 as a subprogram.
-    m_code_of_o9006 = Whole(6076, delivered=0)
-    #: 6077: M code that calls O9007 as a subprogram.
-    m_code_of_o9007 = Whole(6077, delivered=0)
-    #: 6078: M code that calls O9008 as a subprogram.
-    m_code_of_o9008 = Whole(6078, delivered=0)
-    #: 6079: M code that calls O9009 as a subprogram.
-    m_code_of_o9009 = Whole(6079, delivered=0)
-    #: 6080: M code that calls the macro O9020.
-    m_code_of_o9020 = Whole(6080, delivered=0)
-    #: 6081: M code that calls the macro O9021.
-    m_code_of_o9021 = Whole(6081, delivered=0)
-    #: 6082: M code that calls the macro O9022.
-    m_code_of_o9022 = Whole(6082, delivered=0)
-    #: 6083: M code that calls the macro O9023.
-    m_code_of_o9023 = Whole(6083, delivered=0)
-    #: 6084: M code that calls the macro O9024.
-    m_code_of_o9024 = Whole(6084, delivered=0)
-    #: 6085: M code that calls the macro O9025.
-    m_code_of_o9025 = Whole(6085, delivered=0)
-    #: 6086: M code that calls the macro O9026.
-    m_code_of_o9026 = Whole(6086, delivered=0)
-    #: 6087: M code that calls the macro O9027.
-    m_code_of_o9027 = Whole(6087, delivered=0)
-    #: 6088: M code that calls the macro O9028.
-    m_code_of_o9028 = Whole(6088, delivered=0)
-    #: 6089: M code that calls the macro O9029.
-    m_code_of_o9029 = Whole(6089, delivered=0)
-    #: 7001#0: axes moved by hand return to the path before the program goes on (1).
-    MIT = Bit(7001, 0, delivered=False)
     #: 8103#1: P of waiting and balance cutting is a binary sum (0) or path numbers (1).
     MWP = Bit(8103, 1, delivered=False)
     #: 8132#1: the Y offset is there.
@@ -497,8 +353,6 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     NCR = Bit(8136, 7, delivered=False)
     #: 8137#0: balance cutting is not there.
     NVC = Bit(8137, 0, delivered=False)
-    #: 11304#3: program numbers have four (0) or eight digits (1).
-    ON8 = Bit(11304, 3, delivered=False)
     #: 11349#4: the Y offset screen switches by [SWITCH] (0) or [WEAR], [GEOM] (1).
     YGW = Bit(11349, 4, delivered=False)
     #: 11400#1: the 5th axis offset is in use.
@@ -521,5 +375,3 @@ class LatheParameters(ControlParameters["LatheAxisParameters"]):
     CAV = Bit(19607, 5, delivered=False)
     #: 19607#6: Interference check of compensation.
     NAA = Bit(19607, 6, delivered=False)
-    #: 19625: Blocks that compensation looks ahead.
-    read_blocks = Whole(19625, delivered=3)

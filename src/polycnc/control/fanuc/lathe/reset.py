@@ -10,13 +10,13 @@ from polycnc.control.fanuc.lathe.balance import BalanceState
 from polycnc.control.fanuc.lathe.coordinates import limits, systems
 from polycnc.control.fanuc.lathe.cycles import single
 from polycnc.control.fanuc.lathe.cycles.tapping import ClampState
+from polycnc.control.fanuc.lathe.memory import TurningFrames
 from polycnc.control.fanuc.lathe.tools import offsets
 from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
 from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations import cylinder, normal_line, polar_interpolation
-from polycnc.geometry.frames import IDENTITY
 
 if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.family import LatheChannel
@@ -68,15 +68,12 @@ def _end_states(channel: LatheChannel, *, clears: bool) -> None:
         # Balance cutting always ends (II.7.1), whatever becomes of other modal codes.
         channel.mode = channel.mode.with_code(balance.GROUP, "G69")
     drills = channel.mode["cycle"] != "G80"
-    kept = ((CycleState, ClampState) if drills else ()) + (() if clears else (ZeroState,))
+    kept = ((CycleState, ClampState) if drills else ()) + (() if clears else (ZeroState, TurningFrames))
     end_of(channel, Lifetime.RESET, kept)
     memory.forget_locals()
     # G41 or G42 that stays modal waits for the next offset number (II.5.4.1).
     radius = RadiusState.of(channel)
     radius.side = radius.engaged_side = {"G41": 1, "G42": -1}.get(channel.mode["compensation"], 0)
-    if clears:
-        memory.frames.rotation = memory.frames.mirror = memory.frames.turret = IDENTITY
-        memory.frames.mirrored = {}
     if memory.parameters.RLC:
         ZeroState.of(channel).local = [0.0] * len(channel.axes)
 

@@ -15,6 +15,9 @@ from polycnc.control.fanuc.system_variables import (
 )
 from polycnc.control.word_address.macro_b.variables import Read, Registry, SystemRange, Write
 from polycnc.control.word_address.memory import EXTERNAL
+from polycnc.control.word_address.motion.skip import LastSkip
+from polycnc.control.word_address.tools.radius import tool_position
+from polycnc.control.word_address.transformations import cylinder
 
 if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.memory import TurningMemory
@@ -32,6 +35,12 @@ def _shown(m: TurningMemory, axis: int, value: float) -> float:
         return value
     factor = 2.0 if channel.control.is_diameter(channel, axis) else 1.0
     return m.to_program_unit(value * factor)
+
+
+def _place(m: TurningMemory, i: int, position: list[float]) -> float:
+    """A coordinate of a position of the display."""
+    axis = axis_at(m, i)
+    return _shown(m, axis, cylinder.shown(m.channel, axis, position[axis]))
 
 
 def _taken(m: TurningMemory, axis: int, value: float | None) -> float:
@@ -151,20 +160,21 @@ def _rows_work_offsets() -> list[SystemRange]:
 def _end_point(m: TurningMemory, i: int) -> float:
     """Work coordinates of the block end, before the offset that moves the point; one still owed is not in it."""
     c = m.channel.coordinates
-    return _shown(m, axis_at(m, i), c.programmed[i] + c.pending[i])
+    return _place(m, i, [point + owed for point, owed in zip(c.programmed, c.pending, strict=True)])
 
 
 def _machine(m: TurningMemory, i: int) -> float:
-    return _shown(m, axis_at(m, i), m.channel.coordinates.machine[i])
+    axis, channel = axis_at(m, i), m.channel
+    return _shown(m, axis, channel.coordinates.to_machine(tool_position(channel))[axis])
 
 
 def _work(m: TurningMemory, i: int) -> float:
-    return _shown(m, axis_at(m, i), m.channel.coordinates.position[i])
+    return _place(m, i, tool_position(m.channel))
 
 
 def _skip(m: TurningMemory, i: int) -> float:
-    position = m.skip_position or m.channel.coordinates.position
-    return _shown(m, axis_at(m, i), position[i])
+    position = LastSkip.here(m.channel)
+    return _place(m, i, position)
 
 
 def _offset_in_force(m: TurningMemory, i: int) -> float:

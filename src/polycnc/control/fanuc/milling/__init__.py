@@ -1,1 +1,4 @@
-"""The FANUC machining centre (`fanuc-m`): `control`, `codes` (its tables), `cycles` (drilling), `variables`."""
+"""The FANUC machining centre (`fanuc-m`).
+
+`control`, `codes` (its tables), `cycles` (drilling), `variables`, `parameters` (written from the list beside it).
+"""

@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.word_address.auxiliary import functions
-from polycnc.control.word_address.auxiliary.interlocks import guarded_speed, guarded_step, nothing
+from polycnc.control.word_address.auxiliary.m_codes import MACHINING_CENTRE
 from polycnc.control.word_address.block.codes import (
     MILLING_POWER_ON,
     GCode,
+    MCode,
     Order,
+    m_table,
     not_yet,
     table,
     with_aliases,
@@ -31,8 +33,7 @@ from polycnc.control.word_address.transformations import (
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.block.codes import Handler, Step
-    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.codes import Handler
     from polycnc.control.word_address.block.words import Words
 
 
@@ -117,12 +118,12 @@ ROWS = table(
     *(moves(code, position_offset.offset_move, "D I J K R", idle_in_cycle=True) for code in position_offset.TIMES),
     GCode("G49", "length", tool_length(length.cancel_length), order=Order.LENGTH),
     GCode("G50", "scaling", frames.end_scale),
-    GCode("G51", "scaling", frames.scale, takes="I J K P", axis_words=True),
+    GCode("G51", "scaling", frames.scale, takes="I J K P", reals="P", axis_words=True),
     GCode("G50.1", "mirror", frames.end_mirror, axis_words=True),
     GCode("G51.1", "mirror", frames.mirror, axis_words=True),
     GCode("G52", handler=systems.set_local_system, axis_words=True),
     moves("G53", systems.move_in_machine_system_absolute),
-    GCode("G54", "wcs", systems.select_work_offset, takes="P"),
+    GCode("G54", "wcs", systems.select_work_offset, takes="P", gives_way="P"),
     GCode("G54.1", "wcs", systems.select_work_offset, takes="P"),
     *(GCode(f"G{number}", "wcs", systems.select_work_offset) for number in range(55, 60)),
     moves("G60", position_offset.position_one_way),
@@ -157,31 +158,14 @@ ROWS = table(
     ),
 )  # fmt: skip
 G_CODES = with_aliases(ROWS, ALIASES)
-
-
-def plan_guarded_speed(builder: Builder) -> Step:
-    """S, unless the machine refuses it now."""
-    return guarded_speed(functions.plan_spindle_speed(builder), builder)
-
-
-def plan_guarded_tool(builder: Builder) -> Step:
-    """T, or the call that it makes, unless the machine refuses it now."""
-    control: Any = builder.control
-    step = code_calls.plan_tool_or_call(builder)
-    return guarded_step(step or nothing, ("T_CODE",), control.plc)
-
-
-def plan_guarded_index(builder: Builder) -> Step:
-    """B as the second auxiliary function, unless the machine refuses it now."""
-    control: Any = builder.control
-    return guarded_step(functions.plan_second_auxiliary(builder), ("B_CODE",), control.plc)
+M_CODES = m_table(*MACHINING_CENTRE, MCode(29, handler=functions.arm_rigid_tapping))
 
 
 ADDRESSES = {
     "F": functions.plan_feed,
-    "S": plan_guarded_speed,
-    "T": plan_guarded_tool,
-    "B": plan_guarded_index,
+    "S": functions.plan_spindle_speed,
+    "T": code_calls.plan_tool_or_call,
+    "B": functions.plan_second_auxiliary,
     "H": length.plan_length_number,
     "D": radius.plan_radius_number,
 }

@@ -1,4 +1,4 @@
-"""FANUC control of a Hartford machining centre (control id `fanuc-m`)."""
+"""FANUC control of a machining centre (control id `fanuc-m`)."""
 
 from __future__ import annotations
 
@@ -6,27 +6,36 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policy import Approach, Policy
-from polycnc.control.fanuc.alarm_codes import ALARMS, FOREIGN_CODES
+from polycnc.control.fanuc.alarm_codes import ALARMS
 from polycnc.control.fanuc.code_calls import registered_codes
-from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, POWER_ON
+from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
+from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
 from polycnc.control.fanuc.milling.variables import MILLING_VARIABLES
-from polycnc.control.fanuc.operation import dry_run
-from polycnc.control.hartford import m_codes as hartford
+from polycnc.control.fanuc.operation import dry_run, suppresses_reading
+from polycnc.control.word_address.block.whole_numbers import DecimalPoint
 from polycnc.control.word_address.machining_centre import HARTFORD, MillingControl
 from polycnc.control.word_address.macro_b import interruption
 from polycnc.control.word_address.macro_b.variables import MacroMemory
+from polycnc.control.word_address.motion import path
+from polycnc.control.word_address.tools import length, look_ahead
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.block.codes import GCode, MCode, Planner
-    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.codes import GCode, MCode, MRow, Planner, Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.rules import Rule
+    from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
     from polycnc.toolpath.motion_settings import MotionSettings
+
+
+def _given(channel: Channel) -> FanucMillingParameters:
+    """The parameters of a channel, in front of power-on as well."""
+    return FanucMillingParameters.naming(channel.setup.parameters)
 
 
 class FanucMilling(MillingControl):
@@ -36,51 +45,89 @@ class FanucMilling(MillingControl):
     alarm_files: ClassVar[tuple[str, ...]] = (
         "fanuc/alarms.toml",
         "fanuc/milling/alarms.toml",
-        "hartford/alarms.toml",
-        "hartford/messages.toml",
     )
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
-    m_codes: ClassVar[Mapping[int, MCode]] = hartford.FANUC_M_CODES
+    m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
+    m_rows: ClassVar[tuple[MRow, ...]] = (interruption.m_row, *MillingControl.m_rows)
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
-    foreign_codes: ClassVar[Mapping[str, str]] = FOREIGN_CODES
+    parameter_files: ClassVar[tuple[str, ...]] = ("fanuc/parameters.toml", "fanuc/milling/parameters.toml")
+    parameter_class: ClassVar = FanucMillingParameters
     drilling: ClassVar[Drilling] = MILLING_DRILLING
-    rules: ClassVar[tuple[Rule, ...]] = (*MillingControl.rules, interruption.RULE)
-    plc_files: ClassVar[tuple[str, ...]] = ("hartford/rules.toml", "fanuc/plc.toml")
+    rules: ClassVar[tuple[Rule, ...]] = (*MillingControl.rules, look_ahead.TRAVEL_RULE, interruption.RULE)
+    SCALE_CENTER_IS_ABSOLUTE: ClassVar[bool] = True
+    POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.REFUSED
 
     def code_calls(self, channel: Channel) -> CodeCalls:
         """Codes registered by 6050 to 6089 and 6001#5."""
-        return registered_codes(channel)
-
-    def m_row(self, builder: Builder, number: int) -> MCode:
-        """The row of an M code; M96 P and M97 are those of the interruption macro where 6003#7 enables it."""
-        return interruption.m_code(builder.channel, number) or super().m_row(builder, number)
+        return registered_codes(_given(channel))
 
     def several_m_codes(self, channel: Channel) -> bool:
-        """3404#7: up to three M codes in a block."""
-        return bool(channel.setup.parameters.bit(3404, 7))
+        """3404#7 M3B: up to three M codes in a block."""
+        return _given(channel).M3B
+
+    def stops_reading(self, channel: Channel, code: int) -> bool:
+        """M codes that stop the program, and those of 3411 to 3432."""
+        return super().stops_reading(channel, code) or suppresses_reading(_given(channel), code)
+
+    def leave_length(self, channel: Channel, axes: list[int], *, to_reference: bool) -> None:  # noqa: ARG002
+        """G28, G30 and G53 cancel the length of their axes; 5001#6 EVO says until when (B-63844, 14.1.2)."""
+        length.leave_length(channel, axes, returns=_given(channel).EVO)
+
+    def compensates_to_intermediate(self, channel: Channel) -> bool:
+        """5003#2 CCN: the vector vanishes behind the intermediate point of G28 and G30."""
+        return _given(channel).CCN
 
     def compensation_policy(self, channel: Channel) -> Policy:
         """Start-up types A, B, C (5003#0, #1), blocks read ahead (19625), interference (5008)."""
-        parameters = channel.setup.parameters
+        parameters = _given(channel)
         return replace(
             HARTFORD,
-            approach=Approach.CORNER if parameters.bit(5003, 0) else Approach.SQUARE,
-            shifts_without_motion=bool(parameters.bit(5003, 1)),
-            read_blocks=min(max(int(parameters.number(19625, default=3)), 3), 8),
-            least_move_mm=parameters.number(5010, default=HARTFORD.least_move_mm),
-            checks_direction=not parameters.bit(5008, 1),
+            approach=Approach.CORNER if parameters.SUP else Approach.SQUARE,
+            shifts_without_motion=parameters.SUV,
+            read_blocks=min(max(parameters.read_blocks, 3), 8),
+            least_move_mm=parameters.least_corner_move,
+            checks_direction=not parameters.CNC,
         )
+
+    def whole_numbers(self, channel: Channel) -> frozenset[str]:
+        """3451#2 SDP: S may have a decimal point."""
+        addresses = super().whole_numbers(channel)
+        return addresses - {"S"} if _given(channel).SDP else addresses
+
+    def plan_arc_without_center(self, builder: Builder, plan: Plan) -> Step | None:
+        """G02/G03 without R, I, J, K: a straight line; PS0022 by 3403#5 CIR."""
+        if _given(builder.channel).CIR:
+            return super().plan_arc_without_center(builder, plan)
+        return path.plan_line(builder, plan)
+
+    def rotation_adds(self, channel: Channel) -> bool:
+        """5400#0 RIN: under G91 R of G68 is an increment."""
+        return channel.mode["distance"] == "G91" and _given(channel).RIN
+
+    def rotation_without_angle(self, channel: Channel) -> float:
+        """5410."""
+        return _given(channel).rotation_angle
+
+    def keeps_point_at_rotation(self, channel: Channel) -> bool:
+        """11600#5 AX1 = 0."""
+        return not _given(channel).AX1
+
+    def measuring(self, channel: Channel, _words: Words) -> tuple[float, float, float]:
+        """G37: way before the target at feed (6251), allowed difference (6254), feed (6241)."""
+        of = _given(channel).of(channel.axes[channel.coordinates.geometry[2]])
+        return of.measuring_deceleration, of.measuring_window, of.measuring_feed / 60.0
 
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """1401#1 LRP: rapids on a line, else every axis by itself; 7001#0 MIT: manual intervention and return."""
-        bit = channel.setup.parameters.bit
+        parameters = _given(channel)
         return replace(
             super().motion_settings(channel),
-            rapid_by_axis=not bit(1401, 1),
-            returns_to_path=bool(bit(7001, 0)),
-            dry_run=dry_run(channel.setup.parameters),
+            rapid_by_axis=not parameters.LRP,
+            returns_to_path=parameters.MIT,
+            dry_run=dry_run(parameters),
+            slowest_rapid=parameters.rapid_f0 / 60.0,
         )
 
     def make_memory(self, channel: Channel) -> MacroMemory:

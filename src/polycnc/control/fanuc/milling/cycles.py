@@ -4,14 +4,26 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
 from polycnc.control.word_address.auxiliary.functions import RigidTappingState
-from polycnc.control.word_address.cycles.drilling import DrillCycle, Drilling, third_axis
-from polycnc.cycles.drilling import holes
+from polycnc.control.word_address.cycles.drilling import (
+    CycleState,
+    DrillCycle,
+    Drilling,
+    third_axis,
+    turn_by_m_code,
+    turn_spindle,
+)
+from polycnc.cycles.drilling import holes, lathe
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.auxiliary.functions import RigidTapping
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.cycles.drilling import CycleData
+    from polycnc.cycles.drilling.holes import Hole, Stroke
 
 CYCLES = {
     "G73": DrillCycle(holes.peck_breaking_chips, pecks=True, needs="Q"),
@@ -31,67 +43,101 @@ CYCLES = {
 }
 #: Tapping cycles that M29 makes rigid.
 RIGID = frozenset({"G74", "G84"})
+TAPS = RIGID | {"G84.2", "G84.3"}
 #: The axes count as standing still within this, mm.
 WINDOW_MM = 0.0005
-#: Parameter with the retract or clearance of each pecking cycle, mm.
-RELIEF_PARAMETERS = {"G73": 5114, "G83": 5115, "G74": 5213, "G84": 5213, "G84.2": 5213, "G84.3": 5213}
+#: Retract or clearance of each pecking cycle, mm.
+RELIEF = {"G73": FanucMillingParameters.peck_retract, "G83": FanucMillingParameters.peck_clearance}
 
 
 def drilling_axis(builder: Builder) -> int:
-    """Z; the axis on the plane where 5101#0 says so."""
-    if builder.channel.setup.parameters.bit(5101, 0):
+    """Z; the axis on the plane where 5101#0 FXY says so."""
+    if FanucMillingParameters.naming(builder.channel.setup.parameters).FXY:
         return third_axis(builder)
     return builder.channel.coordinates.geometry[2]
 
 
 def relief(channel: Channel, code: str) -> float:
-    """Retract or clearance between pecks, mm. A pecking tap goes back to R where 5200#5 says so."""
-    parameters = channel.setup.parameters
-    number = RELIEF_PARAMETERS.get(code)
-    if number is None or (number == 5213 and parameters.bit(5200, 5)):
-        return 0.0
-    return parameters.number(number)
+    """Retract or clearance between pecks, mm."""
+    parameters = FanucMillingParameters.naming(channel.setup.parameters)
+    if code in RELIEF:
+        return parameters.value(RELIEF[code])
+    return parameters.tap_peck_retract if code in TAPS else 0.0
 
 
 def shift_off_wall(channel: Channel, data: CycleData, plane: tuple[int, int]) -> tuple[float, float]:
-    """I and J (Hartford manual); else Q in the direction of 5148 (signed axis number) or 5101#4, #5."""
+    """I and J (Hartford manual); else Q in the direction of 5148 (signed axis number) or 5101#4 RD1, #5 RD2."""
     if "I" in data or "J" in data:
         return data.amount("I"), data.amount("J")
     amount = abs(data.amount("Q"))
-    parameters = channel.setup.parameters
-    towards = int(parameters.number(5148, channel.axes[data.axis]))
+    parameters = FanucMillingParameters.naming(channel.setup.parameters)
+    towards = parameters.of(channel.axes[data.axis]).shift_direction
     if towards:
         second = channel.coordinates.geometry[plane[1]] == abs(towards) - 1
         amount = amount if towards > 0 else -amount
     else:
-        second = bool(parameters.bit(5101, 5))
-        amount = -amount if parameters.bit(5101, 4) else amount
+        second = parameters.RD2
+        amount = -amount if parameters.RD1 else amount
     return (0.0, amount) if second else (amount, 0.0)
 
 
 def check_rigid_tapping(channel: Channel, code: str) -> None:
-    """Between M29 and its tapping cycle nothing may move and S may not change; the spindle needs a speed."""
-    state = RigidTappingState.of(channel)
+    """Between M29 and its tapping cycle nothing may move and S may not change; the spindle needs a speed, not G96."""
+    state, data = RigidTappingState.of(channel), CycleState.of(channel).active
     armed = state.armed
-    if code not in RIGID or armed is None:
-        return
-    state.armed = None
+    if code in RIGID and armed is not None:
+        state.armed = None
+        data.rigid = True
+        _check_wait(channel, code, armed)
+    if code in TAPS - RIGID:
+        data.rigid = True
+    is_tap = data.rigid and code in TAPS
+    if is_tap and (channel.mode["surface_speed"] == "G96" or not channel.memory.spindle.speed > 0.0):
+        raise channel.control.fail("rigid_speed", address=code)
+
+
+def _check_wait(channel: Channel, code: str, armed: RigidTapping) -> None:
     c = channel.coordinates
     if any(abs(a - b) > WINDOW_MM for a, b in zip(c.machine, armed.machine, strict=True)):
         raise channel.control.fail("rigid_position", address=code)
-    if armed.speed != channel.memory.spindle_speed:
+    if armed.speed != channel.memory.spindle.speed:
         raise channel.control.fail("rigid_position", address=code)
-    if not armed.speed > 0.0:
-        raise channel.control.fail("rigid_speed", address=code)
+
+
+def check_tapping(channel: Channel, code: str) -> None:
+    """The conditions of a rigid tap, which every tap is by 5200#0 G84."""
+    if code in RIGID and FanucMillingParameters.naming(channel.setup.parameters).G84:
+        CycleState.of(channel).active.rigid = True
+    check_rigid_tapping(channel, code)
+
+
+def _taps_rigidly(channel: Channel) -> bool:
+    return CycleState.of(channel).active.rigid and channel.mode["cycle"] in TAPS
+
+
+def in_step(channel: Channel, _code: str, hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
+    """Pecks of a rigid tap break chips, or clear them by 5200#5 PCP; it dwells at its bottom (0i-TF Plus II.4.5.2)."""
+    if not _taps_rigidly(channel):
+        return strokes
+    clears = FanucMillingParameters.naming(channel.setup.parameters).PCP
+    return (lathe.tap_clearing_chips if clears else lathe.tap)(hole)
+
+
+def turn(channel: Channel, direction: int) -> None:
+    """A rigid tap leads the spindle without M codes."""
+    (turn_spindle if _taps_rigidly(channel) else turn_by_m_code)(channel, direction)
 
 
 MILLING_DRILLING = Drilling(
     CYCLES,
     kept="RQPIJ",
     repeats="KL",
+    most_repeats=9999,
     triggers="R",
     axis=drilling_axis,
     relief=relief,
     shift=shift_off_wall,
-    check=check_rigid_tapping,
+    check=check_tapping,
+    dress=in_step,
+    turn=turn,
 )

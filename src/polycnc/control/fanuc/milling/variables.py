@@ -15,8 +15,10 @@ from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_
 from polycnc.control.word_address.macro_b.interruption import InterruptionState
 from polycnc.control.word_address.macro_b.variables import Read, Registry, SystemRange, Write
 from polycnc.control.word_address.memory import EXTERNAL
+from polycnc.control.word_address.motion.skip import LastSkip
 from polycnc.control.word_address.tools.length import LengthState, renew_length
-from polycnc.control.word_address.tools.radius import RadiusState
+from polycnc.control.word_address.tools.radius import RadiusState, tool_position
+from polycnc.control.word_address.transformations import cylinder
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.macro_b.variables import MacroMemory
@@ -123,7 +125,7 @@ def _rows_modal(first: int) -> list[SystemRange]:
         107: lambda m, _i: float(RadiusState.of(m.channel).number),
         108: nothing,
         111: lambda m, _i: float(LengthState.of(m.channel).number),
-        120: lambda m, _i: float(m.next_tool),
+        120: lambda m, _i: float(m.tool.next),
         130: _extended,
     }
     return modal_rows(first, {n: _modal(group) for n, group in MILLING_GROUPS.items()}, words)
@@ -140,26 +142,36 @@ def modal_names() -> dict[str, tuple[int, int]]:
     return names
 
 
+def _shown(m: MacroMemory, axis: int, value: float) -> float:
+    """A position as the program sees it: inches, degrees."""
+    if m.channel.axis_data[axis].rotary:
+        return cylinder.shown(m.channel, axis, value)
+    return m.to_program_unit(value)
+
+
 def _end_point(m: MacroMemory, i: int) -> float:
     """Work coordinates of the block end, as programmed."""
-    return m.to_program_unit(m.channel.coordinates.position[axis_at(m, i)])
+    axis = axis_at(m, i)
+    return _shown(m, axis, m.channel.coordinates.position[axis])
 
 
 def _machine(m: MacroMemory, i: int) -> float:
     """Machine position now."""
-    return m.to_program_unit(m.channel.coordinates.machine[axis_at(m, i)])
+    axis, channel = axis_at(m, i), m.channel
+    machine = channel.coordinates.to_machine(tool_position(channel))[axis]
+    return machine if channel.axis_data[axis].rotary else m.to_program_unit(machine)
 
 
 def _work_with_length(m: MacroMemory, i: int) -> float:
     """Work position now: machine position less work zero, the tool length not taken off."""
     axis = axis_at(m, i)
-    return m.to_program_unit(m.channel.coordinates.position[axis] + ZeroState.of(m.channel).length[axis])
+    return _shown(m, axis, tool_position(m.channel)[axis] + ZeroState.of(m.channel).length[axis])
 
 
 def _skip(m: MacroMemory, i: int) -> float:
     """Where the last G31 ended; as the work position, with the tool length in it."""
     axis = axis_at(m, i)
-    position = m.skip_position or m.channel.coordinates.position
+    position = LastSkip.here(m.channel)
     return m.to_program_unit(position[axis] + ZeroState.of(m.channel).length[axis])
 
 

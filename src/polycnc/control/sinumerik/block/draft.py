@@ -7,7 +7,7 @@ the same block in the same modal state is worked out once.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.control.sinumerik.block.positions import AxisTerm, axis_term
 from polycnc.language.sinumerik.names.values import Axis
@@ -22,6 +22,10 @@ if TYPE_CHECKING:
 
 #: One thing that a block does.
 Step = Callable[["SinumerikChannel", "Values"], None]
+#: Where a block ends: a position of all axes.
+Goal = Callable[["SinumerikChannel", "Values"], list[float]]
+#: The end of a block with its rotary axes, from the end of its tip.
+Lead = Callable[["SinumerikChannel", "Values", list[float]], list[float]]
 
 
 class Draft:
@@ -35,6 +39,10 @@ class Draft:
         codes: Function of the block by group name, modal or not.
         steps: What the block does, in order.
         opens_line: The block begins a straight line whose end the next one tells (ANG).
+        lead: Leads the end of the block to where its words of orientation stand the rotary axes; None without any.
+            Who makes the move takes it by `take_lead`.
+        is_led: Somebody has taken it.
+        by_axes: Its straight move goes with the axes of the machine (PTP).
     """
 
     def __init__(self, channel: SinumerikChannel, block: Block, mode: Mode, codes: dict[str, str]) -> None:
@@ -45,6 +53,9 @@ class Draft:
         self.codes = codes
         self.steps: list[Step] = []
         self.opens_line = False
+        self.lead: Lead | None = None
+        self.is_led = False
+        self.by_axes = False
         self._open = {i: _with_spindle(word) for i, word in enumerate(block.words)}
 
     def take(self, address: str) -> int | None:
@@ -74,6 +85,11 @@ class Draft:
                 del self._open[position]
                 return position, word
         return None
+
+    def take_lead(self) -> Lead | None:
+        """What leads the end of the move that the taker makes; None without words of orientation."""
+        self.is_led = True
+        return self.lead
 
     def has(self, *addresses: str) -> bool:
         """Whether a word of one of these addresses is still open."""
@@ -127,6 +143,24 @@ def axis_column(draft: Draft, position: int, shape: WordShape) -> int:
 
 def _with_spindle(word: WordShape) -> WordShape:
     """`S2=` is S with the extension 2, though S2 is also the name of a spindle."""
-    if word.index is None and word.address[0] == "S" and word.address[1:].isdigit():
+    if word.index is None and word.address[:1] == "S" and word.address[1:].isdigit():
         return WordShape("S", int(word.address[1:]), word.modifier)
     return word
+
+
+class Plan(NamedTuple):
+    """What a block does.
+
+    Attributes:
+        steps: In order.
+        acts: Something happens on the machine: motion, dwell, auxiliary functions.
+        calls: A modal subprogram (MCALL) follows the block.
+        ends: Places of the M words, which may end the program.
+        shared: Axes that the block moves and that other channels can use as well, by their columns.
+    """
+
+    steps: tuple[Step, ...]
+    acts: bool
+    calls: bool
+    ends: tuple[int, ...]
+    shared: tuple[int, ...] = ()

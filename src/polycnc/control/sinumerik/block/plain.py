@@ -10,8 +10,9 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block.positions import AxisTerm, Dimension
-from polycnc.control.sinumerik.limits.working_area import MACHINE, Ranges
+from polycnc.control.sinumerik.limits.working_area import BASIC, MACHINE, Ranges, radius_beside
 from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
+from polycnc.geometry.arcs import is_even
 from polycnc.language.bulk import (
     Conditions,
     Conversion,
@@ -30,9 +31,10 @@ from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import CCW_KINDS
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Sequence
+    from collections.abc import Callable, Hashable, Sequence
 
     from polycnc.channel.mode import Mode
+    from polycnc.control.sinumerik.block.draft import Plan
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.language.bulk.scanner import LastMoves
     from polycnc.language.sinumerik.executable import SinumerikProgram
@@ -87,21 +89,25 @@ class SinumerikPlainBlocks:
     """What the scanner asks of a SINUMERIK control.
 
     The modal state of a shape is the mode and the program: names may mean something else in another one.
+
+    Args:
+        plan: What a block does in the modal state that holds.
     """
 
     spelling = SPELLING
 
-    def __init__(self) -> None:
+    def __init__(self, plan: Callable[[SinumerikChannel, Block], Plan]) -> None:
+        self._plan = plan
         self._conditions = Conditions()
 
     def ready(self, channel: SinumerikChannel) -> bool:
-        """Nothing watches single blocks, holds moves back or follows a block, and the program has been opened."""
+        """Nothing watches single blocks, bends arcs, holds moves back or follows a block; the program is open."""
         c = channel.coordinates
         return (
             channel.path.head is None
             and not channel.single_block
-            and channel.stroke_zone is None
             and c.direct
+            and is_even(c.zero)
             and c.transformation is None
             and channel.memory.language.modal_call is None
             and channel.level.code.whole.is_open
@@ -132,11 +138,18 @@ class SinumerikPlainBlocks:
         if not limits:
             return channel.limits
         ranges = list(channel.limits) or [(float("-inf"), float("inf"))] * len(channel.axes)
+        geometry = channel.coordinates.geometry
         for limit in limits:
-            if limit.system != MACHINE:
+            if limit.system not in (MACHINE, BASIC):
                 return [(inf, -inf)] * len(ranges)  # in another system only the interpreter can look
             low, high = ranges[limit.column]
-            ranges[limit.column] = max(low, limit.low), min(high, limit.high)
+            margin = radius_beside(channel, limit, channel.mode["plane"])
+            tool = limit.system == BASIC and limit.column in geometry
+            length = channel.coordinates.offsets[limit.column] if tool else 0.0
+            ranges[limit.column] = (
+                max(low, limit.low + length + margin),
+                min(high, limit.high + length - margin),
+            )
         return ranges
 
     def tolerance(self, channel: SinumerikChannel) -> float:
@@ -163,7 +176,7 @@ class SinumerikPlainBlocks:
                 return None
             if not block.codes and not block.words:
                 return Recipe((channel.mode, code))
-            plan = channel.mode.plans.get(block) or channel.control.plan(channel, block)
+            plan = channel.mode.plans.get(block) or self._plan(channel, block)
         except AlarmError:
             return None  # the interpreter comes to the same block and raises it
         if plan.shared or plan.ends:

@@ -9,22 +9,28 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 from math import nan
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.sinumerik import auxiliary, gcodes, tables
+from polycnc.control.machine_words import asking, move_words, plc_of
+from polycnc.control.sinumerik import auxiliary, gcodes, replaced, tables
 from polycnc.control.sinumerik.block import words
-from polycnc.control.sinumerik.block.draft import Draft, Step
-from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, own_diameter
+from polycnc.control.sinumerik.block.draft import Draft, Plan, Step
+from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, diameter_of_channel, own_diameter
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import spindle_speed
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
+from polycnc.control.sinumerik.frames import active as frames
 from polycnc.control.sinumerik.frames import codes as frame_codes
-from polycnc.control.sinumerik.frames import memory as frames
+from polycnc.control.sinumerik.frames import tool_frames
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion import circles, moves, repositioning, splines
+from polycnc.control.sinumerik.oscillation import words as oscillation
 from polycnc.control.sinumerik.signals import measuring
-from polycnc.control.sinumerik.tools import smooth_approach, stages
+from polycnc.control.sinumerik.tools import online, selection, smooth_approach, stages
+from polycnc.control.sinumerik.tools.holders import active as carriers
+from polycnc.control.sinumerik.transformations import oblique, orientation, point_to_point, seat
+from polycnc.control.sinumerik.transformations.words import SECOND, SINGLE, TRIPLES
 from polycnc.language.bulk import Enter, Idle, Note, declare
 from polycnc.messages import AlarmError
 
@@ -62,11 +68,15 @@ BLOCK_MOTIONS: dict[str, Callable[[Draft], Step | None]] = {
     "G74": moves.reference_point,
     "G75": moves.fixed_point,
     "G751": moves.fixed_point,
+    "G5": oblique.plunge,
+    "G7": oblique.plunge,
     **dict.fromkeys(repositioning.FUNCTIONS, repositioning.reposition),
     **dict.fromkeys(smooth_approach.APPROACHES, smooth_approach.approach),
     **dict.fromkeys(smooth_approach.RETRACTIONS, smooth_approach.retract),
 }
 LINEAR = frozenset(("G0", "G1"))
+#: Addresses that need a transformation; PO stands for polynomials of the direction as well.
+OF_TRANSFORMATIONS = frozenset((*TRIPLES, *SINGLE, *SECOND, "PO", "STAT", "TU"))
 
 
 @dataclass(slots=True)
@@ -74,24 +84,6 @@ class ExactStop(State, lifetime=Lifetime.BLOCK):
     """G9 holds for the running block."""
 
     block: bool = False
-
-
-class Plan(NamedTuple):
-    """What a block does.
-
-    Attributes:
-        steps: In order.
-        acts: Something happens on the machine: motion, dwell, auxiliary functions.
-        calls: A modal subprogram (MCALL) follows the block.
-        ends: Places of the M words, which may end the program.
-        shared: Axes that the block moves and that other channels can use as well, by their columns.
-    """
-
-    steps: tuple[Step, ...]
-    acts: bool
-    calls: bool
-    ends: tuple[int, ...]
-    shared: tuple[int, ...] = ()
 
 
 def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
@@ -107,47 +99,92 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     draft = Draft(channel, block, mode, codes)
     if mode is not channel.mode or any(name in IN_CONTEXT for name, _ in modal):
         draft.steps.append(_enter(mode, modal, changes=mode is not channel.mode))
-    draft.steps += [_effect(EFFECTS, channel.mode, name, code) for name, code in modal if name in EFFECTS]
+    draft.steps += _early_effects(draft, modal)
+    transforms = "frame" not in codes and _concerns_transformation(draft)
+    if transforms:
+        orientation.plan(draft)
+        point_to_point.plan(draft)
     own = _own_function(draft)
     moving = _motion(draft) if own is None and "frame" not in codes and "block_motion" not in codes else None
+    if transforms:
+        orientation.check(draft)
     ends = _words(draft)
-    # A retraction ends compensation itself, behind its line or arc.
-    leaves = codes.get("block_motion") in smooth_approach.RETRACTIONS and codes.get("compensation") == "G40"
-    late = [
-        (name, code)
-        for name, code in modal
-        if name in LATE_EFFECTS and not (leaves and name == "compensation")
-    ]
-    draft.steps += [_effect(LATE_EFFECTS, channel.mode, name, code) for name, code in late]
+    draft.steps += _late_effects(draft, modal)
     measures = measuring.measure(draft) if draft.has(*measuring.WORDS) else None
     if measures is not None:
         draft.steps.append(measures[0])
     in_spline = mode["motion"] in splines.SPLINES
     check = splines.positioned(draft) if in_spline else None
     draft.steps += [check] if check is not None else []
-    draft.steps += moves.positioning(draft)
+    swings = oscillation.oscillate(draft) if draft.has("OSCILL") else None
+    draft.steps += [swings] if swings is not None else []
+    started, awaited = moves.positioning(draft)
+    draft.steps += started
     if measures is not None:
         draft.steps.append(measures[1])
+    draft.steps += _asked_moves(draft, moves=own is not None or moving is not None)
     for step in (own, moving):
         if step is not None:
             draft.steps += _around(draft, step)
+    draft.steps += awaited
     if measures is not None:
         draft.steps.append(measures[2])
+    draft.steps += [orientation.finish] if draft.lead is not None else []
+    draft.steps += [point_to_point.finish] if draft.by_axes else []
     for position, word in draft.open_words():
         if word.address in AXIS_DIAMETERS:
             continue
-        raise words.misplaced(word, position)
+        seat.check_named(channel, word.address)
+        raise words.misplaced(word, position, beside_m=any(each.address == "M" for each in block.words))
     draft.steps += [_stop(position) for position in ends]
     if in_spline:
         draft.steps.append(splines.count_blocks(draft, is_point=moving is not None))
+    if any(word.address == "T" for word in block.words):
+        draft.steps.append(_call_for_tool(words.m_places(draft)))
     calls = moving is not None or (mode["motion"] in LINEAR and _is_bare_motion(block, codes))
     acts = bool(block.words) and "frame" not in codes
     return Plan(tuple(draft.steps), acts, calls and own is None, tuple(ends), _shared(draft))
 
 
+def _early_effects(draft: Draft, modal: list[tuple[str, str]]) -> list[Step]:
+    """What modal functions do in front of the words; T, D and TCARR of the block work the toolholder out themselves."""
+    selects = draft.has("TCARR", "T", "D")
+    early = [(n, code) for n, code in modal if n in EFFECTS and not (selects and n == "tool_carrier")]
+    return [_effect(EFFECTS, draft.channel.mode, name, code) for name, code in early]
+
+
+def _late_effects(draft: Draft, modal: list[tuple[str, str]]) -> list[Step]:
+    """What modal functions do behind the words; a retraction ends compensation itself, behind its line or arc."""
+    codes = draft.codes
+    leaves = codes.get("block_motion") in smooth_approach.RETRACTIONS and codes.get("compensation") == "G40"
+    late = [(n, code) for n, code in modal if n in LATE_EFFECTS and not (leaves and n == "compensation")]
+    return [_effect(LATE_EFFECTS, draft.channel.mode, name, code) for name, code in late]
+
+
+def _concerns_transformation(draft: Draft) -> bool:
+    """Whether a transformation acts on a block, or it has words that only one can mean."""
+    return bool(draft.mode[seat.GROUP]) or any(
+        word.address in OF_TRANSFORMATIONS for word in draft.block.words
+    )
+
+
 def _shared(draft: Draft) -> tuple[int, ...]:
     """Columns of the axes that a block moves, where other channels can use them as well."""
-    if not draft.memory.shares_axes or "frame" in draft.codes:
+    return _moved(draft) if draft.memory.shares_axes else ()
+
+
+def _asked_moves(draft: Draft, *, moves: bool) -> list[Step]:
+    """What asks the machine in front of a move whether its axes may move, where it may refuse that."""
+    if not moves or not draft.memory.machine_refuses_moves:
+        return []
+    plc = plc_of(draft.channel)
+    words_of_moves = move_words(draft.channel, _moved(draft))
+    return [asking(None, words_of_moves, plc)] if plc.moves.intersection(words_of_moves) else []
+
+
+def _moved(draft: Draft) -> tuple[int, ...]:
+    """Columns of the axes that a block moves."""
+    if "frame" in draft.codes:
         return ()
     names = (str(w.index) if w.address in ("POS", "POSA") else w.address for w in draft.block.words)
     tables_of_names = (draft.memory.columns, draft.memory.machine_columns)
@@ -181,7 +218,10 @@ def _axis_diameters(channel: SinumerikChannel, block: Block, mode: Mode, codes: 
     chosen = {memory.transverse: ""} if "diameter" in codes else {}
     for word in block.words:
         if word.address in AXIS_DIAMETERS:
-            chosen[memory.column(str(word.index))] = AXIS_DIAMETERS[word.address]
+            column = memory.column(str(word.index))
+            chosen[column] = AXIS_DIAMETERS[word.address] or diameter_of_channel(
+                mode, column, memory.transverse
+            )
     for column, function in chosen.items():
         if own_diameter(mode, column) != function:
             mode = mode.with_code(DIAMETER_OF_AXIS[column], function)
@@ -293,6 +333,15 @@ def _stop(position: int) -> Step:
     return run
 
 
+def _call_for_tool(places: tuple[int, ...]) -> Step:
+    """A program may stand for T: it is called at the end of the block."""
+
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        replaced.call_for_tool(channel, [words.whole(values, place) for place in places])
+
+    return run
+
+
 def _around(draft: Draft, step: Step) -> list[Step]:
     """The motion with what holds for this block alone: suppressed frames, exact stop."""
     suppression = draft.codes.get("suppression")
@@ -340,6 +389,12 @@ def _plane(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 -
     auxiliary.tool_changed(channel)
 
 
+def _tool_carrier(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    """TCOABS, TCOFR …: the toolholder that is active is worked out anew."""
+    if carriers.ActiveCarrier.of(channel).number:
+        auxiliary.edge_selected(channel)
+
+
 def _feed_type(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """Group 15: another kind of feed needs a new F; G97 keeps the speed that G96 had."""
     feed = tables.feed_type(channel.mode)
@@ -376,11 +431,15 @@ def _rules(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 -
     stages.changed_rules(channel)
 
 
+def _tool_plane(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    stages.changed_frame(channel)
+
+
 def _lengths_are_in_force(channel: SinumerikChannel) -> bool:
     """The plane gives the tool the lengths that it has."""
-    tools, data = channel.memory.tools, channel.memory.data
+    tools = channel.memory.tools
     before = tools.lengths
-    tools.assign_lengths(channel.mode["plane"], data)
+    selection.follow(channel)
     after, tools.lengths = tools.lengths, before
     return bool(after == before) and frames.is_in_force(channel)
 
@@ -398,6 +457,15 @@ def _contour_is_in_force(channel: SinumerikChannel) -> bool:
     return stages.active_cutter(channel) is None
 
 
+def _smooth_direction(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    """ORISON: PC0015 where fewer than four blocks are kept for it (6.7). The direction stays the programmed one."""
+    least = 4
+    if channel.mode["orientation_profile"] == "ORISON":
+        kept = channel.memory.data.integer("$MC_MM_ORISON_BLOCKS")
+        if kept < least:
+            raise AlarmError("PC0015", count=kept, least=least)
+
+
 #: When functions of a group that are in force already change nothing.
 REPEATED: dict[str, Condition] = {
     "wcs": frames.is_in_force,
@@ -409,8 +477,11 @@ REPEATED: dict[str, Condition] = {
 EFFECTS: dict[str, Step] = {
     "wcs": _zero_offset,
     "plane": _plane,
+    "tool_carrier": _tool_carrier,
+    "workpiece_frame": tool_frames.by_table,
     "feed": _feed_type,
     "diameter": _diameter,
+    "orientation_profile": _smooth_direction,
     "working_area": _working_area,
     "working_area_wcs": _working_area,
 }
@@ -418,8 +489,12 @@ EFFECTS: dict[str, Step] = {
 LATE_EFFECTS: dict[str, Step] = {
     "approach": _rules,
     "corner": _rules,
+    "corner_orientation": _rules,
+    "tool_offset": _tool_plane,
     "compensation": _side,
     "constant_side": _constant_side,
+    "fine_tool_offset": online.select_fine,
+    "tool_frame": tool_frames.by_tool,
 }
 #: Groups that a context of the toolpath tells of.
 IN_CONTEXT = frozenset(

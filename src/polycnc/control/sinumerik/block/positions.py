@@ -5,9 +5,12 @@ Source: Fundamentals (G90/G91, AC, IC, DC, ACP, ACN, G70/G71, G700/G710, DIAMON,
 
 from __future__ import annotations
 
+from dataclasses import replace
 from enum import Enum
+from math import floor
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.motion import indexing
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.geometry.units import INCH_MM
@@ -19,8 +22,13 @@ if TYPE_CHECKING:
 
     from polycnc.channel.mode import Mode
     from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.machine.model import Axis as MachineAxis
 
 TURN = 360.0
+#: A position this little below a range lies in it: what calculations leave of 0.
+_ROUNDING = 1e-9
+#: MD30455 bit 2: G90 means the shortest way on a modulo axis.
+_SHORTEST_BY_DEFAULT = 4
 
 
 class Dimension(Enum):
@@ -34,6 +42,60 @@ class Dimension(Enum):
     MODULO = "modulo"
 
 
+class ModuloRange(NamedTuple):
+    """Where positions of a modulo axis lie (MD30330, MD30340), and what becomes of others (MD30455 bit 0).
+
+    Attributes:
+        start: Its lower end, degrees; that itself lies within.
+        length: To its upper end, which lies outside.
+        wraps: A position outside means the one within that is whole ranges away; else it is alarm 16830.
+    """
+
+    start: float = 0.0
+    length: float = TURN
+    wraps: bool = False
+
+    @classmethod
+    def of(cls, data: MachineData, axis: str) -> ModuloRange:
+        """The range of an axis or spindle."""
+        return cls(
+            data.number("$MA_MODULO_RANGE_START", axis),
+            data.number("$MA_MODULO_RANGE", axis),
+            bool(data.integer("$MA_MISC_FUNCTION_MASK", axis) & 1),
+        )
+
+    def within(self, value: float, position: int) -> float:
+        """The value of a word as one within the range; alarm 16830 for one outside where that is not converted."""
+        if self.start <= value < self.start + self.length:
+            return value
+        if not self.wraps:
+            raise WordAlarm("16830", position)
+        return self.shown(value)
+
+    def shown(self, value: float) -> float:
+        """Any position as one within the range."""
+        return self.start + (value - self.start) % self.length
+
+    def below(self, value: float) -> float:
+        """How far the range in which a position lies is from the first one."""
+        return self.length * floor((value - self.start + _ROUNDING) / self.length)
+
+
+#: Of a rotary axis that is none of modulo positions, for DC, ACP and ACN.
+FULL_TURN = ModuloRange()
+
+
+def configured_axes(channel: SinumerikChannel) -> tuple[MachineAxis, ...]:
+    """The channel's axes as the machine file tells them; MD30310 makes rotary ones modulo axes or not."""
+    data = MachineData.of(channel)
+    return tuple(
+        replace(axis, modulo=bool(data.integer("$MA_ROT_IS_MODULO", axis.name)))
+        if axis.rotary and data.is_set("$MA_ROT_IS_MODULO", axis.name)
+        else axis
+        for axis in channel.axis_data
+    )
+
+
 class AxisTerm(NamedTuple):
     """An axis word of a block, worked out for a modal state.
 
@@ -43,6 +105,7 @@ class AxisTerm(NamedTuple):
         way: How the value is meant.
         factor: From the programmed value to mm (radius) or degrees.
         coded: CAC, CIC … for a coded position, else empty.
+        modulo: The range of positions of a rotary axis.
     """
 
     position: int
@@ -50,6 +113,7 @@ class AxisTerm(NamedTuple):
     way: Dimension
     factor: float
     coded: str = ""
+    modulo: ModuloRange = FULL_TURN
 
 
 #: For each modifier: the way it asks for, and whether the value is a diameter (None: as the modal state
@@ -93,6 +157,11 @@ def diameter_function(mode: Mode, column: int, transverse: int) -> str:
     return own_diameter(mode, column) or (mode["diameter"] if column == transverse else "DIAMOF")
 
 
+def diameter_of_channel(mode: Mode, column: int, transverse: int) -> str:
+    """What DIAMCHANA gives an axis: the channel's function as it is now, on the transverse axis whatever it will be."""
+    return "" if column == transverse else mode["diameter"]
+
+
 def is_diameter(mode: Mode, way: Dimension, column: int, transverse: int) -> bool:
     """Whether a value of an axis is a diameter."""
     function = diameter_function(mode, column, transverse)
@@ -109,7 +178,7 @@ def axis_term(
             axis on a linear one.
     """
     memory = channel.memory
-    axis = channel.axis_data[column]
+    axis = channel.memory.axes[column]
     diameter: bool | None = None
     if not modifier:
         way = Dimension.INCREMENTAL if mode["distance"] == "G91" else Dimension.ABSOLUTE
@@ -122,9 +191,14 @@ def axis_term(
     if modifier in _ROTARY_ONLY and not axis.rotary:
         raise WordAlarm(_ROTARY_ONLY[modifier], position, axis=channel.axes[column])
     if axis.rotary:
-        if way is Dimension.ABSOLUTE and axis.modulo:
-            way = Dimension.MODULO
-        return AxisTerm(position, column, way, 1.0)
+        if not axis.modulo:
+            return AxisTerm(position, column, way, 1.0)
+        name = channel.axes[column]
+        if way is Dimension.ABSOLUTE:
+            mask = memory.data.integer("$MA_MISC_FUNCTION_MASK", name)
+            is_shortest = not modifier and mask & _SHORTEST_BY_DEFAULT
+            way = Dimension.SHORTEST if is_shortest else Dimension.MODULO
+        return AxisTerm(position, column, way, 1.0, modulo=ModuloRange.of(memory.data, name))
     factor = length_factor(mode)
     if diameter is None:
         diameter = is_diameter(mode, way, column, memory.transverse)
@@ -166,25 +240,27 @@ def target(channel: SinumerikChannel, terms: Sequence[AxisTerm], values: tuple[A
 def _rotary_target(now: float, value: float, term: AxisTerm) -> float:
     """Target of a modulo rotary axis; without DC, ACP or ACN it stays within the turn in which it stands.
 
+    So it turns in positive direction to a larger angle and in negative direction to a smaller one.
+
     Raises:
-        WordAlarm: 16830 for an angle outside 0 to 360 with DC, ACP or ACN.
+        WordAlarm: 16830 for an angle outside the modulo range.
     """
-    base = now - now % TURN
+    modulo = term.modulo
+    value = modulo.within(value, term.position)
     if term.way is Dimension.MODULO:
-        return base + value
-    if not 0.0 <= value < TURN:
-        raise WordAlarm("16830", term.position)
-    way = (value - now) % TURN
-    if (term.way is Dimension.SHORTEST and way > TURN / 2) or (term.way is Dimension.NEGATIVE and way > 0.0):
-        way -= TURN
+        return modulo.below(now) + value
+    turn = modulo.length
+    way = (value - now) % turn
+    if (term.way is Dimension.SHORTEST and way > turn / 2) or (term.way is Dimension.NEGATIVE and way > 0.0):
+        way -= turn
     return now + way
 
 
 def shown(channel: SinumerikChannel, column: int, value: float, *, work: bool = True) -> float:
     """A position as a program reads it: in diameter, inches under G700, modulo axes within a turn."""
-    axis = channel.axis_data[column]
+    axis = channel.memory.axes[column]
     if axis.rotary:
-        return value % 360.0 if axis.modulo else value
+        return ModuloRange.of(channel.memory.data, axis.name).shown(value) if axis.modulo else value
     if work and is_diameter(channel.mode, Dimension.ABSOLUTE, column, channel.memory.transverse):
         value *= 2.0
     return value / INCH_MM if channel.mode["unit"] == "G700" else value

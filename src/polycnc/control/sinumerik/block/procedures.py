@@ -7,8 +7,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik.actions import actions, overlay, polynomials
+from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
+from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, diameter_of_channel
 from polycnc.control.sinumerik.channels import axis_exchange, coordination
 from polycnc.control.sinumerik.data import archive
 from polycnc.control.sinumerik.errors import not_supported
@@ -16,9 +19,9 @@ from polycnc.control.sinumerik.feed import axis_settings, pace, spindle_speed
 from polycnc.control.sinumerik.limits import protection, working_area
 from polycnc.control.sinumerik.motion import splines
 from polycnc.control.sinumerik.signals import interrupts, retraction, sections
-from polycnc.control.sinumerik.tools import d_numbers
+from polycnc.control.sinumerik.tools import d_numbers, online
+from polycnc.control.sinumerik.transformations import seat, selection, start
 from polycnc.control.sinumerik.variables.stored import Stored
-from polycnc.language.sinumerik.names.frame import NEUTRAL
 from polycnc.language.sinumerik.names.initialisation import NEW_CONFIGURATION, initialise
 from polycnc.messages import Alarm, AlarmError
 from polycnc.toolpath.events import Message, Raised
@@ -29,6 +32,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
 
 
+_MAY_BE_DIAMETER = 4
 #: SETAL: thousands of alarm numbers that are shown without stopping the program (job planning 14.9).
 SHOWN_ONLY = frozenset((62, 67, 68, 69))
 
@@ -44,6 +48,16 @@ def run(channel: SinumerikChannel, name: str, args: Arguments) -> None:
 def message(channel: SinumerikChannel, args: Arguments) -> None:
     """MSG(text): shown until the next one; MSG() takes it away."""
     channel.event(Message(str(args[0]) if args and args[0] is not None else ""))
+
+
+def diameters_of_channel(channel: SinumerikChannel, _args: Arguments) -> None:
+    """DIAMCHAN: all axes that may have a diameter function (MD30460 bit 2) take over that of the channel."""
+    memory, mode = channel.memory, channel.mode
+    for column, axis in enumerate(channel.axes):
+        if memory.data.integer("$MA_BASE_FUNCTION_MASK", axis) & _MAY_BE_DIAMETER:
+            function = diameter_of_channel(mode, column, memory.transverse)
+            mode = mode.with_code(DIAMETER_OF_AXIS[column], function)
+    channel.mode = mode
 
 
 def preprocessing_stop(channel: SinumerikChannel, _args: Arguments) -> None:
@@ -96,9 +110,10 @@ def position_control(on: bool) -> Callable[[SinumerikChannel, Arguments], None]:
 
 
 def wait_for_axes(channel: SinumerikChannel, args: Arguments) -> None:
-    """WAITP(axis, …): positioning axes stand at their targets when their block is written."""
-    for axis in args:
-        arguments.column(channel, axis)
+    """WAITP(axis, …): the program waits until positioning axes stand; they are neutral then."""
+    columns = [arguments.column(channel, axis) for axis in args]
+    action_axes.await_rest(channel, columns)
+    action_axes.release(channel, args)
 
 
 def wait_for_spindles(channel: SinumerikChannel, args: Arguments) -> None:
@@ -111,6 +126,7 @@ def preset(channel: SinumerikChannel, args: Arguments) -> None:
     """PRESETON(machine axis, value, …): the axis stands where it is and shows another machine position."""
     if not args or len(args) % 2:
         raise AlarmError("14020", text="PRESETON")
+    seat.refuse_transformed(channel, [arguments.column(channel, axis) for axis in args[::2]], "17600")
     coordinates = channel.coordinates
     machine = coordinates.machine
     for axis, value in zip(args[::2], args[1::2], strict=True):
@@ -142,16 +158,15 @@ def renumber(channel: SinumerikChannel, args: Arguments) -> None:
 
 
 def new_configuration(channel: SinumerikChannel, _args: Arguments) -> None:
-    """NEWCONF: machine data that the program has written act; variables with INICF begin anew."""
+    """NEWCONF: machine data that the program has written act; variables with INICF begin anew.
+
+    It stops preprocessing (job planning 1.17).
+    """
     channel.flush()
+    channel.synchronise()
     memory = channel.memory
     working_area.refresh(channel)
     initialise(channel, NEW_CONFIGURATION, keep_values=memory.data.keeps_first_values)
-
-
-def transformation_off(channel: SinumerikChannel, _args: Arguments) -> None:
-    """TRAFOOF: no transformation is active; the frame of transformations goes as well."""
-    channel.memory.frames.system["$P_TRAFRAME"] = NEUTRAL
 
 
 def workpiece(channel: SinumerikChannel, args: Arguments) -> None:
@@ -178,7 +193,7 @@ def editor_mark(_channel: SinumerikChannel, _args: Arguments) -> None:
 
 
 def no_overlay(_channel: SinumerikChannel, _args: Arguments) -> None:
-    """DRFOF, CORROF: there is no overlaid motion to take away."""
+    """DRFOF: no handwheel has moved an axis that could be taken back."""
 
 
 PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
@@ -208,17 +223,19 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **{name: axis_settings.motion_end(name) for name in axis_settings.MOTION_ENDS},
     "SETDNO": renumber,
     "DZERO": d_numbers.invalidate,
-    "DELDL": d_numbers.delete_additive,
+    "DELDL": d_numbers.without_status(d_numbers.delete_additive),
     "NEWCONF": new_configuration,
     "CHANDATA": channel_data,
     "SEFORM": section_of_program,
-    "TRAFOOF": transformation_off,
+    "DIAMCHAN": diameters_of_channel,
     "DRFOF": no_overlay,
     "WORKPIECE": workpiece,
     "GROUP_BEGIN": editor_mark,
     "GROUP_END": editor_mark,
     "GROUP_ADDEND": editor_mark,
-    "CORROF": no_overlay,
+    "CORROF": overlay.take_away,
+    **actions.PROCEDURES,
+    **polynomials.PROCEDURES,
     **interrupts.PROCEDURES,
     **coordination.PROCEDURES,
     **axis_exchange.PROCEDURES,
@@ -226,4 +243,7 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **splines.PROCEDURES,
     **protection.PROCEDURES,
     **archive.PROCEDURES,
+    **selection.PROCEDURES,
+    **start.PROCEDURES,
+    **online.PROCEDURES,
 }

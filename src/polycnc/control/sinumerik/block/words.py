@@ -11,18 +11,21 @@ from math import nan, pi
 from typing import TYPE_CHECKING
 
 from polycnc.compensation.corner import Shape
-from polycnc.control.sinumerik import auxiliary, tables
+from polycnc.control.machine_words import asking, plc_of
+from polycnc.control.sinumerik import auxiliary, replaced, tables
 from polycnc.control.sinumerik.block import plain
 from polycnc.control.sinumerik.block.draft import axis_column
-from polycnc.control.sinumerik.block.positions import number
+from polycnc.control.sinumerik.block.positions import ModuloRange, number
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import axis_settings, spindle_speed, tolerances, tooth_feed
 from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.motion import moves
+from polycnc.control.sinumerik.oscillation import words as oscillation
 from polycnc.control.sinumerik.signals import retraction
 from polycnc.control.sinumerik.tables import length_factor
-from polycnc.control.sinumerik.tools import stages
+from polycnc.control.sinumerik.tools import sides, stages
+from polycnc.control.sinumerik.tools.holders import active as carriers
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Note, declare
@@ -145,9 +148,10 @@ def spindle_position(_draft: Draft, position: int, shape: WordShape) -> Step:
     def run(channel: SinumerikChannel, values: Values) -> None:
         spindle = channel.memory.spindles.get(wanted)
         value = number(values, position)
-        if shape.modifier in ("DC", "ACP", "ACN") and not 0.0 <= value < tables.TURN:
-            raise WordAlarm("16830", position)
-        spindle.position = (value + (spindle.position if shape.modifier == "IC" else 0.0)) % tables.TURN
+        modulo = ModuloRange.of(channel.memory.data, f"S{spindle.number}")
+        if shape.modifier != "IC":
+            value = modulo.within(value, position)
+        spindle.position = modulo.shown(value + (spindle.position if shape.modifier == "IC" else 0.0))
         spindle.controlled = True
         spindle.direction = 0
         channel.context_changed()
@@ -158,9 +162,16 @@ def spindle_position(_draft: Draft, position: int, shape: WordShape) -> Step:
 # ---- tool
 
 
-def tool(_draft: Draft, position: int, shape: WordShape) -> Step:
+def m_places(draft: Draft) -> tuple[int, ...]:
+    """The places of the M functions of a block."""
+    words = enumerate(draft.block.words)
+    return tuple(place for place, word in words if word.address == "M" and word.index is None)
+
+
+def tool(draft: Draft, position: int, shape: WordShape) -> Step:
     """T: the tool of a number or a name; MD22550 says whether it is loaded now or with M6."""
     spindle_number(shape, position)
+    places = m_places(draft)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         memory = channel.memory
@@ -169,6 +180,9 @@ def tool(_draft: Draft, position: int, shape: WordShape) -> Step:
             wanted = number(values, position)
             if wanted != int(wanted) or wanted < 0:
                 raise WordAlarm("17190", position, tool=f"{wanted:g}")
+        if replaced.takes(channel, [values[place] for place in places], beside_tool=True):
+            replaced.hand(channel, "T", wanted if isinstance(wanted, str) else int(wanted))
+            return
         selected = 0 if wanted == 0 else memory.tools.find(wanted).number
         channel.event(ToolSelection(wanted if isinstance(wanted, str) else int(wanted)))
         memory.tools.selected = selected
@@ -178,19 +192,26 @@ def tool(_draft: Draft, position: int, shape: WordShape) -> Step:
     return run
 
 
-def edge(_draft: Draft, position: int, _shape: WordShape) -> Step:
+def edge(draft: Draft, position: int, _shape: WordShape) -> Step:
     """D: the cutting edge; D0 takes all tool offsets away."""
+    places = m_places(draft)
+    beside_tool = any(word.address == "T" for word in draft.block.words)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)
         if value != int(value) or not 0 <= value <= 32000:
             raise WordAlarm("14090", position)
+        if replaced.takes(channel, [values[place] for place in places], beside_tool=beside_tool):
+            replaced.hand(channel, "D", int(value))
+            return
         memory = channel.memory
         if memory.data.integer("$MC_TOOL_CHANGE_MODE") and memory.tools.selected != memory.tools.active:
             memory.tools.next_edge = int(value)
             return
+        before = memory.tools.additive
         memory.tools.select_edge(int(value))
-        auxiliary.tool_changed(channel)
+        auxiliary.first_location(channel, before)
+        auxiliary.edge_selected(channel)
 
     return run
 
@@ -255,7 +276,18 @@ def allowance(draft: Draft, position: int, _shape: WordShape) -> Step:
     factor = length_factor(draft.mode)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        stages.Contour.of(channel).allowance_mm = number(values, position) * factor
+        sides.Contour.of(channel).allowance_mm = number(values, position) * factor
+        stages.changed_radius(channel)
+
+    return run
+
+
+def depth(draft: Draft, position: int, _shape: WordShape) -> Step:
+    """ISD: how far the tip lies below the programmed point along the tool, for CUT3DC."""
+    factor = length_factor(draft.mode)
+
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        sides.Contour.of(channel).depth_mm = number(values, position) * factor
         stages.changed_radius(channel)
 
     return run
@@ -266,7 +298,7 @@ def disc(_draft: Draft, position: int, _shape: WordShape) -> Step:
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         highest = channel.memory.data.number("$MC_CUTCOM_MAX_DISC")
-        stages.Contour.of(channel).disc = min(max(number(values, position), 0.0), highest)
+        sides.Contour.of(channel).disc = min(max(number(values, position), 0.0), highest)
         stages.changed_rules(channel)
 
     return run
@@ -317,7 +349,8 @@ def modal_corner_feed(draft: Draft, position: int, _shape: WordShape) -> Step:
     factor = moves.feed_factor(draft)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        PathFeed.of(channel).of_corners = number(values, position) * factor or nan
+        PathFeed.of(channel).of_corners = feed = number(values, position) * factor or nan
+        stages.feed_all(channel, feed)
 
     return run
 
@@ -404,12 +437,13 @@ def auxiliary_h(_draft: Draft, position: int, _shape: WordShape) -> Step:
     return run
 
 
-def m_function(_draft: Draft, position: int, shape: WordShape) -> Step:
+def m_function(draft: Draft, position: int, shape: WordShape) -> Step:
     """M: what acts before the motion of its block."""
     spindle = spindle_number(shape, position)
+    beside = frozenset(word.address for word in draft.block.words)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        auxiliary.before_motion(channel, whole(values, position), spindle)
+        auxiliary.before_motion(channel, whole(values, position), spindle, beside)
 
     return run
 
@@ -423,11 +457,24 @@ def whole(values: Values, position: int) -> int:
 
 
 def tool_carrier(_draft: Draft, position: int, _shape: WordShape) -> Step:
-    """TCARR: 0 takes the tool carrier away; others are not executed."""
+    """TCARR: the orientable toolholder, 0 for none; 14150 for one that is not defined."""
 
-    def run(_channel: SinumerikChannel, values: Values) -> None:
-        if number(values, position) != 0.0:
-            raise not_supported("TCARR")
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        value = number(values, position)
+        if value != int(value) or value < 0.0:
+            raise WordAlarm("14150", position, number=f"{value:g}")
+        carriers.activate(channel, int(value))
+        auxiliary.tool_changed(channel)
+
+    return run
+
+
+def cutting_data(_draft: Draft, position: int, _shape: WordShape) -> Step:
+    """CUTMOD: edge positions turn with the toolholder of a number, with any (-1), with the active one (-2), or not."""
+
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        carriers.modify_cuts(channel, whole(values, position))
+        auxiliary.tool_changed(channel)
 
     return run
 
@@ -437,6 +484,7 @@ WORDS: dict[str, Maker] = {
     "F": feed,
     "FZ": tooth_feed.tooth_feed,
     "FA": axis_feed,
+    **oscillation.OSCILLATION_WORDS,
     "S": speed,
     "LIMS": speed_limit,
     "SPOS": spindle_position,
@@ -450,6 +498,7 @@ WORDS: dict[str, Maker] = {
     "TOFFR": added_radius,
     "OFFN": allowance,
     "DISC": disc,
+    "ISD": depth,
     "CHF": corner(Shape.CHAMFER_LENGTH),
     "CHR": corner(Shape.CHAMFER),
     "RND": corner(Shape.ROUNDING),
@@ -458,6 +507,7 @@ WORDS: dict[str, Maker] = {
     "ADIS": rounding_distance,
     "ADISPOS": rounding_distance,
     "TCARR": tool_carrier,
+    "CUTMOD": cutting_data,
     "SVC": cutting_rate,
     "FGREF": path_feed_of_axis,
     "FL": path_feed_of_axis,
@@ -478,13 +528,18 @@ _EXTENDED = """
 S M H T D F FA LIMS SPOS SPOSA TOFFL TOFF OVRA ACC ACCLIMA VELOLIM VELOLIMA JERKLIM JERKLIMA SCPARA ATOL
 FGREF FL POLF ADISPOSA
 """
-EXTENDED = frozenset(_EXTENDED.split())
+EXTENDED = frozenset((*_EXTENDED.split(), *oscillation.OSCILLATION_WORDS))
 MODIFIED = {
     **dict.fromkeys(("SPOS", "SPOSA"), frozenset(("AC", "IC", "DC", "ACP", "ACN"))),
     **dict.fromkeys(("M", "H"), frozenset(("QU",))),
     "F": frozenset(("FPO",)),
     "POLF": frozenset(("AC", "IC")),
+    **dict.fromkeys(oscillation.POSITIONS, frozenset(("AC", "IC"))),
 }
+#: What the machine's own controller may refuse.
+ASKED = {"S": "S_CODE", "T": "T_CODE"}
+#: How often a program is called; it stands beside a call alone.
+PASSES = "P"
 #: Words that only mean something together with others; alone they are a mistake of the block.
 COMPANIONS = frozenset(
     "I J K I1 J1 K1 IP CR AR TURN AP RP RPL ANG SF FB FRC FP DISR DISCL FAD DISPR PO PW SD PL".split()  # noqa: SIM905 - a table
@@ -497,11 +552,16 @@ def make(draft: Draft, position: int, shape: WordShape) -> Step:
         raise WordAlarm("12400", position, text=shape.address)
     if shape.modifier and shape.modifier not in MODIFIED.get(shape.address, ()):
         raise WordAlarm("12020", position, text=shape.modifier)
-    return WORDS[shape.address](draft, position, shape)
+    step = WORDS[shape.address](draft, position, shape)
+    word = ASKED.get(shape.address)
+    return asking(step, (word,), plc_of(draft.channel)) if word is not None else step
 
 
-def misplaced(shape: WordShape, position: int) -> AlarmError:
-    """The alarm for a word that nothing in its block takes."""
+def misplaced(shape: WordShape, position: int, *, beside_m: bool) -> AlarmError:
+    """The alarm for a word that nothing in its block takes; `beside_m`: an M function stands there."""
+    if shape.address == PASSES:
+        hint = "hint.words-of-m" if beside_m else ""
+        return WordAlarm("12080", position, text=shape.address, hint=hint)
     if shape.address in COMPANIONS:
         return WordAlarm("12080", position, text=shape.address)
     return not_supported(shape.address)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.waits import Wait, Why
+from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.channels.coordination import group_of
@@ -59,6 +60,8 @@ def _named(channel: SinumerikChannel, args: Iterable[Any]) -> list[str]:
 
 def ready(channel: SinumerikChannel, columns: Iterable[int]) -> bool:
     """Whether a block may move these axes now; else the channel waits and runs the block again."""
+    columns = tuple(columns)
+    action_axes.give_back(channel, columns)
     axes = [_name(channel, column) for column in columns]
     if all(_is_free(channel, axis) for axis in axes):
         moved_by = group_of(channel).moved_by

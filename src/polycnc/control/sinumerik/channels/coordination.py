@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.group import ChannelGroup
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
+from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.language.sinumerik.statements.calls import named_program
 from polycnc.messages import AlarmError
 from polycnc.program.names import WORKPIECE, stored_directory
@@ -119,14 +120,14 @@ def clear_marks(channel: SinumerikChannel, args: Arguments) -> None:
 
 def names(channel: SinumerikChannel) -> dict[str, str]:
     """Names of channels ($MC_CHAN_NAME) with their numbers, as texts that stand for them in programs."""
-    memory = channel.memory
+    data = MachineData.of(channel)
     count = len(channel.machine.channels)
-    if count == 1 and not memory.data.is_set("$MC_CHAN_NAME", 0):
+    if count == 1 and not data.is_set("$MC_CHAN_NAME", 0):
         return {}
     found = {}
     for place in range(count):
-        given = memory.data.is_set("$MC_CHAN_NAME", place)
-        name = str(memory.data.read("$MC_CHAN_NAME", place)) if given else f"CHAN{place + 1}"
+        given = data.is_set("$MC_CHAN_NAME", place)
+        name = str(data.read("$MC_CHAN_NAME", place)) if given else f"CHAN{place + 1}"
         found[name.upper()] = str(place + 1)
     return found
 

@@ -11,6 +11,7 @@
     contour              CYCLE62, and how contours are read
     turning              CYCLE93 to CYCLE98
     swivel               CYCLE800
+    swivel_record        its data records
     high_speed_settings  CYCLE832
 
 A program without cycles loads none of this.

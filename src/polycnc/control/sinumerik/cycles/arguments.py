@@ -6,11 +6,13 @@ and stands in the tables here; a name that stands in none of them is a length.
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.geometry.units import INCH_MM
+from polycnc.language.sinumerik.errors import arithmetic
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -74,6 +76,8 @@ class Arguments:
         for name, value in self._values.items():
             if isinstance(value, str) is not (name in TEXTS) or not isinstance(value, (int, float, str)):
                 raise AlarmError("12330", text=f"{cycle} {name}")
+            if isinstance(value, float) and not isfinite(value):
+                raise arithmetic(name)
 
     @property
     def any_given(self) -> bool:

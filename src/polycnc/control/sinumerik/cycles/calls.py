@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.cycles.table import Cycle
     from polycnc.control.sinumerik.family import SinumerikChannel
 
+#: Acts of a block of a cycle that count as one block for the block limit.
+ACTS_OF_A_BLOCK = 4
 #: The plane of a cycle by the units of _DMODE; 0 and others: that of the caller.
 PLANE_OF_DMODE = {1: "G17", 2: "G18", 3: "G19"}
 
@@ -88,7 +90,11 @@ class CycleProgram:
             moves = self._moves
             if moves is None:
                 moves = self._moves = _planned(channel, self._cycle, self._arguments)
-            for act in moves.blocks[index]:  # an act may plan more: of this block, and further ones
+            for number, act in enumerate(
+                moves.blocks[index], 1
+            ):  # an act may plan more: of this block, and further ones
+                if number % ACTS_OF_A_BLOCK == 0:
+                    channel.once_more()
                 act()
         except AlarmError as alarm:
             alarm.column = alarm.column or self._column

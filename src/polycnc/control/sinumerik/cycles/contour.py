@@ -6,16 +6,14 @@ G functions, feed and frames are put back.
 
 from __future__ import annotations
 
-from copy import copy
 from dataclasses import dataclass
 from functools import partial
 from math import nan
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.channel.moves.path import Recorder
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.motion.last_move import LastMove
+from polycnc.control.sinumerik.motion.contour_reading import ContourReading, reading_from_here, without_away
 from polycnc.cycles.turning.contour import Contour, Piece
 from polycnc.geometry import offset
 from polycnc.language.sinumerik.statements.calls import call_section, call_without_arguments, named_program
@@ -24,27 +22,13 @@ from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import CCW_KINDS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Container
+    from collections.abc import Callable
 
     from polycnc.channel.moves.path import Move
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.arcs import Point
-
-#: Before a contour is read the tool is thought this far away, mm: so the first block always is a move, and an axis
-#: that it does not name shows that.
-AWAY_MM = 1e6
-
-
-def sent_away(position: list[float], columns: Container[int]) -> list[float]:
-    """The position from which a contour is read: away from the tool in these columns (-1 for none)."""
-    return [value + AWAY_MM if column in columns else value for column, value in enumerate(position)]
-
-
-def without_away(value: float) -> float:
-    """A value of a contour's point; an axis that the first block does not name stays where the tool stands."""
-    return value - AWAY_MM if value > AWAY_MM / 2.0 else value
 
 
 class Place(NamedTuple):
@@ -125,30 +109,6 @@ def read(moves: Moves, name: str, use: Callable[[Contour], None]) -> None:
     moves.act(reading.end)
 
 
-@dataclass(slots=True)
-class _State:
-    """What reading a contour must not change."""
-
-    position: list[float]
-    feed: float
-    saved: object
-    last: LastMove
-
-    @classmethod
-    def of(cls, channel: SinumerikChannel) -> _State:
-        """As it is now."""
-        position = channel.coordinates.position.copy()
-        return cls(position, channel.feed, channel.control.save(channel), copy(LastMove.of(channel)))
-
-    def restore(self, channel: SinumerikChannel) -> None:
-        """Put everything back."""
-        channel.control.restore(channel, self.saved)
-        channel.coordinates.arrive(self.position)
-        channel.feed = self.feed
-        last = LastMove.of(channel)
-        last.start, last.arc = self.last.start, self.last.arc
-
-
 class _Reading:
     """A contour that is being read.
 
@@ -160,27 +120,20 @@ class _Reading:
 
     def __init__(self, moves: Moves, name: str, use: Callable[[Contour], None]) -> None:
         self._moves, self._name, self._use = moves, name, use
-        self._recorder = Recorder()
-        self._before: _State | None = None
+        self._reading: ContourReading | None = None
 
     def begin(self) -> None:
         """The contour runs as a program level, and its moves are caught."""
         moves, channel = self._moves, self._moves.channel
-        channel.flush()
-        self._before = before = _State.of(channel)
+        self._reading = reading_from_here(channel, keeps_modes=True)
         _call(channel, _place(channel, self._name))
-        channel.coordinates.arrive(sent_away(before.position, moves.columns[:2]))
-        channel.feed = channel.feed if channel.feed > 0.0 else 1.0
-        channel.path.divert(self._recorder)
+        self._reading.begin(channel, moves.columns[:2])
 
     def end(self) -> None:
         """The contour is through: everything is as before, and the cycle goes on with it."""
-        moves, channel = self._moves, self._moves.channel
-        assert self._before is not None
-        channel.flush()
-        channel.path.resume(self._recorder)
-        self._before.restore(channel)
-        caught = self._recorder.moves[1:]
+        moves, reading = self._moves, self._reading
+        assert reading is not None
+        caught = reading.end(moves.channel)[1:]
         if not caught:
             raise AlarmError("61605")
         moves.plan(partial(self._use, [_piece(moves, move) for move in caught]))

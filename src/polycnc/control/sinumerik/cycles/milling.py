@@ -10,6 +10,7 @@ from polycnc.channel.stack import LevelKind
 from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.cycles.count import checked
 from polycnc.cycles.milling import pockets, slots
 from polycnc.cycles.milling.pockets import Insertion, Pocket
 from polycnc.cycles.milling.stroke import MillStroke, Place
@@ -50,9 +51,9 @@ def perform(moves: Moves, strokes: Iterable[MillStroke]) -> None:
 # ---- what the cycles check alike
 
 
-def cutter(moves: Moves) -> float:
-    """Radius of a cutter; 61000 without a tool offset, 61117 for a radius that is not above zero."""
-    radius = require_tool(moves)
+def cutter(moves: Moves, *, deep: bool = False) -> float:
+    """Radius of a cutter as `require_tool` gives it; 61117 for one that is not above zero."""
+    radius = require_tool(moves, deep=deep)
     if radius <= 0.0:
         raise AlarmError("61117")
     return radius
@@ -267,7 +268,7 @@ def older_pocket(moves: Moves, a: Arguments) -> None:
 
 def _angles(a: Arguments) -> list[float]:
     """Directions of the elements on their circle; 61106 for none, or a pattern beyond one turn."""
-    count, pitch = abs(a.integer("NUM")), a["INDA"]
+    count, pitch = checked(abs(a.integer("NUM"))), a["INDA"]
     if count == 0 or abs(pitch) * (count - 1) >= TURN:
         raise AlarmError("61106")
     pitch = pitch or TURN / count

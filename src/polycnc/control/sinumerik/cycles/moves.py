@@ -28,10 +28,14 @@ if TYPE_CHECKING:
     from polycnc.geometry.arcs import Point
 
 _P = ParamSpec("_P")
+#: A cycle of more acts is taken for a mistake (an infeed of a thousandth of a micrometre, say).
+MOST_ACTS = 200_000
 #: One thing that a block of a cycle does.
 Act: TypeAlias = Callable[[], object]
 #: Where a stroke ends along u, v and w; None for an axis that stays.
 Target: TypeAlias = "tuple[float | None, float | None, float | None]"
+#: Factors that differ from 1, or from each other, by less are none: rounding.
+NO_SCALE = 1e-9
 #: M functions of the directions of a spindle.
 M_OF_DIRECTION = {1: 3, -1: 4, 0: 5}
 
@@ -55,6 +59,7 @@ class Moves:
     def __init__(self, channel: SinumerikChannel, applicate: int = 3) -> None:
         self.channel = channel
         self.blocks: list[list[Act]] = [[]]
+        self._acts = 0
         order = {1: (1, 2, 0), 2: (2, 0, 1)}.get(applicate, (0, 1, 2))
         plane = PLANES[channel.mode["plane"]]
         a, b, c = (plane[i] for i in order)
@@ -91,10 +96,13 @@ class Moves:
         try:
             work()
         except AlarmError as alarm:
-            self.act(_raise, alarm)
+            self.blocks[-1].append(partial(_raise, alarm))
 
     def act(self, function: Callable[_P, object], *args: _P.args, **kwargs: _P.kwargs) -> None:
         """Something that the open block does."""
+        self._acts += 1
+        if self._acts > MOST_ACTS:
+            raise self.channel.control.block_limit()
         self.blocks[-1].append(partial(function, *args, **kwargs))
 
     def end_block(self) -> None:
@@ -178,9 +186,9 @@ class Moves:
         """M0."""
         self.act(self.channel.stop, "M0")
 
-    def note(self, key: str) -> None:
-        """A message of the cycle, by its number; the cycle goes on."""
-        self.act(self._note, key)
+    def note(self, key: str, text: str = "") -> None:
+        """A message of the cycle, by its number, and what it is about; the cycle goes on."""
+        self.act(self._note, key, text)
 
     def _turn(self, direction: int) -> None:
         spindle = self.spindle
@@ -202,17 +210,35 @@ class Moves:
             self.channel.context_changed()
             self.channel.event(SpindleSpeed(speed=rpm, spindle=spindle.number))
 
-    def _note(self, key: str) -> None:
-        self.channel.event(Message(self.channel.control.catalogue.text(key)))
+    def _note(self, key: str, text: str) -> None:
+        message = self.channel.control.catalogue.text(key)
+        self.channel.event(Message(f"{message}: {text}" if text else message))
 
 
 def _raise(alarm: AlarmError) -> None:
     raise alarm
 
 
-def require_tool(moves: Moves) -> float:
-    """Radius of the active tool with wear, mm; 61000 if no tool offset is active."""
+def require_tool(moves: Moves, *, evenly: bool = False, deep: bool = False) -> float:
+    """Radius of the active tool with wear, mm, of a cycle that works with it.
+
+    Frames scale what a cycle makes, but not the tool, so a cycle that reckons with its radius takes no scale.
+
+    Args:
+        moves: The cycle's moves.
+        evenly: Unequal factors in the plane are an alarm of their own.
+        deep: A scale of the third axis is refused as well.
+
+    Raises:
+        AlarmError: 61000 without a tool offset, 61012 and 61011 where a scale is active.
+    """
     tools = moves.memory.tools
     if tools.edge is None:
         raise AlarmError("61000")
+    scales = moves.memory.frames.total().scales
+    u, v, w = (scales[axis] for axis in moves.axes)
+    if evenly and abs(u - v) > NO_SCALE:
+        raise AlarmError("61012")
+    if any(abs(factor - 1.0) > NO_SCALE for factor in ((u, v, w) if deep else (u, v))):
+        raise AlarmError("61011")
     return tools.radius

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
+from polycnc.cycles.count import checked
 from polycnc.cycles.drilling import patterns
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.language.sinumerik.statements.calls import call_modal
@@ -48,7 +49,7 @@ def _nearer_end_first(points: list[Point], tool: Point) -> list[Point]:
 
 def row(moves: Moves, a: Arguments) -> None:
     """HOLES1: a row of holes, from the end nearer to the tool."""
-    count = abs(a.integer("NUM"))
+    count = checked(abs(a.integer("NUM")))
     if count == 0:
         raise AlarmError("61103")
     cosine, sine = cos_sin_deg(a["STA1"])
@@ -59,7 +60,7 @@ def row(moves: Moves, a: Arguments) -> None:
 
 def circle(moves: Moves, a: Arguments) -> None:
     """HOLES2: holes on a circle, on all of it where INDA is 0."""
-    count, pitch = abs(a.integer("NUM")), a["INDA"]
+    count, pitch = checked(abs(a.integer("NUM"))), a["INDA"]
     if count == 0:
         raise AlarmError("61103")
     if abs(pitch) * (count - 1) >= TURN:
@@ -77,13 +78,14 @@ def grid(moves: Moves, a: Arguments) -> None:
     if not columns or not rows:
         moves.note("62105")
         columns, rows = max(columns, 1), max(rows, 1)
+    checked(columns * rows)
     corners = [(i, j) for j in (0, rows - 1) for i in (0, columns - 1)]
     u, v = moves.point
     near = min(corners, key=lambda cell: hypot(_place(a, *cell)[0] - u, _place(a, *cell)[1] - v))
     if a.digit("_VARI", 0) == 1:
         cells = patterns.frame_cells(columns, rows)
     elif abs(a["_DIS1"]) <= abs(a["_DIS2"]):
-        cells = patterns.meander_cells(columns, rows)
+        cells = list(patterns.meander_cells(columns, rows))
     else:
         cells = [(i, j) for j, i in patterns.meander_cells(rows, columns)]
     visit(moves, a, (_place(a, abs(near[0] - i), abs(near[1] - j)) for i, j in cells))

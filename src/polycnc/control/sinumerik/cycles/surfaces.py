@@ -20,6 +20,7 @@ from polycnc.control.sinumerik.cycles.milling import (
 )
 from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.cycles.count import checked
 from polycnc.cycles.milling import contour as path_milling
 from polycnc.cycles.milling import facing, spigots
 from polycnc.cycles.milling import thread as thread_milling
@@ -49,7 +50,7 @@ STRIPS = {1: (False, False), 2: (True, False), 3: (False, True), 4: (True, True)
 
 def face(moves: Moves, a: Arguments) -> None:
     """CYCLE71 and CYCLE61: face milling in strips."""
-    radius = cutter(moves)
+    radius = cutter(moves, deep=True)
     kind = variant(a, "_VARI", (ROUGHING, FINISHING))
     strips = STRIPS.get(a.digit("_VARI", 1))
     if strips is None:
@@ -75,7 +76,6 @@ def face(moves: Moves, a: Arguments) -> None:
         feed=feed_of(a, "_FFP1"),
         safe=found.safe,
         retract=found.retract,
-        lift=abs(a["SDIS"]),
     )
     total = abs(found.depth - found.reference)
     rough = levels_below(found, total - abs(a["_FALD"]), a["_MID"])
@@ -116,7 +116,7 @@ TO_RETRACT, TO_SAFE, BY_SAFETY, STAYS = range(4)
 
 def path(moves: Moves, a: Arguments) -> None:
     """CYCLE72: milling along a contour on its left, on its right or on it."""
-    radius = require_tool(moves)
+    radius = require_tool(moves, deep=True)
     if radius < 0.0:
         raise AlarmError("61112")
     variant(a, "_VARI", (ROUGHING, FINISHING))
@@ -186,7 +186,7 @@ def _approach(a: Arguments, mode: str, size: str, side: float) -> Approach:
 
 def spigot(moves: Moves, a: Arguments) -> None:
     """CYCLE76 (rectangular), CYCLE77 (circular)."""
-    radius = require_tool(moves)
+    radius = require_tool(moves, evenly=True)
     if radius < 0.0:
         raise AlarmError("61112")
     kind = variant(a, "_VARI", (ROUGHING, FINISHING))
@@ -203,9 +203,9 @@ def spigot(moves: Moves, a: Arguments) -> None:
 
 def polygon(moves: Moves, a: Arguments) -> None:
     """CYCLE79: spigot with NUM edges; SWL is the width across flats, or an edge where NUM is odd."""
-    radius = require_tool(moves)
+    radius = require_tool(moves, evenly=True)
     kind = variant(a, "_VARI", (ROUGHING, FINISHING))
-    count, size = abs(a.integer("_NUM")), abs(a["_SWL"])
+    count, size = checked(abs(a.integer("_NUM"))), abs(a["_SWL"])
     if count < spigots.FEWEST_EDGES or not size:
         raise AlarmError("61118")
     inner = size / 2.0 if count % 2 == 0 else spigots.inner_radius(count, size)

@@ -4,20 +4,22 @@ A point p of the swivelled plane lies at `p0 + R·(p1 + p)` of the system before
 the table turns goes into `$P_PARTFRAME`, what the head turns acts on the tool's lengths; so p stays where it is on
 the work whichever axes move.
 
-The swivel data record is that of the machine: its two rotary joints, the one nearer to the base first.
+`swivel_record` finds the record: the rotary axes of the machine, or a toolholder that is stored.
 """
 
 from __future__ import annotations
 
 from math import inf, nan
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import auxiliary
+from polycnc.control.sinumerik.cycles.swivel_record import Record, record_of
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.frames import memory as frames
 from polycnc.control.sinumerik.frames.codes import crots
+from polycnc.control.sinumerik.frames.memory import chain
 from polycnc.control.sinumerik.motion import moves as motion
-from polycnc.control.sinumerik.variables.stored import Stored
+from polycnc.control.sinumerik.tools.holders import active as carriers
+from polycnc.control.sinumerik.transformations import seat
 from polycnc.geometry.frames import IDENTITY, Frame, rotation
 from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, NcFrame
@@ -28,6 +30,8 @@ from polycnc.transformation import choice, tilted
 from polycnc.transformation.orientation import solutions_for
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
     from polycnc.control.sinumerik.family import SinumerikChannel
@@ -47,51 +51,19 @@ DEFAULT_ORDER = 57
 PLANE_OF_DMODE = {1: "G17", 2: "G18", 3: "G19"}
 
 
-class Record(NamedTuple):
-    """A swivel data record: the kinematics, the rotary axes in their order, and their columns in the channel."""
-
-    kinematics: Kinematics
-    axes: tuple[str, str]
-    columns: tuple[int, int]
-
-    @property
-    def tilting(self) -> str:
-        """The axis whose sign tells the two solutions apart: the one that does not turn about the tool."""
-        joints = {joint.axis: joint for joint in (*self.kinematics.tool, *self.kinematics.work)}
-        first, second = self.axes
-        return second if abs(joints[first].direction[2]) > abs(joints[second].direction[2]) else first
-
-
-def record_of(channel: SinumerikChannel, name: str) -> Record:
-    """The record that _TC names, as the machine or as $TC_CARR34[1]; empty for the only one.
-
-    Raises:
-        AlarmError: 61180 on a machine without two rotary axes, 61182 for a name that is not known.
-    """
-    machine = channel.machine
-    kinematics = Kinematics.of(machine)
-    axes = tuple(joint.axis for joint in (*kinematics.tool, *kinematics.work))
-    names = [axis.name for axis in channel.axis_data]
-    if len(axes) != 2 or any(axis not in names for axis in axes):
-        raise AlarmError("61180")
-    own = str(Stored.of(channel).values.get(("$TC_CARR34", (1,)), ""))
-    if name and name.upper() not in (machine.id.upper(), own.upper()):
-        raise AlarmError("61182", name=name)
-    first, second = axes
-    return Record(kinematics, (first, second), (names.index(first), names.index(second)))
-
-
 def swivel(moves: Moves, a: Arguments) -> None:
     """CYCLE800; without arguments, or with the record "0", it takes the swivel away."""
     channel = moves.channel
     if not a.any_given or a.text("_TC").strip() == DESELECT:
         if a.any_given and a.integer("_FR"):
-            _retract(moves, a, Kinematics.of(channel.machine))
+            _retract(moves, a, Kinematics.of(channel.machine), {})
         moves.act(deselect, channel)
         return
+    if seat.centre_point(channel) is not None:
+        raise not_supported("CYCLE800: TRAORI")  # both would turn the tool
     record = record_of(channel, a.text("_TC").strip())
     _check(a)
-    _retract(moves, a, record.kinematics)
+    _retract(moves, a, record.kinematics, record.places)
     state = moves.memory.frames
     adds = a.digit("_ST", 0) == 1
     base = state.system["$P_WPFRAME"] @ state.programmable if adds else NEUTRAL
@@ -101,17 +73,26 @@ def swivel(moves: Moves, a: Arguments) -> None:
     if a.integer("_DIR"):
         moves.act(_turn, channel, record, angles)
         moves.end_block()
-    moves.act(_take, channel, record.kinematics, frame, angles)
+        if -1 in record.columns:
+            _ask(moves, record, angles)
+    moves.act(_take, channel, record, frame, angles)
 
 
-def _take(
-    channel: SinumerikChannel, kinematics: Kinematics, frame: NcFrame, angles: dict[str, float]
-) -> None:
+def _ask(moves: Moves, record: Record, angles: dict[str, float]) -> None:
+    """Axes that are set by hand: a message says where to, and the program waits."""
+    by_hand = [axis for axis, column in zip(record.axes, record.columns, strict=True) if column < 0]
+    text = ", ".join(f"{axis} {angles[axis] + record.zero(axis):.3f}" for axis in by_hand)
+    moves.note("62180" if len(by_hand) == 1 else "62181", text)
+    moves.stop()
+    moves.end_block()
+
+
+def _take(channel: SinumerikChannel, record: Record, frame: NcFrame, angles: dict[str, float]) -> None:
     """The plane is the swivelled one."""
     memory = channel.memory
     memory.frames.system["$P_WPFRAME"] = frame
     memory.frames.programmable = NEUTRAL
-    _carry(channel, kinematics, angles)
+    _carry(channel, record, angles)
 
 
 def _check(a: Arguments) -> None:
@@ -129,6 +110,7 @@ def deselect(channel: SinumerikChannel) -> None:
     memory = channel.memory
     for name in ("$P_WPFRAME", "$P_TOOLFRAME", "$P_PARTFRAME"):
         memory.frames.system[name] = NEUTRAL
+    carriers.ActiveCarrier.of(channel).number = 0
     memory.tools.carrier = None
     auxiliary.tool_changed(channel)
 
@@ -168,9 +150,10 @@ def _angles(channel: SinumerikChannel, a: Arguments, record: Record, frame: NcFr
     """Positions of the rotary axes for the plane: of two solutions that which _DIR asks for; 61184 for none."""
     memory = channel.memory
     if a.integer("_MODE") >> 6 & 3 == DIRECT:
-        return dict(zip(record.axes, (a["_A"], a["_B"]), strict=True))
+        wanted = dict(zip(record.axes, (a["_A"], a["_B"]), strict=False))
+        return {axis: position - record.zero(axis) for axis, position in wanted.items()}
     state = memory.frames
-    outer = frames.chain([state.system["$P_SETFRAME"], state.actual_base(), state.active_settable])
+    outer = chain([state.system["$P_SETFRAME"], state.actual_base(), state.active_settable])
     plane = PLANE_OF_DMODE.get(a.digit("_DMODE", 0), channel.mode["plane"])
     index = PLANES[plane][2]
     square = [1.0 if i == index else 0.0 for i in range(3)]
@@ -183,8 +166,10 @@ def _angles(channel: SinumerikChannel, a: Arguments, record: Record, frame: NcFr
     if not allowed:
         raise AlarmError("61184")
     if a.integer("_DIR") == 0:
+        machine = channel.coordinates.machine
         near = {
-            name: channel.coordinates.machine[c] for name, c in zip(record.axes, record.columns, strict=True)
+            name: (machine[c] if c >= 0 else 0.0) - record.zero(name)
+            for name, c in zip(record.axes, record.columns, strict=True)
         }
         return min(allowed, key=lambda solution: choice.way(solution, near))
     choose = max if a.integer("_DIR") > 0 else min
@@ -196,18 +181,18 @@ def _in_range(channel: SinumerikChannel, record: Record, angles: dict[str, float
     """A solution on the turns that the axes can reach, modulo axes the short way; None where one cannot reach it."""
     placed = {}
     machine = channel.coordinates.machine
-    for name, column in zip(record.axes, record.columns, strict=True):
-        low, high = _range(channel, column)
-        first, last = _record_range(channel, record.axes.index(name))
-        low, high = max(low, first), min(high, last)
-        if channel.axis_data[column].modulo:
-            near = machine[column] + choice.signed(angles[name] - machine[column])
-            angle = near if choice.is_within(near, low, high) else None
+    for name, column, (first, last) in zip(record.axes, record.columns, record.limits_deg, strict=True):
+        low, high = _range(channel, column) if column >= 0 else (-inf, inf)
+        low, high, zero = max(low, first), min(high, last), record.zero(name)
+        wanted = angles[name] + zero
+        if column >= 0 and channel.axis_data[column].modulo:
+            near = machine[column] + choice.signed(wanted - machine[column])
+            position = near if choice.is_within(near, low, high) else None
         else:
-            angle = choice.on_reachable_turn(angles[name], low, high)
-        if angle is None:
+            position = choice.on_reachable_turn(wanted, low, high)
+        if position is None:
             return None
-        placed[name] = angle
+        placed[name] = position - zero
     return placed
 
 
@@ -217,23 +202,25 @@ def _turn(channel: SinumerikChannel, record: Record, angles: dict[str, float]) -
     machine = coordinates.machine
     end = coordinates.position.copy()
     for name, column in zip(record.axes, record.columns, strict=True):
-        end[column] += angles[name] - machine[column]
+        if column >= 0:
+            end[column] += angles[name] + record.zero(name) - machine[column]
     motion.line(channel, Kind.RAPID, end, nan)
 
 
-def _carry(channel: SinumerikChannel, kinematics: Kinematics, angles: dict[str, float]) -> None:
+def _carry(channel: SinumerikChannel, record: Record, angles: dict[str, float]) -> None:
     """What the rotary axes do to the work and to the tool's lengths at these positions."""
     memory = channel.memory
-    work = kinematics.work_turn(angles)
+    work = record.table(angles)
     memory.frames.system["$P_PARTFRAME"] = NcFrame(matrix=work.m, coarse=work.t)
-    memory.tools.carrier = tilted.tool_carrier(kinematics, angles) if kinematics.tool else None
+    carriers.ActiveCarrier.of(channel).number = 0
+    memory.tools.carrier = record.head(angles)
     auxiliary.tool_changed(channel)
 
 
 # ---- retraction
 
 
-def _retract(moves: Moves, a: Arguments, kinematics: Kinematics) -> None:
+def _retract(moves: Moves, a: Arguments, kinematics: Kinematics, places: Mapping[int, float]) -> None:
     """_FR: away from the work before anything turns; a way whose end is not known is not gone.
 
     Raises:
@@ -245,23 +232,22 @@ def _retract(moves: Moves, a: Arguments, kinematics: Kinematics) -> None:
     if way not in (0, TO_LIMIT, BY_WAY, *BY_AXES):
         raise AlarmError("61183")
     for axes in BY_AXES.get(way, ()):
-        moves.act(_to_limits, moves.channel, axes)
+        moves.act(_to_limits, moves.channel, axes, places)
         moves.end_block()
     if way in (TO_LIMIT, BY_WAY):
         moves.act(_along_tool, moves.channel, kinematics, abs(a["_FR_I"]) if way == BY_WAY else None)
         moves.end_block()
 
 
-def _to_limits(channel: SinumerikChannel, axes: tuple[int, ...]) -> None:
-    """Machine axes to the positions of the record ($TC_CARR38 to 40 of record 1), else to their upper limits."""
+def _to_limits(channel: SinumerikChannel, axes: tuple[int, ...], places: Mapping[int, float]) -> None:
+    """Machine axes to the positions of the record ($TC_CARR38 to 40), else to their upper limits."""
     coordinates = channel.coordinates
     machine = coordinates.machine
     for axis in axes:
         column = coordinates.geometry[axis]
         if column < 0:
             continue
-        stored = Stored.of(channel).values.get((f"$TC_CARR{38 + axis}", (1,)))
-        limit = _range(channel, column)[1] if stored is None else float(stored)
+        limit = places.get(axis, _range(channel, column)[1])
         if limit < inf:
             machine[column] = limit
     motion.line(channel, Kind.RAPID, coordinates.from_machine(machine), nan)
@@ -277,13 +263,6 @@ def _range(channel: SinumerikChannel, column: int) -> tuple[float, float]:
     if memory.data.is_set("$MA_POS_LIMIT_PLUS", name):
         high = min(high, memory.data.number("$MA_POS_LIMIT_PLUS", name))
     return low, high
-
-
-def _record_range(channel: SinumerikChannel, number: int) -> tuple[float, float]:
-    """Angle range of a rotary axis in the record ($TC_CARR30 to 33); two zeros are none."""
-    values = Stored.of(channel).values
-    low, high = (float(values.get((f"$TC_CARR{n + number}", (1,)), 0.0)) for n in (30, 32))
-    return (low, high) if low or high else (-inf, inf)
 
 
 def _along_tool(channel: SinumerikChannel, kinematics: Kinematics, way: float | None) -> None:

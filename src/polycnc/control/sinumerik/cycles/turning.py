@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
-from math import ceil, copysign
+from math import copysign
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.contour import read
@@ -14,10 +14,11 @@ from polycnc.control.sinumerik.cycles.milling import feed_of
 from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import stages
-from polycnc.control.sinumerik.tools.memory import DP_TIP
+from polycnc.control.sinumerik.tools.edges import DP_TIP
+from polycnc.cycles.count import parts
 from polycnc.cycles.turning import thread_chain as thread_turning
 from polycnc.cycles.turning.contour import Contour, parallel, shifted, swapped, swapped_stroke, turned_round
-from polycnc.cycles.turning.stock_removal import Removal, remove
+from polycnc.cycles.turning.stock_removal import Removal, remove, way_clear
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.cycles.turning.thread_chain import Thread
 from polycnc.messages import AlarmError
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 
 #: Ways off the work where the call gives none.
 LIFT_MM = 1.0
+#: By so much a direction of 45 degrees may miss it and still not be steep.
+_ROUNDING = 1e-9
 #: Further coarse metric threads that can be cut, but not tapped, by their nominal diameter.
 LARGE_PITCHES = {52: 5.0, 56: 5.5, 60: 5.5}
 
@@ -127,6 +130,12 @@ class Work:
             raise AlarmError("61606") from None
         return shifted(path, *self.pair(radius * first, radius * second))
 
+    def clear(self, contour: Contour, end: Point, lift: float) -> None:
+        """Go past the contour before a rapid to a place, where that would touch it."""
+        start = self.pair(*self.moves.point)
+        for stroke in way_clear(contour, start, end, towards=self.towards, lift=lift):
+            self.perform(stroke, 0.0)
+
     def perform(self, stroke: PlaneStroke, feed: float) -> None:
         """Make a stroke, which is a block."""
         made = swapped_stroke(stroke) if self.across else stroke
@@ -165,6 +174,8 @@ def _remove(work: Work, a: Arguments, kind: int, rounding: int, read_: Contour) 
         _rough(work, a, contour, follows=rounding != WITHOUT_ROUNDING)
     if kind != ROUGHING:
         _finish(work, a, contour)
+    path = work.tool_path(contour, 0.0)
+    work.clear(path, work.pair(*home), _lift(a))
     moves.rapid(*home)
     moves.end_block()
 
@@ -205,7 +216,7 @@ def _in_steps(work: Work, a: Arguments, stroke: PlaneStroke, feed: float) -> Non
 
 def steps_of(total: float, step: float) -> list[float]:
     """Ends of equal steps along a way, the last one shorter."""
-    count = max(0, ceil(total / step - 1e-9) - 1)
+    count = max(0, parts(total, step, 1e-9) - 1)
     return [step * k for k in range(1, count + 1)] + [total]
 
 
@@ -214,8 +225,9 @@ def _finish(work: Work, a: Arguments, contour: Contour) -> None:
     path = work.tool_path(contour, 0.0)
     feed, lift = feed_of(a, "FF3"), _lift(a)
     start, end = path[0].edge.start, path[-1].edge.end
-    before = (start[0] - onwards(contour) * lift, start[1] - work.towards * lift)
-    after = (end[0] - onwards(contour) * lift, end[1] - work.towards * lift)
+    before = _beside(start, path[0].edge.departing, onwards(contour), work.towards, lift)
+    after = _beside(end, path[-1].edge.arriving, onwards(contour), work.towards, lift)
+    work.clear(path, before, lift)
     for stroke in (
         PlaneStroke(Kind.RAPID, before),
         PlaneStroke(Kind.FEED, start),
@@ -224,6 +236,12 @@ def _finish(work: Work, a: Arguments, contour: Contour) -> None:
     ):
         # A rapid in the contour cuts as well: the cycle has feeds of its own.
         work.perform(stroke if stroke.end == before else _at_feed(stroke), feed)
+
+
+def _beside(point: Point, direction: Point, onwards_: float, towards: float, lift: float) -> Point:
+    """A place off an end of the contour: square to the cuts where it is steep there, for the nose is beside a wall."""
+    steep = direction[1] * towards > direction[0] * onwards_ + _ROUNDING
+    return (point[0] - (0.0 if steep else onwards_ * lift), point[1] - towards * lift)
 
 
 def _at_feed(stroke: PlaneStroke) -> PlaneStroke:

@@ -11,11 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
-from polycnc.control.sinumerik.tools.memory import DP_TYPE
+from polycnc.control.sinumerik.tools.edges import DP_TYPE
 from polycnc.language.sinumerik.names.frame import COMPONENTS, GEOMETRY_AXES, NEUTRAL, NcFrame
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.names.variables import Array
-from polycnc.language.sinumerik.statements.calls import forget_resolved
 from polycnc.messages import AlarmError
 from polycnc.program import Form, Program
 
@@ -56,7 +55,7 @@ def _refuse_arguments(args: Arguments, name: str) -> None:
 def _store(channel: SinumerikChannel, name: str, lines: list[str]) -> None:
     directory = channel.stack[0].code.program.directory
     channel.store.replace(Program(name, (*lines, "M17"), directory=directory, form=Form.SINUMERIK))
-    forget_resolved(channel.memory.language)
+    channel.memory.language.programs.forget_steps()
 
 
 # ---- areas

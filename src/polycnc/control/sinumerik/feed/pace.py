@@ -65,7 +65,7 @@ def _weights(channel: SinumerikChannel) -> tuple[float, ...]:
     weights = [0.0] * len(channel.axes)
     for column in named:
         radius = overrides.radii.get(column, DEGREE_MM)
-        weights[column] = radius * pi / 180.0 if channel.axis_data[column].rotary else 1.0
+        weights[column] = radius * pi / 180.0 if channel.memory.axes[column].rotary else 1.0
     return tuple(weights)
 
 
@@ -100,7 +100,7 @@ def _with_technology(channel: SinumerikChannel, address: str, datum: str, limit:
     for column, axis in enumerate(channel.axis_data):
         machine = getattr(axis, limit)
         if machine and memory.data.is_set(datum, mode, channel.axes[column]):
-            factors[column] *= (
-                memory.data.number(datum, mode, channel.axes[column]) * tables.MM_PER_M / machine
-            )
+            own = memory.data.number(datum, mode, channel.axes[column])
+            if own > 0.0:  # no axis can do with less; the data do not take it
+                factors[column] *= own * tables.MM_PER_M / machine
     return tuple(factors) if any(factor != 1.0 for factor in factors) else ()

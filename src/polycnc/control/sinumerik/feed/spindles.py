@@ -6,8 +6,16 @@ Source: Fundamentals (S, M3, M4, M5, SPOS, SETMS, G96, LIMS, G25/G26 S).
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
+from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Container
+
+    from polycnc.channel.channel import Channel
 
 
 @dataclass(slots=True)
@@ -33,7 +41,7 @@ class Spindle:
 
 
 @dataclass(slots=True)
-class Spindles:
+class Spindles(State, lifetime=Lifetime.POWER):
     """The spindles of a channel.
 
     Attributes:
@@ -45,6 +53,28 @@ class Spindles:
     all: dict[int, Spindle] = field(default_factory=dict)
     default_master: int = 1
     master: int = 1
+
+    @classmethod
+    def first(cls, channel: Channel) -> Spindles:
+        """All stand still; the master spindle is that of MD20090, where the channel has it."""
+        numbers = channel.machine.channel(channel.number).spindles
+        master = MachineData.of(channel).integer("$MC_SPIND_DEF_MASTER_SPIND")
+        if numbers and master not in numbers:
+            master = numbers[0]
+        return cls({number: Spindle(number) for number in numbers}, master, master)
+
+    def end(self, channel: Channel, lifetime: Lifetime) -> None:
+        """A reset stops the spindles, but for those that MD35040 keeps turning."""
+        super(Spindles, self).end(channel, lifetime)
+        if lifetime is Lifetime.RESET:
+            data = MachineData.of(channel)
+            self.stop(kept=[n for n in self.all if data.integer("$MA_SPIND_ACTIVE_AFTER_RESET", f"S{n}")])
+
+    def stop(self, kept: Container[int] = ()) -> None:
+        """The spindles stop, but for some."""
+        for number, spindle in self.all.items():
+            if number not in kept:
+                spindle.direction = 0
 
     def get(self, number: int | None = None) -> Spindle:
         """A spindle by number, the master without one.

@@ -5,7 +5,13 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik.frames import memory as frames
+from polycnc.control.sinumerik.frames.memory import (
+    AFTER_PROGRAMMABLE,
+    AFTER_SETTABLE,
+    BEFORE_BASE,
+    SYSTEM_FRAMES,
+    chain,
+)
 from polycnc.control.sinumerik.frames.variables import FRAME_VARIABLES
 from polycnc.messages import AlarmError
 
@@ -29,7 +35,7 @@ _LINKS = {
     "$P_UIFR": "settable",
     "$P_IFRAME": "settable",
     "$P_PFRAME": "programmable",
-    **{name: name for name in frames.SYSTEM_FRAMES},
+    **{name: name for name in SYSTEM_FRAMES},
 }
 
 
@@ -61,7 +67,7 @@ def _inside(memory: Memory, link: str, number: int) -> NcFrame:
     state = memory.frames
     masks = {"global base": state.global_base_mask, "base": state.base_mask}
     bases = {"global base": state.active_global_base, "base": state.active_base}
-    links: list[tuple[str, int, NcFrame]] = [(name, 0, state.system[name]) for name in frames.BEFORE_BASE]
+    links: list[tuple[str, int, NcFrame]] = [(name, 0, state.system[name]) for name in BEFORE_BASE]
     for kind, active in bases.items():
         links += [
             (kind, i, each)
@@ -69,10 +75,10 @@ def _inside(memory: Memory, link: str, number: int) -> NcFrame:
             if masks[kind] >> i & 1 or (kind, i) == (link, number)
         ]
     links.append(("settable", 0, state.active_settable))
-    links += [(name, 0, state.system[name]) for name in frames.AFTER_SETTABLE]
+    links += [(name, 0, state.system[name]) for name in AFTER_SETTABLE]
     links.append(("programmable", 0, state.programmable))
-    links += [(name, 0, state.system[name]) for name in frames.AFTER_PROGRAMMABLE]
+    links += [(name, 0, state.system[name]) for name in AFTER_PROGRAMMABLE]
     place = next(
         (i for i, (kind, n, _) in enumerate(links) if kind == link and (kind not in bases or n == number)), -1
     )
-    return frames.chain([each for _, _, each in links[place + 1 :]])
+    return chain([each for _, _, each in links[place + 1 :]])

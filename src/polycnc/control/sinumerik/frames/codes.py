@@ -11,14 +11,23 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block.positions import AxisTerm, number
 from polycnc.control.sinumerik.feed import spindle_speed
-from polycnc.control.sinumerik.frames import memory as frames
+from polycnc.control.sinumerik.frames import active as frames
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.geometry.frames import Frame, Vector
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import cross
-from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NcFrame, cmirror, crot, crpl, cscale, ctrans
+from polycnc.language.sinumerik.names.frame import (
+    GEOMETRY_AXES,
+    NcFrame,
+    cfine,
+    cmirror,
+    crot,
+    crpl,
+    cscale,
+    ctrans,
+)
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 
@@ -62,9 +71,23 @@ def _is_additive(draft: Draft) -> bool:
 
 
 def translate(draft: Draft) -> Step:
-    """TRANS, ATRANS: shift; TRANS alone deletes the programmable frame."""
-    words = named(draft)
-    return _programmable(lambda values: ctrans(_values(words, values)), additive=_is_additive(draft))
+    """TRANS, ATRANS: shift; TRANS alone deletes the programmable frame.
+
+    With MD24000 a frame keeps the sum of its additive shifts apart, as its fine part: ATRANS adds to that, and TRANS
+    leaves that of the axes it names (Fundamentals, G58 and G59).
+    """
+    words, additive = named(draft), _is_additive(draft)
+
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        state, shifts = channel.memory.frames, _values(words, values)
+        before, apart = state.programmable, bool(channel.memory.data.number("$MC_FRAME_ADD_COMPONENTS"))
+        if additive:
+            state.programmable = before @ (cfine(shifts) if apart else ctrans(shifts))
+        else:
+            state.programmable = before.fine_part(shifts) @ ctrans(shifts) if apart else ctrans(shifts)
+        frames.changed(channel)
+
+    return run
 
 
 def scale(draft: Draft) -> Step:

@@ -1,4 +1,4 @@
-"""The frames of a channel: what is stored, what is active, and the way from the work display to the machine.
+"""The frames of a channel: what is stored, and what is active.
 
 machine <- base frames <- settable frame (G54) <- programmable frame (TRANS, ROT, …) <- work coordinates.
 SINUMERIK's absolute display shows work coordinates, so every frame belongs to the zero frame of
@@ -15,27 +15,34 @@ from functools import reduce
 from operator import matmul
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.errors import not_supported
+from polycnc.channel.states.state import Lifetime, State, lasting, retained
+from polycnc.control.sinumerik import gcodes
+from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.language.sinumerik.names.frame import NEUTRAL, NcFrame, ctrans
+from polycnc.memory.retained import WORK_OFFSETS, filled
+from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.control.sinumerik.family import SinumerikChannel
-    from polycnc.geometry.frames import Frame
+    from polycnc.channel.channel import Channel
 
 #: System frames by the name of their variable, in the order of the chain (job planning 5.7.2).
 BEFORE_BASE = ("$P_PARTFRAME", "$P_SETFRAME", "$P_EXTFRAME")
 AFTER_SETTABLE = ("$P_TOOLFRAME", "$P_WPFRAME", "$P_TRAFRAME")
 AFTER_PROGRAMMABLE = ("$P_CYCFRAME",)
 SYSTEM_FRAMES = (*BEFORE_BASE, *AFTER_SETTABLE, *AFTER_PROGRAMMABLE)
+#: Number of every settable zero offset in its group.
+ZERO_OFFSETS = {word: gcodes.number_of(word) for word in gcodes.BY_NAME["wcs"].words}
 
 
 @dataclass(slots=True)
-class Frames:
+class Frames(State, lifetime=Lifetime.POWER):
     """Stored and active frames.
 
     Attributes:
+        of_channel: Stored frames of the channel, by the name of their variable.
+        of_control: Those of the control.
         settable: `$P_UIFR[n]`: 0 is G500, 1 G54 … 4 G57, 5 G505 … 99 G599.
         base: `$P_CHBFR[n]`, stored base frames of the channel.
         global_base: `$P_NCBFR[n]`, stored base frames of the control.
@@ -49,20 +56,52 @@ class Frames:
         global_base_mask: `$P_NCBFRMASK`.
     """
 
-    settable: list[NcFrame]
-    base: list[NcFrame]
-    global_base: list[NcFrame]
+    of_channel: dict[str, list[NcFrame]] = retained(WORK_OFFSETS)
+    of_control: dict[str, list[NcFrame]] = retained(WORK_OFFSETS, of_control=True)
+    settable: list[NcFrame] = field(default_factory=list)
+    base: list[NcFrame] = field(default_factory=list)
+    global_base: list[NcFrame] = field(default_factory=list)
     number: int = 0
     active_settable: NcFrame = NEUTRAL
     active_base: list[NcFrame] = field(default_factory=list)
     active_global_base: list[NcFrame] = field(default_factory=list)
-    programmable: NcFrame = NEUTRAL
+    programmable: NcFrame = lasting(Lifetime.RESET, NEUTRAL)
     system: dict[str, NcFrame] = field(default_factory=lambda: dict.fromkeys(SYSTEM_FRAMES, NEUTRAL))
     base_mask: int = 1
     global_base_mask: int = 1
 
+    @classmethod
+    def first(cls, channel: Channel) -> Frames:
+        """Nothing is active; stored is what is retained, else what the setup says.
+
+        Raises:
+            AlarmError: 12550 for a zero offset of the setup that the control does not have.
+        """
+        data = MachineData.of(channel)
+        offsets = dict(channel.setup.work_offsets)
+        external, base = ctrans(offsets.pop("EXT", {})), ctrans(offsets.pop("BASE", {}))
+        unknown = next((name for name in offsets if name not in ZERO_OFFSETS), None)
+        if unknown is not None:
+            raise AlarmError("12550", text=unknown)
+        of_channel, of_control = (channel.retained.table(WORK_OFFSETS, n) for n in (channel.number, 0))
+        shared, bases = data.integer("$MN_MM_NUM_GLOBAL_USER_FRAMES"), data.integer("$MC_MM_NUM_BASE_FRAMES")
+        settable = stored_frames(offsets, shared or data.integer("$MC_MM_NUM_USER_FRAMES"), ZERO_OFFSETS)
+        global_base = [NEUTRAL] * data.integer("$MN_MM_NUM_GLOBAL_BASE_FRAMES")
+        return cls(
+            of_channel,
+            of_control,
+            settable=filled(of_control if shared else of_channel, "$P_UIFR", settable),
+            base=filled(of_channel, "$P_CHBFR", [base, *[NEUTRAL] * (bases - 1)][:bases]),
+            global_base=filled(of_control, "$P_NCBFR", global_base),
+            base_mask=data.integer("$MC_CHBFRAME_RESET_MASK"),
+            global_base_mask=data.integer("$MN_NCBFRAME_RESET_MASK"),
+            system={**dict.fromkeys(SYSTEM_FRAMES, NEUTRAL), "$P_EXTFRAME": external},
+        )
+
     def select(self, number: int) -> None:
         """Activate a stored settable frame, and the stored base frames with it (G500, G54 …)."""
+        if number >= len(self.settable):
+            raise AlarmError("17020", text="$P_UIFR", index=number)
         self.number = number
         self.active_settable = self.settable[number]
         self.active_base = list(self.base)
@@ -122,45 +161,3 @@ def stored_frames(
         if code in numbers and numbers[code] <= count:
             frames[numbers[code] - 1] = ctrans({axis: float(value) for axis, value in shifts.items()})
     return frames
-
-
-def apply(channel: SinumerikChannel, suppression: str = "", *, travelled: bool = False) -> None:
-    """Bring the active frames and the tool into the channel's coordinates; the machine does not move.
-
-    Args:
-        channel: The channel.
-        suppression: G53, G153 or SUPA while their block runs.
-        travelled: The next incremental word of an axis travels the change as well.
-    """
-    coordinates = channel.coordinates
-    frame, offsets = _to_machine(channel, suppression)
-    if frame != coordinates.zero or offsets != coordinates.offsets:
-        coordinates.set_zero(frame, offsets, travelled=travelled)
-        channel.context_changed()
-
-
-def is_in_force(channel: SinumerikChannel) -> bool:
-    """Whether a zero offset that is in force would change nothing now: G500, G54 ... once more."""
-    frames, c = channel.memory.frames, channel.coordinates
-    return frames.is_in_force and _to_machine(channel, "") == (c.zero, c.offsets)
-
-
-def _to_machine(channel: SinumerikChannel, suppression: str) -> tuple[Frame, list[float]]:
-    """The way from the display to the machine by the active frames and the tool."""
-    memory = channel.memory
-    total = memory.frames.total(suppression)
-    offsets = [0.0] * len(channel.axes)
-    for axis, part in total.others.items():
-        if part.factor != 1.0:
-            raise not_supported(f"SCALE, MIRROR {axis}")
-        offsets[memory.column(axis)] += part.coarse + part.fine
-    for column, length in zip(channel.coordinates.geometry, memory.tools.lengths, strict=True):
-        if column >= 0:
-            offsets[column] += length
-    return total.frame, offsets
-
-
-def changed(channel: SinumerikChannel) -> None:
-    """A frame has changed: it acts at once; incremental words travel the change if SD42440 says so."""
-    memory = channel.memory
-    apply(channel, travelled=bool(memory.data.number("$SC_FRAME_OFFSET_INCR_PROG")))

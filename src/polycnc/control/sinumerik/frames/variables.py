@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik.frames import memory as frames
+from polycnc.control.sinumerik.frames import active as frames
+from polycnc.control.sinumerik.frames.memory import SYSTEM_FRAMES
 from polycnc.control.sinumerik.variables.row import Indices, Row
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NcFrame
@@ -108,7 +109,7 @@ def _set_external_shift(channel: SinumerikChannel, indices: Indices, value: floa
     """$AA_ETRANS: kept; it acts when the PLC takes it over (DB31 ff., DBX3.0), as part of $P_EXTFRAME (5.4)."""
     axis, column = _external(channel, indices)
     Stored.of(channel).values["$AA_ETRANS", (column,)] = float(value)
-    number = 31 + channel.machine.axes.index(channel.axis_data[column])
+    number = 30 + channel.machine.axis_number(channel.axis_data[column].name)
     if channel.setup.switches.plc.get(f"DB{number}.DBX3.0"):
         system = channel.memory.frames.system
         system["$P_EXTFRAME"] = system["$P_EXTFRAME"].with_component(axis, "TR", float(value))
@@ -145,7 +146,7 @@ def _first(attribute: str) -> tuple[Get, Put]:
 def _single(attribute: str, *, folds: bool = False) -> tuple[Get, Put]:
     def get(state: Frames, _number: int) -> NcFrame:
         frame: NcFrame = getattr(state, attribute)
-        return frame
+        return frame.folded() if folds else frame
 
     def put(state: Frames, _number: int, frame: NcFrame) -> None:
         setattr(state, attribute, frame.folded() if folds else frame)
@@ -197,5 +198,5 @@ FRAME_VARIABLES: dict[str, Row] = {
     "$P_UIFRNUM": (Type.INT, _number, None),
     "$P_CHBFRMASK": _mask("base_mask"),
     "$P_NCBFRMASK": _mask("global_base_mask"),
-    **{name: _variable(name, *_system(name), acts=True) for name in frames.SYSTEM_FRAMES},
+    **{name: _variable(name, *_system(name), acts=True) for name in SYSTEM_FRAMES},
 }

@@ -94,9 +94,11 @@ def _of_limits(
             continue
         axis = geometry.index(limit.column)
         number = (
-            axis + 1 if unit == OF_AREA else channel.machine.axes.index(channel.axis_data[limit.column]) + 1
+            axis + 1 if unit == OF_AREA else channel.machine.axis_number(channel.axis_data[limit.column].name)
         )
-        violation = _beyond(first[limit.column], last[limit.column], limit, margins[plane.index(axis)])
+        length = channel.coordinates.offsets[limit.column] if limit.system == working_area.BASIC else 0.0
+        start, end = first[limit.column] - length, last[limit.column] - length
+        violation = _beyond(start, end, limit, margins[plane.index(axis)])
         if violation is not None:
             yield Violation(violation.part, violation.status + unit + 1000 * number)
 

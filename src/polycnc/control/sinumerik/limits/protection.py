@@ -9,16 +9,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from itertools import pairwise
-from math import inf, isnan, nan
+from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
-from polycnc.channel.moves.path import Rank, Recorder, Stage
-from polycnc.channel.states.state import Lifetime, State
+from polycnc.channel.moves.path import Rank, Stage
+from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
-from polycnc.control.sinumerik.cycles.contour import sent_away, without_away
-from polycnc.control.sinumerik.limits import working_area
+from polycnc.control.sinumerik.motion.contour_reading import ContourReading, reading_from_here, without_away
 from polycnc.geometry import arcs, zones
 from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.frame import NcFrame
@@ -71,13 +70,11 @@ class Zone:
 
 @dataclass(slots=True)
 class Definition:
-    """A zone that is being defined, and what the contour must not change."""
+    """A zone that is being defined, and its contour."""
 
     kind: str
     arguments: Arguments
-    recorder: Recorder
-    position: list[float]
-    feed: float
+    contour: ContourReading
 
 
 @dataclass(slots=True)
@@ -92,7 +89,7 @@ class Protection(State, lifetime=Lifetime.POWER):
 
     zones: dict[tuple[str, int], Zone] = field(default_factory=dict)
     states: dict[tuple[str, int], tuple[int, tuple[float, float, float]]] = field(default_factory=dict)
-    open: Definition | None = None
+    open: Definition | None = lasting(Lifetime.RESET, None)
 
     @classmethod
     def first(cls, channel: Channel) -> Protection:
@@ -135,13 +132,9 @@ def begin(kind: str) -> Callable[[SinumerikChannel, Arguments], None]:
             raise AlarmError("PC0009", text=channel.mode["compensation"])
         if _is_shifted(memory.frames.total()):
             raise AlarmError("PC0009", text="FRAME")
-        channel.flush()
-        recorder, position = Recorder(), channel.coordinates.position
-        state.open = Definition(kind, args, recorder, position, channel.feed)
-        working_area.Ranges.of(channel).limits = ()
-        channel.path.divert(recorder)
-        channel.coordinates.arrive(sent_away(position, channel.coordinates.geometry))
-        channel.feed = channel.feed if channel.feed > 0.0 else 1.0
+        contour = reading_from_here(channel, keeps_modes=False)
+        state.open = Definition(kind, args, contour)
+        contour.begin(channel, channel.coordinates.geometry)
 
     return run
 
@@ -152,41 +145,31 @@ def _is_shifted(frame: NcFrame) -> bool:
 
 def execute(channel: SinumerikChannel, _args: Arguments) -> None:
     """EXECUTE: the zone is defined; position, path and feed are as before."""
-    state = Protection.of(channel)
-    definition = state.open
+    definition = Protection.of(channel).open
     if definition is None:
         raise AlarmError("14020", text="EXECUTE")
-    leave(channel)
-    zone = _zone(channel, definition)
-    state.zones[zone.kind, zone.number] = zone
+    zone = _zone(channel, definition, _leave(channel, definition))
+    Protection.of(channel).zones[zone.kind, zone.number] = zone
 
 
-def leave(channel: SinumerikChannel) -> None:
-    """A definition ends, or is abandoned: position, path and feed are as before it."""
-    state = Protection.of(channel)
-    definition = state.open
-    if definition is None:
-        return
-    channel.flush()
-    state.open = None
-    channel.path.resume(definition.recorder)
-    channel.coordinates.arrive(definition.position)
-    if isnan(definition.feed) and channel.feed == 1.0:
-        channel.feed = nan
-    working_area.refresh(channel)
+def _leave(channel: SinumerikChannel, definition: Definition) -> list[Move]:
+    """A definition ends: position, path and feed are as before it. Gives its moves."""
+    Protection.of(channel).open = None
+    return definition.contour.end(channel)
 
 
 def check_end(channel: SinumerikChannel) -> None:
     """PC0009: the program ends while a zone is being defined."""
-    if Protection.of(channel).open is not None:
-        leave(channel)
+    definition = Protection.of(channel).open
+    if definition is not None:
+        _leave(channel, definition)
         raise AlarmError("PC0009", text="M30")
 
 
-def _zone(channel: SinumerikChannel, definition: Definition) -> Zone:
+def _zone(channel: SinumerikChannel, definition: Definition, moves: list[Move]) -> Zone:
     number, of_tool, sides, upper, lower = (*definition.arguments, None, None, None)[:5]
     axes = PLANES[channel.mode["plane"]]
-    outline = _outline(channel, definition.recorder.moves, axes)
+    outline = _outline(channel, moves, axes)
     name = f"{definition.kind}PROTDEF({number})"
     sides = arguments.whole(sides or 0)
     if not 0 <= sides <= (UPPER | LOWER) or arguments.whole(number) < 1:
@@ -194,7 +177,7 @@ def _zone(channel: SinumerikChannel, definition: Definition) -> Zone:
     counter_clockwise = zones.area(outline) > 0.0
     if of_tool and not (counter_clockwise and zones.is_convex(outline)):
         raise AlarmError("PC0010", text=name)
-    if of_tool and any(_sense(move) == "G2" for move in definition.recorder.moves):
+    if of_tool and any(_sense(move) == "G2" for move in moves):
         raise AlarmError("PC0010", text=f"{name} G2")
     low = arguments.real(lower or 0.0) if sides & LOWER else -inf
     high = arguments.real(upper or 0.0) if sides & UPPER else inf
@@ -259,6 +242,12 @@ def switch(kind: str) -> Callable[[SinumerikChannel, Arguments], None]:
         _guard(channel, bool(found.states))
 
     return run
+
+
+def deselect(channel: SinumerikChannel) -> None:
+    """No zone is active: a transformation is selected (job planning 6.10)."""
+    Protection.of(channel).states.clear()
+    _guard(channel, wanted=False)
 
 
 def _guard(channel: SinumerikChannel, wanted: bool) -> None:

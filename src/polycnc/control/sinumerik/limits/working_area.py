@@ -1,7 +1,8 @@
-"""Software limit switches and working areas: targets beyond them raise an alarm before anything moves.
+"""Software limit switches and working areas: ways beyond them raise an alarm before anything moves.
 
-Source: Fundamentals (G25, G26, WALIMON, WALIMOF; WALCS0 to WALCS10), machine data 36100 and 36110, setting data 43400
-to 43430, `$P_WORKAREA_CS_…`.
+The working area is that of the tool tip, in the basic system; with MD21020 the tool's radius belongs to it. Source:
+Fundamentals (G25, G26, WALIMON, WALIMOF; WALCS0 to WALCS10), machine data 36100 and 36110, setting data 43400 to 43430,
+`$P_WORKAREA_CS_…`.
 """
 
 from __future__ import annotations
@@ -10,14 +11,18 @@ from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from polycnc.channel.moves.path import Move
+from polycnc.channel.moves.travel import Travel
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import gcodes
 from polycnc.control.sinumerik.block import arguments
-from polycnc.control.sinumerik.frames.memory import chain
 from polycnc.control.sinumerik.variables.row import Indices, Row
 from polycnc.control.sinumerik.variables.stored import Stored
+from polycnc.geometry.frames import IDENTITY
+from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
@@ -35,8 +40,9 @@ DATA = frozenset(
 )
 
 
-#: Coordinate systems: the machine's, and those of $P_WORKAREA_CS_COORD_SYSTEM, workpiece and settable zero.
-MACHINE, WORK, SETTABLE = 0, 1, 3
+#: Coordinate systems: the machine's, the basic one of the tool tip, and those of $P_WORKAREA_CS_COORD_SYSTEM, workpiece
+#: and settable zero.
+MACHINE, WORK, BASIC, SETTABLE = range(4)
 GROUPS = range(1, 11)
 AREA = "$P_WORKAREA_CS_"
 
@@ -53,9 +59,22 @@ class Limit(NamedTuple):
 
 @dataclass(slots=True)
 class Ranges(State, lifetime=Lifetime.POWER):
-    """The ranges that targets must stay in."""
+    """The ranges that moves must stay in."""
 
     limits: tuple[Limit, ...] = ()
+
+    def check(self, channel: SinumerikChannel, travel: Travel) -> None:
+        """Refuse a way beyond a limit: 10720 for a software limit switch, 10730 and 10735 for working areas.
+
+        The whole way counts, and that of the tool's middle where radius compensation acts.
+        """
+        points = {
+            system: _points(channel, travel, system) for system in {each.system for each in self.limits}
+        }
+        for limit in self.limits:
+            margin = radius_beside(channel, limit, travel.context.plane)
+            for point in points[limit.system][1:]:
+                _check(channel, limit, point[limit.column], margin)
 
 
 def refresh(channel: SinumerikChannel) -> None:
@@ -73,9 +92,11 @@ def refresh(channel: SinumerikChannel) -> None:
             )
             low = data.number("$SA_WORKAREA_LIMIT_MINUS", name) if below else -inf
             high = data.number("$SA_WORKAREA_LIMIT_PLUS", name) if above else inf
-            limits.append(Limit(column, low, high, WORKING_AREA))
+            limits.append(Limit(column, low, high, WORKING_AREA, BASIC))
     limits += _of_work_system(channel)
-    Ranges.of(channel).limits = tuple(limit for limit in limits if limit.low > -inf or limit.high < inf)
+    ranges = Ranges.of(channel)
+    ranges.limits = tuple(limit for limit in limits if limit.low > -inf or limit.high < inf)
+    channel.boundary = ranges if ranges.limits else None
 
 
 def _of_work_system(channel: SinumerikChannel) -> list[Limit]:
@@ -137,14 +158,39 @@ def _pair(channel: SinumerikChannel, column: int, side: str) -> str:
     return "2" if channel.setup.switches.plc.get(f"DB{31 + column}.DBX12.{bit}") else ""
 
 
-def check(channel: SinumerikChannel, end: list[float]) -> None:
-    """Refuse a target beyond a limit: 10720 for a software limit switch, 10730 and 10735 for working areas."""
-    limits = Ranges.of(channel).limits
-    systems = {MACHINE: channel.coordinates.to_machine(end), WORK: end}
-    if any(limit.system == SETTABLE for limit in limits):
-        systems[SETTABLE] = channel.coordinates.image(chain(channel.memory.frames.inner()).frame, end)
-    for limit in limits:
-        value = systems[limit.system][limit.column]
-        if value < limit.low - _SLACK or value > limit.high + _SLACK:
-            side = "-" if value < limit.low else "+"
-            raise AlarmError(limit.alarm, axis=channel.axes[limit.column], side=side)
+def check_target(channel: SinumerikChannel, end: list[float]) -> None:
+    """The same for a positioning axis, which goes to a target beside the path."""
+    start = channel.coordinates.position
+    if channel.boundary is not None:
+        channel.boundary.check(
+            channel, Travel(channel, Move(Kind.FEED, start, end, context=channel.context_number()))
+        )
+
+
+def radius_beside(channel: SinumerikChannel, limit: Limit, plane: str) -> float:
+    """How far the tool tip must stay inside a limit: its radius in the plane, for working areas with MD21020."""
+    if limit.alarm == SWITCH or not channel.memory.data.number("$MC_WORKAREA_WITH_TOOL_RADIUS"):
+        return 0.0
+    geometry = channel.coordinates.geometry
+    return channel.memory.tools.radius if limit.column in (geometry[i] for i in PLANES[plane][:2]) else 0.0
+
+
+def _points(channel: SinumerikChannel, travel: Travel, system: int) -> list[list[float]]:
+    """Points of a way in the system of a limit, each with all at which a coordinate turns back."""
+    context = travel.context
+    if system == MACHINE or (system == BASIC and context.transformation is not None):
+        return travel.machine
+    frame = {WORK: IDENTITY, BASIC: context.frame, SETTABLE: context.part}[system]
+    points = [list(channel.coordinates.image(frame, point)) for point in travel.turns(frame)]
+    if system == BASIC and context.offsets:
+        beside = [i for i in range(len(channel.axes)) if i not in channel.coordinates.geometry]
+        for point in points:
+            for column in beside:
+                point[column] += context.offsets[column]
+    return points
+
+
+def _check(channel: SinumerikChannel, limit: Limit, value: float, margin: float) -> None:
+    if not limit.low + margin - _SLACK <= value <= limit.high - margin + _SLACK:
+        side = "-" if value < limit.low + margin else "+"
+        raise AlarmError(limit.alarm, axis=channel.axes[limit.column], side=side)

@@ -9,15 +9,16 @@ from functools import partial
 from math import cos, hypot, pi, radians, sin
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.move_path import MovePath
+from polycnc.channel.moves.path import Move
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import plain
 from polycnc.control.sinumerik.block.positions import Dimension, is_diameter, number, target
-from polycnc.control.sinumerik.limits import working_area
-from polycnc.control.sinumerik.limits.working_area import Ranges
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
 from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.control.sinumerik.tables import length_factor
+from polycnc.control.sinumerik.tools.tool_plane import CHORD_ERROR_MM, bends_arcs
 from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
@@ -56,6 +57,7 @@ class Arc:
         self.radius, self.angle, self.turn = draft.take("CR"), draft.take("AR"), draft.take("TURN")
         self.centre = centre_words(draft, LETTERS)
         self.terms = draft.take_axes()
+        self.lead = draft.take_lead()
 
     @property
     def is_motion(self) -> bool:
@@ -66,7 +68,7 @@ class Arc:
         """The arc as the scanner knows it: end point, and centre from the start or radius; None for any other."""
         beside = (self.feed, self.angle, self.turn, *self.polar)
         targets = plain.targets(self.terms)
-        if targets is None or any(word is not None for word in beside):
+        if targets is None or self.lead is not None or any(word is not None for word in beside):
             return None
         if any(modifier or index not in self.axes[:2] for index, _, modifier in self.centre):
             return None
@@ -95,6 +97,8 @@ class Arc:
         if not 0.0 <= turns <= 999.0 or turns != int(turns):
             raise AlarmError("14048")
         feed = channel.feed if self.feed is None else number(values, self.feed) * self.feed_factor
+        if self.lead is not None:
+            end = self.lead(channel, values, end)
         arc(channel, self.columns, self.axes, end, center, moves.checked_feed(feed), self.ccw, turns)
 
     def _programmed_centre(self, channel: SinumerikChannel, values: Values, begin: arcs.Point) -> arcs.Point:
@@ -239,12 +243,18 @@ def curve(
     turns: float = 0.0,
 ) -> None:
     """Move along an arc in space and remember it for CT."""
-    if Ranges.of(channel).limits:
-        working_area.check(channel, end)
     sense = 1.0 if kind in CCW_KINDS else -1.0
-    last = LastMove.of(channel)
-    last.start, last.arc = channel.coordinates.position, ArcOfMove(center, normal, sense)
-    channel.curve(kind, end, feed, center=center, normal=normal, turns=turns)
+    c, last = channel.coordinates, LastMove.of(channel)
+    start = c.position
+    last.start, last.arc = start, ArcOfMove(center, normal, sense)
+    if not bends_arcs(channel, normal):
+        channel.curve(kind, end, feed, center=center, normal=normal, turns=turns)
+        return
+    # Factors that differ make an ellipse of it (Fundamentals, SCALE).
+    move = Move(kind, start, end, feed, center=center, normal=normal, turns=turns)
+    largest = max(hypot(*column) for column in zip(*c.zero.m, strict=True))
+    for point in MovePath(move, c.geometry).chords(CHORD_ERROR_MM / largest):
+        channel.curve(Kind.SPLINE, point, feed)
 
 
 # ---- CIP
@@ -255,7 +265,7 @@ def through_point(draft: Draft) -> Step | None:
     middle = centre_words(draft, "")
     words = [(i, draft.take_shape(f"{letter}1", "AC", "IC")) for i, letter in enumerate(LETTERS)]
     middle += [(i, word[0], word[1].modifier) for i, word in words if word is not None]
-    terms = draft.take_axes()
+    terms, lead = draft.take_axes(), draft.take_lead()
     if not terms and not middle:
         return None
     incremental = draft.mode["distance"] == "G91"
@@ -273,6 +283,8 @@ def through_point(draft: Draft) -> Step | None:
                 via[column] += value * length_factor(draft.mode)
             else:
                 via[column] = value * absolute_factor(channel, draft, column)
+        if lead is not None:
+            end = lead(channel, values, end)
         _three_points(channel, draft, start, via, end)
 
     return run

@@ -28,7 +28,7 @@ def position(channel: SinumerikChannel, column: int, modifier: str, value: float
     place = int(value)
     if modifier == "CIC":
         place += _nearest(channel, column, table)
-        if channel.axis_data[column].modulo:
+        if channel.memory.axes[column].modulo:
             place %= len(table)
     if not 0 <= place < len(table):
         raise AlarmError("17510", axis=channel.axes[column])
@@ -47,6 +47,6 @@ def _table(channel: SinumerikChannel, column: int) -> list[float]:
 def _nearest(channel: SinumerikChannel, column: int, table: list[float]) -> int:
     """The number of the position at which the axis stands."""
     now = channel.coordinates.position[column]
-    if channel.axis_data[column].modulo:
+    if channel.memory.axes[column].modulo:
         now %= 360.0
     return min(range(len(table)), key=lambda i: abs(table[i] - now))

@@ -12,14 +12,16 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import tables
+from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.block import plain
 from polycnc.control.sinumerik.block.positions import AxisTerm, Dimension, axis_term, number, target
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.limits import working_area
-from polycnc.control.sinumerik.limits.working_area import Ranges
 from polycnc.control.sinumerik.motion.last_move import LastMove
 from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.control.sinumerik.tables import length_factor
+from polycnc.control.sinumerik.transformations import point_to_point, seat
+from polycnc.control.sinumerik.variables.clock import Clock
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM
@@ -31,7 +33,7 @@ from polycnc.toolpath import Kind
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
-    from polycnc.control.sinumerik.block.draft import Draft, Step, Values
+    from polycnc.control.sinumerik.block.draft import Draft, Goal, Step, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
 
 
@@ -53,14 +55,15 @@ class OpenLine(State, lifetime=Lifetime.RESET):
 
 def rapid(draft: Draft) -> Step | None:
     """G0: rapid traverse; the row names a feed only if the block does."""
-    straight = None if draft.has("AP", "RP", "ANG") else plain.straight(draft.axis_terms(), rapid=True)
+    is_plain = draft.lead is None and not draft.by_axes and not draft.has("AP", "RP", "ANG")
+    straight = plain.straight(draft.axis_terms(), rapid=True) if is_plain else None
     goal = goal_of(draft)
     if goal is None:
         return None
-    names_feed = draft.has("F")
+    names_feed, go = draft.has("F"), point_to_point.go if draft.by_axes else line
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        line(channel, Kind.RAPID, goal(channel, values), channel.feed if names_feed else nan)
+        go(channel, Kind.RAPID, goal(channel, values), channel.feed if names_feed else nan)
 
     return run if straight is None else declare(run, straight._replace(names_feed=names_feed))
 
@@ -68,16 +71,17 @@ def rapid(draft: Draft) -> Step | None:
 def linear(draft: Draft) -> Step | None:
     """G1: straight with path feed; FB for the block's own feed."""
     block_feed = draft.take("FB")
-    if block_feed is None and not draft.has("AP", "RP", "ANG"):
+    is_plain = draft.lead is None and not draft.by_axes and not draft.has("AP", "RP", "ANG")
+    if block_feed is None and is_plain:
         return _plain_linear(draft)
     goal = goal_of(draft)
     if goal is None:
         return None
-    factor = feed_factor(draft)
+    factor, go = feed_factor(draft), point_to_point.go if draft.by_axes else line
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         feed = channel.feed if block_feed is None else number(values, block_feed) * factor
-        line(channel, Kind.FEED, goal(channel, values), checked_feed(feed))
+        go(channel, Kind.FEED, goal(channel, values), checked_feed(feed))
 
     return run
 
@@ -91,7 +95,7 @@ def _plain_linear(draft: Draft) -> Step | None:
         return _incremental_linear(terms)
     places = [(term.position, term.column, term.factor) for term in terms]
     own_feed = draft.take_plain("F") if draft.mode["feed"] != "G931" else None
-    ranges, last = Ranges.of(draft.channel), LastMove.of(draft.channel)
+    last = LastMove.of(draft.channel)
     feed_place, feed_to_internal = -1 if own_feed is None else own_feed, feed_factor(draft)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
@@ -121,8 +125,6 @@ def _plain_linear(draft: Draft) -> Step | None:
         if not feed > 0.0:
             raise AlarmError("10860")
         if moves:
-            if ranges.limits:
-                working_area.check(channel, end)
             last.start, last.arc = start, None
             channel.straight(Kind.FEED, end, feed)
 
@@ -155,26 +157,34 @@ def line(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -
     """Move straight to a point; remembers where the move came from, for CT."""
     start = channel.coordinates.position
     if any(abs(a - b) > NO_WAY for a, b in zip(end, start, strict=True)):
-        _begin(channel, start, end)
+        _begin(channel, start)
         channel.straight(kind, end, feed)
 
 
-def _begin(channel: SinumerikChannel, start: list[float], end: list[float]) -> None:
-    """A straight path move: its target must be allowed, and CT knows where it came from."""
-    if Ranges.of(channel).limits:
-        working_area.check(channel, end)
+def _begin(channel: SinumerikChannel, start: list[float]) -> None:
+    """A straight path move: CT knows where it came from."""
     last = LastMove.of(channel)
     last.start, last.arc = start, None
 
 
-Goal = Any
-
-
 def goal_of(draft: Draft) -> Goal | None:
-    """How a block's end point follows from its words: axis words, polar coordinates, or a contour angle.
+    """How a block's end point follows from its words: axis words, polar coordinates, a contour angle, orientation.
 
     None if the block names no end point.
     """
+    goal, lead = _goal_of_tip(draft), draft.take_lead()
+    if lead is None:
+        return goal
+
+    def led(channel: SinumerikChannel, values: Values) -> list[float]:
+        end = channel.coordinates.position.copy() if goal is None else goal(channel, values)
+        return lead(channel, values, end)
+
+    return led
+
+
+def _goal_of_tip(draft: Draft) -> Goal | None:
+    """The same, as far as axis words, polar coordinates and a contour angle say."""
     angle, radius = draft.take_shape("AP", "AC", "IC"), draft.take_shape("RP", "AC", "IC")
     contour_angle = draft.take("ANG")
     terms = draft.take_axes()
@@ -433,7 +443,7 @@ def special(
     """A straight move with curve parameters."""
     start = channel.coordinates.position
     if any(abs(a - b) > NO_WAY for a, b in zip(end, start, strict=True)):
-        _begin(channel, start, end)
+        _begin(channel, start)
         channel.curve(kind, end, feed, parameters=parameters)
 
 
@@ -445,10 +455,10 @@ def dwell(draft: Draft) -> Step | None:
     seconds, revolutions = draft.take("F"), draft.take_shape("S")
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        channel.dwell(
-            seconds=number(values, seconds) if seconds is not None else 0.0,
-            revolutions=number(values, revolutions[0]) if revolutions is not None else 0.0,
-        )
+        wait = number(values, seconds) if seconds is not None else 0.0
+        turns = number(values, revolutions[0]) if revolutions is not None else 0.0
+        channel.dwell(seconds=wait, revolutions=turns)
+        Clock.of(channel).waited += max(wait, 0.0)
 
     return run
 
@@ -459,6 +469,7 @@ def reference_point(draft: Draft) -> Step | None:
     columns += [term.column for term in draft.take_axes()]
 
     def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - values are ignored by the function
+        seat.refuse_transformed(channel, columns, "17630")
         points = {column: channel.axis_data[column].reference_points[0] for column in columns}
         _to_machine(channel, Kind.REF, points)
 
@@ -473,6 +484,7 @@ def fixed_point(draft: Draft) -> Step | None:
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         memory = channel.memory
+        seat.refuse_transformed(channel, columns, "17620")
         if via is not None:
             line(channel, Kind.RAPID, via(channel, values), nan)
         point = int(number(values, number_position)) if number_position is not None else 1
@@ -497,9 +509,13 @@ def _to_machine(channel: SinumerikChannel, kind: Kind, points: dict[int, float])
 # ---- positioning axes
 
 
-def positioning(draft: Draft) -> list[Step]:
-    """POS, POSA, POSP: axes that move with their own feed beside the path; they give no row (FA is their feed)."""
-    steps = []
+def positioning(draft: Draft) -> tuple[list[Step], list[Step]]:
+    """POS, POSA, POSP: axes that move with their own feed beside the path; they give no row (FA is their feed).
+
+    Gives what starts them, and what ends the block when they are there (not for POSA).
+    """
+    steps: list[Step] = []
+    awaited: list[Step] = []
     for position, word in draft.open_words():
         if word.address not in ("POS", "POSA", "POSP"):
             continue
@@ -507,9 +523,19 @@ def positioning(draft: Draft) -> list[Step]:
         if not isinstance(word.index, Axis):
             raise WordAlarm("12040", position, text=str(word.index))
         column = draft.memory.column(word.index.name)
+        seat.check_positioning(draft.channel, column, by_axes=draft.mode["point_to_point"] != "CP")
         term = axis_term(draft.channel, draft.mode, position, column, word.modifier)
         steps.append(_in_parts(term) if word.address == "POSP" else _position_axis(term))
-    return steps
+        if word.address != "POSA":
+            awaited.append(_await_axis(column))
+    return steps, awaited
+
+
+def _await_axis(column: int) -> Step:
+    def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+        action_axes.await_rest(channel, (column,))
+
+    return run
 
 
 def _in_parts(term: AxisTerm) -> Step:
@@ -528,8 +554,8 @@ def _in_parts(term: AxisTerm) -> Step:
 def _position_axis(term: AxisTerm) -> Step:
     def run(channel: SinumerikChannel, values: Values) -> None:
         end = target(channel, (term,), values)
-        if Ranges.of(channel).limits:
-            working_area.check(channel, end)
+        working_area.check_target(channel, end)
+        action_axes.position_beside(channel, term.column, end)
         channel.coordinates.arrive(end)
 
     return run

@@ -7,14 +7,15 @@ running block. A job that deletes the distance to go ends the move there, withou
 
 from __future__ import annotations
 
-from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.sinumerik.actions import fifo as fifos
 from polycnc.control.sinumerik.block.positions import shown
+from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.words import WordAlarm
@@ -34,7 +35,7 @@ OF_BLOCK, OF_AXIS = ("MEAS", "MEAW"), ("MEASA", "MEAWA")
 CONTINUOUS = "MEAC"
 WORDS = (*OF_BLOCK, *OF_AXIS, CONTINUOUS)
 EVENTS = (1, -1, 2, -2)
-MAX_EVENTS, MAX_FIFOS = 4, 10
+MAX_EVENTS = 4
 #: Units of the mode: end the job; in any order; in the programmed order, the first event being checked or not.
 ABORT, ANY_ORDER, IN_ORDER, UNCHECKED = range(4)
 SYSTEMS = range(4)
@@ -174,14 +175,12 @@ class Measuring(State, lifetime=Lifetime.POWER):
         measured: Work and machine position of an axis by number of the value and column.
         started_at: Where the running measuring block began.
         triggered: $AC_MEA by probe.
-        fifos: $AC_FIFOn by number.
     """
 
     prober: Prober | None = None
     measured: dict[tuple[int, int], tuple[float, float]] = field(default_factory=dict)
     started_at: list[float] | None = None
     triggered: dict[int, bool] = field(default_factory=dict)
-    fifos: dict[int, deque[float]] = field(default_factory=dict)
 
 
 def watch(channel: SinumerikChannel) -> None:
@@ -215,10 +214,15 @@ def measure(draft: Draft) -> tuple[Step, Step, Step] | None:
 
 
 def _moved_columns(draft: Draft, path: set[int]) -> tuple[int, ...]:
-    """Columns of the axes that a block moves: one geometry axis of the path stands for all of them."""
+    """Columns of the axes that a block moves: one geometry axis of the path stands for all of them.
+
+    So does one axis of a transformation for all of its axes, and words of orientation for the rotary ones.
+    """
     positioned = (word.index for word in draft.block.words if word.address in ("POS", "POSA"))
     alone = {draft.memory.column(axis.name) for axis in positioned if isinstance(axis, Axis)}
     geometry = {column for column in draft.channel.coordinates.geometry if column >= 0}
+    together = seat.transformed(draft.channel)
+    path = path | together if path & together or draft.lead is not None else path
     return tuple(sorted((path | geometry if path & geometry else path) | alone))
 
 
@@ -266,7 +270,7 @@ def _listed(name: str, value: Any, position: int) -> tuple[int, int, tuple[int, 
     fifo = rest.pop(0) if name == CONTINUOUS and rest else 0
     if mode % 10 == ABORT:
         return mode, 0, ()
-    is_wrong_fifo = name == CONTINUOUS and (not 1 <= fifo <= MAX_FIFOS or mode % 10 == UNCHECKED)
+    is_wrong_fifo = name == CONTINUOUS and (not 1 <= fifo <= fifos.MOST or mode % 10 == UNCHECKED)
     if not 1 <= len(rest) <= MAX_EVENTS or is_wrong_fifo:
         raise WordAlarm("14020", position, text=name)
     if any(event not in EVENTS for event in rest):
@@ -308,7 +312,7 @@ def _start(channel: SinumerikChannel, jobs: list[Job]) -> None:
             deflected = prober is not None and prober.deflected.get(probe, False)
             state.triggered[probe] = deflected and not job.axial
         if job.fifo:
-            state.fifos.setdefault(job.fifo, deque())
+            fifos.values(channel, job.fifo)
     state.started_at = channel.coordinates.position
     if prober is not None:
         prober.jobs = [job for job in jobs if not job.fifo]
@@ -347,10 +351,10 @@ def _append(channel: SinumerikChannel, job: Job, event: int, value: float) -> No
     """A value of a continuous job: each probe has its own memory; a full one ends the job."""
     others = sorted({abs(each) for each in job.events})
     number = job.fifo + others.index(abs(event))
-    fifo = Measuring.of(channel).fifos.setdefault(number, deque())
+    values = fifos.values(channel, number)
     length = channel.memory.data.integer("$MC_LEN_AC_FIFO")
-    if not length or len(fifo) < length:
-        fifo.append(value)
+    if not length or len(values) < length:
+        values.append(value)
 
 
 def _measured(slot: int, *, work: bool) -> Callable[[SinumerikChannel, Indices], float]:
@@ -384,39 +388,6 @@ def _is_active(channel: SinumerikChannel, indices: Indices) -> bool:
     return prober is not None and channel.memory.column(indices[0].name) in prober.continuous
 
 
-def _fifo(number: int) -> RowWithStop:
-    """$AC_FIFOn: [0] takes the oldest value out, [1] oldest, [2] newest, [3] sum, [4] count, from [6] on all."""
-    name = f"$AC_FIFO{number}"
-
-    def read(channel: SinumerikChannel, indices: Indices) -> float:
-        fifo = Measuring.of(channel).fifos.setdefault(number, deque())
-        index = indices[0] if len(indices) == 1 and isinstance(indices[0], int) else -1
-        if index == 0:
-            return fifo.popleft() if fifo else 0.0
-        values = {
-            1: fifo[0] if fifo else 0.0,
-            2: fifo[-1] if fifo else 0.0,
-            3: sum(fifo),
-            4: float(len(fifo)),
-        }
-        if index in values:
-            return values[index]
-        if index == 5 or 6 <= index < 6 + len(fifo):
-            return float(len(fifo)) if index == 5 else fifo[index - 6]
-        raise AlarmError("17020", text=name, index=index)
-
-    def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
-        fifo = Measuring.of(channel).fifos.setdefault(number, deque())
-        if indices == (0,):
-            fifo.append(float(value))
-        elif indices == (4,) and value == 0:
-            fifo.clear()
-        else:
-            raise AlarmError("17020", text=name, index=", ".join(map(str, indices)))
-
-    return Type.REAL, read, write, True
-
-
 MEASURE_VARIABLES: dict[str, RowWithStop] = {
     **{f"$AA_MM{slot or ''}": (Type.REAL, _measured(slot, work=False), None, False) for slot in range(5)},
     **{f"$AA_MW{slot or ''}": (Type.REAL, _measured(slot, work=True), None, False) for slot in range(5)},
@@ -428,5 +399,4 @@ MEASURE_VARIABLES: dict[str, RowWithStop] = {
         True,
     ),
     "$AA_MEAACT": (Type.BOOL, _is_active, None, True),
-    **{f"$AC_FIFO{number}": _fifo(number) for number in range(1, MAX_FIFOS + 1)},
 }

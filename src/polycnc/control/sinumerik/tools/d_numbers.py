@@ -5,16 +5,22 @@ Source: job planning 7.2 (DL), 7.7 (D numbers).
 
 from __future__ import annotations
 
+from itertools import combinations
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.block.arguments import Arguments
+from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
+from polycnc.control.sinumerik.tools.memory import FLAT
+from polycnc.language.sinumerik.names.variables import Reference
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.tools.memory import Tool, Tools
 
-INVALID = 32001
+#: D number of an edge that DZERO has marked; status for what is no D number.
+INVALID, NO_NUMBER = 32001, -5
 
 
 def _tool(channel: SinumerikChannel, number: int) -> Tool | None:
@@ -47,24 +53,46 @@ def set_number(channel: SinumerikChannel, args: Arguments) -> int:
 
 
 def check_numbers(channel: SinumerikChannel, args: Arguments) -> bool:
-    """CHKDNO([t1 [, t2 [, d]]]): whether D numbers are unique, of all tools or of two."""
+    """CHKDNO([t1 [, t2 [, d]]]): whether D numbers are unique; variables that are given get those that are not.
+
+    Without tools all are compared, with one that one with all others. Edges that DZERO has marked do not count.
+    """
     tools: Tools = channel.memory.tools
-    given = [arg for arg in args if arg is not None]
-    chosen = [tools.tools[t] for t in given[:2] if t in tools.tools] if given else list(tools.tools.values())
-    if given and len(chosen) < len(given[:2]):
+    places = [*args, None, None, None][:3]
+    first, second, number = (place.value if isinstance(place, Reference) else place for place in places)
+    if any(tool is not None and tool not in tools.tools for tool in (first, second)):
         return False
-    if len(given) == 1:
-        others = [tool for tool in tools.tools.values() if tool.number != given[0]]
-        return all(number not in other.edges for number in chosen[0].edges for other in others)
-    wanted = given[2] if len(given) > 2 else None
-    numbers = [d for tool in chosen for d in tool.edges if wanted in (None, d)]
-    return len(numbers) == len(set(numbers))
+    for one, other in combinations(sorted(tools.tools), 2):
+        if any(wanted is not None and wanted not in (one, other) for wanted in (first, second)):
+            continue
+        both = _valid(tools.tools[one]) & _valid(tools.tools[other])
+        found = min((d for d in both if number in (None, d)), default=None)
+        if found is not None:
+            pair = (other, one) if other == first or one == second else (one, other)
+            for place, value in zip(places, (*pair, found), strict=True):
+                if isinstance(place, Reference):
+                    place.value = value
+            return False
+    return True
+
+
+def _valid(tool: Tool) -> set[int]:
+    return {number for number, edge in tool.edges.items() if edge.is_valid}
 
 
 def tool_of_number(channel: SinumerikChannel, args: Arguments) -> int:
-    """GETACTTD(VAR t, d): the tool of a D number; 0 found, -1 no such tool, -2 several (the first is told)."""
+    """GETACTTD(VAR t, d): the tool of a D number; 0 found, -1 no such tool, -2 several (the first is told).
+
+    -5: no D number. Where D numbers do not depend on the tool it is always 1.
+    """
     tools: Tools = channel.memory.tools
-    found = [number for number, tool in sorted(tools.tools.items()) if args[1] in tool.edges]
+    if tools.is_flat:
+        args[0].value = FLAT
+        return FLAT
+    if args[1] < 1:
+        args[0].value = 0
+        return NO_NUMBER
+    found = [number for number, tool in sorted(tools.tools.items()) if args[1] in _valid(tool)]
     args[0].value = found[0] if found else 0
     return -1 if not found else -2 if len(found) > 1 else 0
 
@@ -77,12 +105,26 @@ def invalidate(channel: SinumerikChannel, _args: Arguments) -> None:
             edge.is_valid = False
 
 
-def delete_additive(channel: SinumerikChannel, args: Arguments) -> None:
-    """DELDL(t, d), DELDL(t), DELDL: take additive offsets away; those of the active tool stay."""
+def delete_additive(channel: SinumerikChannel, args: Arguments) -> int:
+    """DELDL(t, d), DELDL(t), DELDL: take additive offsets away; 0, or -1 where those of the active edge stay."""
     tools: Tools = channel.memory.tools
     wanted_tool, wanted_edge = (*args, None, None)[:2]
-    for tool in tools.tools.values():
-        for number, edge in tool.edges.items():
-            chosen = wanted_tool in (None, tool.number) and wanted_edge in (None, number)
-            if chosen and edge is not tools.edge:
-                edge.additive.clear()
+    edges = [
+        edge
+        for tool in tools.tools.values()
+        for number, edge in tool.edges.items()
+        if wanted_tool in (None, tool.number) and wanted_edge in (None, number)
+    ]
+    for edge in edges:
+        if edge is not tools.edge:
+            edge.additive.clear()
+    return -1 if not edges or any(edge is tools.edge for edge in edges) else 0
+
+
+def without_status(function: Callable[[SinumerikChannel, Arguments], int]) -> Procedure:
+    """A function of this module as a procedure."""
+
+    def procedure(channel: SinumerikChannel, args: Arguments) -> None:
+        function(channel, args)
+
+    return procedure

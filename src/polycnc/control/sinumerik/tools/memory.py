@@ -8,72 +8,44 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from polycnc.channel.states.state import Lifetime, State, retained
+from polycnc.compensation.tips import tip_direction
+from polycnc.control.sinumerik.data.machine_data import MachineData
+from polycnc.control.sinumerik.tools import cutting_data
+from polycnc.control.sinumerik.tools.edges import (
+    DP_BASE_LENGTH,
+    DP_LENGTH,
+    DP_RADIUS,
+    DP_TIP,
+    DP_TYPE,
+    DP_WEAR_LENGTH,
+    DP_WEAR_RADIUS,
+    Edge,
+)
+from polycnc.control.sinumerik.tools.lengths import OTHER_LENGTHS, TURNING_LENGTHS, Rules, along_axes
+from polycnc.geometry.frames import IDENTITY
+from polycnc.geometry.vectors import minus, times
+from polycnc.memory.encoding import encoded
+from polycnc.memory.retained import TOOLS
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from typing import Self
 
-    from polycnc.control.sinumerik.data.machine_data import MachineData
+    from polycnc.channel.channel import Channel
+    from polycnc.control.sinumerik.tools.cutting_data import CuttingData
     from polycnc.geometry.frames import Frame, Vector
     from polycnc.machine.setup.values import Tool as SetupTool
 
-#: Parameters of a cutting edge: $TC_DP1 … $TC_DP25.
-PARAMETERS = 25
-DP_TYPE, DP_TIP, DP_LENGTH, DP_RADIUS = 1, 2, 3, 6
-DP_WEAR_LENGTH, DP_WEAR_RADIUS, DP_BASE_LENGTH = 12, 15, 21
 DEFAULT_TYPE = 120.0
-#: Types from 400 to 599 are turning and grinding tools.
-TURNING_TYPES = range(400, 600)
-
-#: Geometry axis (0 X, 1 Y, 2 Z) of lengths L1, L2, L3 (job planning 7.3, SD42940); a minus sign is a value of
-#: its own.
-TURNING_LENGTHS = {
-    17: (1, 0, 2),
-    18: (0, 2, 1),
-    19: (2, 1, 0),
-    -17: (0, 1, 2),
-    -18: (2, 0, 1),
-    -19: (1, 2, 0),
-}
-OTHER_LENGTHS = {17: (2, 1, 0), 18: (1, 0, 2), 19: (0, 2, 1), -17: (2, 0, 1), -18: (1, 2, 0), -19: (0, 1, 2)}
+#: The tool that has all edges where D numbers do not depend on the tool (MD18102).
+FLAT = 1
+#: Bit 6 of MD20110: a reset keeps the offsets of the tool.
+KEEPS_EDGE = 1 << 6
 
 
-@dataclass(slots=True)
-class Edge:
-    """One cutting edge.
-
-    Attributes:
-        values: `values[n]` is `$TC_DPn`.
-        teeth: Number of teeth, `$TC_DPNT`.
-        cutting_edge: `$TC_DPCE`, 0 while it equals the D number.
-        is_valid: False after DZERO.
-        additive: Additive offsets, wear (`$TC_SCPn`) and setup (`$TC_ECPn`) added up, by kind and number n.
-    """
-
-    values: list[float] = field(default_factory=lambda: [0.0] * (PARAMETERS + 1))
-    teeth: float = 0.0
-    cutting_edge: int = 0
-    is_valid: bool = True
-    additive: dict[tuple[str, int], float] = field(default_factory=dict)
-
-    @property
-    def is_turning(self) -> bool:
-        """Whether lengths and radius are those of a turning or grinding tool."""
-        return int(self.values[DP_TYPE]) in TURNING_TYPES
-
-    @property
-    def radius(self) -> float:
-        """Radius with wear, mm."""
-        return self.values[DP_RADIUS] + self.values[DP_WEAR_RADIUS]
-
-    @property
-    def lengths(self) -> Vector:
-        """L1, L2, L3 with wear and base, mm."""
-        v = self.values
-        l1, l2, l3 = (v[DP_LENGTH + i] + v[DP_WEAR_LENGTH + i] + v[DP_BASE_LENGTH + i] for i in range(3))
-        return (l1, l2, l3)
-
-
+@encoded("tool")
 @dataclass(slots=True)
 class Tool:
     """One tool: its name ($TC_TP2) and its edges by D number."""
@@ -85,11 +57,12 @@ class Tool:
 
 
 @dataclass(slots=True)
-class Tools:
+class Tools(State, lifetime=Lifetime.POWER):
     """All tools, and what is active.
 
     Attributes:
         tools: By T number.
+        is_flat: D numbers do not depend on the tool: all edges lie with tool 1 (MD18102).
         active: T number in the spindle, 0 for none.
         selected: T number that the next M6 loads (MD22550 = 1).
         edge_number: D number, 0 for no offsets.
@@ -99,10 +72,14 @@ class Tools:
         added_on_axes: TOFF along X, Y, Z, mm.
         added_radius: TOFFR, mm.
         additive: DL, 0 for none.
+        rules: How the edge was evaluated when it was selected; None until somebody asks for its lengths.
         carrier: How an orientable tool carrier or head turns and shifts the lengths; None where there is none.
+        cut_turns: Edge position and its companions turn with the carrier (CUTMOD).
+        overlay: Online offsets along X, Y, Z, as the tool is turned, mm.
     """
 
-    tools: dict[int, Tool] = field(default_factory=dict)
+    tools: dict[int, Tool] = retained(TOOLS)
+    is_flat: bool = False
     active: int = 0
     selected: int = 0
     edge_number: int = 0
@@ -112,19 +89,49 @@ class Tools:
     added_on_axes: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     added_radius: float = 0.0
     additive: int = 0
+    rules: Rules | None = None
     carrier: Frame | None = None
+    cut_turns: bool = False
+    overlay: Vector = (0.0, 0.0, 0.0)
+
+    @classmethod
+    def first(cls, channel: Channel) -> Self:
+        """No tool in the spindle; in the memory is what is retained, else what the setup says."""
+        tools = super(Tools, cls).first(channel)
+        if not tools.tools:
+            tools.tools.update(tools_of_setup(channel.setup.tools))
+        if MachineData.of(channel).integer("$MN_MM_TYPE_OF_CUTTING_EDGE") == 1:
+            tools.is_flat = True
+            flat = tools.new_tool(FLAT).edges
+            for number, tool in tools.tools.items():
+                if number != FLAT and tool.edges:
+                    flat.setdefault(number, tool.edges[min(tool.edges)])
+        return tools
+
+    def end(self, channel: Channel, lifetime: Lifetime) -> None:
+        """After a reset the tool stays in the spindle; bit 6 of MD20110 keeps its offsets, else MD20130 says which."""
+        super(Tools, self).end(channel, lifetime)
+        data = MachineData.of(channel)
+        if lifetime is Lifetime.RESET and data.integer("$MC_RESET_MODE_MASK") & (1 | KEEPS_EDGE) == 1:
+            edge = data.integer("$MC_CUTTING_EDGE_RESET_VALUE")
+            self.select_edge(edge if edge in self.edges else 0)
 
     @property
     def edge(self) -> Edge | None:
         """The active edge, None without tool or with D0."""
-        tool = self.tools.get(self.active)
-        return tool.edges.get(self.edge_number) if tool else None
+        return self.edges.get(self.edge_number)
+
+    @property
+    def edges(self) -> dict[int, Edge]:
+        """The edges that D can choose from."""
+        tool = self.tools.get(FLAT if self.is_flat else self.active)
+        return tool.edges if tool else {}
 
     @property
     def radius(self) -> float:
         """Radius that compensation applies, mm."""
-        edge = self.edge
-        return (edge.radius + self._additive(edge, DP_RADIUS) if edge else 0.0) + self.added_radius
+        edge, inverts = self.edge, self.rules is not None and self.rules.inverts_wear
+        return (edge.radius(self.additive, inverts=inverts) if edge else 0.0) + self.added_radius
 
     @property
     def name(self) -> str:
@@ -146,6 +153,8 @@ class Tools:
                 return self.tools[int(wanted)]
         elif wanted == int(wanted) and int(wanted) in self.tools:
             return self.tools[int(wanted)]
+        elif self.is_flat and wanted == int(wanted):
+            return Tool(int(wanted))
         raise AlarmError("17190", tool=wanted if isinstance(wanted, str) else f"{wanted:g}")
 
     def stand_in(self, wanted: int | str) -> None:
@@ -161,6 +170,9 @@ class Tools:
         default = data.integer("$MC_CUTTING_EDGE_DEFAULT")
         self.active = number
         self._forget_additions()
+        if self.is_flat:
+            self.next_edge = None
+            return
         if number == 0:
             self.edge_number = 0
         elif self.next_edge is not None:
@@ -175,9 +187,9 @@ class Tools:
         Raises:
             AlarmError: 17181 if the active tool has no such edge, 17180 if there is no tool.
         """
-        if number != 0 and self.active == 0:
+        if number != 0 and self.active == 0 and not self.is_flat:
             raise AlarmError("17180", edge=number)
-        edges = self.tools[self.active].edges if self.active else {}
+        edges = self.edges
         if number != 0 and (number not in edges or not edges[number].is_valid):
             raise AlarmError("17181", tool=self.active, edge=number)
         self.edge_number = number
@@ -188,30 +200,50 @@ class Tools:
         self.added_on_axes = [0.0, 0.0, 0.0]
         self.added_radius = 0.0
         self.additive = 0
+        self.rules = None
 
-    def assign_lengths(self, plane: str, data: MachineData) -> None:
-        """Work out the offsets along X, Y, Z for the plane and the setting data."""
-        edge = self.edge
-        offsets = list(self.added_on_axes)
+    def assign_lengths(self, plane: str) -> None:
+        """Work out the offsets along X, Y, Z for a plane."""
+        edge, carrier = self.edge, self.carrier or IDENTITY
+        offsets, fixed = self.added_on_axes, (0.0, 0.0, 0.0)
         if edge is not None:
-            turning = edge.is_turning or data.integer("$SC_TOOL_LENGTH_TYPE") == 2
-            table = TURNING_LENGTHS if turning else OTHER_LENGTHS
-            constant = data.integer("$SC_TOOL_LENGTH_CONST")
-            key = constant or int(plane[1:])
-            axes = table.get(key, table[18 if turning else 17])
-            for axis, length, added in zip(axes, edge.lengths, self.added_lengths, strict=True):
-                offsets[axis] += length + added
-            for i, axis in enumerate(axes):
-                offsets[axis] += self._additive(edge, DP_LENGTH + i)
-        x, y, z = offsets
-        self.lengths = (x, y, z) if self.carrier is None else self.carrier.apply(x, y, z)
+            found = along_axes(edge, self.rules or Rules(), plane, self.additive, self.added_lengths)
+            offsets, fixed = [a + b for a, b in zip(found.turning, offsets, strict=True)], found.fixed
+        turned = carrier.apply(*offsets)
+        parts = (turned, fixed, self._to_tip(plane), carrier.direct(*self.overlay))
+        x, y, z = (sum(values) for values in zip(*parts, strict=True))
+        self.lengths = (x, y, z)
 
-    def _additive(self, edge: Edge, parameter: int) -> float:
-        """What DL adds to a parameter: offset x, parameter y have the number 10x + y in their names."""
-        if not self.additive:
-            return 0.0
-        number = 10 * self.additive + parameter
-        return sum(edge.additive.get((kind, number), 0.0) for kind in ("SCP", "ECP"))
+    def cutting_data(self, plane: str) -> CuttingData | None:
+        """Edge position and its companions as the tool stands now; None without an edge."""
+        edge = self.edge
+        if edge is None or self.carrier is None or not self.cut_turns:
+            return None if edge is None else cutting_data.unchanged(edge)
+        return cutting_data.turned(edge, self._cutting_plane(plane), self.carrier)
+
+    def tip(self, plane: str) -> Vector:
+        """From the nose centre to the programmed tip along X, Y, Z, in units of the radius; zero for milling tools."""
+        edge, carrier = self.edge, self.carrier
+        if edge is None or not edge.is_turning:
+            return (0.0, 0.0, 0.0)
+        data = self.cutting_data(plane) if self.cut_turns else None
+        position = edge.values[DP_TIP] if data is None else data.position
+        tip = cutting_data.in_space(plane, tip_direction(int(position)))
+        return tip if carrier is None or data is not None else carrier.direct(*tip)
+
+    def _to_tip(self, plane: str) -> Vector:
+        """From the programmed tip as the carrier turns it to that of the edge position which follows from it, mm."""
+        edge, carrier = self.edge, self.carrier
+        if edge is None or carrier is None or not self.cut_turns or not edge.is_turning:
+            return (0.0, 0.0, 0.0)
+        plane = self._cutting_plane(plane)
+        before = cutting_data.in_space(plane, tip_direction(int(edge.values[DP_TIP])))
+        data = cutting_data.turned(edge, plane, carrier)
+        after = cutting_data.in_space(plane, tip_direction(int(data.position)))
+        return times(minus(carrier.direct(*before), after), self.radius)
+
+    def _cutting_plane(self, plane: str) -> str:
+        return cutting_data.plane_of(self.rules.constant if self.rules else 0, plane)
 
     def new_tool(self, number: int) -> Tool:
         """The tool of a number, made if it is not there."""
@@ -222,15 +254,15 @@ class Tools:
         return self.new_tool(tool).edges.setdefault(edge, Edge())
 
 
-def tools_of_setup(given: Mapping[int | str, SetupTool]) -> Tools:
-    """The tool memory that a setup describes: by T number, or by name where the key is no number."""
-    tools = Tools()
+def tools_of_setup(given: Mapping[int | str, SetupTool]) -> dict[int, Tool]:
+    """The tools that a setup describes: by T number, or by name where the key is no number."""
+    tools: dict[int, Tool] = {}
     free = 1 + max((key for key in given if isinstance(key, int)), default=0)
     for key, data in given.items():
         tool = Tool(key, data.name) if isinstance(key, int) else Tool(free, data.name or key)
         free += isinstance(key, str)
         tool.edges = {1: _edge(data), **{number: _edge(edge) for number, edge in data.edges.items()}}
-        tools.tools[tool.number] = tool
+        tools[tool.number] = tool
     return tools
 
 

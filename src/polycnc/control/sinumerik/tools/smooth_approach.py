@@ -26,7 +26,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.motion.last_move import LastMove
 from polycnc.control.sinumerik.tables import length_factor
-from polycnc.control.sinumerik.tools import stages
+from polycnc.control.sinumerik.tools import sides, stages
 from polycnc.control.sinumerik.tools.smooth_stage import (
     APPROACHES,
     LINES,
@@ -128,7 +128,7 @@ def approach(draft: Draft) -> Step | None:
     def run(channel: SinumerikChannel, values: Values) -> None:
         start = channel.coordinates.position
         end = target(channel, terms, values)
-        compensation = stages.SIDES.get(draft.mode["compensation"], 0)
+        compensation = sides.SIDES.get(draft.mode["compensation"], 0)
         if draft.mode["smooth_approach_side"] == "G143":
             raise not_supported("G143")
         shape = words.shape(draft, channel, values, compensation, 0)

@@ -7,30 +7,36 @@ RNDM, G40 to G42, NORM, KONT, G450, G451).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane
 from polycnc.compensation.policy import Approach, Policy, Violation
-from polycnc.compensation.tips import tip_direction
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.spline_stage import SplineStage
-from polycnc.control.sinumerik.tools.memory import DP_TIP
+from polycnc.control.sinumerik.tools import faces, spatial
+from polycnc.control.sinumerik.tools.sides import SIDES, Contour
 from polycnc.control.sinumerik.tools.smooth_stage import SmoothApproach
+from polycnc.control.sinumerik.tools.tool_plane import lead, tool_plane
+from polycnc.control.sinumerik.transformations import seat
+from polycnc.control.sinumerik.transformations.walls import WallStage
+from polycnc.geometry.frames import Frame
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.geometry.planes import PLANES
+from polycnc.geometry.vectors import times
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.arcs import Point
+    from polycnc.geometry.frames import Vector
 
-#: MD20250 = 5 blocks without motion are bridged, by compensation and between the two moves of a corner.
+#: MD20250 = 5 blocks without motion are bridged by compensation.
 BRIDGED_BLOCKS = 5
-_G450 = Policy(outer=Outer(0.0, Joint.ARC), read_blocks=BRIDGED_BLOCKS + 2, avoids=True)
+_G450 = Policy(outer=Outer(0.0, Joint.ARC), read_blocks=BRIDGED_BLOCKS + 2, avoids=True, leaves_out_arcs=True)
 #: MD20210 = 100 degrees.
 _G451 = replace(_G450, outer=Outer(100.0, Joint.ARC, extend_as_circles=True))
 POLICIES = {
@@ -39,33 +45,22 @@ POLICIES = {
     ("KONT", "G450"): replace(_G450, approach=Approach.TANGENT),
     ("KONT", "G451"): replace(_G451, approach=Approach.TANGENT),
 }
-#: Too large a size is reduced.
-CORNERS = CornerPolicy(idle_blocks=BRIDGED_BLOCKS, shrinks=True)
 VIOLATIONS = {
     Violation.ARC_START: "10753",
     Violation.ARC_CANCEL: "10754",
+    Violation.INNER_RADIUS_TOO_SMALL: "10751",
     Violation.NO_AVOIDANCE: "10751",
     Violation.AVOIDANCE_DANGEROUS: "10751",
     Violation.AVOIDANCE_INTERFERES: "10751",
 }
-CORNER_VIOLATIONS: dict[CornerViolation, str] = {}
-SIDES = {"G41": 1, "G42": -1}
+#: As delivered: MD20200 = 1. Too large a size is reduced.
+CORNERS = CornerPolicy(idle_blocks=1, shrinks=True)
+CORNER_VIOLATIONS = {CornerViolation.TOO_MANY_BLOCKS: "10880"}
+#: Bit of MD20201: what stands between the two moves of a corner comes behind the chamfer or rounding.
+BEHIND_SHAPE = 1
 #: Stages that work in one plane.
 PlaneStage = SplineStage | SmoothApproach | CornerStage | CutterCompensation
 OF_PLANE: tuple[type[PlaneStage], ...] = (SplineStage, SmoothApproach, CornerStage, CutterCompensation)
-
-
-@dataclass(slots=True)
-class Contour(State, lifetime=Lifetime.POWER):
-    """What words say of the compensated contour.
-
-    Attributes:
-        allowance_mm: OFFN.
-        disc: DISC, 0 to 100.
-    """
-
-    allowance_mm: float = 0.0
-    disc: float = 0.0
 
 
 def cutter(channel: SinumerikChannel) -> CutterCompensation:
@@ -88,7 +83,15 @@ def corner(channel: SinumerikChannel) -> CornerStage:
     """The stage of chamfers and roundings, in the path."""
     change_plane(channel)
     stage = channel.path.find(CornerStage)
-    return stage or channel.path.put(CornerStage(plane(channel), CORNERS, CORNER_VIOLATIONS))
+    return stage or channel.path.put(CornerStage(plane(channel), _corners(channel), CORNER_VIOLATIONS))
+
+
+def _corners(channel: SinumerikChannel) -> CornerPolicy:
+    """Too large a size is reduced; MD20200 says how many blocks without a way in the plane may stand between."""
+    data = channel.memory.data
+    behind = data.integer("$MC_CHFRND_MODE_MASK") & BEHIND_SHAPE
+    idle = data.integer("$MC_CHFRND_MAXNUM_DUMMY_BLOCKS")
+    return replace(CORNERS, idle_blocks=idle, waits_at_shape=not behind)
 
 
 def approach(channel: SinumerikChannel) -> SmoothApproach:
@@ -136,6 +139,13 @@ def round_all(channel: SinumerikChannel, radius: float, feed: float = nan) -> No
     corner(channel).round_all(radius, feed)
 
 
+def feed_all(channel: SinumerikChannel, feed: float) -> None:
+    """FRCM: the feed of all roundings from now on, whatever stands first in the block."""
+    stage = channel.path.find(CornerStage)
+    if stage is not None:
+        stage.feed_all(feed)
+
+
 # ---- cutter radius compensation
 
 
@@ -150,32 +160,76 @@ def policy(channel: SinumerikChannel) -> Policy:
     return replace(rules, outer=outer, read_blocks=idle + 2)
 
 
+def _settle_corner(channel: SinumerikChannel) -> None:
+    """Compensation changes; PC0001 between the two moves of a chamfer or rounding, which belong to one contour."""
+    stage = channel.path.find(CornerStage)
+    if stage is not None and not stage.settle():
+        raise not_supported("CHF CHR RND: G40 G41 G42")
+
+
 def select_side(channel: SinumerikChannel) -> None:
     """G41, G42: the contour begins with the next move; alarm 10750 without a tool edge."""
     memory = channel.memory
     if memory.tools.edge is None:
         raise AlarmError("10750")
+    _lead_walls(channel)
+    if channel.mode["tool_offset"] in spatial.CODES:
+        spatial.select_side(channel)
+        return
+    if channel.mode["tool_offset"] in faces.CODES:
+        faces.select(channel)
+        return
+    _settle_corner(channel)
     stage = cutter(channel)
     stage.policy = policy(channel)
+    Contour.of(channel).linear = channel.coordinates.zero.m
+    lead(channel, stage, tool_plane(channel).frame)
     stage.engage(SIDES[channel.mode["compensation"]], radius(channel), tip(channel))
+
+
+def _lead_walls(channel: SinumerikChannel) -> None:
+    """In grooves of TRACYL with walls a stage behind compensation leads their axis; PC0001 but in G19."""
+    column = seat.wall_column(channel)
+    if column >= 0 and channel.path.find(WallStage) is None:
+        if channel.mode["plane"] != "G19":
+            raise not_supported("TRACYL: G17 G18 G41 G42")
+        channel.path.put(WallStage(channel, column))
 
 
 def leave_contour(channel: SinumerikChannel) -> None:
     """G40: the next move leads back to the programmed path."""
+    spatial.leave(channel)
+    faces.leave(channel)
     stage = active_cutter(channel)
     if stage is not None:
+        _settle_corner(channel)
         stage.cancel()
 
 
 def changed_radius(channel: SinumerikChannel) -> None:
-    """Another edge, TOFFR or OFFN while compensation is active."""
+    """Another edge, TOFFR, OFFN or ISD while compensation is active."""
+    spatial.follow(channel)
     stage = active_cutter(channel)
     if stage is not None and channel.mode["compensation"] != "G40":
+        _settle_corner(channel)
+        stage.change_radius(radius(channel), tip(channel))
+
+
+def changed_frame(channel: SinumerikChannel) -> None:
+    """A frame, or CUT2D for CUT2DF, while compensation is active: another scale is another radius in the program."""
+    stage = active_cutter(channel)
+    if stage is not None and channel.mode["compensation"] != "G40":
+        contour, linear = Contour.of(channel), channel.coordinates.zero.m
+        if linear != contour.linear and stage.holds_vector:
+            raise not_supported("ROT SCALE MIRROR: G41 G42")
+        contour.linear = linear
+        lead(channel, stage, tool_plane(channel).frame)
         stage.change_radius(radius(channel), tip(channel))
 
 
 def changed_rules(channel: SinumerikChannel) -> None:
-    """NORM, KONT, G450, G451 while compensation is active."""
+    """NORM, KONT, G450, G451, ORIC, ORID while compensation is active."""
+    spatial.follow(channel)
     stage = active_cutter(channel)
     if stage is not None:
         stage.policy = policy(channel)
@@ -188,15 +242,28 @@ def suspend(channel: SinumerikChannel) -> None:
         stage.suspended = channel.mode["constant_side"] == "CUTCONON"
 
 
+def distance(channel: SinumerikChannel) -> float:
+    """True distance of the tool centre from the contour, mm.
+
+    In a groove with walls (TRACYL, type 513) the contour is its centre line, OFFN half its width: OFFN - R (6.8.2).
+    """
+    radius, allowance = channel.memory.tools.radius, Contour.of(channel).allowance_mm
+    return allowance - radius if seat.wall_column(channel) >= 0 else radius + allowance
+
+
 def radius(channel: SinumerikChannel) -> float:
-    """Distance of the tool centre from the contour, mm."""
-    return channel.memory.tools.radius + Contour.of(channel).allowance_mm
+    """The same in units of the programmed contour, which frames may scale."""
+    return distance(channel) / tool_plane(channel).scale
 
 
 def tip(channel: SinumerikChannel) -> Point:
-    """From the nose centre to the programmed tip in units of the radius; zero for milling tools."""
-    memory = channel.memory
-    edge = memory.tools.edge
-    if edge is None or not edge.is_turning:
+    """From the nose centre to the programmed tip, as compensation sees it, in units of the radius; zero for mills."""
+    vector: Vector = channel.memory.tools.tip(channel.mode["plane"])
+    if not any(vector):
         return (0.0, 0.0)
-    return tip_direction(int(edge.values[DP_TIP]))
+    u, v, _ = PLANES[channel.mode["plane"]]
+    linear = Frame(channel.coordinates.zero.m)
+    if not linear.is_identity:
+        led = tool_plane(channel)
+        vector = led.frame.direct(*times(linear.inverse().direct(*vector), led.scale))
+    return (vector[u], vector[v])

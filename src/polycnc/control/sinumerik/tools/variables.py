@@ -9,7 +9,18 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.feed import tooth_feed
-from polycnc.control.sinumerik.tools.memory import DP_TYPE, PARAMETERS
+from polycnc.control.sinumerik.tools.edges import (
+    DP_CLEARANCE,
+    DP_DIRECTION,
+    DP_HOLDER_ANGLE,
+    DP_TIP,
+    DP_TYPE,
+    PARAMETERS,
+    WEAR_PARAMETERS,
+)
+from polycnc.control.sinumerik.tools.holders import stored as carrier_data
+from polycnc.control.sinumerik.tools.holders.active import ActiveCarrier
+from polycnc.control.sinumerik.tools.memory import FLAT
 from polycnc.control.sinumerik.variables.row import Indices, Row
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.values import Axis, Type
@@ -17,7 +28,8 @@ from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
-    from polycnc.control.sinumerik.tools.memory import Edge, Tool, Tools
+    from polycnc.control.sinumerik.tools.edges import Edge
+    from polycnc.control.sinumerik.tools.memory import Tool, Tools
 
 
 def _numbers(indices: Indices, name: str, count: int) -> list[int]:
@@ -25,6 +37,13 @@ def _numbers(indices: Indices, name: str, count: int) -> list[int]:
     if len(indices) != count or any(isinstance(index, (Axis, str)) for index in indices):
         raise AlarmError("12400", text=name)
     return [int(index) for index in indices]
+
+
+def _place(channel: SinumerikChannel, indices: Indices, name: str) -> list[int]:
+    """Tool and edge in brackets; where D numbers do not depend on the tool, the edge is enough."""
+    if channel.memory.tools.is_flat:
+        return [FLAT, _numbers(indices[-1:], name, 1)[0]]
+    return _numbers(indices, name, 2)
 
 
 def _edge(channel: SinumerikChannel, tool: int, number: int) -> Edge:
@@ -39,31 +58,35 @@ def _edge(channel: SinumerikChannel, tool: int, number: int) -> Edge:
 
 
 def _parameter(number: int) -> Row:
-    """`$TC_DPn[t,d]`; what is written acts when the edge is selected again."""
+    """`$TC_DPn[t,d]`; what is written acts when the edge is selected again. FTOCON keeps the wear to itself (17210)."""
     name = f"$TC_DP{number}"
 
     def read(channel: SinumerikChannel, indices: Indices) -> float:
-        tool, edge = _numbers(indices, name, 2)
+        tool, edge = _place(channel, indices, name)
         return _edge(channel, tool, edge).values[number]
 
     def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
-        tool, edge = _numbers(indices, name, 2)
+        tool, edge = _place(channel, indices, name)
         if tool < 1:
             raise AlarmError("17190", tool=tool)
         if edge < 1:
             raise AlarmError("17180", edge=edge)
-        channel.memory.tools.new_edge(tool, edge).values[number] = float(value)
+        written = channel.memory.tools.new_edge(tool, edge)
+        fine = number in WEAR_PARAMETERS and channel.mode["fine_tool_offset"] == "FTOCON"
+        if fine and written is channel.memory.tools.edge:
+            raise AlarmError("17210", text=name)
+        written.values[number] = float(value)
 
     return (Type.INT if number == DP_TYPE else Type.REAL), read, write
 
 
 def _teeth(channel: SinumerikChannel, indices: Indices) -> float:
-    tool, edge = _numbers(indices, "$TC_DPNT", 2)
+    tool, edge = _place(channel, indices, "$TC_DPNT")
     return _edge(channel, tool, edge).teeth
 
 
 def _set_teeth(channel: SinumerikChannel, indices: Indices, value: float) -> None:
-    tool, edge = _numbers(indices, "$TC_DPNT", 2)
+    tool, edge = _place(channel, indices, "$TC_DPNT")
     channel.memory.tools.new_edge(tool, edge).teeth = float(value)
     tooth_feed.follow(channel)
 
@@ -73,40 +96,24 @@ def _additive(kind: str, number: int) -> Row:
     name = f"$TC_{kind}{number}"
 
     def read(channel: SinumerikChannel, indices: Indices) -> float:
-        tool, edge = _numbers(indices, name, 2)
+        tool, edge = _place(channel, indices, name)
         return _edge(channel, tool, edge).additive.get((kind, number), 0.0)
 
     def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
-        tool, edge = _numbers(indices, name, 2)
+        tool, edge = _place(channel, indices, name)
         _edge(channel, tool, edge).additive[kind, number] = float(value)
 
     return Type.REAL, read, write
 
 
 def _cutting_edge(channel: SinumerikChannel, indices: Indices) -> int:
-    tool, edge = _numbers(indices, "$TC_DPCE", 2)
+    tool, edge = _place(channel, indices, "$TC_DPCE")
     return _edge(channel, tool, edge).cutting_edge or edge
 
 
 def _set_cutting_edge(channel: SinumerikChannel, indices: Indices, value: int) -> None:
-    tool, edge = _numbers(indices, "$TC_DPCE", 2)
+    tool, edge = _place(channel, indices, "$TC_DPCE")
     _edge(channel, tool, edge).cutting_edge = int(value)
-
-
-def _carrier(number: int) -> Row:
-    """`$TC_CARRn[m]`: data of a tool carrier, kept."""
-    texts = dict.fromkeys((23, 34, 35, 36), Type.STRING)
-    type_ = {21: Type.AXIS, 22: Type.AXIS, **texts}.get(number, Type.REAL)
-    name = f"$TC_CARR{number}"
-    empty: Any = {Type.AXIS: Axis("X"), Type.STRING: ""}.get(type_, 0.0)
-
-    def read(channel: SinumerikChannel, indices: Indices) -> Any:
-        return Stored.of(channel).values.get((name, tuple(_numbers(indices, name, 1))), empty)
-
-    def write(channel: SinumerikChannel, indices: Indices, value: Any) -> None:
-        Stored.of(channel).values[name, tuple(_numbers(indices, name, 1))] = value
-
-    return type_, read, write
 
 
 def _oem(kind: str, number: int) -> Row:
@@ -158,26 +165,67 @@ def _active_length(channel: SinumerikChannel, indices: Indices) -> float:
     edge = channel.memory.tools.edge
     if not 1 <= number <= 3:
         raise AlarmError("17020", text="$P_TOOLL", index=number)
-    return float(edge.lengths[number - 1]) if edge else 0.0
+    return edge.length(number - 1, channel.memory.tools.additive) if edge else 0.0
 
 
 def _active_parameter(channel: SinumerikChannel, indices: Indices) -> float:
+    """`$P_AD[n]`: a parameter of the active edge; edge position, direction and angles as CUTMOD turns them."""
     (number,) = _numbers(indices, "$P_AD", 1)
-    edge = channel.memory.tools.edge
+    tools: Tools = channel.memory.tools
     if not 1 <= number <= PARAMETERS:
         raise AlarmError("17020", text="$P_AD", index=number)
-    return float(edge.values[number]) if edge else 0.0
+    edge, data = tools.edge, tools.cutting_data(channel.mode["plane"])
+    if edge is None or data is None:
+        return 0.0
+    return float(getattr(data, _TURNED[number]) if number in _TURNED else edge.values[number])
+
+
+def _cut_angle(channel: SinumerikChannel, _indices: Indices) -> float:
+    data = channel.memory.tools.cutting_data(channel.mode["plane"])
+    return 0.0 if data is None else data.angle_deg
+
+
+def _cut_is_inverted(channel: SinumerikChannel, _indices: Indices) -> bool:
+    """`$P_CUT_INV`: a turning tool is seen from behind, so the spindle must turn the other way."""
+    tools: Tools = channel.memory.tools
+    data, edge = tools.cutting_data(channel.mode["plane"]), tools.edge
+    as_turning = tools.rules is not None and tools.rules.as_turning
+    return data is not None and edge is not None and data.is_inverted and (edge.is_turning or as_turning)
+
+
+def _of_carrier(attribute: str) -> Callable[[SinumerikChannel, Indices], Any]:
+    return lambda channel, _indices: getattr(ActiveCarrier.of(channel), attribute)
+
+
+def _of_carrier_axis(name: str, attribute: str) -> Callable[[SinumerikChannel, Indices], float]:
+    """`$P_TCANG[n]`, `$P_TCDIFF[n]`: a value of axis 1 or 2 of the active toolholder."""
+
+    def read(channel: SinumerikChannel, indices: Indices) -> float:
+        (number,) = _numbers(indices, name, 1)
+        if number not in (1, 2):
+            raise AlarmError("17020", text=name, index=number)
+        value: float = getattr(ActiveCarrier.of(channel), attribute)[number - 1]
+        return value
+
+    return read
 
 
 def _of_tools(attribute: str) -> Callable[[SinumerikChannel, Indices], Any]:
     return lambda channel, _indices: getattr(channel.memory.tools, attribute)
 
 
+#: Parameters of an edge that turn with a toolholder.
+_TURNED = {
+    DP_TIP: "position",
+    DP_HOLDER_ANGLE: "holder_deg",
+    DP_DIRECTION: "direction",
+    DP_CLEARANCE: "clearance_deg",
+}
 #: Numbers of additive offsets: 10 * DL + parameter, DL 1 to 6, parameters 3 to 11.
 _ADDITIVE = [10 * dl + parameter for dl in range(1, 7) for parameter in range(3, 12)]
 TOOL_VARIABLES: dict[str, Row] = {
     **{f"$TC_{kind}{n}": _additive(kind, n) for kind in ("SCP", "ECP") for n in _ADDITIVE},
-    **{f"$TC_CARR{n}": _carrier(n) for n in range(1, 66)},
+    **{f"$TC_CARR{n}": carrier_data.row(n) for n in carrier_data.NUMBERS},
     **{f"$TC_{kind}{n}": _oem(kind, n) for kind in ("DPC", "TPC") for n in range(1, 11)},
     "$TC_DPCE": (Type.INT, _cutting_edge, _set_cutting_edge),
     **{f"$TC_DP{n}": _parameter(n) for n in range(1, PARAMETERS + 1)},
@@ -191,4 +239,12 @@ TOOL_VARIABLES: dict[str, Row] = {
     "$P_TOOLR": (Type.REAL, _of_tools("radius"), None),
     "$P_TOOLL": (Type.REAL, _active_length, None),
     "$P_AD": (Type.REAL, _active_parameter, None),
+    "$P_CUTMOD": (Type.INT, _of_carrier("cut_mode"), None),
+    "$P_CUTMOD_ANG": (Type.REAL, _cut_angle, None),
+    "$P_CUT_INV": (Type.BOOL, _cut_is_inverted, None),
+    "$P_TC": (Type.INT, _of_carrier("number"), None),
+    "$P_TCANG": (Type.REAL, _of_carrier_axis("$P_TCANG", "positions_deg"), None),
+    "$P_TCDIFF": (Type.REAL, _of_carrier_axis("$P_TCDIFF", "rests_deg"), None),
 }
+#: What the main run shows of the active tool, and what the program reads ahead of it.
+IN_MAIN_RUN = {f"$AC_{name}": f"$P_{name}" for name in ("CUTMOD", "CUTMOD_ANG", "CUT_INV")}

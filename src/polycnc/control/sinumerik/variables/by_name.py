@@ -45,6 +45,7 @@ def read(channel: SinumerikChannel, name: str) -> Any:
             if compiler.token.kind != "end":
                 raise KeyError(name)
             compiler.emitter.run(quoted("{0}.append({1})", compiler.emitter.object(result), value.code))
+            compiler.emitter.uses_clock = False  # who asks from outside starts none
             compiler.emitter.step()(channel)
         except (AlarmError, TypeError, IndexError) as error:  # without value: its DEF was never reached
             raise KeyError(name) from error
@@ -56,7 +57,8 @@ def write(channel: SinumerikChannel, name: str, value: object) -> None:
     """Set a variable from outside.
 
     Raises:
-        AlarmError: 12550 if there is no such variable, or what the variable itself refuses.
+        AlarmError: 12550 if there is no such variable, 12150 for a value of another kind, or what the variable itself
+            refuses.
     """
     with _main_program(channel) as program:
         compiler = _compiler(channel, program, name)
@@ -64,7 +66,12 @@ def write(channel: SinumerikChannel, name: str, value: object) -> None:
         convert = _CONVERSIONS.get(place.type)
         if convert is None:
             raise AlarmError("12150", text=name)
-        place.write(compiler, compiler.emitter.object(convert(value)))
+        try:
+            converted = convert(value)
+        except (TypeError, ValueError) as error:
+            raise AlarmError("12150", text=name) from error
+        place.write(compiler, compiler.emitter.object(converted))
+        compiler.emitter.uses_clock = False
         compiler.emitter.step()(channel)
 
 

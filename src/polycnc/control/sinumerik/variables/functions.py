@@ -8,12 +8,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.block.arguments import Arguments
+from polycnc.control.sinumerik.block.positions import ModuloRange
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frames import adding, codes
 from polycnc.control.sinumerik.frames.variables import frame_axis
 from polycnc.control.sinumerik.limits import calcposi
 from polycnc.control.sinumerik.tools import d_numbers
 from polycnc.geometry import fit
+from polycnc.language.sinumerik.formatting import formatted
 from polycnc.language.sinumerik.keywords import CONTROL_FUNCTIONS
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, NcFrame, crpl
 from polycnc.language.sinumerik.names.values import Axis
@@ -55,11 +57,9 @@ def modulo_position(channel: SinumerikChannel, args: Arguments) -> float:
     memory = channel.memory
     column = memory.column(args[0].name)
     position = float(args[1])
-    if not channel.axis_data[column].modulo:
+    if not channel.memory.axes[column].modulo:
         return position
-    name = channel.axes[column]
-    start = memory.data.number("$MA_MODULO_RANGE_START", name)
-    return start + (position - start) % memory.data.number("$MA_MODULO_RANGE", name)
+    return ModuloRange.of(memory.data, channel.axes[column]).shown(position)
 
 
 def spindle_of(_channel: SinumerikChannel, args: Arguments) -> int:
@@ -94,12 +94,16 @@ def solid_rotation(channel: SinumerikChannel, args: Arguments) -> NcFrame:
     return codes.crots(angles)
 
 
-def in_window(channel: SinumerikChannel, args: Arguments) -> bool:
-    """POSRANGE(axis, reference, window, system): whether the axis stands within a window (system 1: work)."""
-    column = channel.memory.column(args[0].name)
-    coordinates = channel.coordinates
-    position = coordinates.position if len(args) > 3 and args[3] else coordinates.machine
-    return bool(abs(position[column] - args[1]) <= args[2])
+def in_window(_channel: SinumerikChannel, _args: Arguments) -> bool:
+    """POSRANGE(axis, reference, window, system): of synchronised actions alone (10.4.13); 14091 in a program."""
+    raise AlarmError("14091", text="POSRANGE")
+
+
+def sprint(_channel: SinumerikChannel, args: Arguments) -> str:
+    """SPRINT(format, value, …): the text with its marks replaced."""
+    if not args or not isinstance(args[0], str):
+        raise AlarmError("14020", text="SPRINT")
+    return formatted(args[0], args[1:])
 
 
 def measured_frame(_channel: SinumerikChannel, args: Arguments) -> NcFrame:
@@ -133,6 +137,8 @@ FUNCTIONS: dict[str, Callable[[SinumerikChannel, Arguments], Any]] = {
     "CRPL": rotation_in_plane,
     "CROTS": solid_rotation,
     "POSRANGE": in_window,
+    "SPRINT": sprint,
+    "DELDL": d_numbers.delete_additive,
     "CHKDNO": d_numbers.check_numbers,
     "GETDNO": d_numbers.get_number,
     "SETDNO": d_numbers.set_number,

@@ -50,7 +50,7 @@ $VA_STOPSI $VA_SYNCDIFF $VA_TORQUE $VA_TORQUE_AT_LIMIT $VA_VACTM $VA_VALVELIFT $
 _NAMES = frozenset(_TABLE.split())
 #: Families with numbers in their names.
 _FAMILIES = re.compile(
-    r"\$(TC_(CARR|SCP|ECP|TPG|MPP|MPTH|DPX|DPCS|MOPC|TPCX|TPCS|ADPT)[A-Z]*\d+|AC_FIFO\d+|AC_FCT[A-Z]*\d?"
+    r"\$(TC_(SCP|ECP|TPG|MPP|MPTH|DPX|DPCS|MOPC|TPCX|TPCS|ADPT)[A-Z]*\d+|AC_FIFO\d+|AC_FCT[A-Z]*\d?"
     r"|AA_(MM|MW|WM)\d?|AC_MEA|A_TOOLM?L?N?|P_WORKAREA_\w+|P_SUB_\w+|O[CNA]?_?[A-Z]\w+)"
 )
 

@@ -9,11 +9,13 @@ Source: job planning 1.1.2 (prefixes), 5.1 (actual values), and the manual of sy
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from math import isnan
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import gcodes
+from polycnc.control.sinumerik.actions.variables import ACTION_VARIABLES, OF_ACTIONS, TIMED_VARIABLES
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.channels import link_memory
@@ -26,17 +28,22 @@ from polycnc.control.sinumerik.feed.tolerances import TOLERANCE_VARIABLES
 from polycnc.control.sinumerik.frames.variables import FRAME_VARIABLES
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion.repositioning import REPOS_VARIABLES
+from polycnc.control.sinumerik.replaced import REPLACED_VARIABLES
 from polycnc.control.sinumerik.signals.measuring import MEASURE_VARIABLES
 from polycnc.control.sinumerik.signals.sections import SECTION_VARIABLES
 from polycnc.control.sinumerik.tables import MINUTE
-from polycnc.control.sinumerik.tools.stages import Contour
-from polycnc.control.sinumerik.tools.variables import TOOL_VARIABLES
+from polycnc.control.sinumerik.tools.online import OVERLAY_VARIABLES
+from polycnc.control.sinumerik.tools.sides import Contour
+from polycnc.control.sinumerik.tools.variables import IN_MAIN_RUN, TOOL_VARIABLES
+from polycnc.control.sinumerik.variables.clock import PARTS, part_of_clock
 from polycnc.control.sinumerik.variables.known import is_known
 from polycnc.control.sinumerik.variables.row import Indices, Reader, Writer
 from polycnc.control.sinumerik.variables.stored import Stored
+from polycnc.control.sinumerik.variables.surroundings import SURROUNDINGS
 from polycnc.language.sinumerik.names.frame import NcFrame
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
+from polycnc.toolpath.events import ValueWrite
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
@@ -53,7 +60,11 @@ class SystemVariable:
         type: Type of its values.
         reader: Gives the value for indices.
         writer: Sets the value; None for one that can only be read.
-        stop: It belongs to the main run.
+        stop: It belongs to the main run: reading it waits for that.
+        goes_along: Writing it does not wait: the value goes along with the path.
+        size: Number of its elements, or the machine datum that says it; empty where neither does.
+        timed: Only a program that is executed in time can read or write it.
+        of_actions: Synchronised actions alone can write it.
     """
 
     name: str
@@ -61,6 +72,16 @@ class SystemVariable:
     reader: Reader
     writer: Writer | None = None
     stop: bool = False
+    size: str | int = ""
+    goes_along: bool = False
+    timed: bool = False
+    of_actions: bool = False
+
+    def element_count(self, channel: SinumerikChannel) -> int | None:
+        """How many elements an array with one index has; None where that is not told."""
+        if isinstance(self.size, int):
+            return self.size
+        return channel.memory.data.integer(self.size) if self.size else None
 
     def read(self, channel: SinumerikChannel, indices: Indices) -> Any:
         """The value; indices are ints, axes or frame components as programmed."""
@@ -131,9 +152,12 @@ def _spindle_of(channel: SinumerikChannel, axis: str) -> Spindle | None:
 
 # ---- machine and setting data
 
+#: Data that polycnc knows by their names alone: these are texts.
+_TEXT_DATUM = re.compile(r"_(NAME|NAME_TAB|PATH|SERIAL_NUMBER|VERSION)$")
+
 
 def _machine_datum(name: str) -> SystemVariable:
-    value = DELIVERED[name].value if name in DELIVERED else 0.0
+    value = DELIVERED[name] if name in DELIVERED else "" if _TEXT_DATUM.search(name) else 0.0
     kinds = {bool: Type.BOOL, int: Type.INT, str: Type.STRING}
     axial = name[2] == "A"
 
@@ -141,7 +165,12 @@ def _machine_datum(name: str) -> SystemVariable:
         if axial and not any(isinstance(index, Axis) for index in indices):
             raise AlarmError("12400", text=name)
         data: MachineData = channel.memory.data
-        return data.read(name, *indices)
+        found = data.read(name, *indices)
+        if isinstance(value, str):
+            return "" if found is None else str(found)
+        if not isinstance(found, int | float):  # the setup says a text, or nothing
+            raise AlarmError("12150", text=name)
+        return found
 
     def write(channel: SinumerikChannel, indices: Indices, new: Any) -> None:
         channel.memory.data.write(name, indices, new)
@@ -264,6 +293,7 @@ _STATES = (
     SystemVariable("$P_LINENO", Type.INT, _line_number),
     SystemVariable("$P_CHANNO", Type.INT, lambda channel, _indices: channel.number),
     SystemVariable("$P_SEARCH", Type.BOOL, _always(False)),
+    SystemVariable("$P_TECCYCLE", Type.BOOL, _always(False)),
     SystemVariable("$P_ISTEST", Type.BOOL, _always(False)),
     SystemVariable("$P_SIM", Type.BOOL, _always(False)),
     SystemVariable("$P_DRYRUN", Type.BOOL, _always(False)),
@@ -275,7 +305,6 @@ _STATES = (
     SystemVariable("$AC_SDIR", Type.INT, _direction, stop=True),
     SystemVariable("$AA_S", Type.REAL, _turning_speed, stop=True),
     SystemVariable("$AC_STAT", Type.INT, _always(2), stop=True),
-    SystemVariable("$AC_OVR", Type.REAL, _always(100.0), stop=True),
     SystemVariable("$PI", Type.REAL, _always(3.141592653589793)),
     _position("$AA_IW", "actual"),
     _position("$AA_IEN", "settable"),
@@ -296,17 +325,22 @@ def _store(
     empty: Any = {Type.BOOL: False, Type.INT: 0}.get(type_, 0.0)
 
     def place(channel: SinumerikChannel, indices: Indices) -> int:
-        memory = channel.memory
-        size = size_datum if isinstance(size_datum, int) else memory.data.integer(size_datum)
+        size = variable.element_count(channel) or 0
         return index_of(indices, name, size + first, first)
 
     def read(channel: SinumerikChannel, indices: Indices) -> Any:
         return Stored.of(channel).of_name(name).get((name, (place(channel, indices),)), empty)
 
     def write(channel: SinumerikChannel, indices: Indices, value: Any) -> None:
-        Stored.of(channel).of_name(name)[name, (place(channel, indices),)] = value
+        index = place(channel, indices)
+        written = ValueWrite(f"{name}[{index}]", value, Stored.of(channel).of_name(name), (name, (index,)))
+        if channel.main_run is None:
+            written.store()
+        else:
+            channel.event(written)
 
-    return SystemVariable(name, type_, read, write, stop)
+    variable = SystemVariable(name, type_, read, write, stop, size_datum, goes_along=True)
+    return variable
 
 
 def _output(name: str, type_: Type) -> SystemVariable:
@@ -322,17 +356,31 @@ _STORED = (
     _output("$A_INA", Type.REAL),
 )
 _LINKED = tuple(
-    SystemVariable(name, access.type, link_memory.reader(name), link_memory.writer(name), stop=True)
+    SystemVariable(
+        name, access.type, link_memory.reader(name), link_memory.writer(name), stop=True, goes_along=True
+    )
     for name, access in link_memory.ACCESS.items()
 )
 VARIABLES: dict[str, SystemVariable] = {
     **{variable.name: variable for variable in (*_STATES, *_STORED, *_LINKED)},
     **{name: SystemVariable(name, *row) for name, row in FRAME_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in TOOL_VARIABLES.items()},
+    **{name: SystemVariable(name, *TOOL_VARIABLES[of], stop=True) for name, of in IN_MAIN_RUN.items()},
+    **{name: SystemVariable(name, *row) for name, row in OVERLAY_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in working_area.AREA_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in SECTION_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in AXIS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in TOLERANCE_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in SURROUNDINGS.items()},
+    **{name: SystemVariable(name, *row) for name, row in REPLACED_VARIABLES.items()},
+    **{name: SystemVariable(name, Type.INT, part_of_clock(part), stop=True) for name, part in PARTS.items()},
+    **{
+        name: SystemVariable(name, *row, of_actions=name in OF_ACTIONS)
+        for name, row in ACTION_VARIABLES.items()
+    },
+    **{
+        name: SystemVariable(name, *row, goes_along=True, timed=True) for name, row in TIMED_VARIABLES.items()
+    },
 }

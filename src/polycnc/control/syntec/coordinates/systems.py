@@ -15,7 +15,7 @@ from polycnc.control.word_address.coordinates.systems import ZeroState, go_to_re
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.data_input import TOOL_FIELDS
 from polycnc.control.word_address.tools.length import renew_length
-from polycnc.geometry.frames import IDENTITY, about, rotation, scaling
+from polycnc.geometry.frames import IDENTITY, about, scaling
 from polycnc.geometry.planes import PLANES
 from polycnc.language.syntec.values import to_long
 from polycnc.machine.kinematics import turn_about
@@ -113,7 +113,7 @@ def set_position(channel: SyntecChannel, words: Words) -> None:
         refresh_zero(channel)
     limit = words.typed("S")
     if limit is not None:
-        memory.spindle_limit_rpm = limit
+        memory.spindle.limit_rpm = limit
         channel.context_changed()
 
 
@@ -192,12 +192,12 @@ def stroke_limit_on(channel: SyntecChannel, words: Words) -> None:
 def set_zone(channel: SyntecChannel, zones: dict[int, tuple[float, float]]) -> None:
     """The protected range of each axis; Pr2542 says whether its inside or its outside is forbidden."""
     if not zones:
-        channel.stroke_zone = None
+        channel.boundary = None
         return
     axes = tuple(sorted(zones))
     inside = channel.memory.parameters.travel_2_inside == 1
     lows, highs = tuple(zones[a][0] for a in axes), tuple(zones[a][1] for a in axes)
-    channel.stroke_zone = StrokeZone(lows, highs, axes, inside)
+    channel.boundary = StrokeZone(lows, highs, axes, inside)
 
 
 # ---- programming frames ----------------------------------------------------------------------------------
@@ -238,13 +238,13 @@ def rotate(channel: SyntecChannel, words: Words) -> None:
     if angle is None:
         raise words.fail("argument", "G68")
     base_frames.end_rotation(channel, words)
-    u, v, w = PLANES[channel.mode["plane"]]
+    u, v, _ = PLANES[channel.mode["plane"]]
     point = [c.programmed[axis] if axis >= 0 else 0.0 for axis in c.geometry]
     for axis, value, _ in words.axes():
         for i in (u, v):
             if c.geometry[i] == axis:
                 point[i] = value
-    frames.rotation = about((point[0], point[1], point[2]), rotation(w, angle))
+    frames.rotation = base_frames.rotation_frame(channel, point, angle)
     c.set_programming(frames.product())
 
 

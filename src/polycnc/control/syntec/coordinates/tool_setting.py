@@ -58,7 +58,7 @@ def measure_length(channel: SyntecChannel, words: Words) -> None:
 def measure_into_work_system(channel: SyntecChannel, words: Words) -> None:
     """G37.2 K [Z] [R] [F] [P] [Q]: the signal's machine position becomes Z of work system K; 0 is the external one."""
     memory = channel.memory
-    if not memory.tool:
+    if not memory.tool.number:
         raise words.fail("setting_place", "G37.2")
     number = words.typed("K")
     if number is None or number != int(number) or not 0 <= number <= len(WORK_SYSTEMS):
@@ -75,11 +75,11 @@ def measure_into_length(channel: SyntecChannel, words: Words) -> None:
     memory = channel.memory
     if "T" in words:
         functions.change_tool(channel, words)
-    if not memory.tool:
+    if not memory.tool.number:
         raise words.fail("setting_place", "G37.3")
     number = words.integer("H")
     state.number = state.number if number is None else number
-    number = state.number or memory.tool
+    number = state.number or memory.tool.number
     if not number:
         raise words.fail("setting_without_length", "G37.3")
     found = _measure_twice(channel, words)

@@ -126,6 +126,8 @@ def _angles(channel: SyntecChannel, words: Words, code: str) -> Angles:
         return {}
     joints = (*kinematics.work, *kinematics.tool) if kinematics.work else kinematics.tool
     names = [joint.axis for joint in joints if joint.axis in channel.axis_index]
+    if not names:
+        raise words.fail("tilt_unreachable", code)
     master = names[0]
     led = [
         choice.led(solution, near, master, SENSES[way])

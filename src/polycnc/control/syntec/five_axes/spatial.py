@@ -6,12 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.syntec.five_axes.spatial_stage import (
-    ARC_FIRST,
-    INTERSECTION,
-    Corners,
-    SpatialStage,
-)
+from polycnc.compensation.spatial import ARC_FIRST, INTERSECTION, Corners, Rules, SpatialStage
 from polycnc.control.syntec.five_axes.tip_control import PostureState
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.length import LengthState
@@ -41,6 +36,9 @@ FORBIDDEN = {
     **dict.fromkeys(("G17", "G18", "G19"), "spatial_plane"),
     **dict.fromkeys(("G41", "G42"), "spatial_mixed"),
 }  # fmt: skip
+
+#: Eight blocks in a row may not be computable once the first one has moved.
+RULES = Rules(no_corner="COR-607", idle="COR-609", most_idle=8)
 
 
 @dataclass(slots=True)
@@ -72,7 +70,7 @@ def start(channel: SyntecChannel, words: Words) -> None:
     c = channel.coordinates
     posture = Posture(Kinematics.of(channel.machine), channel.axes, tuple(c.offsets))
     channel.flush()
-    channel.path.put(SpatialStage(c.geometry, posture, radius, SIDES[code], _corners(channel)))
+    channel.path.put(SpatialStage(c.geometry, posture, radius, SIDES[code], _corners(channel), RULES))
 
 
 def _check_start(channel: SyntecChannel, words: Words, code: str) -> None:
@@ -118,8 +116,10 @@ def _check_block(builder: Builder) -> None:
     fail = builder.control.fail
     if before in SIDES:
         for row in builder.codes:
-            if row.code in FORBIDDEN:
+            if row.code in FORBIDDEN and row.code != builder.before["plane"]:
                 raise fail(FORBIDDEN[row.code], address=row.code)
+        if builder.mode["length"] not in TIP_CODES:
+            raise fail("spatial_frame", address=builder.mode["length"])
     if after in BY_VECTOR:
         for address in builder.slots:
             target = builder.control.axis_of_address(builder.channel, address, builder)

@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.machine_words import refuse
 from polycnc.control.syntec.builder import CALLS, SyntecBuilder
 from polycnc.control.syntec.macros import interrupts
 from polycnc.control.syntec.macros.variables import INDEXED_LETTERS, Locals
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b.macro_calls import enter_macro
+from polycnc.control.word_address.macro_b.subprograms import note_call
 from polycnc.language.syntec.blocks import FORMS
 from polycnc.language.syntec.values import Text, Value
 from polycnc.language.word_address import WordBlock
@@ -52,12 +54,14 @@ class CodeMacro:
         kind: Kind of its level; inside that of a registered code the code is plain.
         takes: Addresses that it takes whether it reads them or not.
         shares: It shares the caller's local variables.
+        word: What the machine is asked for in front of the call; empty for nothing.
     """
 
     program: Program
     kind: LevelKind
     takes: frozenset[str] = frozenset()
     shares: bool = False
+    word: str = ""
 
 
 @dataclass(slots=True)
@@ -116,7 +120,7 @@ def _plan_call(builder: Builder, plan: Plan) -> Step | None:
 def _plan_g65(builder: SyntecBuilder, plan: Plan) -> Step:
     """G65 P L arguments, G66 and G66.1: the modal codes of the block act first."""
     code = next(row.code for row in builder.codes if row.code in CALLS)
-    settings = _settings(builder, plan)
+    settings = _settings(builder, plan.without(builder.slots))
     mode = builder.mode
 
     def call(channel: SyntecChannel, values: list[Any]) -> None:
@@ -126,6 +130,7 @@ def _plan_g65(builder: SyntecBuilder, plan: Plan) -> Step:
         words = words_of(builder, values)
         program = _program(channel, words.pop("P", None))
         count = _count(words, builder)
+        channel.off_path = True
         if code == "G65":
             enter_macro(channel, program, Locals(words), count)
         else:
@@ -179,7 +184,8 @@ def end_modal_call(channel: SyntecChannel, _words: Words) -> None:
 def _code_macro(builder: SyntecBuilder) -> CodeMacro | None:
     """The macro that the codes of a block call: the last G macro, else a registered G, M or T code."""
     if builder.g_macros:
-        return CodeMacro(builder.g_macros[-1], LevelKind.MACRO, frozenset("L"))
+        code, program = builder.g_macros[-1]
+        return CodeMacro(program, LevelKind.MACRO, frozenset("L"), word=code)
     return _registered_g(builder) or _registered_m(builder) or _registered_t(builder)
 
 
@@ -203,13 +209,18 @@ def _file_of(code: str) -> str:
 
 def _registered_m(builder: SyntecBuilder) -> CodeMacro | None:
     memory = builder.channel.memory
-    registered = set(memory.parameters.m_macros) - {0}
-    code = next((code for code in builder.m_codes if code in registered), None)
+    by_parameter = {code: f"M{code:04d}" for code in memory.parameters.m_macros if code}
+    functions = builder.channel.machine.m_functions.values()
+    declared = {each.code: each.calls for each in functions if each.calls}
+    code = next((code for code in builder.m_codes if code in by_parameter or code in declared), None)
     if code is None:
         return None
     builder.called_m = code
     takes = frozenset(address for address, _, _ in builder.typed if address != "T") | {"M"}
-    return CodeMacro(builder.code_program(f"M{code:04d}"), LevelKind.M_MACRO, takes)
+    if code in by_parameter:
+        return CodeMacro(builder.code_program(by_parameter[code]), LevelKind.M_MACRO, takes)
+    program = builder.declared_program(declared[code])
+    return CodeMacro(program, LevelKind.M_MACRO, takes, word=f"M{code}")
 
 
 def _registered_t(builder: SyntecBuilder) -> CodeMacro | None:
@@ -230,11 +241,14 @@ def _plan_code_macro(builder: SyntecBuilder, plan: Plan, macro: CodeMacro) -> St
         if macro.kind in CODE_KINDS and any(level.kind is macro.kind for level in channel.stack):
             builder.plain_plan(channel).run(channel, values)
             return
+        if macro.word:
+            refuse(channel, macro.word, calls=True)
         channel.mode = mode
         for step in settings:
             step(channel, values)
         words = words_of(builder, values)
         count = _count(words, builder) if macro.kind is LevelKind.MACRO else 1
+        channel.off_path = True
         local = Locals(words, returns_words=True)
         local.taken |= macro.takes
         local.other_codes = others
@@ -248,13 +262,13 @@ def _plan_code_macro(builder: SyntecBuilder, plan: Plan, macro: CodeMacro) -> St
 
 
 def _settings(builder: SyntecBuilder, plan: Plan) -> list[Step]:
-    """Handlers of the modal codes that stand in a block beside its call."""
+    """Handlers of the modal codes that stand in a block beside its call, P of G54 left to the call."""
     rows = [
         row
         for row in builder.codes
         if row.handler and row.group and row.group != "macro" and not row.axis_words
     ]
-    return [builder.handled(row.handler, plan) for row in rows if row.handler]
+    return [builder.handled(row.handler, builder.words_of(row, plan)) for row in rows if row.handler]
 
 
 def finish_macro(channel: SyntecChannel, ended: Level) -> None:
@@ -290,6 +304,7 @@ def enter_shared(
 
 def call_subprogram(channel: SyntecChannel, words: Words) -> None:
     """M98 P H L: program P (without P the running one), from N number H, L times."""
+    note_call(channel, words, "M98")
     program = channel.level.code.program
     if "P" in words:
         program = channel.control.find_program(channel, _whole(words, "P", "subprogram_number"))
@@ -300,6 +315,7 @@ def call_external_subprogram(channel: SyntecChannel, words: Words) -> None:
     """M198 P H L: as M98, the file read anew at each call; P must be there."""
     if "P" not in words:
         raise words.fail("subprogram_number", "M198")
+    note_call(channel, words, "M198")
     number = _whole(words, "P", "subprogram_number")
     program = channel.store.find_external_number(number)
     if program is None:
@@ -326,6 +342,7 @@ def return_from_program(channel: SyntecChannel, words: Words) -> None:
 
     P and Q end all passes of the call.
     """
+    note_call(channel, words, "M99")
     sequence = _whole(words, "P", "program_number") if "P" in words else None
     line = _whole(words, "Q", "program_number") if "Q" in words else None
     is_main = len(channel.stack) == 1

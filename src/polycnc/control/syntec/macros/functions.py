@@ -6,7 +6,9 @@ import re
 from functools import partial
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec.macros.machine_parameters import long_of
+from polycnc.channel.waits import PREPROCESSING
+from polycnc.control.syntec.macros import diagnosis, records
+from polycnc.control.syntec.macros.machine_parameters import read_long, write_long
 from polycnc.control.syntec.macros.system_variables import system_variable
 from polycnc.control.syntec.macros.variables import BitState, FunctionState
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, number, whole
@@ -78,8 +80,16 @@ def machine_parameter(memory: SyntecMemory, index: Value, _group: Value = VACANT
     """PARAM(n): a parameter as a Long; VACANT where it is not supported."""
     if not isinstance(index, int):
         raise AlarmError(WRONG_TYPE)
-    found = long_of(memory.parameters, index)
+    found = read_long(memory, index)
     return VACANT if found is None else found
+
+
+def write_parameter(memory: SyntecMemory, index: Value, value: Value) -> Value:
+    """SETPR(n, v): writes a parameter and gives 1."""
+    if not isinstance(index, int) or not isinstance(value, int):
+        raise AlarmError(WRONG_TYPE)
+    write_long(memory, index, value)
+    return 1
 
 
 def random_number(memory: SyntecMemory) -> Value:
@@ -183,11 +193,14 @@ def message(memory: SyntecMemory, first: Value, second: Value = VACANT) -> Value
 def wait(memory: SyntecMemory) -> Value:
     """WAIT(): everything before is done before anything behind is read."""
     memory.channel.flush()
+    memory.channel.synchronise()
     return VACANT
 
 
-def sleep(_memory: SyntecMemory) -> Value:
-    """SLEEP(): gives up a time slice; nothing else runs here that it could wait for."""
+def sleep(memory: SyntecMemory) -> Value:
+    """SLEEP(): gives up a time slice, in which the main run, its inputs and other channels go on."""
+    if memory.channel.main_run is not None:
+        memory.channel.wait = PREPROCESSING
     return VACANT
 
 
@@ -277,6 +290,9 @@ FUNCTIONS: dict[str, Callable[..., Value]] = {
     "AXID": axis_number,
     "PARAM": machine_parameter,
     "GETPR": machine_parameter,
+    "SETPR": write_parameter,
+    "SYSDATA": diagnosis.diagnosis,
+    "DRVDATA": diagnosis.drive_variable,
     "SYSVAR": system_variable,
     "RANDOM": random_number,
     "PUSH": push,
@@ -296,6 +312,7 @@ FUNCTIONS: dict[str, Callable[..., Value]] = {
     "OPEN": open_file,
     "PRINT": print_line,
     "CLOSE": close_file,
+    **records.FUNCTIONS,
     "SCANTEXT": stored_text,
     "SETDRAW": set_colour,
     "DRAWHOLE": draw_hole,

@@ -1,36 +1,53 @@
-"""Machine parameters that a macro names by their numbers: PARAM(n), #4001 on, #5001 on."""
+"""Machine parameters that a macro names by their numbers: PARAM(n), GETPR(n), SETPR(n, v), #4001 on, #5001 on."""
 
 from __future__ import annotations
 
-from functools import cache
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.control.parameters import load_parameters
+from polycnc.channel.states.state import Lifetime, State, retained
+from polycnc.memory.retained import PARAMETERS
+from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from polycnc.machine.setup.values import Parameters
+    from polycnc.control.syntec.memory import SyntecMemory
+    from polycnc.control.syntec.parameters import SyntecParameters
 
-#: The list of SYNTEC's parameters, in the package `control`.
-FILE = "syntec/parameters.toml"
 #: Parameters of users and of macro writers, which are 0 as delivered.
 USER_PARAMETERS = (range(4001, 4201), range(5001, 5501))
 
 
-def long_of(parameters: Parameters, number: int) -> int | None:
+@dataclass(slots=True)
+class WrittenParameters(State, lifetime=Lifetime.RETAINED):
+    """User parameters that macros have written, by number."""
+
+    values: dict[int, int] = retained(PARAMETERS, of_control=True)
+
+
+def is_user_parameter(number: int) -> bool:
+    """Whether nothing but macros reads a parameter."""
+    return any(number in numbers for numbers in USER_PARAMETERS)
+
+
+def long_of(parameters: SyntecParameters, number: int) -> int | None:
     """A parameter as a Long: from the setup, else as delivered; None where polycnc does not know it."""
-    value = parameters.get(number)
-    if isinstance(value, int | float):
+    value = parameters.at(number)
+    if value is not None:
         return int(value)
-    of_user = 0 if any(number in numbers for numbers in USER_PARAMETERS) else None
-    return _delivered().get(number, of_user)
+    return 0 if is_user_parameter(number) else None
 
 
-@cache
-def _delivered() -> dict[int | str, int]:
-    """The delivered value of every number of the list that has one."""
-    return {
-        key.id: int(parameter.delivered)
-        for parameter in load_parameters(FILE)
-        if parameter.delivered is not None
-        for key in parameter.keys
-    }
+def read_long(memory: SyntecMemory, number: int) -> int | None:
+    """A parameter as macros read it: as one has written it, else `long_of`."""
+    written = WrittenParameters.of(memory.channel).values.get(number)
+    return long_of(memory.parameters, number) if written is None else written
+
+
+def write_long(memory: SyntecMemory, number: int, value: int) -> None:
+    """Write a user parameter; PC0001 for one by which the control acts, COR-016 for one that there is not."""
+    if is_user_parameter(number):
+        WrittenParameters.of(memory.channel).values[number] = value
+        return
+    if long_of(memory.parameters, number) is None:
+        raise AlarmError("COR-016", variable=f"Pr{number}")
+    raise AlarmError("PC0001", hint="hint.not-supported", code=f"SETPR({number})")

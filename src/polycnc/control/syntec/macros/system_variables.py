@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS, TurnState, renew_preset_frame
 from polycnc.control.syntec.five_axes.tip_control import PostureState
-from polycnc.control.syntec.macros.machine_parameters import long_of
+from polycnc.control.syntec.macros.machine_parameters import read_long
 from polycnc.control.syntec.macros.variables import (
     BitState,
     FunctionState,
@@ -24,6 +24,7 @@ from polycnc.control.syntec.motion.oscillation import check_frame
 from polycnc.control.syntec.motion.quiet import is_quiet, switch_quiet
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL, ToolOffsets
+from polycnc.control.word_address.motion.skip import LastSkip
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.syntec.values import VACANT, Value, number, to_long, whole
 from polycnc.messages import AlarmError
@@ -134,7 +135,7 @@ def _machine(memory: SyntecMemory) -> list[float]:
 
 
 def _skip(memory: SyntecMemory) -> list[float]:
-    return memory.skip_position or memory.channel.coordinates.position
+    return LastSkip.here(memory.channel)
 
 
 def _machine_skip(memory: SyntecMemory) -> list[float]:
@@ -275,7 +276,7 @@ def _write_modal_long(memory: SyntecMemory, offset: int, value: Value) -> None:
 
 
 def _parameter(first: int) -> Read:
-    return lambda memory, offset: long_of(memory.parameters, first + offset) or 0
+    return lambda memory, offset: read_long(memory, first + offset) or 0
 
 
 def _skip_input(memory: SyntecMemory, offset: int) -> Value:

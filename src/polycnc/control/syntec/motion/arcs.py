@@ -20,6 +20,8 @@ from polycnc.language.bulk import Arc, declare
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
+    from polycnc.channel.stack import Level
+    from polycnc.channel.steps import Step as ProgramStep
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
@@ -36,6 +38,11 @@ class ArcState(State, lifetime=Lifetime.POWER):
 
     last_center: Vector = (0.0, 0.0, 0.0)
     mid_point: list[float] | None = lasting(Lifetime.RESET, None)
+
+
+def not_at_mid_point(channel: SyntecChannel, _level: Level, _step: ProgramStep) -> bool | None:
+    """Single block does not halt at the mid point of an arc."""
+    return None if ArcState.of(channel).mid_point is None else False
 
 
 def plan_arc_cw(builder: Builder, plan: Plan) -> Step | None:

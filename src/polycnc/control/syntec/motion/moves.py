@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from math import copysign, hypot, nan, sqrt
 from typing import TYPE_CHECKING
@@ -19,6 +19,7 @@ from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path, skip
 from polycnc.control.word_address.motion.arcs import emit_arc
 from polycnc.control.word_address.motion.path import CENTER_WORDS
+from polycnc.control.word_address.motion.skip import LastSkip
 from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.language.bulk import Condition
+    from polycnc.toolpath import Context
 
 #: Default feeds while none was programmed: mm/s and mm/rev (2.2).
 DEFAULT_FEED = {"G93": nan, "G94": 1000.0 / 60.0, "G95": 1.0}
@@ -59,6 +61,13 @@ class FeedState(State, lifetime=Lifetime.RESET):
     by_mode: dict[str, float] = field(default_factory=dict)
     lead: float = lasting(Lifetime.POWER, 0.0)
     rapid_speed: float = lasting(Lifetime.POWER, 0.0)
+
+
+def recorded(channel: SyntecChannel, context: Context) -> Context:
+    """A context as rows record it: feeds of G93 per minute, the speed of G00 P1."""
+    by_time = context.feed_mode is FeedMode.INVERSE_TIME
+    mode = FeedMode.PER_MINUTE if by_time else context.feed_mode
+    return replace(context, feed_mode=mode, rapid_speed=FeedState.of(channel).rapid_speed)
 
 
 @dataclass(slots=True)
@@ -90,8 +99,9 @@ class SkipGroup:
 
 def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
     """G00 [P1] [F1=] [Q=]: F1 is a speed per minute, effective with P1; Q overlaps blocks."""
-    builder.take("P", "F1", "Q")
     step = path.plan_rapid(builder, plan)
+    if step is not None or not builder.m_codes:
+        builder.take("P", "F1", "Q")  # beside an M code alone they are the M code's
     speed, switch = builder.slot("F1"), builder.slot("P")
     if step is None or speed is None or switch is None:
         return step
@@ -123,7 +133,8 @@ def move_in_machine_system(channel: SyntecChannel, words: Words) -> None:
     if speed is None or words.typed("P") != 1:
         speed = nan
     unit = (INCH_MM if words.plan.inch else 1.0) / 60.0
-    with radius.suspended(channel), _rapid_at(channel, speed * unit) as feed:
+    axes = [axis for axis, _, _ in words.axes()]
+    with radius.suspended(channel, axes), _rapid_at(channel, speed * unit) as feed:
         channel.straight(Kind.RAPID, c.from_machine(machine), feed)
 
 
@@ -265,10 +276,9 @@ def skip_move(channel: SyntecChannel, words: Words) -> None:
     c = channel.coordinates
     end = c.to_position(path.reach(channel, words.plan.axis_words, words.values))
     stopped = skip.signal_position(channel, c.position, end, skip_source(channel, words))
-    memory = channel.memory
     state.flags = int(stopped is not None)
     skip.move_to_signal(channel, end, stopped)
-    memory.note_skip(list(c.position))
+    LastSkip.of(channel).position = list(c.position)
     state.machine = c.machine
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.motion.planes import choose_axes
+from polycnc.control.word_address.motion.planes import PlaneAxes, choose_axes
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.geometry.planes import PLANES
 
@@ -35,10 +35,10 @@ def select_plane(channel: SyntecChannel, words: Words) -> None:
 
 def same_plane(channel: SyntecChannel) -> bool:
     """Whether the plane that is in force may be written again with any axes: each of them has its place already."""
-    memory, basic = channel.memory, channel.memory.basic_geometry
+    basic = channel.memory.basic_geometry
     return (
         PolarState.of(channel).plane is None
-        and memory.parallel is None
+        and PlaneAxes.of(channel).parallel is None
         and all(
             axis in basic and CLASSES.get(name[0]) == basic.index(axis)
             for axis, name in enumerate(channel.axes)

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.motion.moves import SkipGroup, SkipState, skip_source
 from polycnc.control.word_address.motion import path, skip
+from polycnc.control.word_address.motion.skip import LastSkip
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
-    from polycnc.control.syntec.memory import SyntecMemory
     from polycnc.control.word_address.block.words import Words
 
 MAX_GROUPS = 6
@@ -48,7 +48,6 @@ def _follows(channel: SyntecChannel) -> bool:
 def move_groups(channel: SyntecChannel, words: Words) -> None:
     """G31.11: all groups start together, each ends at its signal; #1608 names the axes that skipped."""
     state = SkipState.of(channel)
-    memory: SyntecMemory = channel.memory
     groups, state.groups = state.groups, []
     if not groups or not _follows(channel):
         raise words.fail("skip_groups", "G31.11")
@@ -65,7 +64,7 @@ def move_groups(channel: SyntecChannel, words: Words) -> None:
             end[axis] = target[axis] if stopped is None else stopped[axis]
             state.flags |= 0 if stopped is None else 1 << (axis + 1)
     channel.straight(Kind.SKIP, end, channel.feed)
-    memory.note_skip(list(c.position))
+    LastSkip.of(channel).position = list(c.position)
     state.machine = c.machine
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.tool_change import check_change_points
+from polycnc.channel.states.state import Lifetime, State, plain
+from polycnc.compensation.corner import CornerStage
+from polycnc.control.tool_change import follow, way_to_change
 from polycnc.control.word_address.motion.path import FEED_MODES
+from polycnc.control.word_address.tools.radius import suspended
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Conversion, Note, Scaling, SetFeed, Word, declare
 from polycnc.toolpath.events import SecondAuxiliary, SpindleSpeed, ToolSelection
@@ -46,13 +48,13 @@ def plan_spindle_speed(builder: Builder) -> Step:
 
     def set_speed(channel: WordAddressChannel, values: list[float]) -> None:
         memory, speed = channel.memory, values[slot]
-        if memory.spindle_speed != speed:
-            memory.spindle_speed = speed
+        if memory.spindle.speed != speed:
+            memory.spindle.speed = speed
             channel.context_changed()
         spindle = 1 if chosen is None else int(values[chosen])
         channel.event(SpindleSpeed(speed=_number(speed), spindle=spindle))
 
-    return set_speed if chosen is not None else declare(set_speed, Note(slot))
+    return set_speed if chosen is not None else declare(set_speed, Note(slot, lowest=0.0))
 
 
 def plan_tool(builder: Builder) -> Step:
@@ -60,7 +62,7 @@ def plan_tool(builder: Builder) -> Step:
     slot = builder.slots["T"][0]
 
     def select(channel: WordAddressChannel, values: list[float]) -> None:
-        channel.memory.next_tool = int(values[slot])
+        channel.memory.tool.next = int(values[slot])
         channel.event(ToolSelection(_number(values[slot])))
 
     return select
@@ -80,28 +82,35 @@ def _number(value: float) -> float | int:
     return int(value) if value == int(value) else value
 
 
+def bring_to_change(channel: WordAddressChannel) -> None:
+    """The axes go to where tools are changed, without compensation, if the change itself leads them there."""
+    if way := way_to_change(channel):
+        with suspended(channel):
+            follow(channel, way)
+
+
 def change_tool(channel: WordAddressChannel, _words: Words) -> None:
     """M06: the selected tool comes into the spindle."""
-    check_change_points(channel)
-    channel.memory.tool = channel.memory.next_tool
+    bring_to_change(channel)
+    channel.memory.tool.number = channel.memory.tool.next
     channel.context_changed()
 
 
 def spindle_clockwise(channel: WordAddressChannel, _words: Words) -> None:
     """M03."""
-    channel.memory.spindle_direction = 1
+    channel.memory.spindle.direction = 1
     channel.context_changed()
 
 
 def spindle_counter_clockwise(channel: WordAddressChannel, _words: Words) -> None:
     """M04."""
-    channel.memory.spindle_direction = -1
+    channel.memory.spindle.direction = -1
     channel.context_changed()
 
 
 def spindle_stop(channel: WordAddressChannel, _words: Words) -> None:
     """M05."""
-    channel.memory.spindle_direction = 0
+    channel.memory.spindle.direction = 0
     channel.context_changed()
 
 
@@ -125,7 +134,7 @@ def arm_rigid_tapping(channel: WordAddressChannel, words: Words) -> None:
     speed = words.typed("S")
     memory = channel.memory
     RigidTappingState.of(channel).armed = RigidTapping(
-        tuple(channel.coordinates.machine), memory.spindle_speed if speed is None else speed
+        tuple(channel.coordinates.machine), memory.spindle.speed if speed is None else speed
     )
 
 
@@ -150,6 +159,9 @@ def dwell(channel: WordAddressChannel, words: Words) -> None:
     for word in words.plan.axis_words:
         if word.address not in "XU":
             raise words.fail("address", word.address)
+    corners = channel.path.find(CornerStage)
+    if corners is not None:
+        corners.dwell()
     milliseconds = words.integer("P")
     if milliseconds is not None:
         stand(channel, milliseconds / 1000.0)
@@ -160,9 +172,28 @@ def dwell(channel: WordAddressChannel, words: Words) -> None:
             return
 
 
+@dataclass(slots=True)
+class Clocks(State, lifetime=Lifetime.POWER):
+    """The clocks that programs read (#3001, #3002).
+
+    Attributes:
+        seconds: What they have counted.
+        zero: At which second each of them read zero, by its name.
+        is_read: Whether a program has looked at one.
+    """
+
+    seconds: float = 0.0
+    zero: dict[str, float] = field(default_factory=dict)
+    is_read: bool = False
+
+    def compared(self) -> object:
+        """What was counted matters to a program that has looked."""
+        return super(Clocks, self).compared() if self.is_read else plain(self.zero)
+
+
 def stand(channel: WordAddressChannel, seconds: float) -> None:
     """A dwell, which the clocks of the macro variables count."""
-    channel.memory.waited += max(seconds, 0.0)
+    Clocks.of(channel).seconds += max(seconds, 0.0)
     channel.dwell(seconds=seconds)
 
 

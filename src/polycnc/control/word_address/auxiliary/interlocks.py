@@ -1,81 +1,38 @@
-"""Interlocks of the machine's own controller (PLC) while a program is calculated: words that it refuses in some states.
+"""Blocks behind the interlocks of the machine's own controller (PLC): the words that it refuses in some states.
 
-The rows are data (`plc.toml` of the control, read by `machine/plc.py`). Here only what a program itself brings about is
-known, and what the setup says of the machine: where the axes stand, and what earlier M codes have done. On the main
-run's clock the same rows are asked with the live signals, and this module stands aside.
+What it refuses is asked in `control/machine_words.py`.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from string import digits
+from typing import TYPE_CHECKING
 
-from polycnc.control.tool_change import stands_at_reference, z_stands_at_change_point
+from polycnc.control.machine_words import (
+    UNKNOWN_M,
+    MachineSignals,
+    asking,
+    move_words,
+    plc_of,
+    refusal,
+    refuse,
+)
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.language.bulk import Note, declare, declared
-from polycnc.messages import AlarmError
-from polycnc.toolpath.events import InterlockQuery
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Iterable
 
     from polycnc.control.word_address.block.codes import MCode, Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
-    from polycnc.machine.plc import Plc, PlcAlarm
-
-#: What the rules call an M code that is in no list.
-UNKNOWN_M = "UNKNOWN_M"
-#: Brakes of rotary axes.
-BRAKES = ("FOURTH_AXIS_CLAMPED", "FIFTH_AXIS_CLAMPED")
+    from polycnc.machine.plc import Plc
 
 
-def _z_is_referenced(channel: WordAddressChannel) -> bool:
-    z = channel.coordinates.geometry[2]
-    return z < 0 or stands_at_reference(channel, z)
-
-
-#: Signals that follow from the state of the program.
-STATES: Mapping[str, Callable[[WordAddressChannel], bool]] = {
-    "Z_AT_REFERENCE": _z_is_referenced,
-    "Z_AT_CHANGE_POINT": z_stands_at_change_point,
-    "AUTO": lambda channel: channel.setup.switches.mode.lower() != "mdi",
-    "MDI": lambda channel: channel.setup.switches.mode.lower() == "mdi",
-}
-
-
-def refuse(channel: WordAddressChannel, word: str, address: str = "") -> None:
-    """Raise the machine's alarm if it refuses a word now; else let its rules answer to the word.
-
-    Args:
-        channel: The channel.
-        word: A word of the rules.
-        address: How the program writes it, where that differs.
-    """
-    plc: Plc = channel.control.plc
-    signals: dict[str, float] | None = channel.memory.machine_signals
-    if signals is None:
-        if word.startswith("MOVE_") or word == UNKNOWN_M:
-            channel.event(InterlockQuery(word))  # asked when the axes are there
-        return
-
-    row = _refusal(channel, word, signals)
-    if row is not None and row.stops:
-        channel.mark = channel.toolpath.mark()  # what the block has done before stays: the machine stops here
-        raise AlarmError(row.code, address=address or word.removesuffix("_CODE"))
-    plc.latch(word, signals)
-
-
-def _refusal(channel: WordAddressChannel, word: str, signals: dict[str, float]) -> PlcAlarm | None:
-    """The row that refuses a word in the state of the program and of the machine."""
-
-    def value(name: str) -> float:
-        state = STATES.get(name)
-        return float(state(channel)) if state is not None else signals.get(name, 0.0)
-
-    plc: Plc = channel.control.plc
-    return plc.refusal(word, value)
+#: Codes that move the axes of their block once, without the decimal: reference points, skips, hole patterns, G53.
+MOVING_CODES = frozenset({"G27", "G28", "G29", "G30", "G31", "G34", "G35", "G36", "G37", "G53"})
 
 
 def guarded(row: MCode, plc: Plc) -> MCode:
@@ -104,28 +61,22 @@ def unlisted(row: MCode, plc: Plc) -> MCode:
     return replace(row, handler=act)
 
 
-def nothing(_channel: WordAddressChannel, _values: list[float]) -> None:
-    """A word that only the machine's rules answer to."""
+def guarded_word(builder: Builder, address: str, step: Step | None) -> Step | None:
+    """The step of a word beside codes behind the interlock of S, T or B; T may call a program behind its block."""
+    plc = plc_of(builder.channel)
+    if address == "T" and plc.knows("T_CODE"):
+        return asking(step, ("T_CODE",), plc)
+    if step is None:
+        return None
+    if address.rstrip(digits) == "S":
+        return _guarded_speed(step, builder, plc)
+    return asking(step, ("B_CODE",), plc) if address == "B" else step
 
 
-def guarded_step(step: Step, words: Iterable[str], plc: Plc) -> Step:
-    """A step behind the interlocks of some words, asked in their order."""
-    mine = [word for word in words if plc.knows(word)]
-
-    def act(channel: WordAddressChannel, values: list[float]) -> None:
-        for word in mine:
-            refuse(channel, word)
-        step(channel, values)
-
-    return act if mine else step
-
-
-def guarded_speed(step: Step, builder: Builder) -> Step:
+def _guarded_speed(step: Step, builder: Builder, plc: Plc) -> Step:
     """S behind its interlock; where the block starts the spindle too, the start is what is refused."""
-    control: Any = builder.control
-    plc: Plc = control.plc
     starts = [f"M{number}" for number in builder.m_codes if number in (3, 4)]
-    act = guarded_step(step, (*starts[-1:], "S_CODE"), plc)
+    act = asking(step, (*starts[-1:], "S_CODE"), plc)
     told = declared(step)
     if not isinstance(told, Note) or starts or act is step:
         return act
@@ -134,42 +85,46 @@ def guarded_speed(step: Step, builder: Builder) -> Step:
 
 def _lets_speeds_pass(channel: WordAddressChannel) -> bool:
     """Whether the machine refuses no S now: its tool is clamped. Neither moves nor S itself change that."""
-    signals: dict[str, float] | None = channel.memory.machine_signals
-    return signals is None or _refusal(channel, "S_CODE", signals) is None
+    signals = MachineSignals.of(channel).known
+    return signals is None or refusal(channel, "S_CODE", signals) is None
 
 
 def guarded_motion(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
-    """A move behind the interlocks of its axes: a clamped rotary axis."""
+    """A move behind the interlocks of its axes, such as a clamped rotary axis."""
     if step is None:
         return None
-    control: Any = builder.control
-    rotary = [data.name for data in builder.channel.axis_data if data.rotary]
-    moved = [builder.channel.axes[word.axis] for word in plan.axis_words]
-    words = [f"MOVE_{axis}" for axis in moved if axis in rotary]
-    fifth = ["MOVE_FIFTH_AXIS"] if any(axis in rotary[1:2] for axis in moved) else []
+    plc = plc_of(builder.channel)
+    act = asking(step, move_words(builder.channel, (word.axis for word in plan.axis_words)), plc)
     told = declared(step)
-    act = guarded_step(step, (*words, *fifth), control.plc)
-    return act if told is None else declare(act, told)  # plain as long as no brake is on
-
-
-def holds_an_axis(channel: WordAddressChannel) -> bool:
-    """Whether a brake is on, so that moves have to be asked for."""
-    signals: dict[str, float] = getattr(channel.memory, "machine_signals", None) or {}
-    return any(signals.get(brake) for brake in BRAKES)
+    return (
+        act if told is None or act is step else declare(act, told)
+    )  # plain as long as nothing refuses moves
 
 
 def note_reference_return(channel: WordAddressChannel, axes: Iterable[str]) -> None:
     """Axes have returned to a reference point: their position is known again."""
-    if channel.memory.machine_signals is not None:
-        channel.memory.machine_signals.update({f"NOT_REFERENCED_{axis}": 0.0 for axis in axes})
+    signals = MachineSignals.of(channel).known
+    if signals is not None:
+        signals.update({f"NOT_REFERENCED_{axis}": 0.0 for axis in axes})
 
 
 def note_tool_number(channel: WordAddressChannel) -> None:
     """The block of a tool change that is a macro names its tool as an argument: the machine has its number."""
-    plc: Plc = channel.control.plc
-    if channel.memory.machine_signals is not None:
-        plc.latch("T_CODE", channel.memory.machine_signals)
+    signals = MachineSignals.of(channel).known
+    if signals is not None:
+        plc_of(channel).latch("T_CODE", signals)
 
 
-#: A rotary axis does not move against its brake.
-BRAKE_RULE = Rule("brakes of rotary axes", rotary=True, wrap=guarded_motion)
+def ask_for_moves(builder: Builder, plan: Plan) -> Step | None:
+    """In front of a code that moves its axes itself, as G28 does: the question whether they may move."""
+    if not any(row.axis_words and row.code.partition(".")[0] in MOVING_CODES for row in builder.codes):
+        return None
+    plc = plc_of(builder.channel)
+    words = plc.moves.intersection(move_words(builder.channel, (word.axis for word in plan.axis_words)))
+    return asking(None, sorted(words), plc) if words else None
+
+
+#: What the machine refuses to move.
+MOVES_RULE = Rule(
+    "moves that the machine refuses", where_moves_are_refused=True, before=ask_for_moves, wrap=guarded_motion
+)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.word_address.macro_b.variables import ControlSwitches
 from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:
@@ -75,7 +76,7 @@ def in_tapping_mode(channel: WordAddressChannel, context: Context) -> Context:
 def overridden(channel: MacroChannel, context: Context) -> Context:
     """A context with what the operator's switches may do in it."""
     state = OverrideState.of(channel)
-    switches = channel.memory.control_switches.get("cntl2", 0)
+    switches = ControlSwitches.of(channel).values.get("cntl2", 0)
     tapping = _taps(channel)
     if not (tapping or state.tapping or switches or state.cancelled):
         return context

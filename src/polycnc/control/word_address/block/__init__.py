@@ -2,5 +2,7 @@
 
 `rules` says what acts on a block beside its own codes and words, and when; each control declares its tuple of them.
 `codes` has the rows of the code tables, `words` the words as a handler sees them, `numbers` their units and decimal
-points. `plain`, `words_as_data` and `repeated_codes` tell the same as data, for the bulk scanner.
+points, `whole_numbers` the words that take none. `single_block` says behind which blocks single block
+halts. `plain`, `words_as_data` and `repeated_codes` tell the same as data,
+for the bulk scanner.
 """

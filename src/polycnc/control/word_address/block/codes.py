@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
+    from polycnc.toolpath import Context
 
 #: Acts when its block runs.
 Handler = Callable[["Channel", "Words"], None]
@@ -25,6 +26,10 @@ Step = Callable[["Channel", list[float]], Any]
 Planner = Callable[["Builder"], "Step | None"]
 #: The same for motion codes, which also need the plan that is being made.
 MotionPlanner = Callable[["Builder", "Plan"], "Step | None"]
+#: What a feature changes in a context.
+ContextStep = Callable[["Channel", "Context"], "Context"]
+#: Gives an M code of a block another row than its table does, or None.
+MRow = Callable[["Builder", int], "MCode | None"]
 
 
 class Order(IntEnum):
@@ -48,12 +53,15 @@ class GCode:
         handler: What the code does; None if being active in its group is all.
         planner: Instead of a handler: plans the block's motion.
         takes: Addresses beside the axis words that a block with this code may hold; `,R` as `,R`, blank-separated.
+        reals: Addresses of whole numbers that this code reads as lengths, angles or factors.
+        gives_way: Addresses of `takes` that belong to another code of the block where one takes them.
         axis_words: The code takes the axis words of its block, so that the active motion code does not.
         order: When in the block it acts.
         ends: Another modal group that goes back to its power-on code (a motion code ends a drilling cycle).
         idle_in_cycle: Has no effect in a block while a drilling cycle is active.
         only_changes: Acts only where another code of its group was in force.
         not_yet: Known to the control, not executed by polycnc.
+        open: The words of its block that nothing else takes go to the machine with it.
         addresses: The addresses of `takes`.
     """
 
@@ -62,12 +70,15 @@ class GCode:
     handler: Handler | None = None
     planner: MotionPlanner | None = None
     takes: str = ""
+    reals: str = ""
+    gives_way: str = ""
     axis_words: bool = False
     order: Order = Order.SETTING
     ends: str = ""
     idle_in_cycle: bool = False
     only_changes: bool = False
     not_yet: bool = False
+    open: bool = False
     addresses: tuple[str, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -84,6 +95,7 @@ class MCode:
         handler: What it does beside being recorded; it gets the words of the block.
         takes: Addresses that belong to it.
         silent: The code is not sent to the machine (M98, M99).
+        open: The words of its block that nothing else takes go to the machine with it.
     """
 
     code: int
@@ -91,6 +103,7 @@ class MCode:
     handler: Handler | None = None
     takes: str = ""
     silent: bool = False
+    open: bool = False
 
 
 #: What machining centres of every family choose at power-on, by modal group; each family adds and replaces.

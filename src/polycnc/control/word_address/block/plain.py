@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.auxiliary.interlocks import holds_an_axis
+from polycnc.control.machine_words import may_refuse_moves
 from polycnc.control.word_address.motion import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, Conditions, Recipe, Spelling
@@ -40,9 +40,9 @@ class PlainBlocks:
 
     def ready(self, channel: WordAddressChannel) -> bool:
         """Single blocks are watched; forbidden zones, unrolled surfaces and held moves are the interpreter's."""
-        if channel.single_block or channel.stroke_zone is not None or not channel.path.is_idle:
+        if channel.single_block or channel.boundary is not None or not channel.path.is_idle:
             return False
-        if channel.coordinates.transformation is not None or holds_an_axis(channel):
+        if channel.coordinates.transformation is not None or may_refuse_moves(channel):
             return False
         return channel.coordinates.direct or _keeps_circles(channel)
 

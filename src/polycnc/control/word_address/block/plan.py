@@ -8,6 +8,7 @@ modal state; later blocks of the same shape only bring new numbers.
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,7 @@ from polycnc.channel.intervention import NOTHING_BACK, TakesBack
 from polycnc.control.word_address.block.codes import GCode, MCode, Order, Step
 from polycnc.control.word_address.block.numbers import Convert, NumberRules, length_converter
 from polycnc.control.word_address.block.words import Words
+from polycnc.control.word_address.memory import SentCodes
 from polycnc.control.word_address.motion.path_modes import end_of_exact_stop, exact_stop_block
 from polycnc.language.bulk import Idle, Note, declare
 from polycnc.language.word_address.words import FORMS, is_fixed_code
@@ -22,7 +24,7 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Auxiliary
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection, Iterable, Mapping
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
@@ -78,11 +80,14 @@ class Footing:
 
 
 class Plan:
-    """What the blocks of one shape do in one modal state; `program_name` is what `<NAME>` in them calls."""
+    """What the blocks of one shape do in one modal state.
+
+    `program_name` is what `<NAME>` in them calls, `rest` the words that go to the machine with a code of its builder.
+    """
 
     __slots__ = (
-        "axis_words", "control", "inch", "m_codes", "mode", "order", "program_name", "rules", "slots", "steps",
-        "takes_back", "typed",
+        "axis_words", "control", "inch", "m_codes", "m_words", "mode", "order", "program_name", "rest", "rules",
+        "slots", "steps", "takes_back", "typed",
     )  # fmt: skip
 
     def __init__(self, builder: Builder) -> None:
@@ -91,13 +96,22 @@ class Plan:
         self.slots = builder.slots
         self.typed = builder.typed
         self.order = builder.order
-        self.m_codes = builder.m_codes
+        self.m_codes, self.m_words = builder.m_codes, builder.m_words
         self.program_name = builder.program_name
+        self.rest: tuple[str, ...] = ()
         self.rules: NumberRules = builder.rules
         self.inch = builder.inch
         self.axis_words: tuple[AxisWord, ...] = ()
         self.steps: tuple[Step, ...] = ()
         self.takes_back = NOTHING_BACK
+
+    def without(self, addresses: Collection[str]) -> Plan:
+        """The same plan for a code to which some words of the block do not belong."""
+        plan = copy(self)
+        plan.slots = {address: slot for address, slot in self.slots.items() if address not in addresses}
+        plan.typed = [word for word in self.typed if word[0] not in addresses]
+        plan.axis_words = tuple(word for word in self.axis_words if word.address not in addresses)
+        return plan
 
     def run(self, channel: Channel, values: list[float]) -> None:
         """Run one block."""
@@ -115,6 +129,7 @@ class Builder:
         mode: Modal state that the block brings.
         slots: Address to (index of its value, how it was written); of a repeated address the last one counts.
         typed: All words in the order typed, repeated ones included: (address, index, how written).
+        m_codes: Numbers of its M codes in the order typed; `m_words` as they are written, for a macro.
         codes: Rows of the block's G codes in the order typed; of one group only the last.
         acting: The control's rules that concern the block, in their order.
     """
@@ -131,8 +146,10 @@ class Builder:
         self.order: list[str] = []
         self.codes: list[GCode] = []
         self.m_codes: list[int] = []
+        self.m_words: list[float] = []
         self.program_name = ""
         self._taken: set[str] = set()
+        self._is_open = False
         self._read_signature()
         self.mode = self.before.with_codes(control.modal_changes(self.codes))
         self._drop_idle_codes()
@@ -147,12 +164,12 @@ class Builder:
                 self.program_name = key[1:-1]
                 continue
             if is_fixed_code(key):
-                self.order.append(key)
                 if key[0] == "M":
-                    if "." in key:
-                        raise self.control.fail("point", address="M")
-                    self.m_codes.append(int(key[1:]))
+                    self.m_words.append(float(key[1:]))
+                    self.m_codes.append(int(self.m_words[-1]))
+                    self.order.append(f"M{self.m_codes[-1]}")
                 else:
+                    self.order.append(key)
                     row = self._row(key)
                     by_group.pop(row.group or row.code, None)
                     by_group[row.group or row.code] = row
@@ -239,9 +256,27 @@ class Builder:
         self.take(*row.addresses)
         return True
 
+    def words_of(self, row: GCode, plan: Plan) -> Plan:
+        """The plan as a code sees it: words of a macro call beside it are arguments, others may be another code's."""
+        if any("*" in other.addresses for other in self.codes if other is not row):
+            return plan.without(self.slots)
+        others = self._given_away(row)
+        return plan.without(others) if others else plan
+
+    def _given_away(self, row: GCode) -> list[str]:
+        """Words of the block that a code would take and another code takes."""
+        return [a for a in row.gives_way if self.has(a) and self._is_claimed(a, row)]
+
+    def _is_claimed(self, address: str, row: GCode) -> bool:
+        """Whether another code of the block than this one takes an address."""
+        by_g = any(address in other.addresses for other in self.codes if other is not row)
+        by_m = any(address in self.control.m_row(self, number).takes.split() for number in self.m_codes)
+        drills = any(other.group == "cycle" for other in self.codes) and self.drills
+        return by_g or by_m or (drills and address in self.footing.cycles.words)
+
     def _acted(self, row: GCode, handler: Handler, plan: Plan) -> Step:
         """The step of a code's handler; it says so where it only tells the context, or may change nothing."""
-        step, control = self.handled(handler, plan), self.control
+        step, control = self.handled(handler, self.words_of(row, plan)), self.control
         if any(self.has(address) for address in row.addresses):
             return step
         if handler in control.only_context:
@@ -278,7 +313,8 @@ class Builder:
             return plan
         rows = sorted((row for row in self.codes if not self._is_repeated(row)), key=lambda row: row.order)
         for row in rows:
-            self.take(*row.addresses)
+            others = self._given_away(row)
+            self.take(*(address for address in row.addresses if address not in others))
         plan.axis_words = self.axis_words()
         plan.takes_back = self._takes_back(plan)
         before, after = self._auxiliary_steps(plan)
@@ -292,12 +328,16 @@ class Builder:
             motion = self._motion_step(plan)
             if motion is not None:
                 steps.append(motion)
-        steps += [self.handled(r.handler, plan) for r in rows if r.handler and r.order >= Order.MOTION]
+        behind_motion = [row for row in rows if row.handler and row.order >= Order.MOTION]
+        steps += [self.handled(r.handler, self.words_of(r, plan)) for r in behind_motion if r.handler]
         if any(row.handler is exact_stop_block for row in rows):
             steps.append(end_of_exact_stop)
         behind = [rule.after(self, plan) for rule in self.acting if rule.after is not None]
         plan.steps = (*steps, *(step for step in behind if step is not None), *after)
-        self._check_all_taken()
+        untaken = self._untaken()
+        if untaken and not (self._is_open or any(row.open for row in rows)):
+            raise self.control.untaken(untaken[0], self)
+        plan.rest = untaken
         return plan
 
     def replacement(self, plan: Plan) -> Step | None:
@@ -336,43 +376,52 @@ class Builder:
         after: list[Step] = []
         if "*" in self._taken:
             return before, after
+        m_rows = {
+            key: self.control.m_row(self, int(float(key[1:])))
+            for key in self.order
+            if key[0] == "M" and is_fixed_code(key)
+        }
+        for row in m_rows.values():
+            self.take(*row.takes.split())
+            self._is_open = self._is_open or row.open
         for key in self.order:
             if key in self._taken and key in self.slots:
                 continue
-            if key[0] == "M" and is_fixed_code(key):
-                row = self.control.m_row(self, int(float(key[1:])))
-                self.take(*row.takes.split())
+            if key in m_rows:
+                row = m_rows[key]
                 (after if row.after else before).append(_m_step(row, self, plan))
                 continue
             planner = self.control.addresses.get(key)
             if planner is not None:
-                step = planner(self)
+                step = self.control.guarded_word(self, key, planner(self))
                 self.take(key)
                 if step is not None:
                     before.append(step)
         return before, after
 
-    def _check_all_taken(self) -> None:
+    def _untaken(self) -> tuple[str, ...]:
+        """The addresses that nothing in the block takes."""
         if "*" in self._taken:
-            return
-        for address in self.slots:
-            if address not in self._taken:
-                raise self.control.untaken(address, self)
+            return ()
+        return tuple(address for address in self.slots if address not in self._taken)
 
 
 def _m_step(row: MCode, builder: Builder, plan: Plan) -> Step:
     handler = builder.handled(row.handler, plan) if row.handler else None
     if row.silent:
         return handler or _nothing
-    code = row.code
+    code, takes = row.code, tuple(filter(builder.has, row.takes.split()))
     spindle = builder.control.spindle_slot(builder)
+    plain = Auxiliary(code)
 
     def act(channel: Channel, values: list[float]) -> None:
-        if spindle is None:
-            channel.event(Auxiliary(code))
+        sent = (*takes, *plan.rest) if row.open else takes
+        if spindle is None and not sent:
+            channel.event(plain)
         else:
-            channel.event(Auxiliary(code, spindle=int(values[spindle])))
-        channel.memory.last_m = code
+            number = None if spindle is None else int(values[spindle])
+            channel.event(Auxiliary(code, number, sent_words(plan, sent, values) if sent else None))
+        SentCodes.of(channel).m = code
         if handler is not None:
             handler(channel, values)
 
@@ -381,3 +430,8 @@ def _m_step(row: MCode, builder: Builder, plan: Plan) -> Step:
 
 def _nothing(_channel: Channel, _values: list[float]) -> None:
     """An M code that only exists."""
+
+
+def sent_words(plan: Plan, addresses: Iterable[str], values: list[float]) -> dict[str, float]:
+    """Words of a block that go to the machine, as they are typed."""
+    return {address: values[plan.slots[address][0]] for address in addresses}

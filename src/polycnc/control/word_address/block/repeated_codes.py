@@ -62,15 +62,14 @@ def length(channel: WordAddressChannel) -> bool:
     return c.direct and c.transformation is None and c.geometry[2] >= 0 and none and unchanged
 
 
-def modal_call(channel: WordAddressChannel) -> bool:
+def modal_call(channel: MacroChannel) -> bool:
     """G67: there is no modal call, and its end without one is allowed (6000#0)."""
-    memory = channel.memory
-    return not ModalCallState.of(channel).calls and bool(memory.parameters.bit(6000, 0, default=True))
+    return not ModalCallState.of(channel).calls and channel.memory.parameters.G67
 
 
 def stroke_limit(channel: WordAddressChannel) -> bool:
     """G23: no zone is forbidden."""
-    return channel.stroke_zone is None
+    return channel.boundary is None
 
 
 #: Codes of machining centres.

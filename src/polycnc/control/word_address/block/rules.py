@@ -46,7 +46,7 @@ class Rule:
 
     Attributes:
         in_cycles: The rule acts also while a drilling cycle is active.
-        rotary: The rule acts only where the channel has rotary axes.
+        where_moves_are_refused: The rule acts only on a machine that may refuse moves of its axes.
 
     What it does; the head of the module says when.
 
@@ -70,7 +70,7 @@ class Rule:
     words: Collection[str] = ()
     m_codes: bool = False
     in_cycles: bool = True
-    rotary: bool = False
+    where_moves_are_refused: bool = False
     check: Callable[[Builder], None] | None = None
     replace: Callable[[Builder, Plan], Step | None] | None = None
     before: Callable[[Builder, Plan], Step | None] | None = None
@@ -85,7 +85,7 @@ class Rule:
         """Whether the rule is asked of a block."""
         if not self.in_cycles and builder.mode.codes.get(CYCLE, NO_CYCLE) != NO_CYCLE:
             return False
-        if self.rotary and not any(data.rotary for data in builder.channel.axis_data):
+        if self.where_moves_are_refused and not builder.channel.memory.machine_refuses_moves:
             return False
         named = (self.modes, self.unless, self.codes, self.groups, self.words, self.m_codes)
         return not any(named) or self._concerns_mode(builder) or self._concerns_words(builder)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.numbers import angle_converter, length_converter
+from polycnc.control.word_address.block.whole_numbers import DecimalPoint
 from polycnc.language.word_address.functions import round_half_away
 
 if TYPE_CHECKING:
@@ -57,14 +58,17 @@ class Words:
         return convert(value) if convert else value
 
     def integer(self, address: str) -> int | None:
-        """A whole number; a decimal point in it is the control's alarm."""
+        """A whole number; what a decimal point in it does is the control's."""
         slot = self.plan.slots.get(address)
         if slot is None:
             return None
         value = self.values[slot[0]]
         if slot[1] == "#":
             return int(round_half_away(value))
-        if value != int(value) or (slot[1] and not self.plan.control.POINT_IN_WHOLE_NUMBERS):
+        point = self.plan.control.POINT_IN_WHOLE_NUMBERS
+        if point is not DecimalPoint.CUT and (
+            value != int(value) or (slot[1] and point is DecimalPoint.REFUSED)
+        ):
             raise self.fail("point", address)
         return int(value)
 
@@ -85,4 +89,4 @@ class Words:
 
     def fail(self, mistake: str, address: str = "") -> AlarmError:
         """The control's alarm for a mistake in this block."""
-        return self.plan.control.fail(mistake, address=address, word=address, code=address)
+        return self.plan.control.fail(mistake, address=address)

@@ -1,7 +1,8 @@
 """Frames before the display: scaling G51, mirror G51.1, rotation G68, and polar words G16.
 
 Order (FANUC; SYNTEC states none): programmed point → scaling or mirror → rotation → display. Each part is kept in the
-control's memory; the programming frame is their product.
+control's memory; the programming frame is their product. So the centre of a rotation is scaled and mirrored with the
+shape, its angle is not scaled, and a mirror of one axis of the plane turns its direction round.
 """
 
 from __future__ import annotations
@@ -11,23 +12,43 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.motion.arcs import mirrors_plane
 from polycnc.control.word_address.motion.path import reach
 from polycnc.geometry.frames import IDENTITY, about, cos_sin_deg, rotation, scaling
 from polycnc.geometry.planes import PLANES
+from polycnc.language.bulk import Idle, declare
 
 if TYPE_CHECKING:
-    from polycnc.control.word_address.block.plan import Plan
+    from collections.abc import Sequence
+
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.geometry.frames import Frame
 
 
-def _refresh(channel: WordAddressChannel) -> None:
+@dataclass(slots=True)
+class RotationState(State, lifetime=Lifetime.POWER):
+    """The angle of the last rotation as programmed, degrees."""
+
+    angle: float = 0.0
+
+
+def _refresh(channel: WordAddressChannel, *, stays: bool = True) -> None:
     parts = channel.memory.frames
-    channel.coordinates.set_programming(parts.product(), parts.shift)
+    channel.coordinates.set_programming(parts.product(), parts.shift, stays=stays)
 
 
-def _point(channel: WordAddressChannel, words: Words) -> list[float]:
-    """The point that axis words name on the geometry axes; the present programmed position where they are missing."""
+def _point(channel: WordAddressChannel, words: Words, *, absolute: bool) -> list[float]:
+    """The point that axis words name on the geometry axes; the present programmed position where they are missing.
+
+    Args:
+        channel: The channel.
+        words: Words of the block.
+        absolute: The words are coordinates under G91 too.
+    """
     c = channel.coordinates
     base = channel.memory.frames
     here = c.image(base.product().inverse(), c.position) if base.product() is not IDENTITY else c.position
@@ -35,21 +56,60 @@ def _point(channel: WordAddressChannel, words: Words) -> list[float]:
     for axis, value, incremental in words.axes():
         if axis in c.geometry:
             i = c.geometry.index(axis)
-            point[i] = point[i] + value if incremental else value
+            point[i] = point[i] + value if incremental and not absolute else value
     return point
 
 
 def rotate(channel: WordAddressChannel, words: Words) -> None:
-    """G68 X Y R: rotation of the plane about a point; a new one replaces the old."""
-    channel.memory.frames.rotation = IDENTITY
-    _refresh(channel)
-    x, y, z = _point(channel, words)
-    axis = PLANES[channel.mode["plane"]][2]
+    """G68 X Y R: rotation of the plane about a point, an absolute one under G91 too; a new one replaces the old."""
+    parts, state = channel.memory.frames, RotationState.of(channel)
     angle = words.angle("R")
     if angle is None:
-        raise words.fail("rotation_angle", "G68")
-    channel.memory.frames.rotation = about((x, y, z), rotation(axis, angle))
+        angle = channel.control.rotation_without_angle(channel)
+        if angle is None:
+            raise words.fail("rotation_angle", "G68")
+    elif channel.control.rotation_adds(channel) and not parts.rotation.is_identity:
+        angle += state.angle
+    state.angle = angle
+    before = channel.coordinates.programmed[:]
+    parts.rotation = IDENTITY
     _refresh(channel)
+    parts.rotation = rotation_frame(channel, _point(channel, words, absolute=True), angle)
+    if channel.control.keeps_point_at_rotation(channel):
+        channel.coordinates.programmed[:] = before
+        _refresh(channel, stays=False)
+    else:
+        _refresh(channel)
+
+
+def rotation_frame(channel: WordAddressChannel, center: Sequence[float], angle: float) -> Frame:
+    """The rotation of the plane by an angle, degrees, about a programmed point."""
+    parts, plane = channel.memory.frames, PLANES[channel.mode["plane"]]
+    inner = parts.mirror @ parts.scale
+    x, y, z = center
+    turned = rotation(plane[2], -angle if mirrors_plane(inner, plane) else angle)
+    return about(inner.apply(x, y, z), turned)
+
+
+def turns_plane(channel: WordAddressChannel) -> bool:
+    """Whether the rotation that is active, if one is, turns the active plane in itself."""
+    third = PLANES[channel.mode["plane"]][2]
+    return bool(channel.memory.frames.rotation.m[third][third] == 1.0)
+
+
+def _refuse_other_plane(builder: Builder, plan: Plan) -> Step | None:
+    """Arcs, corner arcs and radius compensation are those of the plane that is rotated."""
+    arc = builder.mode["motion"] in ("G2", "G3") and (plan.axis_words or any(map(builder.has, "IJK")))
+    starts = any(row.code in ("G41", "G42") for row in builder.codes)
+    if not (arc or starts or builder.has(",R")):
+        return None
+    control, plane = builder.control, builder.mode["plane"]
+
+    def check(channel: WordAddressChannel, _values: list[float]) -> None:
+        if not turns_plane(channel):
+            raise control.fail("rotation_plane", address=plane)
+
+    return declare(check, Idle(turns_plane))
 
 
 def end_rotation(channel: WordAddressChannel, _words: Words) -> None:
@@ -62,7 +122,7 @@ def scale(channel: WordAddressChannel, words: Words) -> None:
     """G51 X Y Z P or I J K: scaling about a point."""
     channel.memory.frames.scale = IDENTITY
     _refresh(channel)
-    x, y, z = _point(channel, words)
+    x, y, z = _point(channel, words, absolute=channel.control.SCALE_CENTER_IS_ABSOLUTE)
     factors = channel.control.scale_factors(channel, words)
     channel.memory.frames.scale = about((x, y, z), scaling(*factors))
     _refresh(channel)
@@ -171,3 +231,7 @@ def start_polar(channel: WordAddressChannel, _words: Words) -> None:
     polar.pole = (0.0, 0.0)
     polar.radius = hypot(c.programmed[c.geometry[u]], c.programmed[c.geometry[v]])
     polar.angle = 0.0
+
+
+#: What a rotation asks of the blocks that its plane forms.
+ROTATION_RULE = Rule("plane of a rotation", modes={"rotation": ("G68", "G68.1")}, before=_refuse_other_plane)

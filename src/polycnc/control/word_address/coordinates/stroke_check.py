@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.travel import SLACK
+
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.channel.moves.travel import Travel
     from polycnc.control.word_address.block.words import Words
-    from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,26 +26,24 @@ class StrokeZone:
     inside: bool
     number: int = 2
 
-    def check(self, channel: WordAddressChannel, machine: list[float], *, straight: bool) -> None:
-        """The control's alarm for a way into the zone, or out of it; of a curve the end and points on it."""
-        start = channel.coordinates.machine if straight else machine
-        axis = self._entered(start, machine) if self.inside else self._left(machine)
-        if axis >= 0:
-            direction = 1 if machine[axis] >= channel.coordinates.machine[axis] else -1
-            raise channel.control.forbidden_zone(channel.axes[axis], direction, self.number)
-
-    def check_point(self, channel: WordAddressChannel, machine: list[float]) -> None:
-        """The control's alarm for a point of a curve."""
-        self.check(channel, machine, straight=False)
+    def check(self, channel: WordAddressChannel, travel: Travel) -> None:
+        """The control's alarm for a way into the zone, or out of it."""
+        points = travel.closely() if self.inside and self.axes else travel.machine
+        for start, end in pairwise(points):
+            axis = self._entered(start, end) if self.inside else self._left(end)
+            if axis >= 0:
+                direction = 1 if end[axis] >= start[axis] else -1
+                raise channel.control.forbidden_zone(channel.axes[axis], direction, self.number)
 
     def _left(self, end: list[float]) -> int:
         """The first axis that stands outside, or -1."""
         within = zip(self.axes, self.low, self.high, strict=True)
-        return next((axis for axis, low, high in within if not low <= end[axis] <= high), -1)
+        outside = (axis for axis, low, high in within if not low - SLACK <= end[axis] <= high + SLACK)
+        return next(outside, -1)
 
     def _entered(self, start: list[float], end: list[float]) -> int:
         """The axis by which a straight way comes into the box last, or -1 where it stays outside."""
-        first, last, blamed = 0.0, 1.0, self.axes[0]
+        first, last, blamed = 0.0, 1.0, next(iter(self.axes), -1)
         for axis, low, high in zip(self.axes, self.low, self.high, strict=True):
             way = end[axis] - start[axis]
             if way == 0.0:
@@ -53,7 +57,20 @@ class StrokeZone:
         return blamed if first <= last else -1
 
 
-def stroke_check_on(channel: WordAddressChannel, words: Words) -> None:
+#: A zone that forbids nothing.
+NOTHING = StrokeZone((), (), (), inside=False)
+
+
+def zone_between(named: Sequence[tuple[int, float, float]], *, inside: bool) -> StrokeZone:
+    """The zone between two points, given by column and both coordinates; two equal points forbid nothing."""
+    axes = tuple(axis for axis, _, _ in named)
+    lows, highs = tuple(min(a, b) for _, a, b in named), tuple(max(a, b) for _, a, b in named)
+    if lows == highs:
+        return NOTHING
+    return StrokeZone(lows, highs, axes, inside)
+
+
+def stroke_check_on(channel: MacroChannel, words: Words) -> None:
     """G22 X Y Z I J K: stored stroke check 2; X Y Z the upper corner, I J K the lower, machine coordinates."""
     upper = {axis: value for axis, value, _ in words.axes()}
     named: list[tuple[int, float, float]] = []
@@ -62,13 +79,11 @@ def stroke_check_on(channel: WordAddressChannel, words: Words) -> None:
         if (low is None) != (axis not in upper):
             raise words.fail("address", letter)
         if low is not None:
-            named.append((axis, min(low, upper[axis]), max(low, upper[axis])))
+            named.append((axis, low, upper[axis]))
     if named:
-        axes, lows, highs = zip(*named, strict=True)
-        inside = not channel.memory.parameters.bit(1300, 0)
-        channel.stroke_zone = StrokeZone(tuple(lows), tuple(highs), tuple(axes), inside)
+        channel.boundary = zone_between(named, inside=not channel.memory.parameters.OUT)
 
 
 def stroke_check_off(channel: WordAddressChannel, _words: Words) -> None:
     """G23: the zone of G22 may be entered again."""
-    channel.stroke_zone = None
+    channel.boundary = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import dataclass, field
 from math import nan
 from typing import TYPE_CHECKING
@@ -101,7 +102,7 @@ def set_position_or_limit(channel: WordAddressChannel, words: Words) -> None:
         set_position(channel, words)
     limit = words.typed("S")
     if limit is not None:
-        channel.memory.spindle_limit_rpm = limit
+        channel.memory.spindle.limit_rpm = limit
         channel.context_changed()
 
 
@@ -120,8 +121,10 @@ def move_in_machine_system(channel: WordAddressChannel, words: Words) -> None:
     machine = c.machine
     for axis, value, incremental in words.axes():
         machine[axis] = machine[axis] + value if incremental else value
-    with suspended(channel):
+    axes = [axis for axis, _, _ in words.axes()]
+    with suspended(channel, axes):
         channel.straight(Kind.RAPID, c.from_machine(machine), nan)
+    channel.control.leave_length(channel, axes, to_reference=False)
 
 
 def move_in_machine_system_absolute(channel: WordAddressChannel, words: Words) -> None:
@@ -154,16 +157,23 @@ def intermediate_point(channel: WordAddressChannel, words: Words) -> list[float]
 
 
 def go_to_reference(channel: WordAddressChannel, words: Words, number: int) -> None:
-    """Rapid over the intermediate point to a reference point, with the named axes only."""
+    """Rapid over the intermediate point to a reference point, with the named axes only.
+
+    Within radius compensation its vector vanishes on the way to the intermediate point, or behind it.
+    """
     c = channel.coordinates
     point = intermediate_point(channel, words)
-    channel.straight(Kind.RAPID, c.to_position(point), nan, point)
+    axes = [axis for axis, _, _ in words.axes()]
+    compensated = channel.control.compensates_to_intermediate(channel)
+    with nullcontext() if compensated else suspended(channel, axes):
+        channel.straight(Kind.RAPID, c.to_position(point), nan, point)
     machine = c.machine
-    for axis, _, _ in words.axes():
+    for axis in axes:
         machine[axis] = channel.control.reference_point(channel, axis, number)
-    with suspended(channel):
+    with suspended(channel, axes):
         channel.straight(Kind.REF, c.from_machine(machine), nan)
-    note_reference_return(channel, [channel.axes[axis] for axis, _, _ in words.axes()])
+    channel.control.leave_length(channel, axes, to_reference=True)
+    note_reference_return(channel, [channel.axes[axis] for axis in axes])
 
 
 def return_to_reference(channel: WordAddressChannel, words: Words) -> None:

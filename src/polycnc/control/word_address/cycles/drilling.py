@@ -19,6 +19,7 @@ from polycnc.control.word_address.auxiliary.functions import stand
 from polycnc.control.word_address.auxiliary.overrides import OverrideState
 from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.block.whole_numbers import DecimalPoint
 from polycnc.control.word_address.motion.path import FEED_MODES, reach
 from polycnc.control.word_address.tools.radius import suspended
 from polycnc.cycles.drilling import lathe
@@ -44,8 +45,9 @@ Datum = tuple[float, bool]
 BOTTOM = "bottom"
 #: Strokes of taps: overrides do not act in them.
 TAPS = frozenset({tap, lathe.tap, lathe.tap_clearing_chips})
-#: A hole with more strokes is taken for one that does not end (a peck of a micrometre, say).
-MAX_STROKES = 300_000
+_M_OF_DIRECTION = {1: 3, -1: 4, 0: 5}
+#: Strokes of a hole that count as one block for the block limit.
+STROKES_OF_A_BLOCK = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,8 +107,20 @@ def in_milliseconds(value: float, _form: str, _rules: NumberRules) -> float:
 
 def turn_spindle(channel: WordAddressChannel, direction: int) -> None:
     """The spindle turns the other way, or stops."""
-    channel.memory.spindle_direction = direction
+    channel.memory.spindle.direction = direction
     channel.context_changed()
+
+
+def turn_by_m_code(channel: WordAddressChannel, direction: int) -> None:
+    """As `turn_spindle`, and the machine is told by M03, M04 or M05."""
+    turn_spindle(channel, direction)
+    channel.event(Auxiliary(_M_OF_DIRECTION[direction]))
+
+
+def orient_spindle(channel: WordAddressChannel) -> None:
+    """The spindle stops at its angle; the machine is told by M19."""
+    turn_spindle(channel, 0)
+    channel.event(Auxiliary(19))
 
 
 def as_it_is(
@@ -120,7 +134,7 @@ def lead_from_feed(channel: WordAddressChannel) -> float:
     """Lead of a tap, mm: the feed per revolution, or the feed per minute over the spindle's speed."""
     if FEED_MODES[channel.mode["feed"]] is FeedMode.PER_REVOLUTION:
         return channel.feed
-    speed: float = channel.memory.spindle_speed
+    speed: float = channel.memory.spindle.speed
     return channel.feed * 60.0 / speed if speed > 0.0 else 0.0
 
 
@@ -186,6 +200,7 @@ class Drilling:
         largest_override: The largest feed override of a tap; 0 for any.
         turn: What a reversal or stop of the spindle within a cycle does.
         least_increments: Words that count least increments even under calculator input.
+        choices: Words that choose by a plain number, in taps.
         dress: What the machine adds to the strokes of a hole (clamping an axis), by cycle code.
         halts: Where single block halts in a hole, by cycle code.
         overlaps: Whether the first stroke of a hole begins before the axes rest over it, by cycle code; None where no
@@ -208,9 +223,10 @@ class Drilling:
     shift: Callable[[Channel, CycleData, tuple[int, int]], tuple[float, float]] = shift_by_center_words
     lead: Callable[[Channel], float] = lead_from_feed
     largest_override: Callable[[Channel], float] = any_override
-    turn: Callable[[Channel, int], None] = turn_spindle
+    turn: Callable[[Channel, int], None] = turn_by_m_code
     check: Callable[[Channel, str], None] = nothing_to_check
     least_increments: Sequence[str] = ""
+    choices: Sequence[str] = ()
     dress: Callable[[Channel, str, Hole, Iterator[Stroke]], Iterator[Stroke]] = as_it_is
     halts: Callable[[Channel, str], Halts] = halts_nowhere
     overlaps: Callable[[Channel, str], bool | None] = no_overlap
@@ -218,7 +234,7 @@ class Drilling:
     @property
     def words(self) -> tuple[str, ...]:
         """All addresses that a drilling block may hold beside axis words."""
-        return (*self.kept, *self.once, *self.repeats)
+        return (*self.kept, *self.once, *self.choices, *self.repeats)
 
 
 @dataclass(slots=True)
@@ -228,12 +244,14 @@ class CycleData:
     Attributes:
         axis: Drilling axis.
         initial: Level at which the cycle mode was entered, programmed coordinates.
+        rigid: Its taps are cut in step with a servo spindle.
         kept: Words that live on.
         now: Words of the running block.
     """
 
     axis: int
     initial: float
+    rigid: bool = False
     kept: dict[str, Datum] = field(default_factory=dict)
     now: dict[str, Datum] = field(default_factory=dict)
 
@@ -296,7 +314,7 @@ def plan_drilling(builder: Builder, plan: Plan) -> Step:
         if before is None or before.axis != words.axis:
             # An offset that waits for the next move is not in the programmed point yet; the level counts with it.
             initial = c.programmed[words.axis] + c.pending[words.axis]
-            before = state.data = CycleData(words.axis, initial, before.amounts() if before else {})
+            before = state.data = CycleData(words.axis, initial, kept=before.amounts() if before else {})
         if not words.drills:
             return
         data = before
@@ -310,8 +328,10 @@ def plan_drilling(builder: Builder, plan: Plan) -> Step:
             # Radius compensation does not act in drilling cycles.
             halts = rules.halts(channel, code)
             for number in range(count):
-                if number and halts is not Halts.NONE:
-                    channel.halt_inside()
+                if number:
+                    channel.once_more()
+                    if halts is not Halts.NONE:
+                        channel.halt_inside()
                 _meet(channel, rules.overlaps(channel, code))
                 words.position(channel, values)
                 if halts is not Halts.NONE:
@@ -336,7 +356,8 @@ class _Words:
             raise self.control.fail("plane")
         self.bottom = next((word for word in plan.axis_words if word.axis == self.axis), None)
         self.positions: tuple[AxisWord, ...] = tuple(w for w in plan.axis_words if w.axis != self.axis)
-        named = [a for a in self.rules.words if builder.has(a) and builder.is_free(a)]
+        foreign = () if self.rules.cycles[self.code].strokes in TAPS else self.rules.choices
+        named = [a for a in self.rules.words if a not in foreign and builder.has(a) and builder.is_free(a)]
         builder.take(*named)
         self.repeats = next((a for a in self.rules.repeats if a in named), "")
         self.repeat_slot, self.repeat_form = builder.slots.get(self.repeats, (-1, ""))
@@ -350,6 +371,8 @@ class _Words:
         ]
 
     def _converter(self, builder: Builder, address: str) -> Callable[[float], float]:
+        if address in self.rules.choices:
+            return float
         if address == "P":
             form, rules = builder.slots[address][1], builder.rules
             return lambda value: self.rules.seconds(value, form, rules)
@@ -381,6 +404,8 @@ class _Words:
             return max(int(value), 0)
         if self.repeat_form == "#":
             value = round_half_away(value)
+        elif self.repeat_form and self.control.POINT_IN_WHOLE_NUMBERS is DecimalPoint.CUT:
+            value = float(int(value))
         elif self.repeat_form:
             raise self.control.fail("point", address=self.repeats)
         if not 0 <= value <= most:
@@ -441,7 +466,7 @@ def _with_halts(channel: WordAddressChannel, strokes: Iterator[Stroke], halts: H
         return
     waits, last = False, None
     for stroke in strokes:
-        if stroke.action not in (Action.OUTPUT, Action.SPINDLE):
+        if stroke.action not in (Action.OUTPUT, Action.SPINDLE, Action.ORIENT):
             if waits and not (stroke.action is Action.DWELL and last is Action.OUTPUT):
                 channel.halt_inside()
             on_r = halts is Halts.APPROACH and stroke.action is Action.RAPID
@@ -477,17 +502,20 @@ def _meet(channel: WordAddressChannel, overlaps: bool | None) -> None:
 
 def _work(channel: WordAddressChannel, strokes: Iterator[Stroke], data: CycleData) -> None:
     center = channel.coordinates.programmed[:]
-    direction = channel.memory.spindle_direction
+    direction = channel.memory.spindle.direction
     rules: Drilling = channel.control.drilling_rules(channel)
     for number, stroke in enumerate(strokes):
-        if number >= MAX_STROKES:
-            raise channel.control.block_limit()
+        if number % STROKES_OF_A_BLOCK == STROKES_OF_A_BLOCK - 1:
+            channel.once_more()
         if stroke.action is Action.SHIFT:
             _shift(channel, center, data, stroke.value)
         elif stroke.action is Action.DWELL:
             stand(channel, stroke.value)
         elif stroke.action is Action.SPINDLE:
-            rules.turn(channel, int(direction * stroke.value))
+            if direction or not stroke.value:
+                rules.turn(channel, int(direction * stroke.value))
+        elif stroke.action is Action.ORIENT:
+            orient_spindle(channel)
         elif stroke.action is Action.OUTPUT:
             channel.event(Auxiliary(int(stroke.value)))
         elif stroke.action is Action.HALT:

@@ -87,7 +87,9 @@ def drill_points(channel: WordAddressChannel, points: Iterable[Point]) -> None:
     c = channel.coordinates
     u, v, _ = PLANES[channel.mode["plane"]]
     drills = is_active(channel) and CycleState.of(channel).data is not None
-    for point in points:
+    for number, point in enumerate(points):
+        if number:
+            channel.once_more()
         end = c.programmed[:]
         end[c.geometry[u]], end[c.geometry[v]] = point
         channel.straight(Kind.RAPID, c.to_position(end), nan, end)

@@ -11,12 +11,14 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import LevelKind
+from polycnc.control.machine_words import refuse
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.auxiliary.interlocks import note_tool_number
 from polycnc.control.word_address.block.codes import GCode, MCode, Order
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.macro_b import macro_calls, subprograms
+from polycnc.machine.model import program_called
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.family import MacroChannel
+    from polycnc.machine.model import Machine
 
 #: The common variable that hands a T code to its program.
 TOOL_VARIABLE = 149
@@ -34,12 +37,15 @@ class CodeCall:
     """A registered code: the program that it calls, and how.
 
     Attributes:
-        program: Program number.
+        program: Program number, or the name of a program that the machine file names so.
         kind: `sub` as M98, `macro` as G65, `modal` as G66, `each` as G66.1.
+        word: What the machine is asked for in front of the call; empty for nothing, as a registered M code does not
+            go out to it.
     """
 
-    program: int
+    program: int | str
     kind: str = "macro"
+    word: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,13 +56,29 @@ class CodeCalls:
     m: Mapping[int, CodeCall] = field(default_factory=dict)
     t: CodeCall | None = None
 
+    def over(self, other: CodeCalls) -> CodeCalls:
+        """These calls laid over others."""
+        return CodeCalls({**other.g, **self.g}, {**other.m, **self.m}, self.t or other.t)
+
     def g_rows(self) -> dict[str, GCode]:
         """Rows of the registered G codes for a G table."""
         return {code: _g_row(code, call) for code, call in self.g.items()}
 
 
+def of_machine(machine: Machine) -> CodeCalls:
+    """The codes that a machine file lets call programs, as macros with the words of their block as arguments."""
+    g = machine.g_functions.items()
+    m = machine.m_functions.items()
+    return CodeCalls(
+        {code: CodeCall(program_called(each.calls), word=code) for code, each in g if each.calls},
+        {code: CodeCall(program_called(each.calls), word=f"M{code}") for code, each in m if each.calls},
+    )
+
+
 def _g_row(code: str, call: CodeCall) -> GCode:
     def act(channel: MacroChannel, words: Words) -> None:
+        channel.off_path = True
+        refuse(channel, code, calls=True)
         macro_calls.refuse_g_behind(words, code)
         repeats = words.integer("L") if "L" in words else 1
         program = channel.control.find_program(channel, call.program)
@@ -81,7 +103,7 @@ def _g_row(code: str, call: CodeCall) -> GCode:
 
 def _calls(builder: Builder) -> CodeCalls:
     control: Any = builder.control
-    calls: CodeCalls = control.code_calls(builder.channel)
+    calls: CodeCalls = control.called_codes(builder.channel)
     return calls
 
 
@@ -96,12 +118,20 @@ def m_row(builder: Builder, number: int) -> MCode | None:
     if call is None or call.kind != "sub":
         return None
 
-    def act(channel: MacroChannel, _words: Words) -> None:
+    def act(channel: MacroChannel, words: Words) -> None:
+        subprograms.note_call(channel, words, f"M{number}")
         program = channel.control.find_program(channel, call.program)
         subprograms.enter_subprogram(channel, program, 1, None, kind=LevelKind.M_SUBPROGRAM)
         macro_calls.note_level(channel)
 
     return MCode(number, after=True, handler=act, silent=True)
+
+
+def registered_row(builder: Builder, number: int) -> MCode | None:
+    """The row of a registered M code where it calls nothing: whoever registers a code gives it a meaning."""
+    control: Any = builder.control
+    registered: CodeCalls = control.code_calls(builder.channel)
+    return MCode(number, open=True) if number in registered.m and number not in control.m_codes else None
 
 
 def plan_m_macro(builder: Builder, plan: Plan) -> Step | None:
@@ -116,6 +146,9 @@ def plan_m_macro(builder: Builder, plan: Plan) -> Step | None:
 
     def act(channel: MacroChannel, values: list[float]) -> None:
         words = Words(plan, values)
+        channel.off_path = True
+        if call.word:
+            refuse(channel, call.word, calls=True)
         macro_calls.refuse_g_behind(words, first)
         if "T" in words:
             note_tool_number(channel)
@@ -133,7 +166,7 @@ def plan_tool_or_call(builder: Builder) -> Step | None:
     return None if calls_by_tool(builder) else functions.plan_tool(builder)
 
 
-def plan_tool_call(builder: Builder, _plan: Plan) -> Step | None:
+def plan_tool_call(builder: Builder, plan: Plan) -> Step | None:
     """The call of the program registered for T."""
     if not builder.has("T") or not calls_by_tool(builder):
         return None
@@ -142,6 +175,7 @@ def plan_tool_call(builder: Builder, _plan: Plan) -> Step | None:
 
     def act(channel: MacroChannel, values: list[float]) -> None:
         assert call is not None
+        subprograms.note_call(channel, Words(plan, values), "T")
         channel.memory.write(TOOL_VARIABLE, values[slot])
         program = channel.control.find_program(channel, call.program)
         subprograms.enter_subprogram(channel, program, 1, None, kind=LevelKind.T_SUBPROGRAM)

@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.stack import LevelKind
 from polycnc.control.word_address.auxiliary import overrides
+from polycnc.control.word_address.block import whole_numbers
 from polycnc.control.word_address.block.numbers import NumberRules
 from polycnc.control.word_address.control import WordAddressControl
-from polycnc.control.word_address.macro_b import code_calls, interruption, macro_calls
+from polycnc.control.word_address.macro_b import code_calls, interruption, macro_calls, single_block
 from polycnc.control.word_address.macro_b.variables import locals_of
-from polycnc.control.word_address.transformations.normal_line import NormalLineParameters
-from polycnc.language.word_address.executable import SkippedBlock
 from polycnc.messages import AlarmError
 from polycnc.program import ProgramFileError
 from polycnc.toolpath.modes import FeedMode
@@ -20,15 +19,14 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
-    from polycnc.channel.stack import Level
-    from polycnc.channel.steps import Step as ProgramStep
-    from polycnc.control.word_address.block.codes import GCode, MCode
+    from polycnc.control.word_address.block.codes import ContextStep, GCode, Handler, MRow
     from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.single_block import Halts
+    from polycnc.control.word_address.family import MacroChannel
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
+    from polycnc.control.word_address.parameters import MacroAxisParameters, MacroParameters
     from polycnc.geometry.arcs import Point
-    from polycnc.language.word_address import WordAddressProgram
     from polycnc.program import Program
-    from polycnc.toolpath import Context
 
 _MACRO_KINDS = (
     LevelKind.MACRO,
@@ -37,8 +35,6 @@ _MACRO_KINDS = (
     LevelKind.M_MACRO,
     LevelKind.EVERY_BLOCK,
 )
-#: Levels of macros, of subprograms, and together (FANUC macro B reference §5.1).
-MACRO_LEVELS, SUBPROGRAM_LEVELS, LEVELS = 5, 10, 15
 #: Letters of 1022: the basic axes X, Y, Z; their parallels count four more.
 _BASIC_ROLES = {"X": 1, "Y": 2, "Z": 3}
 
@@ -49,24 +45,37 @@ class CustomMacroControl(WordAddressControl):
     Attributes:
         FURTHER_REFERENCES: Reference points that G30 may name.
         EXTENDED_WORK_SYSTEMS: How many G54.1 P systems there are.
-        REFERENCE_PARAMETERS: Parameter that holds each reference point.
-        ARC_TOLERANCE_PARAMETER: Parameter with the allowed difference of radii, and its delivered value (mm).
-        NORMAL_LINE_PARAMETERS: Parameters of G41.1 and G42.1.
+        CALL_LEVELS: Levels of macros, of subprograms, and together (FANUC macro B reference §5.1).
+        PLANE_HELD_BY_ROTATION: Another plane within a rotation is refused where it is chosen.
     """
 
+    m_rows: ClassVar[tuple[MRow, ...]] = (code_calls.m_row, code_calls.registered_row)
+    halts_behind: ClassVar[tuple[Halts, ...]] = single_block.HALTS
+    context_steps: ClassVar[tuple[ContextStep, ...]] = (overrides.overridden,)
+    acts: ClassVar[Mapping[str, Handler]] = {
+        **WordAddressControl.acts,
+        "feed_override_off": overrides.cancel_feed_override,
+        "feed_override_on": overrides.allow_feed_override,
+        "spindle_override_off": overrides.cancel_spindle_override,
+        "spindle_override_on": overrides.allow_spindle_override,
+    }
     FURTHER_REFERENCES: ClassVar[tuple[int, ...]] = (2, 3, 4)
     EXTENDED_WORK_SYSTEMS: ClassVar[int] = 300
-    REFERENCE_PARAMETERS: ClassVar[dict[int, int]] = {1: 1240, 2: 1241, 3: 1242, 4: 1243}
-    ARC_TOLERANCE_PARAMETER: ClassVar[tuple[int, float]] = (3410, 0.03)
-    NORMAL_LINE_PARAMETERS: ClassVar[NormalLineParameters] = NormalLineParameters(5480, 5481, 5482, 5483)
+    CALL_LEVELS: ClassVar[tuple[int, int, int]] = (5, 10, 15)
+    PLANE_HELD_BY_ROTATION: ClassVar[bool] = False
+    parameter_class: ClassVar[type[MacroParameters[MacroAxisParameters]]]
 
     # ---- numbers -------------------------------------------------------------------------------------
 
-    def number_rules(self, channel: Channel) -> NumberRules:
-        """IS-B, or IS-A and IS-C by 1013#0 and #1; calculator input by 3401#0."""
-        bit = channel.setup.parameters.bit
-        decimals = 2 if bit(1013, 0) else 4 if bit(1013, 1) else 3
-        return NumberRules(decimals, decimals + 1, calculator=bool(bit(3401, 0)))
+    def number_rules(self, channel: MacroChannel) -> NumberRules:
+        """IS-B, or IS-A and IS-C by 1013#0 and #1; calculator input by 3401#0 DPI."""
+        parameters = channel.memory.parameters
+        decimals = 2 if parameters.ISA else 4 if parameters.ISC else 3
+        return NumberRules(decimals, decimals + 1, calculator=parameters.DPI)
+
+    def whole_numbers(self, _channel: Channel) -> frozenset[str]:
+        """Addresses that take neither point nor sign (Hartford manual 2.4.1)."""
+        return whole_numbers.ADDRESSES
 
     def feed_factor(self, _builder: Builder, form: str, mode: FeedMode) -> float:
         """F per minute counts whole units; per revolution, without a point, 0.01 mm or 0.0001 inch."""
@@ -78,68 +87,88 @@ class CustomMacroControl(WordAddressControl):
             return 0.0001 if _builder.inch else 0.01
         return 1.0
 
-    def axis_role(self, channel: Channel, axis: int) -> int:
+    def axis_role(self, channel: MacroChannel, axis: int) -> int:
         """1, 2, 3 for the basic axes, 5, 6, 7 for their parallels, 0 for others (1022)."""
         name = channel.axes[axis]
+        given = channel.memory.parameters.of(name).basic_axis
         parallel = _BASIC_ROLES.get(channel.axis_data[axis].parallel_to, -4) + 4
-        delivered = _BASIC_ROLES.get(name, parallel)
-        return int(channel.setup.parameters.number(1022, name, delivered))
+        return _BASIC_ROLES.get(name, parallel) if given is None else given
 
     def forbidden_zone(self, axis: str, direction: int, number: int = 2) -> AlarmError:
         """The alarm for a way into the zone of G22 (stored stroke check 2), of check 3, or into a barrier."""
         zone = "zone" if number == 2 else f"zone_{number}"
         return self.fail(f"{zone}_plus" if direction > 0 else f"{zone}_minus", address=axis, axis=axis)
 
-    def macro_alarm(self, channel: Channel, number: int, told: str) -> AlarmError:
-        """The alarm of #3000 = n (TEXT): 3000 + n, or n itself by 6008#6."""
-        if not channel.setup.parameters.bit(6008, 6):
-            if not 0 <= number <= 200:
-                return self.fail("variable_number")
-            number += 3000
+    def macro_alarm(self, channel: MacroChannel, number: int, told: str) -> AlarmError:
+        """The alarm of #3000 = n (TEXT): 3000 + n up to 200, or n itself up to 4095 by 6008#1 MCA."""
+        first, highest = (0, 4095) if channel.memory.parameters.MCA else (3000, 200)
+        if not 0 <= number <= highest:
+            return self.fail("variable_number")
+        number += first
         return AlarmError(f"MC{number:04d}", detail=told or f"MC{number:04d}")
 
     # ---- motion --------------------------------------------------------------------------------------
 
-    def arc_tolerance(self, channel: Channel) -> float:
+    def arc_tolerance(self, channel: MacroChannel) -> float:
         """Allowed difference between the radii at start and end, mm."""
-        number, delivered = self.ARC_TOLERANCE_PARAMETER
-        return channel.setup.parameters.number(number, default=delivered)
+        return channel.memory.parameters.arc_tolerance
 
     def check_arc(self, channel: Channel, start: Point, end: Point, center: Point) -> None:
         """Alarm for an end point off the circle; none where the limit is 0."""
         if self.arc_tolerance(channel) > 0.0:
             super().check_arc(channel, start, end, center)
 
-    def reference_point(self, channel: Channel, axis: int, number: int) -> float:
-        """Machine position of a reference point of an axis."""
-        name = channel.axes[axis]
-        delivered = channel.axis_data[axis].reference_points[number - 1]
-        return channel.setup.parameters.number(self.REFERENCE_PARAMETERS[number], name, delivered)
+    def reference_point(self, channel: MacroChannel, axis: int, number: int) -> float:
+        """Machine position of a reference point of an axis; its parameter is as the displays show it."""
+        shown = channel.memory.parameters.of(channel.axes[axis]).reference_points[number - 1]
+        if shown is None:
+            return super().reference_point(channel, axis, number)
+        return self.from_display(channel, axis, shown)
 
     # ---- programs ------------------------------------------------------------------------------------
 
-    def find_program(self, channel: Channel, number: int) -> Program:
-        """A program by its number; the alarm where it is missing or cannot be read."""
+    def find_program(self, channel: Channel, number: int | str) -> Program:
+        """A program by its number, or by a name; the alarm where it is missing or cannot be read."""
+        store = channel.store
         try:
-            program = channel.store.find_number(number)
+            program = store.find_name(number) if isinstance(number, str) else store.find_number(number)
         except ProgramFileError as error:
             raise self.fail("no_program", address="P", number=number, detail=str(error)) from error
         if program is None:
             raise self.fail("no_program", address="P", number=number)
         return program
 
-    def long_program_numbers(self, channel: Channel) -> bool:
-        """Eight-digit program numbers (11304#3)."""
-        return bool(channel.setup.parameters.bit(11304, 3))
+    def long_program_numbers(self, channel: MacroChannel) -> bool:
+        """Eight-digit program numbers (11304#3 ON8)."""
+        return channel.memory.parameters.ON8
 
     def check_nesting(self, channel: Channel, kind: LevelKind) -> None:
         """Alarm for one level of calls too many."""
         macros = sum(1 for level in channel.stack if level.kind in _MACRO_KINDS)
         others = len(channel.stack) - 1 - macros
-        if kind in _MACRO_KINDS and macros >= MACRO_LEVELS:
+        most_macros, most_others, most = self.CALL_LEVELS
+        if kind in _MACRO_KINDS and macros >= most_macros:
             raise self.fail("nesting_macro")
-        if (kind not in _MACRO_KINDS and others >= SUBPROGRAM_LEVELS) or macros + others >= LEVELS:
+        if (kind not in _MACRO_KINDS and others >= most_others) or macros + others >= most:
             raise self.fail("nesting_sub")
+
+    def end_of_program(self, channel: Channel) -> None:
+        """The text ends without M02, M30 or M99: an alarm, or a reset by 3404#6 EOR.
+
+        What is typed in needs no end, nor does a text in which nothing stands.
+        """
+        level = channel.level
+        is_typed_in = channel.setup.switches.mode == "mdi" and len(channel.stack) == 1
+        if (
+            level.kind is LevelKind.TYPED_IN
+            or is_typed_in
+            or not any(line.strip(" %") for line in level.code.lines)
+        ):
+            channel.pop()
+        elif channel.memory.parameters.EOR:
+            channel.end()
+        else:
+            raise self.fail("end_of_record")
 
     def leave(self, channel: Channel, *, jumps: bool = False) -> None:
         """End of a subprogram or macro: the caller's local variables return; `jumps` for M99 P."""
@@ -158,31 +187,15 @@ class CustomMacroControl(WordAddressControl):
         """A main program begins: it has the local variables."""
         channel.level.locals = channel.memory.locals
 
-    def halts(self, channel: Channel, level: Level[WordAddressProgram], step: ProgramStep) -> bool:
-        """Single block halts behind blocks of words, and with 6000#5 behind macro statements; never under #3003 bit 0.
-
-        Calls and returns do not count, and no block that block skip leaves out; the program end does.
-        """
-        if isinstance(step, SkippedBlock) and step.is_left_out(channel):
-            return False
-        memory = channel.memory
-        if memory.control_switches.get("cntl1", 0) & 1 and not memory.parameters.bit(6000, 7):
-            return False
-        if channel.level is not level:
-            return False
-        if not level.counts(level.current):
-            return bool(memory.parameters.bit(6000, 5) or memory.parameters.bit(6000, 7))
-        return level.code.has_words(level.current)
-
-    def context(self, channel: Channel) -> Context:
-        """The context that holds now, with what the operator's switches may do."""
-        return overrides.overridden(channel, super().context(channel))
-
     # ---- calls ---------------------------------------------------------------------------------------
 
     def code_calls(self, _channel: Channel) -> CodeCalls:
-        """The G, M and T codes that call programs."""
+        """The G, M and T codes that parameters let call programs."""
         return code_calls.CodeCalls()
+
+    def called_codes(self, channel: Channel) -> CodeCalls:
+        """The codes that call programs: by parameters, and under them by the machine file."""
+        return self.code_calls(channel).over(code_calls.of_machine(channel.machine))
 
     def g_table(self, channel: Channel) -> Mapping[str, GCode]:
         """The G table with the codes that call programs here."""
@@ -190,11 +203,7 @@ class CustomMacroControl(WordAddressControl):
 
     def with_calls(self, channel: Channel, table: Mapping[str, GCode]) -> Mapping[str, GCode]:
         """A G table with the codes that call programs here."""
-        calls = self.code_calls(channel)
+        calls = self.called_codes(channel)
         if not calls.g or "G" not in channel.mode.codes.get("calls", ""):
             return table
         return {**table, **calls.g_rows()}
-
-    def m_row(self, builder: Builder, number: int) -> MCode:
-        """The row of an M code, or of the subprogram that it calls."""
-        return code_calls.m_row(builder, number) or super().m_row(builder, number)

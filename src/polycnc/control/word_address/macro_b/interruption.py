@@ -27,10 +27,6 @@ if TYPE_CHECKING:
     from polycnc.machine.setup.values import Interrupt
     from polycnc.program import Program
 
-#: Kind of an interruption program's level.
-#: 6003: types of the interruption.
-OWN_LOCALS_BIT, BLOCK_FIRST_BIT, ENABLED_BIT = 5, 2, 7
-
 
 @dataclass(frozen=True, slots=True)
 class Interrupted:
@@ -81,10 +77,12 @@ M_CODES = {
 }
 
 
-def m_code(channel: MacroChannel, number: int) -> MCode | None:
+def m_row(builder: Builder, number: int) -> MCode | None:
     """M96 or M97 where 6003#7 MUS enables the interruption macro; a setup that names interrupt inputs means it."""
-    setup = channel.setup
-    enabled = setup.parameters.bit(6003, ENABLED_BIT, default=int(bool(setup.switches.interrupts)))
+    channel: MacroChannel = builder.channel
+    enabled = channel.memory.parameters.MUS
+    if enabled is None:
+        enabled = bool(channel.setup.switches.interrupts)
     return M_CODES.get(number) if enabled else None
 
 
@@ -118,7 +116,7 @@ def _interrupt(channel: MacroChannel, start: list[float], mark: int) -> None:
             raise AlarmError("PC0001", hint="hint.not-supported", code="M96")
         state.came.add(number)
         kind, feed = Kind(chunk.kind[-1]), chunk.feed[-1]
-        if not channel.memory.parameters.bit(6003, BLOCK_FIRST_BIT):
+        if not channel.memory.parameters.MIN:
             channel.toolpath.truncate(mark)
             channel.coordinates.arrive(start)
             channel.straight(kind, stop, feed)
@@ -136,9 +134,9 @@ def _runs(channel: MacroChannel, interrupt: Interrupt) -> bool:
 
 
 def _call(channel: MacroChannel, program: Program) -> None:
-    """6003#5 = 0: with local variables of its own, as a macro; = 1 with those of the interrupted program."""
+    """6003#5 MSB = 0: with local variables of its own, as a macro; = 1 with those of the interrupted program."""
     memory = channel.memory
-    if not memory.parameters.bit(6003, OWN_LOCALS_BIT):
+    if not memory.parameters.MSB:
         memory.locals = [None] * LOCALS
     channel.push(program, kind=LevelKind.INTERRUPT, local=memory.locals)
 

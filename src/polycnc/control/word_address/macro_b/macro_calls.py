@@ -80,14 +80,15 @@ def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) 
             if form == "" and convert is not None:
                 value = convert(value) / (INCH_MM if words.plan.inch else 1.0)
         local[variable] = value
-    for code in words.plan.m_codes:
+    for code, word in zip(words.plan.m_codes, words.plan.m_words, strict=True):
         if code != without_m:
-            local[ARGUMENTS["M"]] = float(code)
+            local[ARGUMENTS["M"]] = word
     return local
 
 
 def call_macro(channel: MacroChannel, words: Words) -> None:
     """G65 P L arguments."""
+    channel.off_path = True
     refuse_g_behind(words, "G65")
     program, repeats = _macro(channel, words)
     enter_macro(channel, program, arguments_of(words, "PLG"), repeats)
@@ -95,6 +96,7 @@ def call_macro(channel: MacroChannel, words: Words) -> None:
 
 def start_modal_call(channel: MacroChannel, words: Words) -> None:
     """G66 P L arguments: the macro follows every block that moves; G66.1: every block."""
+    channel.off_path = True
     code = channel.mode["macro"]
     refuse_g_behind(words, code)
     program, repeats = _macro(channel, words)
@@ -118,12 +120,13 @@ def refuse_g_behind(words: Words, call: str) -> None:
 
 def end_modal_call(channel: MacroChannel, words: Words) -> None:
     """G67: the last modal call ends."""
+    subprograms.note_call(channel, words, "G67")
     calls = ModalCallState.of(channel).calls
     if calls:
         calls.pop()
         if calls:
             channel.mode = channel.mode.with_code("macro", "G66.1" if calls[-1].each_block else "G66")
-    elif not channel.memory.parameters.bit(6000, 0, default=True):
+    elif not channel.memory.parameters.G67:
         raise words.fail("no_modal_call", "G67")
 
 
@@ -178,6 +181,7 @@ def plan_argument_block(builder: Builder, plan: Plan) -> Step | None:
         return None
 
     def call(channel: MacroChannel, values: list[float]) -> None:
+        channel.off_path = True
         modal = ModalCallState.of(channel).calls[-1]
         arguments = _block_arguments(Words(plan, values), builder)
         enter_macro(channel, modal.program, arguments, modal.repeats, kind=LevelKind.EVERY_BLOCK)
@@ -199,7 +203,7 @@ def _block_arguments(words: Words, builder: Builder) -> list[float | None]:
 def note_level(channel: MacroChannel) -> None:
     """Set the letters that may call on the level that runs now.
 
-    Inside a program that a code called, codes call nothing; with 6008#6 those of the other kind do. Inside the
+    Inside a program that a code called, codes call nothing; with 6008#6 GMP those of the other kind do. Inside the
     macro of G66.1, blocks call nothing.
     """
     if "calls" not in channel.mode.codes:
@@ -208,7 +212,7 @@ def note_level(channel: MacroChannel) -> None:
     by_code = callers - {"B"}
     if not by_code:
         letters = "GMT"
-    elif not channel.memory.parameters.bit(6008, 6):
+    elif not channel.memory.parameters.GMP:
         letters = ""
     else:
         letters = "".join(kind for kind in ("G", "MT") if not by_code & set(kind))

@@ -8,17 +8,28 @@ from polycnc.channel.stack import LevelKind
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
-    from polycnc.control.word_address.family import MacroChannel
+    from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
     from polycnc.program import Program
 
 #: Five and more digits of P hold the number of repeats in front of a four-digit program number.
 PROGRAM_NUMBERS = 10_000
+#: What a block that calls or returns may hold beside its code, and still be nothing else.
+_OF_CALLS = frozenset("NPLQH")
 
 
-def call_subprogram(channel: MacroChannel, words: Words) -> None:
-    """M98 P L Q: program P, L times, from sequence number Q; without P within the same program."""
+def note_call(channel: WordAddressChannel, words: Words, code: str) -> None:
+    """Tell stages that look ahead whether a block is a call or a return and nothing else.
+
+    Such a block is prepared like a macro statement: it is none of the path (FANUC macro B reference 7).
+    """
+    channel.off_path = all(key == code or key in _OF_CALLS for key in words.plan.order)
+
+
+def call_subprogram(channel: MacroChannel, words: Words, *, begins_at: str = "Q") -> None:
+    """M98 P L Q: program P, L times, from sequence number Q (`begins_at`); without P within the same program."""
+    note_call(channel, words, "M98")
     number, repeats = _program_and_repeats(channel, words)
-    sequence = words.integer("Q") if "Q" in words else None
+    sequence = words.integer(begins_at) if begins_at in words else None
     if number is None and not words.plan.program_name and sequence is not None:
         program = channel.level.code.program
     else:
@@ -48,6 +59,7 @@ def _by_name(channel: MacroChannel, words: Words) -> Program:
 
 def call_external_subprogram(channel: MacroChannel, words: Words) -> None:
     """M198 P L: a program on the external device; not from one that was called so itself."""
+    note_call(channel, words, "M198")
     number, repeats = _program_and_repeats(channel, words)
     if number is None:
         raise words.fail("no_program", "M198")
@@ -91,6 +103,7 @@ def return_from_subprogram(channel: MacroChannel, words: Words) -> None:
 
     In the main program M99 goes to the top, M99 P to a sequence number.
     """
+    note_call(channel, words, "M99")
     level = channel.level
     sequence = words.integer("P") if "P" in words else None
     if len(channel.stack) == 1:

@@ -22,8 +22,10 @@ from polycnc.toolpath.events import Print
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from polycnc.channel.channel import Channel
     from polycnc.channel.stack import Level
     from polycnc.control.word_address.family import MacroChannel
+    from polycnc.control.word_address.parameters import MacroAxisParameters, MacroParameters
     from polycnc.messages import AlarmError
 
 #: What reads and what writes a variable: they get the memory of their family.
@@ -84,6 +86,32 @@ class LocalState(State, lifetime=Lifetime.RESET):
     main: list[float | None] = field(default_factory=lambda: [None] * LOCALS)
 
 
+@dataclass(slots=True)
+class CommonVariables(State, lifetime=Lifetime.POWER):
+    """#100 to #199, by number."""
+
+    values: list[float | None] = field(default_factory=lambda: [None] * COMMONS)
+
+
+@dataclass(slots=True)
+class MacroSignals(State, lifetime=Lifetime.POWER):
+    """Interface signals between macro and machine by name (UI000 …, UO000 …)."""
+
+    values: dict[str, int] = field(default_factory=dict)
+
+    @classmethod
+    def first(cls, channel: Channel) -> MacroSignals:
+        """What the setup says."""
+        return cls({name: int(bool(value)) for name, value in channel.setup.switches.signals.items()})
+
+
+@dataclass(slots=True)
+class ControlSwitches(State, lifetime=Lifetime.POWER):
+    """Settings by #3003 to #3005, #3901, #3902, by their names."""
+
+    values: dict[str, int] = field(default_factory=dict)
+
+
 def locals_of(level: Level) -> list[float | None]:
     """#1 to #33 of a level; vacant ones where it has none."""
     return level.locals if isinstance(level.locals, list) else [None] * LOCALS
@@ -110,37 +138,38 @@ class MacroMemory(Memory):
         common: #100 to #199, by number.
         kept: #500 to #999, all of them, and of #98000 to #98499 those that were written.
         names: Names given by SETVN.
-        signals: Interface signals between macro and machine by name (UI000 …, UO000 …).
-        control_switches: Settings by #3003 to #3005, #3901, #3902.
-        clock_is_read: Whether a program has looked at a clock.
-        clock_zero: Simulated second at which each clock (#3001, #3002) read zero.
-        date: Date of the simulated clock, YYYYMMDD; `time` HHMMSS. The clock does not depend on the host's, so that
-            the same input gives the same output.
     """
+
+    parameters: MacroParameters[MacroAxisParameters]
 
     def __init__(self, channel: MacroChannel, registry: Registry) -> None:
         super().__init__(channel)
         self.channel: MacroChannel = channel
         self.registry = registry
         self.locals = LocalState.of(channel).main
-        self.common: list[float | None] = [None] * COMMONS
+        self.common = CommonVariables.of(channel).values
         tables = VariableTables.of(channel)
         self.kept, self.names = tables.values, tables.names
         self._was_kept = bool(self.kept)
         if not self.kept:
             self.kept.update(dict.fromkeys(KEPT))
-        self.signals: dict[str, int] = {
-            name: int(bool(value)) for name, value in channel.setup.switches.signals.items()
-        }
-        self.control_switches: dict[str, int] = {}
-        self.clock_is_read = False
-        self.clock_zero: dict[str, float] = {}
-        self.date = 20000101
-        self.time = 0
-        self.angle_range_signed = self.parameters.bit(6004, 0)
-        self.joined_conditions = self.parameters.bit(6006, 0)
+
+    @property
+    def signals(self) -> dict[str, int]:
+        """Interface signals between macro and machine."""
+        return MacroSignals.of(self.channel).values
 
     # ---- what generated expressions call ------------------------------------------------------------------------
+
+    @property
+    def angle_range_signed(self) -> bool:
+        """Angles of ATAN are -180 to 180 degrees, else 0 to 360."""
+        return self.parameters.NAT
+
+    @property
+    def joined_conditions(self) -> bool:
+        """AND, OR and XOR may join conditions."""
+        return self.parameters.MLG
 
     def fail(self, mistake: str, hint: str = "") -> AlarmError:
         """The control's alarm for a mistake in an expression."""
@@ -207,14 +236,12 @@ class MacroMemory(Memory):
         return index
 
     def parameter(self, number: float, bit: float | None, axis: float | None) -> float:
-        """`PRM[…]`: a machine parameter, 0 where the setup does not name it."""
+        """`PRM[…]`: a machine parameter; 0 for one that polycnc does not have."""
         names = self.channel.axes
         if axis is not None and not 1 <= axis <= len(names):
             raise self.fail("argument_range")
         name = names[int(axis) - 1] if axis is not None else None
-        if bit is None:
-            return self.parameters.number(int(number), name)
-        return float(self.parameters.bit(int(number), int(bit), name))
+        return self.parameters.at(int(number), None if bit is None else int(bit), name) or 0.0
 
     def read_named(self, name: str, index: float | None) -> float | None:
         """`[#NAME]`, `[#_ABSIO[n]]`: names of SETVN, then system names."""
@@ -236,8 +263,8 @@ class MacroMemory(Memory):
     # ---- printing -----------------------------------------------------------------------------------------------
 
     def print_line(self, parts: list[str | tuple[float | None, int, int]]) -> None:
-        """DPRNT: one line of text; vacant variables print nothing (6001#1: without leading blanks)."""
-        pads = not self.parameters.bit(6001, 1)
+        """DPRNT: one line of text; vacant variables print nothing (6001#1 PRT: without leading blanks)."""
+        pads = not self.parameters.PRT
         text = "".join(part if isinstance(part, str) else format_number(*part, pads=pads) for part in parts)
         self.channel.event(Print(text))
 

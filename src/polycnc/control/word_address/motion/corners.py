@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.compensation import Plane
-from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
+from polycnc.compensation.corner import CornerStage, CornerViolation, Shape
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.geometry.planes import PLANES
 
@@ -54,13 +54,20 @@ def corner_stage(channel: WordAddressChannel) -> CornerStage:
     alarms = channel.control.alarms
     codes = {violation: alarms[mistake] for violation, mistake in MISTAKES.items()}
     plane = Plane(u, v, w, channel.coordinates.geometry)
-    return channel.path.put(CornerStage(plane, CornerPolicy(), codes))
+    return channel.path.put(CornerStage(plane, channel.control.CORNER_POLICY, codes))
 
 
 def refuse_start_up(channel: WordAddressChannel) -> None:
     """Compensation may not start up between the two moves of a corner, but where the control's corners let it."""
     corners = channel.path.find(CornerStage)
     if corners is not None and corners.active and not corners.policy.start_up_between:
+        raise channel.control.fail("corner_no_move")
+
+
+def refuse_change(channel: WordAddressChannel) -> None:
+    """Compensation may not end or change between the two moves of a corner: the first one is of the contour."""
+    stage = channel.path.find(CornerStage)
+    if stage is not None and not stage.settle():
         raise channel.control.fail("corner_no_move")
 
 

@@ -198,6 +198,8 @@ def _center(
     control = channel.control
     if isinstance(told_by, float):
         return center_by_radius(channel, begin, end, told_by, ccw), False
+    if told_by == (0.0, 0.0) and not control.center_may_be_start(channel):
+        raise control.fail("radius_zero")
     center = (begin[0] + told_by[0], begin[1] + told_by[1])
     control.check_arc(channel, begin, end, center)
     return center, abs(arcs.radius_mismatch(begin, end, center)) > control.spiral_tolerance(channel)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation import CutterCompensation
+from polycnc.control.word_address.coordinates.frames import turns_plane
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations import cylinder
 from polycnc.geometry.planes import PLANES
@@ -16,14 +18,21 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
 
 
+@dataclass(slots=True)
+class PlaneAxes(State, lifetime=Lifetime.POWER):
+    """The parallel axes that a plane has chosen; None where its axes are X, Y and Z."""
+
+    parallel: ParallelAxes | None = None
+
+
 def choose_axes(channel: WordAddressChannel, geometry: tuple[int, int, int]) -> None:
     """Let these axes be X, Y and Z of the plane."""
-    memory = channel.memory
+    state = PlaneAxes.of(channel)
     channel.coordinates.geometry = geometry
-    if geometry == memory.basic_geometry:
-        memory.parallel = None
-    elif memory.parallel is None or memory.parallel.geometry != geometry:
-        memory.parallel = ParallelAxes(geometry)
+    if geometry == channel.memory.basic_geometry:
+        state.parallel = None
+    elif state.parallel is None or state.parallel.geometry != geometry:
+        state.parallel = ParallelAxes(geometry)
     channel.context_changed()
 
 
@@ -37,6 +46,8 @@ def select_plane(channel: MacroChannel, words: Words) -> None:
         and (stage.plane.u, stage.plane.v) != PLANES[code][:2]
     ):
         raise words.fail("comp_plane", code)
+    if channel.control.PLANE_HELD_BY_ROTATION and not turns_plane(channel):
+        raise words.fail("rotation_plane", code)
     lay_axes(channel, words)
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import dist
 from typing import TYPE_CHECKING
 
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.motion.path import reach
 from polycnc.geometry.surfaces import first_touch
 from polycnc.machine.setup.values import SkipInput
@@ -12,12 +14,25 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
 
 #: P of G31: which skip input ends the move. All inputs come at the same place here.
 SKIP_INPUTS = range(1, 9)
 TORQUE_LIMIT_SKIP = (98, 99)
+
+
+@dataclass(slots=True)
+class LastSkip(State, lifetime=Lifetime.POWER):
+    """Where the last skip move has ended (absolute display); None where there was none."""
+
+    position: list[float] | None = None
+
+    @classmethod
+    def here(cls, channel: Channel) -> list[float]:
+        """That position, else where the channel is."""
+        return cls.of(channel).position or channel.coordinates.position
 
 
 def skip_move(channel: WordAddressChannel, words: Words) -> None:
@@ -36,7 +51,7 @@ def skip_move(channel: WordAddressChannel, words: Words) -> None:
     end = c.to_position(programmed)
     stopped = signal_position(channel, c.position, end, channel.setup.switches.skip_input)
     move_to_signal(channel, end, stopped)
-    channel.memory.note_skip(list(channel.coordinates.position))
+    LastSkip.of(channel).position = list(channel.coordinates.position)
 
 
 def move_to_signal(channel: WordAddressChannel, end: list[float], stopped: list[float] | None) -> None:

@@ -1,1 +1,5 @@
-"""Tools: `length` (G43), `radius` (G40 to G42), `corner_vectors` (G38, G39), `measuring` (G37), `data_input` (G10)."""
+"""Tools: length, radius and what is told of them.
+
+`length` (G43), `radius` (G40 to G42), `corner_vectors` (G38, G39), `look_ahead` (what stops reading), `measuring`
+(G37), `data_input` (G10).
+"""

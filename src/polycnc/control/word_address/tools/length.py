@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import nan
+from dataclasses import dataclass, field
+from math import isclose, nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -23,24 +23,89 @@ _SIGN = {"G43": 1.0, "G44": -1.0}
 
 @dataclass(slots=True)
 class LengthState(State, lifetime=Lifetime.RESET):
-    """Number of the active length offset (H), and the direction in which it counts where that is not Z."""
+    """The active length offset.
+
+    Attributes:
+        number: Its number (H).
+        direction: The direction in which it counts where that is not Z.
+        lost: Axes in which it does not count until the next G43, G44 or H.
+        left_at: Machine positions to which axes were sent without regard to it.
+    """
 
     number: int = 0
     direction: Vector | None = None
+    lost: tuple[int, ...] = ()
+    left_at: dict[int, float] = field(default_factory=dict)
 
 
 def compensate_length(channel: WordAddressChannel, words: Words) -> None:
     """G43 / G44 H: shifts Z by the offset value, or against it; a new H replaces the old one."""
+    state = LengthState.of(channel)
     number = words.integer("H")
     if number is not None:
-        LengthState.of(channel).number = number
+        state.number = number
+    _begin_anew(channel)
     _apply(channel, words)
 
 
 def cancel_length(channel: WordAddressChannel, words: Words) -> None:
     """G49: the shift ends; Z travels it back with its next move."""
     LengthState.of(channel).number = 0
+    _begin_anew(channel)
     _apply(channel, words)
+
+
+def leave_length(channel: WordAddressChannel, axes: list[int], *, returns: bool) -> None:
+    """Axes were sent to machine positions without regard to the tool: the way of its length is not travelled in them.
+
+    Args:
+        channel: The channel; its modal code stays.
+        axes: The axes that were sent.
+        returns: The next absolute word counts the length again; else the next G43, G44 or H does.
+    """
+    state, lengths = LengthState.of(channel), ZeroState.of(channel).length
+    left = [axis for axis in axes if lengths[axis]]
+    if not left or channel.mode["length"] not in _SIGN:
+        return
+    if returns:
+        machine = channel.coordinates.machine
+        state.left_at.update({axis: machine[axis] for axis in left})
+    else:
+        state.lost = (*state.lost, *left)
+        _forget(channel, left)
+
+
+def _begin_anew(channel: WordAddressChannel) -> None:
+    """A length code behind G28, G30 or G53: where an axis still stands there, the whole length lies ahead of it."""
+    state, c, lengths = LengthState.of(channel), channel.coordinates, ZeroState.of(channel).length
+    state.lost = ()
+    if state.left_at:
+        machine = c.machine
+        for axis, place in state.left_at.items():
+            if isclose(machine[axis], place, abs_tol=1e-9):
+                c.pending[axis] = lengths[axis]
+        c.owes = any(c.pending)
+        state.left_at.clear()
+
+
+def end_length(channel: WordAddressChannel, axes: list[int]) -> None:
+    """G49 without motion, where one of the axes has a length."""
+    lengths = ZeroState.of(channel).length
+    ended = [axis for axis in channel.coordinates.geometry if axis >= 0 and lengths[axis]]
+    if channel.mode["length"] in _SIGN and any(axis in axes for axis in ended):
+        LengthState.of(channel).number = 0
+        channel.mode = channel.mode.with_code("length", "G49")
+        _forget(channel, ended)
+
+
+def _forget(channel: WordAddressChannel, axes: list[int]) -> None:
+    """The axes stay where they are; nothing is owed to an incremental word."""
+    zero, c = ZeroState.of(channel), channel.coordinates
+    for axis in axes:
+        zero.length[axis] = 0.0
+        c.pending[axis] = 0.0
+    c.owes = any(c.pending)
+    refresh_zero(channel)
 
 
 def plan_length_number(builder: Builder) -> Step | None:
@@ -51,6 +116,7 @@ def plan_length_number(builder: Builder) -> Step | None:
 
     def change(channel: WordAddressChannel, values: list[float]) -> None:
         LengthState.of(channel).number = int(values[slot])
+        _begin_anew(channel)
         if channel.mode["length"] in _SIGN:
             _shift(channel)
             if not moved:
@@ -83,11 +149,11 @@ def _shift(channel: WordAddressChannel) -> None:
         channel.control.length_value(channel, length_state.number) if sign and length_state.number else 0.0
     )
     if length_state.direction is None:
-        zero_state.length[z] = sign * value
+        zero_state.length[z] = 0.0 if z in length_state.lost else sign * value
     else:
         for axis, part in zip(channel.coordinates.geometry, length_state.direction, strict=True):
             if axis >= 0:
-                zero_state.length[axis] = sign * value * part
+                zero_state.length[axis] = 0.0 if axis in length_state.lost else sign * value * part
     refresh_zero(channel, travelled=True)
 
 

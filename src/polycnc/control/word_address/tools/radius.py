@@ -15,7 +15,7 @@ from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Collection, Iterator, Mapping
 
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder
@@ -77,6 +77,7 @@ def _engage(channel: WordAddressChannel, words: Words, side: int) -> None:
     state.side = side
     stage.policy = channel.control.compensation_policy(channel)
     if stage.active and state.engaged_side != side:
+        corners.refuse_change(channel)
         state.engaged_side = side
         stage.change_side(side_on_display(channel))
         return
@@ -102,6 +103,7 @@ def cancel_compensation(channel: WordAddressChannel, words: Words, *, takes_wall
     if stage is None:
         return
     _refuse_arc(channel, words)
+    corners.refuse_change(channel)
     state.side = state.engaged_side = 0
     u, v, _ = PLANES[channel.mode["plane"]]
     wall = (words.length("IJK"[u]) or 0.0, words.length("IJK"[v]) or 0.0)
@@ -124,26 +126,55 @@ def plan_radius_number(builder: Builder) -> Step:
         state.number = int(values[slot])
         stage = active_compensation(channel)
         if stage is not None and state.side:
+            corners.refuse_change(channel)
             stage.change_radius(channel.control.radius_value(channel, state.number))
 
     return change
 
 
 @contextmanager
-def suspended(channel: WordAddressChannel) -> Iterator[None]:
-    """Motion without compensation in between: the vector vanishes, and the next plane motion starts up again."""
+def suspended(channel: WordAddressChannel, axes: Collection[int] | None = None) -> Iterator[None]:
+    """Motion without compensation in between.
+
+    The block in front ends square on itself. The vector vanishes on the way, and the next plane motion starts up
+    again. Where no axis of the plane moves, the vector stays, and compensation goes on behind.
+
+    Args:
+        channel: The channel.
+        axes: Axes that move; None for all.
+    """
     state = RadiusState.of(channel)
     stage = active_compensation(channel)
     if stage is None:
         yield
         return
-    stage.drop_vector()
+    stage.end_square()
+    if axes is not None and not any(stage.plane.compensates(axis) for axis in axes):
+        yield
+        return
+    position = channel.coordinates.position
+    # The tool stands beside the programmed point: the first move leads from there, a move to that point as well.
+    beside = channel.coordinates.position = stage.beside(position)
     stage.discard()
     yield
+    if channel.coordinates.position is beside:
+        channel.coordinates.position = position
     if state.side:
         control = channel.control
         tip = control.nose_tip(channel)
         stage.engage(side_on_display(channel), control.radius_value(channel, state.number), tip)
+
+
+def tool_position(channel: WordAddressChannel) -> list[float]:
+    """Where the tool stands (absolute display, all axes), beside the programmed point by the vector of compensation.
+
+    Who asks for it waits for the motion, so nothing is read behind: the last move ends square.
+    """
+    stage, position = active_compensation(channel), channel.coordinates.position
+    if stage is None:
+        return position
+    stage.end_square()
+    return stage.beside(position)
 
 
 def side_on_display(channel: WordAddressChannel) -> int:

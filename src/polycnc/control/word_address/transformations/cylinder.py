@@ -27,7 +27,8 @@ GROUP = "cylinder"
 _CUTS = frozenset({"G1", "G2", "G3"})
 #: G codes that every control refuses, beside cycles.
 REFUSED = frozenset({
-    "G0", "G12.1", "G27", "G28", "G29", "G30", "G52", "G53", "G54", "G55", "G56", "G57", "G58", "G59", "G92",
+    "G0", "G12.1", "G27", "G28", "G29", "G30", "G31", "G33", "G37", "G52", "G53", "G54", "G55", "G56", "G57", "G58",
+    "G59", "G60", "G68", "G92",
 })  # fmt: skip
 
 
@@ -52,6 +53,10 @@ def cylinder(channel: MacroChannel, words: Words) -> None:
     radius = abs(words.length(named[0].address) or 0.0)
     state = CylinderState.of(channel)
     if not radius:
+        channel.flush()
+        if active_compensation(channel) is not None:
+            # Its vector lies on the surface; without one it cannot be led back to the path.
+            raise words.fail("cylinder_code", "G7.1")
         end_cylinder(channel)
         return
     if state.active is not None:
@@ -120,6 +125,12 @@ def unroll(channel: MacroChannel, axis: int, angle_deg: float) -> float:
     """A word of the unrolled axis as a length on the surface, mm."""
     active = CylinderState.of(channel).active
     return angle_deg * active.mm_per_degree if active is not None and active.axis == axis else angle_deg
+
+
+def shown(channel: WordAddressChannel, axis: int, value: float) -> float:
+    """A position of an axis as displays and variables show it: degrees on the unrolled one too."""
+    active = CylinderState.of(channel).active
+    return value / active.mm_per_degree if active is not None and active.axis == axis else value
 
 
 def _surface_word(builder: Builder, axis: int, _form: str, convert: Convert | None) -> Convert | None:

@@ -34,23 +34,6 @@ DELIVERED_AXIS = "C"
 
 
 @dataclass(frozen=True, slots=True)
-class NormalLineParameters:
-    """Numbers of the parameters of normal line control; 0 where a control has none.
-
-    Attributes:
-        axis: Holds the number of the rotary axis.
-        turn_feed: Feed of turns in front of cuts, degrees a minute.
-        least_turn: Turns that are not greater are left out, degrees.
-        shortest: In blocks that are not longer the axis stands, mm.
-    """
-
-    axis: int
-    turn_feed: int = 0
-    least_turn: int = 0
-    shortest: int = 0
-
-
-@dataclass(frozen=True, slots=True)
 class NormalLineRules:
     """What a control refuses while normal line control is on, beside another plane. Mistakes stand by their names.
 
@@ -69,11 +52,9 @@ class NormalLineRules:
 
 def start(channel: MacroChannel, words: Words) -> None:
     """G41.1, G42.1: from the next way on the axis stands on the normal."""
-    memory, code = channel.memory, channel.mode[GROUP]
-    numbers = channel.control.NORMAL_LINE_PARAMETERS
-    number = memory.parameters.number
-    axis = int(number(numbers.axis, default=channel.axis_index.get(DELIVERED_AXIS, -1) + 1)) - 1
-    turn_feed = number(numbers.turn_feed) / 60.0 if numbers.turn_feed else 0.0
+    parameters, code = channel.memory.parameters, channel.mode[GROUP]
+    number = parameters.normal_axis
+    axis = channel.axis_index.get(DELIVERED_AXIS, -1) if number is None else number - 1
     if not 0 <= axis < len(channel.axes) or not channel.axis_data[axis].rotary:
         raise words.fail("normal_axis", code)
     if channel.coordinates.transformation is not None:
@@ -89,9 +70,9 @@ def start(channel: MacroChannel, words: Words) -> None:
         (geometry[u], geometry[v]),
         (u, v),
         90.0 if code == LEFT else -90.0,
-        shortest_mm=number(numbers.shortest) if numbers.shortest else 0.0,
-        least_turn_deg=max(number(numbers.least_turn) if numbers.least_turn else 0.0, SAME_DEG),
-        turn_feed=turn_feed or None,
+        shortest_mm=parameters.normal_shortest_move,
+        least_turn_deg=max(parameters.normal_least_turn, SAME_DEG),
+        turn_feed=parameters.normal_turn_feed / 60.0 or None,
         follows=CUTS | {Kind.RAPID},
     )
     channel.path.put(NormalStage(direction))

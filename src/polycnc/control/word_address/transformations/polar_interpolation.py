@@ -21,12 +21,10 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.numbers import Convert
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
-    from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
 
 #: Modal group of G12.1 and G13.1.
 GROUP = "polar_interpolation"
-#: Parameters with the numbers of the linear and of the rotary axis.
-LINEAR, ROTARY = 5460, 5461
 #: Where nothing is set, the rotary axis is the one of this name.
 DELIVERED_ROTARY = "C"
 #: The plane that a linear axis X, Y or Z begins: it decides which of I, J, K give the centre of an arc.
@@ -54,12 +52,13 @@ class PolarState(State, lifetime=Lifetime.RESET):
     geometry_before: tuple[int, int, int] = (-1, -1, -1)
 
 
-def start_polar(channel: WordAddressChannel, words: Words) -> None:
+def start_polar(channel: MacroChannel, words: Words) -> None:
     """G12.1 (G112): the axes of 5460 and 5461 become a Cartesian plane; the tool stands at angle 0."""
     memory, c = channel.memory, channel.coordinates
-    number = memory.parameters.number
-    linear = int(number(LINEAR, default=c.geometry[0] + 1)) - 1
-    rotary = int(number(ROTARY, default=channel.axis_index.get(DELIVERED_ROTARY, -1) + 1)) - 1
+    number = memory.parameters.polar_linear_axis
+    linear = c.geometry[0] if number is None else number - 1
+    number = memory.parameters.polar_rotary_axis
+    rotary = channel.axis_index.get(DELIVERED_ROTARY, -1) if number is None else number - 1
     if (
         linear not in c.geometry
         or not 0 <= rotary < len(channel.axes)

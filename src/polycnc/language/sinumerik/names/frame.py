@@ -15,6 +15,7 @@ from math import asin, atan2, cos, degrees, hypot
 from typing import TYPE_CHECKING
 
 from polycnc.geometry.frames import IDENTITY, Frame, Matrix, Vector, rotation, scaling
+from polycnc.memory.encoding import encoded
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -24,6 +25,7 @@ COMPONENTS = ("TR", "FI", "RT", "SC", "MI")
 _ZERO: Vector = (0.0, 0.0, 0.0)
 
 
+@encoded("axis frame")
 @dataclass(frozen=True, slots=True)
 class AxisFrame:
     """What a frame does to one axis outside the geometry: `outer = coarse + fine + factor * inner`."""
@@ -47,6 +49,7 @@ class AxisFrame:
         )
 
 
+@encoded("frame")
 @dataclass(frozen=True, slots=True)
 class NcFrame:
     """One value of type FRAME. Immutable.
@@ -169,6 +172,10 @@ class NcFrame:
             mirrored[i] = bool(value)
         flags = (mirrored[0], mirrored[1], mirrored[2])
         return replace(self, matrix=_matrix(angles, scales, flags), mirrored=flags)
+
+    def fine_part(self, axes: Iterable[str]) -> NcFrame:
+        """The fine translation of some axes alone."""
+        return cfine({axis: self.component(axis, "FI") for axis in axes})
 
     def folded(self) -> NcFrame:
         """The frame with its fine part added to the coarse one, as the programmable frame keeps it (5.3)."""

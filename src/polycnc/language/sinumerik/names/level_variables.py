@@ -22,6 +22,12 @@ class LevelVariable(NamedTuple):
     type: Type
     value: Callable[[Channel, tuple[Any, ...]], Any]
     stop: bool = False
+    goes_along: bool = False
+    timed: bool = False
+    of_actions: bool = False
+
+    def element_count(self, _channel: Channel) -> None:
+        """It is no array that could be filled."""
 
     def read(self, channel: Channel, indices: tuple[Any, ...]) -> Any:
         """The value."""

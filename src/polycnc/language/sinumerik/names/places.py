@@ -339,13 +339,14 @@ class SystemPlace:
                     real = index.type is Type.REAL
                     codes.append(quoted("round_half_up({0})", index.code) if real else index.code)
             reader.expect("]")
-        if variable.stop:
-            reader.emitter.uses_stop = True
         return cls(token.text, variable, reader.emitter.object(variable), sequence(codes), type_)
 
     def read(self, reader: ExpressionReader) -> Expr:
         """Code that asks the control."""
         rights.check(reader, self.name, reader.scope.memory.rights.get(self.name, {}), rights.READ)
+        if self.variable.stop:
+            reader.emitter.uses_stop = True
+        reader.emitter.uses_clock |= self.variable.timed
         return _read(
             self._user_data(reader), quoted("{0}.read(channel, {1})", self.code, self.indices), self.type
         )
@@ -353,9 +354,18 @@ class SystemPlace:
     def write(self, reader: ExpressionReader, code: Code) -> None:
         """Code that tells the control."""
         rights.check(reader, self.name, reader.scope.memory.rights.get(self.name, {}), rights.WRITE)
-        reader.emitter.acts = True
+        self.prepare_write(reader)
         stored = self.stored(reader, code)
         reader.emitter.run(quoted("{0}.write(channel, {1}, {2})", self.code, self.indices, stored))
+
+    def prepare_write(self, reader: ExpressionReader) -> None:
+        """Say what writing asks for: a preprocessing stop, unless the value goes along with the path."""
+        if self.variable.of_actions:
+            raise NcSyntaxError("17210", reader.tokens[0].column, self.name)
+        reader.emitter.acts = True
+        reader.emitter.uses_clock |= self.variable.timed
+        if self.variable.stop and not self.variable.goes_along:
+            reader.emitter.uses_stop = True
 
     def stored(self, reader: ExpressionReader, code: Code) -> Code:
         """Code of a value as it is kept."""

@@ -157,7 +157,7 @@ class Scope:
 
     def named_operand(self, reader: ExpressionReader, token: Token) -> Expr:
         """An axis, or a function that needs the control or the language's files."""
-        axis = self.memory.axes.get(token.text)
+        axis = self.memory.default_axis if token.text == "NO_AXIS" else self.memory.axes.get(token.text)
         if axis is not None:
             return Expr(reader.emitter.object(axis), Type.AXIS)
         for caller, functions in _FUNCTION_CALLERS:
@@ -173,19 +173,20 @@ class Scope:
         raise unknown(token.column, token.text)
 
     def arguments(self, reader: ExpressionReader, token: Token, letters: str) -> Code:
-        """Code of the tuple of arguments in parentheses; None for each one left out."""
+        """Code of the tuple of arguments in brackets; None for each one left out."""
         codes: list[Code] = []
-        if reader.accept("("):
-            while not reader.at(")"):
+        opening, closing = "()" if token.text not in keywords.SQUARE or not reader.at("[") else "[]"
+        if reader.accept(opening):
+            while not reader.at(closing):
                 letter = "*" if letters == "*" else letters[len(codes)] if len(codes) < len(letters) else ""
                 if not letter:
                     raise NcSyntaxError("12340", reader.token.column, token.text)
                 codes.append(self._argument(reader, letter))
-                if not reader.at(")"):
+                if not reader.at(closing):
                     reader.expect(",")
-                    if reader.at(")"):
+                    if reader.at(closing):
                         codes.append(constant(None))
-            reader.expect(")")
+            reader.expect(closing)
         if letters != "*":
             wanted = sum(letter.isupper() or letter in "[?" for letter in letters)
             if len(codes) < wanted and not (letters[len(codes)] == "?"):
@@ -201,9 +202,32 @@ class Scope:
             if not self.is_place(token):
                 raise NcSyntaxError("12320", token.column, token.text)
             return self.place(reader, token).reference(reader)
+        if letter == "W":
+            return self._row(reader)
+        if letter == "j":
+            return self._place_or_value(reader)
         if letter in "*?":
             return self._any(reader)
         return reader.value(keywords.TYPE_LETTERS[letter.upper()])
+
+    def _place_or_value(self, reader: ExpressionReader) -> Code:
+        """A variable that the function may change, or a whole number."""
+        token = reader.token
+        if self.is_place(token) and not token.text.startswith("$"):
+            return self.place(reader, reader.take()).reference(reader)
+        return reader.value(Type.INT)
+
+    def _row(self, reader: ExpressionReader) -> Code:
+        """`TABLE[row]`: the table and the number of the row."""
+        token = reader.take()
+        variable = self.find(token.text) if token.kind == "name" else None
+        if variable is None or len(variable.dims) != 2:
+            raise NcSyntaxError("12320", token.column, token.text)
+        table = item(self.container(reader, variable), reader.emitter.object(variable.slot))
+        reader.expect("[")
+        row = reader.value(Type.INT)
+        reader.expect("]")
+        return sequence([table, row])
 
     @staticmethod
     def _any(reader: ExpressionReader) -> Code:
@@ -224,7 +248,7 @@ _FUNCTION_CALLERS = (
 
 def is_known(name: str, control: LanguageControl) -> bool:
     """Whether a name is a word of the language."""
-    return any(name in table for table in _TABLES) or name in control.g_groups
+    return any(name in table for table in _TABLES) or name in control.g_groups or name in keywords.SPELLINGS
 
 
 _TABLES = (

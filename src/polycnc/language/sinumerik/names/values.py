@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from enum import Enum
 from math import floor
 
+from polycnc.memory.encoding import encoded
 from polycnc.messages import AlarmError
 
 INT_MIN, INT_MAX = -(2**31), 2**31 - 1
@@ -36,6 +37,7 @@ class Type(Enum):
 _NUMBERS = (Type.INT, Type.REAL, Type.BOOL, Type.CHAR)
 
 
+@encoded("axis")
 @dataclass(frozen=True, slots=True)
 class Axis:
     """An axis or spindle identifier as a value, in upper case."""

@@ -148,9 +148,7 @@ def _arguments(compiler: BlockCompiler, name: Token, program: Program) -> tuple[
     if compiler.accept("("):
         while not compiler.at(")"):
             if len(codes) == len(header.parameters):
-                if compiler.at(",") or not header.parameters:
-                    raise NcSyntaxError("12340", compiler.token.column, name.text)
-                raise compiler.error()
+                raise NcSyntaxError("12340", compiler.token.column, name.text)
             written = not compiler.at(",")
             parameter = header.parameters[len(codes)]
             codes.append(
@@ -370,13 +368,7 @@ def set_search_path(channel: Channel, directory: str) -> None:
         raise AlarmError("14009", text=directory)
     memory: LanguageMemory = channel.memory.language
     memory.call_path = directory
-    forget_resolved(memory)
-
-
-def forget_resolved(memory: LanguageMemory) -> None:
-    """Files or search paths have changed: names are looked up again."""
-    for program in memory.programs:
-        program.forget_steps()
+    memory.programs.forget_steps()
 
 
 # ---- returns -----------------------------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.language.expressions.code import Code, assigned, quoted, sequence
 from polycnc.language.sinumerik import keywords
@@ -181,14 +181,18 @@ def _define_one(compiler: BlockCompiler, attributes: Attributes, type_: Type) ->
         init_time=attributes.init_time,
         range=attributes.range,
     )
-    _declare(compiler, variable, token)
     if dims:
-        _first_array(compiler, variable)
+        values = _first_array(compiler, variable, has_values=compiler.accept("="))
+        _declare(compiler, variable, token)
+        store(compiler, variable, values)
     elif compiler.accept("="):
         if type_ is Type.FRAME:
             raise NcSyntaxError("12261", token.column, token.text)
-        store(compiler, variable, checked(compiler, variable, compiler.assigned(type_)))
+        value = checked(compiler, variable, compiler.assigned(type_))  # in which the name means nothing yet
+        _declare(compiler, variable, token)
+        store(compiler, variable, value)
     else:
+        _declare(compiler, variable, token)
         store(compiler, variable, compiler.emitter.object(_first_value(variable, compiler.scope)))
     return token
 
@@ -259,27 +263,63 @@ def store(compiler: BlockCompiler, variable: Variable, code: Code) -> None:
         compiler.emitter.run(quoted("define(channel.level, {0}, {1})", variable.slot, code))
 
 
-def _first_array(compiler: BlockCompiler, variable: Variable) -> None:
-    """An array and its first values: `SET(…)` or `(…)`, `REP(v[,n])` (1.1.12)."""
+def _first_array(compiler: BlockCompiler, variable: Variable, *, has_values: bool) -> Code:
+    """Code of an array with its first values (1.1.12)."""
     emitter = compiler.emitter
     first = emitter.object(_first_value(variable, compiler.scope))
     items = quoted("items")
     emitter.add(assigned(items, quoted("[{0}] * {1}", first, element_count(variable.dims))))
-    if compiler.accept("="):
-        token = compiler.token
-        if variable.type is Type.FRAME:
-            raise NcSyntaxError("12261", token.column, variable.name)
-        if compiler.accept("REP"):
-            value, count = compiler.repeated(variable.type)
-            stored = checked(compiler, variable, value)
-            emitter.run(quoted("repeat_element(items, 0, {0}, {1})", stored, count))
+    if has_values:
+        values = first_values(compiler, variable.type)
+        if values.is_repeated:
+            repeated = checked(compiler, variable, values.codes[0])
+            emitter.run(quoted("repeat_element(items, 0, {0}, {1})", repeated, values.times))
         else:
-            compiler.accept("SET")
-            values = [checked(compiler, variable, code) for code in compiler.value_list(variable.type)]
-            if len(values) > element_count(variable.dims):
-                raise NcSyntaxError("12260", token.column, variable.name)
-            emitter.run(quoted("set_elements(items, 0, {0})", sequence(values)))
-    store(compiler, variable, quoted("Array({0}, items)", emitter.object(variable)))
+            if len(values.codes) > element_count(variable.dims):
+                raise NcSyntaxError("12260", values.column, variable.name)
+            kept = [checked(compiler, variable, code) for code in values.codes]
+            emitter.run(quoted("set_elements(items, 0, {0})", sequence(kept)))
+    return quoted("Array({0}, items)", emitter.object(variable))
+
+
+class FirstValueCodes(NamedTuple):
+    """First values as they are written.
+
+    Attributes:
+        codes: Codes of the values, of a repeated one that alone.
+        is_repeated: They are `REP(value[,count])`.
+        times: Code of how often it is repeated; None for all elements.
+        column: Where they begin.
+    """
+
+    codes: list[Code]
+    is_repeated: bool
+    times: Code | None
+    column: int
+
+
+def first_values(compiler: BlockCompiler, type_: Type) -> FirstValueCodes:
+    """Read `SET(…)`, `(…)`, `REP(v[,n])`, or one value, which is that of the first element (1.1.12)."""
+    token = compiler.token
+    if type_ is Type.FRAME:
+        raise NcSyntaxError("12261", token.column, token.text)
+    if compiler.accept("REP"):
+        value, count = compiler.repeated(type_)
+        return FirstValueCodes([value], is_repeated=True, times=count, column=token.column)
+    listed = compiler.accept("SET") or compiler.at("(")
+    codes = compiler.value_list(type_) if listed else [compiler.assigned(type_)]
+    return FirstValueCodes(codes, is_repeated=False, times=None, column=token.column)
+
+
+def give_first_value(compiler: BlockCompiler, variable: Variable) -> None:
+    """Read the first values of a variable and add the statement that stores them."""
+    if variable.dims:
+        store(compiler, variable, _first_array(compiler, variable, has_values=True))
+        return
+    values = first_values(compiler, variable.type)
+    if len(values.codes) > 1:
+        raise NcSyntaxError("12260", values.column, variable.name)
+    store(compiler, variable, checked(compiler, variable, values.codes[0]))
 
 
 # ---- programs and macros -----------------------------------------------------------------------------------

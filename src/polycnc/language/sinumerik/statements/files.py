@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.rights import LOWEST
 from polycnc.language.sinumerik.names.values import MAX_STRING, Type
 from polycnc.language.sinumerik.names.variables import Array, Reference
-from polycnc.language.sinumerik.statements.calls import forget_resolved
+from polycnc.messages import AlarmError
 from polycnc.program import Form, Program
 from polycnc.program.names import split_stored_path, stored_directory
 
@@ -96,7 +96,7 @@ def write(channel: Channel, name: str, text: str) -> None:
     if limit and size_of(written) > limit * 1024:
         raise FileError(FULL)
     channel.store.replace(written)
-    forget_resolved(memory)
+    memory.programs.forget_steps()
 
 
 def delete(channel: Channel, name: str) -> None:
@@ -104,7 +104,7 @@ def delete(channel: Channel, name: str) -> None:
     program = _existing(channel, name)
     _need_idle(channel, program)
     channel.store.remove(program)
-    forget_resolved(channel.memory.language)
+    channel.memory.language.programs.forget_steps()
 
 
 def read(channel: Channel, name: str, start: int, count: int, result: Array | Reference) -> None:
@@ -157,6 +157,8 @@ _PROCEDURES: dict[str, Callable[..., None]] = {
 def file_procedure(channel: Channel, name: str, args: tuple[Any, ...]) -> None:
     """Run a file procedure; its first argument gets the error number."""
     error, *rest = args
+    if not isinstance(error, Reference):
+        raise AlarmError("12330", text=name)
     try:
         _PROCEDURES[name](channel, *rest)
         error.value = OK

@@ -13,11 +13,17 @@ from typing import TYPE_CHECKING, Any
 from polycnc.language.expressions.code import quoted, sequence
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import provide
-from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
+from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, unknown
 from polycnc.language.sinumerik.names.initialisation import FirstValues
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.language.sinumerik.names.variables import Variable
-from polycnc.language.sinumerik.statements.definitions import Attributes, checked, read_attributes, store
+from polycnc.language.sinumerik.statements.definitions import (
+    Attributes,
+    first_values,
+    give_first_value,
+    read_attributes,
+)
+from polycnc.messages import AlarmError
 from polycnc.program.names import CYCLE_DIRS
 
 if TYPE_CHECKING:
@@ -25,8 +31,9 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.language.sinumerik.blocks import BlockCompiler
-    from polycnc.language.sinumerik.interface import LanguageMemory
+    from polycnc.language.sinumerik.interface import LanguageMemory, SystemVariable
     from polycnc.language.sinumerik.lexer import Token
+    from polycnc.language.sinumerik.names.scope import Scope
 
 #: User data that belong to the control: every attribute can be redefined.
 _USER_DATA = re.compile(r"R|\$AC_(PARAM|MARKER|TIMER)|\$TC_(DPC|TPC)\d+")
@@ -74,25 +81,25 @@ def _redefine_global(compiler: BlockCompiler, token: Token, variable: Variable) 
         raise NcSyntaxError("12500", token.column, f"REDEF {token.text}")
     variable.stops = attributes.stops or variable.stops
     if attributes.init_time:
-        if variable.range == "NCK" and attributes.init_time != "INIPO":
-            raise NcSyntaxError("12500", token.column, attributes.init_time)  # 1.1.7: at power-on alone
-        variable.init_time = attributes.init_time
+        # 1.1.7: what all channels share is initialised at power-on alone; a later event changes its first value only.
+        variable.init_time = "INIPO" if variable.range == "NCK" else attributes.init_time
     variable.rights.update(attributes.rights or {})
     if compiler.token.kind != "end":
         if not attributes.init_time:
             raise compiler.error()
-        store(compiler, variable, checked(compiler, variable, compiler.assigned(variable.type)))
+        give_first_value(compiler, variable)
 
 
 def _redefine_control(compiler: BlockCompiler, token: Token) -> None:
     """What belongs to the control: system variables, R parameters, words of the language."""
     name, scope = token.text, compiler.scope
     is_variable = name[0] == "$" or name == "R"
-    if name[0] == "$":
-        scope.control.system_variable(name)
-    elif not is_variable and not _is_executable(compiler, token):
+    if not is_variable and not _is_executable(compiler, token):
         raise unknown(token.column, name)
+    not_kept = _not_kept(scope, name) if name[0] == "$" else None
     attributes = _one_attribute(compiler, token)
+    if not_kept is not None and not attributes.rights:
+        raise not_kept
     for right, level in (attributes.rights or {}).items():
         if (right == "APX") is is_variable:
             raise NcSyntaxError("12490", token.column, name)
@@ -105,6 +112,17 @@ def _redefine_control(compiler: BlockCompiler, token: Token) -> None:
         raise compiler.error()
     elif not attributes.rights:
         _limits_and_unit(compiler, token, attributes)
+
+
+def _not_kept(scope: Scope, name: str) -> AlarmError | None:
+    """The alarm of a variable that polycnc does not keep: only its rights can be redefined, each use is that alarm."""
+    try:
+        scope.control.system_variable(name)
+    except AlarmError as alarm:
+        if alarm.code != "PC0001":
+            raise
+        return alarm
+    return None
 
 
 def _limits_and_unit(compiler: BlockCompiler, token: Token, attributes: Attributes) -> None:
@@ -131,6 +149,7 @@ def _is_executable(compiler: BlockCompiler, token: Token) -> bool:
         name = f"{token.letter}{token.value}"
     return (
         name in scope.control.g_groups
+        or name == "DO"
         or any(name in table for table in (keywords.PROCEDURES, keywords.CONTROL_FUNCTIONS, keywords.CYCLES))
         or compiler.channel.store.find_sinumerik(name, CYCLE_DIRS[0]) is not None
     )
@@ -154,16 +173,31 @@ def _init_time(compiler: BlockCompiler, token: Token, time: str) -> None:
 
 def _write_first_values(compiler: BlockCompiler, name: str) -> None:
     """Values of the first elements, or one value, which is for all R parameters."""
-    listed = compiler.at("(")
-    values = compiler.value_list(Type.REAL) if listed else [compiler.assigned(Type.REAL)]
+    is_single = not (compiler.at("(") or compiler.at("SET") or compiler.at("REP"))
+    values = first_values(compiler, Type.REAL)
     if name == "R":
         items = compiler.emitter.object(compiler.scope.memory.r)
-        fill = quoted("repeat_element({0}, 0, {1})", items, values[0])
-        if listed:
-            fill = quoted("set_elements({0}, 0, {1})", items, sequence(values))
+        fill = quoted("set_elements({0}, 0, {1})", items, sequence(values.codes))
+        if is_single or values.is_repeated:
+            fill = quoted("repeat_element({0}, 0, {1}, {2})", items, values.codes[0], values.times)
         compiler.emitter.run(fill)
         return
-    compiler.emitter.run(quoted("set_first_values(channel, {0}, {1})", name, sequence(values)))
+    code = sequence(values.codes)
+    if values.is_repeated:
+        count = values.times or quoted("element_count_of(channel, {0})", name)
+        code = quoted("({0},) * {1}", values.codes[0], count)
+    compiler.emitter.run(quoted("set_first_values(channel, {0}, {1})", name, code))
+
+
+def element_count_of(channel: Channel, name: str) -> int:
+    """How many elements a repeated first value fills; PC0001 where polycnc does not know."""
+    if name.startswith("$SA_"):
+        return 1
+    variable: SystemVariable = channel.control.system_variable(name)
+    count = variable.element_count(channel)
+    if count is None:
+        raise not_supported(0, f"REDEF {name} REP")
+    return count
 
 
 def set_first_values(channel: Channel, name: str, values: tuple[float, ...]) -> None:
@@ -188,4 +222,4 @@ def set_first_values(channel: Channel, name: str, values: tuple[float, ...]) -> 
 
 
 STATEMENTS: dict[str, Callable[[BlockCompiler], None]] = {"REDEF": redefine}
-provide(set_first_values=set_first_values)
+provide(element_count_of=element_count_of, set_first_values=set_first_values)

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.language.sinumerik.lexer import prefix_of, tokenize
+from polycnc.language.sinumerik.lexer import JUMPS, prefix_of, tokenize
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -80,7 +80,7 @@ def _structure_word(text: str) -> str:
         return ""  # The block raises its alarm when it is reached.
     first = tokens[0]
     word = first.text if first.kind == "name" else ""
-    if word == "IF" and any(token.text.startswith("GOTO") for token in tokens if token.kind == "name"):
+    if word == "IF" and any(token.text in JUMPS for token in tokens if token.kind == "name"):
         return ""
     if word == "REPEAT" and len(tokens) > 2:
         return ""

@@ -7,9 +7,11 @@ it is the front end of the gripping surface.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from polycnc.channel.moves.travel import Travel
     from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.fanuc.lathe.parameters import LatheParameters
     from polycnc.geometry.arcs import Point
@@ -94,22 +96,16 @@ class Barrier:
     x: int
     bodies: tuple[Polygon, ...]
 
-    def check(self, channel: LatheChannel, machine: list[float], *, straight: bool) -> None:
-        """The control's alarm for a way into a body; of a curve the end and points on it are looked at."""
-        c = channel.coordinates
-        end = c.from_machine(machine)
-        start = c.position if straight else end
-        for body in self.bodies:
-            for side in (1.0, -1.0):
-                begin, last = (start[self.z], side * start[self.x]), (end[self.z], side * end[self.x])
-                if _enters(begin, last, body):
-                    axis = self.x if end[self.x] != start[self.x] else self.z
-                    direction = 1 if end[axis] >= start[axis] else -1
-                    raise channel.control.forbidden_zone(channel.axes[axis], direction)
-
-    def check_point(self, channel: LatheChannel, machine: list[float]) -> None:
-        """The control's alarm for a point of a curve in a body."""
-        self.check(channel, machine, straight=False)
+    def check(self, channel: LatheChannel, travel: Travel) -> None:
+        """The control's alarm for a way into a body."""
+        for start, end in pairwise(travel.positions()):
+            for body in self.bodies:
+                for side in (1.0, -1.0):
+                    begin, last = (start[self.z], side * start[self.x]), (end[self.z], side * end[self.x])
+                    if _enters(begin, last, body):
+                        axis = self.x if end[self.x] != start[self.x] else self.z
+                        direction = 1 if end[axis] >= start[axis] else -1
+                        raise channel.control.forbidden_zone(channel.axes[axis], direction)
 
 
 def _enters(start: Point, end: Point, polygon: Polygon) -> bool:

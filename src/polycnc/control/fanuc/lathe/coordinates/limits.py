@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.coordinates.barrier import barrier, is_described
-from polycnc.control.word_address.coordinates.stroke_check import StrokeZone
+from polycnc.control.word_address.coordinates.stroke_check import StrokeZone, zone_between
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from polycnc.channel.interface import Zone
+    from polycnc.channel.interface import Boundary
+    from polycnc.channel.moves.travel import Travel
     from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.words import Words
 
@@ -28,8 +29,8 @@ class LimitState(State, lifetime=Lifetime.POWER):
         increments: Largest increment of axes by column, mm (G91.1).
     """
 
-    zone: Zone | None = None
-    programmed_zone: Zone | None = None
+    zone: Boundary | None = None
+    programmed_zone: Boundary | None = None
     increments: dict[int, float] = field(default_factory=dict)
 
 
@@ -72,17 +73,17 @@ def renew_zones(channel: LatheChannel) -> None:
     """Let the channel check every move against what is forbidden now."""
     state = LimitState.of(channel)
     travel = _travel(channel)
-    zones: list[Zone] = []
+    found: list[Boundary] = []
     if state.increments:
-        zones.append(IncrementCheck(dict(state.increments)))
+        found.append(IncrementCheck(dict(state.increments)))
     if travel:
-        zones.append(TravelCheck(travel))
+        found.append(TravelCheck(travel))
     if state.zone is not None:
-        zones.append(state.zone)
+        found.append(state.zone)
     inner = None if is_described(channel) else _zone_3(channel)
     if inner is not None:
-        zones.append(inner)
-    channel.stroke_zone = Zones(tuple(zones)) if zones else None
+        found.append(inner)
+    channel.boundary = Boundaries(tuple(found)) if found else None
 
 
 def _zone_of_words(channel: LatheChannel, words: Words) -> StrokeZone | None:
@@ -123,9 +124,7 @@ def _zone_3(channel: LatheChannel) -> StrokeZone | None:
 def _zone(channel: LatheChannel, named: list[tuple[int, float, float]]) -> StrokeZone | None:
     if not named:
         return None
-    axes = tuple(axis for axis, _, _ in named)
-    lows, highs = tuple(min(a, b) for _, a, b in named), tuple(max(a, b) for _, a, b in named)
-    return StrokeZone(lows, highs, axes, inside=not channel.memory.parameters.OUT)
+    return zone_between(named, inside=not channel.memory.parameters.OUT)
 
 
 def _travel(channel: LatheChannel) -> dict[int, tuple[float, float]]:
@@ -143,20 +142,15 @@ def _travel(channel: LatheChannel) -> dict[int, tuple[float, float]]:
 
 
 @dataclass(frozen=True, slots=True)
-class Zones:
+class Boundaries:
     """Several things to check, in order."""
 
-    zones: tuple[Zone, ...]
+    all: tuple[Boundary, ...]
 
-    def check(self, channel: LatheChannel, machine: list[float], *, straight: bool) -> None:
+    def check(self, channel: LatheChannel, travel: Travel) -> None:
         """The alarm of the first one that is violated."""
-        for zone in self.zones:
-            zone.check(channel, machine, straight=straight)
-
-    def check_point(self, channel: LatheChannel, machine: list[float]) -> None:
-        """The same for a point of a curve."""
-        for zone in self.zones:
-            zone.check_point(channel, machine)
+        for each in self.all:
+            each.check(channel, travel)
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,15 +159,12 @@ class IncrementCheck:
 
     limits: Mapping[int, float]
 
-    def check(self, channel: LatheChannel, machine: list[float], *, straight: bool) -> None:  # noqa: ARG002
-        """The control's alarm for a longer way of an axis."""
-        here = channel.coordinates.machine
+    def check(self, channel: LatheChannel, travel: Travel) -> None:
+        """The control's alarm for a longer way of an axis, from the start of the block to its end."""
+        start, end = travel.machine[0], travel.machine[-1]
         for axis, limit in self.limits.items():
-            if abs(machine[axis] - here[axis]) > limit + 1e-9:
+            if abs(end[axis] - start[axis]) > limit + 1e-9:
                 raise channel.control.fail("increment_limit", address=channel.axes[axis])
-
-    def check_point(self, channel: LatheChannel, machine: list[float]) -> None:
-        """What counts is the end of the block."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,12 +173,10 @@ class TravelCheck:
 
     limits: Mapping[int, tuple[float, float]]
 
-    def check(self, channel: LatheChannel, machine: list[float], *, straight: bool) -> None:  # noqa: ARG002
-        """The control's alarm for a target beyond a limit."""
-        for axis, (low, high) in self.limits.items():
-            if not low - 1e-9 <= machine[axis] <= high + 1e-9:
-                raise channel.control.over_travel(channel.axes[axis], 1 if machine[axis] > high else -1)
-
-    def check_point(self, channel: LatheChannel, machine: list[float]) -> None:
-        """The same for a point of a curve."""
-        self.check(channel, machine, straight=False)
+    def check(self, channel: LatheChannel, travel: Travel) -> None:
+        """The control's alarm for a way beyond a limit; where all limits are equal points, for every way."""
+        closed = all(low == high for low, high in self.limits.values())
+        for machine in travel.machine[1:]:
+            for axis, (low, high) in self.limits.items():
+                if closed or not low - 1e-9 <= machine[axis] <= high + 1e-9:
+                    raise channel.control.over_travel(channel.axes[axis], 1 if machine[axis] > high else -1)

@@ -13,10 +13,11 @@ from polycnc.control.fanuc.lathe.motion.corners import corner_waits
 from polycnc.control.fanuc.lathe.tools.offsets import refresh
 from polycnc.control.word_address.block import repeated_codes
 from polycnc.control.word_address.coordinates import systems
+from polycnc.control.word_address.coordinates.frames import RotationState, rotation_frame
 from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.motion import planes
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation, suspended
-from polycnc.geometry.frames import IDENTITY, about, rotation
+from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
 
@@ -38,13 +39,6 @@ class CodeState(State, lifetime=Lifetime.POWER):
     plane: str = ""
 
 
-@dataclass(slots=True)
-class RotationState(State, lifetime=Lifetime.POWER):
-    """The angle of the last G68.1, degrees."""
-
-    angle: float = 0.0
-
-
 def note_codes(channel: LatheChannel) -> None:
     """The codes of power-on count as given."""
     state = CodeState.of(channel)
@@ -60,7 +54,7 @@ def set_position(channel: LatheChannel, words: Words) -> None:
     state = ZeroState.of(channel)
     limit = words.typed("S")
     if limit is not None:
-        channel.memory.spindle_limit_rpm = limit
+        channel.memory.spindle.limit_rpm = limit
         channel.context_changed()
     named = words.axes()
     if not named:
@@ -123,7 +117,7 @@ def _move_in_machine_system(channel: LatheChannel, words: Words, *, rapid: bool)
     for axis, value, incremental in words.axes():
         if not incremental:
             machine[axis] = value
-    with suspended(channel):
+    with suspended(channel, [axis for axis, _, incremental in words.axes() if not incremental]):
         channel.straight(
             Kind.RAPID if rapid else Kind.FEED, c.from_machine(machine), nan if rapid else channel.feed
         )
@@ -260,11 +254,10 @@ def rotate(channel: LatheChannel, words: Words) -> None:
     elif words.form("R") == "" and memory.parameters.FRD:
         # FRD: without a decimal point R counts 0.00001 degrees.
         angle /= 100.0
-    if "R" in words and channel.mode["distance"] == "G91" and memory.parameters.RIN:
+    if "R" in words and channel.control.rotation_adds(channel) and not parts.rotation.is_identity:
         angle += state.angle
     state.angle = angle
-    x, y, z = (center[i] if i >= 0 else 0.0 for i in c.geometry)
-    parts.rotation = about((x, y, z), rotation(PLANES[channel.mode["plane"]][2], angle))
+    parts.rotation = rotation_frame(channel, [center[i] if i >= 0 else 0.0 for i in c.geometry], angle)
     # 11600#5 AX1 = 0: an axis that the next block does not name keeps the value that it had before the rotation.
     c.set_programming(parts.product(), parts.shift, stays=memory.parameters.AX1)
 

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 from polycnc.control.fanuc.lathe.coordinates.systems import without_rotation
 from polycnc.control.fanuc.lathe.cycles import tapping
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
+from polycnc.control.word_address.auxiliary.overrides import OverrideState
+from polycnc.control.word_address.block.codes import MCode
 from polycnc.control.word_address.cycles import drilling as base
 from polycnc.control.word_address.cycles.drilling import CycleState, DrillCycle, Drilling, Halts
 from polycnc.cycles.drilling import holes, lathe
@@ -21,10 +23,11 @@ if TYPE_CHECKING:
 
     from polycnc.channel.mode import Mode
     from polycnc.control.fanuc.lathe.family import LatheChannel
-    from polycnc.control.word_address.block.codes import Handler, Step
+    from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.cycles.drilling.holes import Cycle, Hole, Stroke
+    from polycnc.toolpath import Context
 
 #: K, or L in the Series 15 format, is a whole number up to this one (II.4.3).
 MOST_REPEATS = 9999
@@ -299,13 +302,23 @@ def _unclamp(channel: LatheChannel, clamp: int) -> int:
     return parameters.unclamp_code if clamp == parameters.clamp_code else parameters.second_unclamp_code
 
 
-def note_clamp(number: int) -> Handler:
-    """The handler of a clamp code: it holds until the cycle ends."""
+def clamp_row(builder: Builder, number: int) -> MCode | None:
+    """The clamp code of a drilling block: it belongs to the cycle and holds until that ends."""
+    if builder.mode["cycle"] == "G80" or not is_clamp(builder.channel, number):
+        return None
 
     def note(channel: LatheChannel, _words: Words) -> None:
         tapping.ClampState.of(channel).code = number
 
-    return note
+    return MCode(number, handler=note, silent=True)
+
+
+def in_cycle(channel: LatheChannel, context: Context) -> Context:
+    """A context with what taps keep from the operator, and with where strokes overlap."""
+    tapping, overlap = OverrideState.of(channel).tapping, CycleState.of(channel).overlap
+    if tapping or overlap != context.overlap:
+        return replace(context, feed_hold=context.feed_hold and not tapping, overlap=overlap)
+    return context
 
 
 def _plan_axis_words(builder: Builder, plan_: Plan) -> Step | None:

@@ -113,6 +113,7 @@ def _run(channel: LatheChannel, code: str, words: Mapping[str, float], infeed: i
     gauged = code in _GAUGED and words.get("P", 1.0) in _GAUGES
     back = words.get("K" if code in _OSCILLATING else "I", words.get("K", 0.0))
     for stroke in strokes:
+        channel.once_more()
         if stroke.dwell_s:
             channel.dwell(seconds=stroke.dwell_s)
         elif _stroke(channel, stroke, words, (infeed, along), unit, gauged=gauged):

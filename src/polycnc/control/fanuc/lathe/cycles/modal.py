@@ -6,9 +6,12 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.fanuc.code_calls import PROGRAM_M
+from polycnc.control.word_address.block.codes import MCode
 
 if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.family import LatheChannel
+    from polycnc.control.word_address.block.plan import Builder
 
 #: Group and codes of the modal state in which the blocks of a shape are read for a cycle, or run by G70.
 GROUP, READING, FINISHING = "shape", "reading", "finishing"
@@ -18,6 +21,12 @@ GROUP, READING, FINISHING = "shape", "reading", "finishing"
 def is_reading(channel: LatheChannel) -> bool:
     """Whether blocks are read for their shape only: T, S and M do nothing."""
     return channel.mode.codes.get(GROUP) == READING
+
+
+def silent_row(builder: Builder, number: int) -> MCode | None:
+    """An M code that blocks which are read for their shape only leave out; those that end or call programs act."""
+    reading = builder.mode.codes.get(GROUP) == READING
+    return MCode(number, silent=True) if reading and number not in PROGRAM_M else None
 
 
 @dataclass(slots=True)

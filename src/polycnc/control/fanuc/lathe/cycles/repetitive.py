@@ -35,9 +35,10 @@ from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
 from polycnc.cycles.turning.contour import points, reversal, swapped, swapped_stroke
+from polycnc.cycles.turning.cuts import Roughing
 from polycnc.cycles.turning.pattern import repeat_pattern as pattern_strokes
 from polycnc.cycles.turning.peck import Pecks, peck_columns
-from polycnc.cycles.turning.rough import Roughing, rough
+from polycnc.cycles.turning.rough import rough
 from polycnc.cycles.turning.thread import ThreadCuts, thread_passes
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.units import INCH_MM

@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
 #: Moves that lead off a thread in a cycle: retract and return.
 WAYS_OFF = 2
-#: A cycle with more strokes is taken for one that does not end (a depth of a micrometre, say).
-MAX_STROKES = 300_000
+#: Strokes of a cycle that count as one block for the block limit.
+STROKES_OF_A_BLOCK = 4
 
 
 def emit(channel: LatheChannel, strokes: Iterable[PlaneStroke], *, lead: float = 0.0) -> None:
@@ -40,8 +40,8 @@ def emit(channel: LatheChannel, strokes: Iterable[PlaneStroke], *, lead: float =
     c = channel.coordinates
     way_off = 0
     for number, stroke in enumerate(strokes):
-        if number >= MAX_STROKES:
-            raise channel.control.block_limit()
+        if number % STROKES_OF_A_BLOCK == STROKES_OF_A_BLOCK - 1:
+            channel.once_more()
         end = c.position[:]
         end[first], end[second] = stroke.end
         if stroke.kind is Kind.RAPID:

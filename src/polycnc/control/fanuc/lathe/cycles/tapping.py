@@ -93,7 +93,7 @@ def check(channel: LatheChannel, data: CycleData) -> None:
     """A rigid tap needs a speed that the gear and the encoder allow, no constant surface speed, and a feed."""
     if not is_rigid(channel):
         return
-    fail, speed = channel.control.fail, channel.memory.spindle_speed
+    fail, speed = channel.control.fail, channel.memory.spindle.speed
     highest = gear_limit(channel)
     if channel.mode["surface_speed"] == "G96" or not speed > 0.0 or (highest and speed > highest):
         raise fail("rigid_speed", address="S")
@@ -118,7 +118,7 @@ def gear_limit(channel: LatheChannel) -> float:
 
 def largest_override(channel: LatheChannel) -> float:
     """The feed override (5203#4) may not lead the spindle above its gear's highest speed; 0 for any (II.4.5.4.2)."""
-    speed = channel.memory.spindle_speed
+    speed = channel.memory.spindle.speed
     return gear_limit(channel) / speed if speed > 0.0 else 0.0
 
 
@@ -129,12 +129,12 @@ def extraction(channel: LatheChannel) -> float:
         return 1.0
     factor = _wanted_extraction(channel)
     highest = gear_limit(channel)
-    return min(factor, highest / memory.spindle_speed) if highest else factor
+    return min(factor, highest / memory.spindle.speed) if highest else factor
 
 
 def _wanted_extraction(channel: LatheChannel) -> float:
     memory = channel.memory
-    parameters, data, speed = memory.parameters, CycleState.of(channel).active, memory.spindle_speed
+    parameters, data, speed = memory.parameters, CycleState.of(channel).active, memory.spindle.speed
     if "J" in data and parameters.OV3:
         rpm = data.amount("J") * (1.0 if channel.control.number_rules(channel).calculator else 1000.0)
         factor = rpm / speed
@@ -157,7 +157,7 @@ def plan_leaving(builder: Builder, _plan: Plan) -> Step | None:
         ClampState.of(channel).code = 0
         channel.mode = channel.mode.with_code(RIGID, RIGID_OFF)
         if forgets_speed:
-            channel.memory.spindle_speed = 0.0
+            channel.memory.spindle.speed = 0.0
             channel.context_changed()
 
     return leave

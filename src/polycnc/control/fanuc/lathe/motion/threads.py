@@ -23,6 +23,8 @@ from polycnc.toolpath.modes import FeedMode
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from polycnc.channel.stack import Level
+    from polycnc.channel.steps import Step as ProgramStep
     from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
@@ -253,6 +255,12 @@ def lock(channel: LatheChannel, kind: str) -> None:
     if state.lock != kind:
         state.lock = kind
         channel.context_changed()
+
+
+def not_between_threads(channel: LatheChannel, level: Level, _step: ProgramStep) -> bool | None:
+    """Single block halts behind the first block that is no thread (II.3.1)."""
+    is_thread = ThreadState.of(channel).step == level.current and channel.mode["motion"] in THREADS
+    return False if is_thread else None
 
 
 def locked(channel: LatheChannel, context: Context) -> Context:

@@ -11,7 +11,7 @@ from polycnc.control.fanuc.lathe.cycles.modal import is_reading
 from polycnc.control.fanuc.lathe.motion import corners
 from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
 from polycnc.control.word_address.block.rules import Rule
-from polycnc.control.word_address.tools import radius
+from polycnc.control.word_address.tools import look_ahead, radius
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.geometry.planes import PLANES
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
 #: 5003#0 SUP = 0, #1 SUV = 0 (0i-TF Plus 5.4.1), 19625 = 3.
 TYPE_A = Policy(recommand_is_square=True)
-LINES = frozenset({"G0", "G1"})
 #: Kind of the program level in which G70 runs a shape.
 
 
@@ -121,30 +120,15 @@ def _direction(channel: LatheChannel, words: Words) -> tuple[float, float] | Non
 
 
 def plan_travel(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
-    """A straight block whose axis words give no way: the block in front ends square on itself (II.5.2.5).
-
-    A block with G39 may have no axis words at all (II.5.6).
-    """
+    """A straight block without a way ends the block in front; one with G39 has no axis words at all (II.5.6)."""
     if plan.axis_words and any(row.code == "G39" for row in builder.codes):
         raise builder.control.fail("corner_arc_moves", address="G39")
-    if step is None or not plan.axis_words or builder.mode["motion"] not in LINES:
-        return step
-    if builder.mode["compensation"] == "G40":
-        return step
-
-    def run(channel: LatheChannel, values: list[float]) -> None:
-        before = channel.coordinates.position[:]
-        step(channel, values)
-        stage = radius.active_compensation(channel)
-        if stage is not None and channel.coordinates.position == before:
-            stage.end_square()
-
-    return run
+    return look_ahead.plan_travel(builder, plan, step)
 
 
 def plan_line_words(builder: Builder) -> Callable[[LatheChannel, list[float]], object] | None:
     """What I, J, K, R, C and the comma words of a G00 or G01 block ask for: a corner shape or a vector."""
-    if builder.mode["motion"] not in LINES:
+    if builder.mode["motion"] not in look_ahead.LINES:
         return None
     parameters = builder.channel.memory.parameters
     # I, J, K are chamfers where that function is there and takes them (II.4.7).

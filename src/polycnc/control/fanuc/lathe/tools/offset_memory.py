@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, retained
+from polycnc.memory.encoding import encoded
 from polycnc.memory.retained import TOOL_OFFSETS, WORK_SHIFT
 
 if TYPE_CHECKING:
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from polycnc.machine.setup.values import Offsets, Tool
 
 
+@encoded("turning offset")
 @dataclass(slots=True)
 class TurningOffset:
     """One number of the offset memory; by axis name, mm, X as radius.

@@ -14,7 +14,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation.tips import tip_direction
 from polycnc.control.fanuc.lathe.cycles.modal import is_reading
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory, y_offset_axis
-from polycnc.control.tool_change import check_change_points
+from polycnc.control.word_address.auxiliary.functions import bring_to_change
 from polycnc.control.word_address.block.plan import NOT_YET
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.macro_b.code_calls import calls_by_tool
@@ -69,9 +69,7 @@ def plan_tool(builder: Builder) -> Step | None:
     if calls_by_tool(builder):
         return None
     control, mode = builder.control, builder.mode
-    slot, form = builder.slots["T"]
-    if form not in ("", "#"):
-        raise control.fail("point", address="T")
+    slot = builder.slots["T"][0]
     if any(row.code == "G10" for row in builder.codes):
         raise control.fail("g10_format", address="T")
     if any(row.code == "G50.9" for row in builder.codes):
@@ -93,9 +91,9 @@ def plan_tool(builder: Builder) -> Step | None:
             return
         memory, active = channel.memory, OffsetState.of(channel)
         tool, number = split_tool_word(channel, values[slot])
-        if tool != memory.tool:
-            check_change_points(channel)
-        memory.tool = memory.next_tool = tool
+        if tool != memory.tool.number:
+            bring_to_change(channel)
+        memory.tool.number = memory.tool.next = tool
         active.tool_word = int(values[slot])
         channel.context_changed()
         channel.event(ToolSelection(tool))

@@ -1,0 +1,100 @@
+"""Whole processes, as a user calls them, in turn with LinuxCNC's rs274; smallest of three."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from benchmarks.measure import Figure, process_time, skipped
+from benchmarks.programs import NO_TIME, TIMED, Work, all_work, lines
+
+TURNS = 3
+FILES, FILES_LIMIT_S = 2_000, 2.0
+SHORT, LONG = 10_000, 100_000
+
+
+def _command(*arguments: str | Path) -> list[str]:
+    return [sys.executable, "-m", "polycnc", *map(str, arguments), "--control", "fanuc-m"]
+
+
+def _write(path: Path, work: Work) -> Path:
+    path.write_text("\n".join(["%", "O0001", *work.ours, "%", ""]), encoding="ascii")
+    return path
+
+
+def against_rs274() -> Iterator[Figure]:
+    """Every kind of work, with each set of options."""
+    rs274 = shutil.which("rs274")
+    for work in all_work():
+        with tempfile.TemporaryDirectory() as name:
+            yield from _figures(work, Path(name), rs274)
+
+
+def _figures(work: Work, folder: Path, rs274: str | None) -> Iterator[Figure]:
+    ours, peer, setup = _write(folder / "ours.nc", work), folder / "peer.ngc", folder / "setup.yaml"
+    peer.write_text("\n".join([*work.peer, ""]), encoding="ascii")
+    setup.write_text(work.setup, encoding="ascii")
+    with_setup = ("--setup", setup) if work.setup else ()
+    runs = {
+        options: _command("run", ours, *with_setup, *(str(folder / o) if "." in o else o for o in options))
+        for options in work.goals
+    }
+    used = dict.fromkeys(runs, float("inf"))
+    theirs = float("inf")
+    for _ in range(TURNS):
+        for options, run in runs.items():
+            used[options] = min(used[options], process_time(run, 1))
+        if rs274 is not None:
+            theirs = min(theirs, process_time([rs274, "-g", str(peer)], 1))
+    for options, goal in work.goals.items():
+        name = f"{work.name}, {_said(options)}"
+        if rs274 is None:
+            yield skipped(
+                name, f"rs274 is not installed (Debian: linuxcnc-uspace); ours {used[options]:.2f} s"
+            )
+            continue
+        times = theirs / used[options]
+        said = f"{used[options]:.2f} s, rs274 {theirs:.2f} s: {times:.2f} times as fast, asked {goal:g}"
+        yield Figure(name, said, times / goal, times)
+
+
+def _said(options: tuple[str, ...]) -> str:
+    if options == TIMED:
+        return "with cycle time"
+    return "without cycle time" if options == NO_TIME else f"to {Path(options[-1]).suffix[1:]}"
+
+
+def short_programs() -> Iterator[Figure]:
+    """A short program with cycle time takes no longer for a block than a long one, but for the start of the process."""
+    work = lines()
+    used: dict[int, float] = {}
+    with tempfile.TemporaryDirectory() as name:
+        for count in (SHORT, LONG, 1):
+            part = Work(work.name, [*work.ours[: count + 4], "M30"], [], {})
+            used[count] = process_time(_command("run", _write(Path(name, f"{count}.nc"), part)), TURNS)
+    short, long = ((used[count] - used[1]) / count * 1e6 for count in (SHORT, LONG))
+    said = f"{short:.2f} µs a block of {SHORT:,}, {long:.2f} of {LONG:,}"
+    yield Figure("short programs with cycle time", said, long / max(short, 1e-9))
+
+
+def many_files() -> Iterator[Figure]:
+    """`polycnc check` of many small files, on all cores: time that passes."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for i in range(FILES):
+            text = "".join(f"X{j}. Y{(i * j) % 50}.\n" for j in range(20))
+            (folder / f"{i:04d}.nc").write_text(
+                f"O1\nG90 G54 G0 Z5.\nG1 F500.\n{text}M30\n", encoding="ascii"
+            )
+        run = _command("check", *sorted(folder.iterdir()))
+        took = []
+        for _ in range(TURNS):
+            begin = time.perf_counter()
+            process_time(run, 1)
+            took.append(time.perf_counter() - begin)
+    said = f"{min(took):.2f} s pass, limit {FILES_LIMIT_S:g}"
+    yield Figure(f"check of {FILES:,} files", said, FILES_LIMIT_S / min(took))

@@ -1,0 +1,199 @@
+"""What a control may ask of the main run in an interpolation cycle, and what may look in each: synchronised actions.
+
+A program that needs the clock asks for it by `Channel.on_clock`. Actions are the control's; the main run offers this
+one object of each channel and knows nothing of their language.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.messages import AlarmError
+    from polycnc.toolpath import Event
+
+
+class OnPath(NamedTuple):
+    """Where the block in execution is.
+
+    Attributes:
+        seconds: Since it began.
+        done: Way along its path, mm.
+        left: Way to its end, mm.
+        speed: Path speed, mm/s.
+    """
+
+    seconds: float
+    done: float
+    left: float
+    speed: float
+
+
+@dataclass(slots=True)
+class Influence:
+    """What actions have made of the speeds in one interpolation cycle; it holds until they look again.
+
+    Attributes:
+        factor: Path override, 1 for 100 %.
+        addend: What is added to the path feed, mm/s.
+        of_axes: Override of single axes by column, 1 for 100 %.
+        holds_next: The next block does not begin (RDISABLE).
+    """
+
+    factor: float = 1.0
+    addend: float = 0.0
+    of_axes: dict[int, float] = field(default_factory=dict)
+    holds_next: bool = False
+
+    @property
+    def is_none(self) -> bool:
+        """Whether the path runs as it would without actions."""
+        return self.factor == 1.0 and self.addend == 0.0 and not self.of_axes
+
+
+class Watcher(Protocol):
+    """Who looks in every interpolation cycle."""
+
+    def look(self) -> None:
+        """An interpolation cycle has come, and the axes are where they are in it."""
+
+    def block_begins(self) -> None:
+        """A block begins that does something on the machine; the one before is over."""
+
+    def block_ends(self) -> None:
+        """The block in execution is over."""
+
+    @property
+    def lingers(self) -> bool:
+        """Whether the end of the program has to wait."""
+
+    @property
+    def is_quiet(self) -> bool:
+        """Whether another look would find everything as it is, until a block begins or an axis comes to rest."""
+
+    def abandon(self, *, reset: bool) -> None:
+        """The program has ended, or was given up by a reset."""
+
+
+class Commanded(Protocol):
+    """An axis that is moved beside the path; positions are of the machine, mm (radius) or degrees."""
+
+    @property
+    def moves(self) -> bool:
+        """Whether it is under way, or waits at an override of 0."""
+
+    @property
+    def left(self) -> float:
+        """Way to its target, signed; 0 where it has none."""
+
+    def move_to(self, target: float, speed: float) -> None:
+        """Go to a target, out of whatever it does."""
+
+    def run_on(self, direction: int, speed: float) -> None:
+        """Go on without end, 1 or -1; 0 brakes."""
+
+    def preset(self, place: float) -> None:
+        """It is called another position where it is, and goes on with the way that is left."""
+
+    def change_speed(self, speed: float) -> None:
+        """Another speed, where it is under way."""
+
+    def stop(self) -> None:
+        """Brake, and drop the way that is left."""
+
+
+class Interpolator(Protocol):
+    """The main run of one channel, at the moment of a look. Axes are columns of the channel."""
+
+    @property
+    def time(self) -> float:
+        """Simulated time, s."""
+
+    @property
+    def cycle_s(self) -> float:
+        """Interpolation cycle, s."""
+
+    @property
+    def on_path(self) -> OnPath:
+        """Where the block in execution is."""
+
+    @property
+    def runs_programs(self) -> bool:
+        """Whether the control is in the mode in which the channel's program was started."""
+
+    @property
+    def modal(self) -> Mapping[str, str]:
+        """Active codes in the block in execution."""
+
+    def machine(self, column: int) -> float:
+        """Commanded position of an axis on the machine."""
+
+    def left(self, column: int) -> float:
+        """Way of an axis to where it goes, signed: by what commands it, or in the move in execution."""
+
+    def is_on_path(self, column: int) -> bool:
+        """Whether the move in execution moves an axis."""
+
+    def speed(self, column: int) -> float:
+        """Speed of an axis, mm/s or degrees/s, signed."""
+
+    def watch(self, watcher: Watcher) -> None:
+        """From now on somebody is told of cycles and blocks."""
+
+    def wake(self) -> None:
+        """Look in every cycle from the next one on."""
+
+    def sleep(self) -> None:
+        """Look in none before something happens: a block begins, a signal changes, an axis comes to rest."""
+
+    @property
+    def is_still(self) -> bool:
+        """Whether no axis of the channel moves."""
+
+    def influence(self, influence: Influence) -> None:
+        """Let these speeds hold until the next look."""
+
+    def gate(self, *, closed: bool) -> None:
+        """Whether every block ends in an exact stop."""
+
+    def stop_behind_next(self) -> None:
+        """Preparation waits behind the next block that does something; said while the program is prepared."""
+
+    def release(self) -> None:
+        """Preparation need not wait for the end of the block in execution."""
+
+    def drop_rest(self) -> float:
+        """Brake on the path and drop what is left of the block in execution; gives the way dropped, mm."""
+
+    def commanded(self, column: int) -> Commanded:
+        """An axis that is moved beside the path."""
+
+    def move_static(self, column: int, *, static: bool) -> None:
+        """Whether what moves an axis beside the path goes on while the program is held."""
+
+    def shift_path(self, column: int, place: float) -> None:
+        """The path has an axis elsewhere from now on; the axis stays, and nothing moves on the path."""
+
+    def position_beside(self, column: int, target: float, speed: float) -> None:
+        """An axis goes to a target beside the path, which has it there from now on; nothing moves on the path."""
+
+    def take_back(self, column: int) -> float:
+        """The program has a commanded axis again, which stands: gives its machine position."""
+
+    def overlay(self, column: int, value: float, speed: float) -> None:
+        """Shift an axis beside everything else, no faster than a speed."""
+
+    def take_in_overlay(self, column: int) -> float:
+        """The shift of an axis, which stands, becomes a part of the path: gives its machine position."""
+
+    def corner_angle(self) -> float | None:
+        """Angle between the end of the move in execution and the next one, degrees; None where none is prepared."""
+
+    def put_out(self, event: Event) -> None:
+        """An auxiliary function goes out to the machine."""
+
+    def fail(self, error: AlarmError, *, program: str, line: int) -> None:
+        """An action raises an alarm: the program ends behind what is prepared."""

@@ -1,0 +1,153 @@
+"""Where a move leads the machine, for those that limit it: travel of the axes, forbidden zones, working areas.
+
+Limits hold for the way that the tool really takes, not for its end alone: an arc can leave the travel between two ends
+that lie in it, and compensation and corners change the way. So moves that pass stages are looked at behind them, by a
+guard that the path puts there; where nothing changes moves, the channel asks at once.
+"""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING
+
+from polycnc.channel.moves.path import Move, Rank, Stage
+from polycnc.geometry import arcs
+from polycnc.messages import AlarmError
+from polycnc.toolpath.kinds import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.channel.channel import Channel
+    from polycnc.channel.moves.move_path import MovePath
+    from polycnc.geometry.frames import Frame
+    from polycnc.machine.model import Axis
+    from polycnc.toolpath import Context
+
+#: A limit may be passed by this much, mm or degrees: rounding.
+SLACK = 1e-9
+#: Chords of a curve may be this far off it where zones are looked for along it, mm.
+CHORD_ERROR_MM = 0.01
+MOST_PARTS = 720
+#: Chords of a straight way on which a transformation makes the axes move along curves.
+PARTS_OF_CURVED_LINE = 64
+
+
+class Travel:
+    """The way of one move, in the systems in which something may be limited.
+
+    Args:
+        channel: The channel that moves.
+        move: The move, as its row will be.
+    """
+
+    def __init__(self, channel: Channel, move: Move) -> None:
+        self.move = move
+        self._channel = channel
+        self._context: Context = channel.toolpath.contexts[move.context]
+        self._machine: list[list[float]] = []
+
+    @property
+    def context(self) -> Context:
+        """The state in which the move was programmed."""
+        return self._context
+
+    @property
+    def machine(self) -> list[list[float]]:
+        """Machine positions: start, every point where an axis turns back, end."""
+        if not self._machine:
+            context = self._context
+            curved = context.transformation is not None
+            points = self._spread() if curved else self.turns(context.frame)
+            self._machine = [self.to_machine(point) for point in points]
+        return self._machine
+
+    def turns(self, frame: Frame) -> list[list[float]]:
+        """Start, every point where a coordinate of the system that a frame leads to turns back, and end."""
+        move = self.move
+        if move.center is None:
+            return [move.start, move.end]
+        way = self._way()
+        parts = sorted(part for row in frame.m for part in way.turning_parts(row))
+        return [move.start, *(way.at(part) for part in parts), move.end]
+
+    def closely(self) -> list[list[float]]:
+        """Machine positions so close to each other that straight lines between them are the way."""
+        return [self.to_machine(point) for point in self.positions()]
+
+    def positions(self) -> list[list[float]]:
+        """The same in the absolute display."""
+        if self.move.center is None and self._context.transformation is None:
+            return [self.move.start, self.move.end]
+        return self._spread()
+
+    def to_machine(self, position: list[float]) -> list[float]:
+        """The machine position of a point of the way."""
+        channel = self._channel
+        return channel.toolpath.to_machine(position, self._context, channel.coordinates.geometry)
+
+    def _way(self) -> MovePath:
+        from polycnc.channel.moves.move_path import MovePath  # straight ways do without it
+
+        return MovePath(self.move, self._channel.coordinates.geometry)
+
+    def _spread(self) -> list[list[float]]:
+        way = self._way()
+        count = PARTS_OF_CURVED_LINE
+        if self.move.center is not None:
+            parts = arcs.parts_for_chord_error(max(way.radius, CHORD_ERROR_MM), way.sweep, CHORD_ERROR_MM)
+            count = min(parts, MOST_PARTS)
+        return [self.move.start, *(way.at(k / count) for k in range(1, count + 1))]
+
+
+class TravelGuard(Stage):
+    """Refuses what leads beyond the limits, behind all stages that change moves; the path itself puts it there."""
+
+    rank = Rank.LIMITS
+
+    def __init__(self, channel: Channel) -> None:
+        self._channel = channel
+
+    def move(self, move: Move) -> None:
+        """Pass a move on; the control's alarm for one that leads beyond a limit, at the block that it belongs to."""
+        try:
+            check_travel(self._channel, move)
+        except AlarmError as alarm:
+            alarm.line, alarm.program = move.line, move.program
+            raise
+        self.after.move(move)
+
+
+def limits_of(axes: Sequence[Axis]) -> tuple[tuple[float, float], ...]:
+    """Lowest and highest machine position of every axis; nothing where no axis has a limit."""
+    limits = tuple((axis.limit_minus, axis.limit_plus) for axis in axes)
+    return limits if any(low > -inf or high < inf for low, high in limits) else ()
+
+
+def check_travel(channel: Channel, move: Move) -> None:
+    """The control's alarm for a move that leads beyond what machine, setup or program allow."""
+    limits, boundary = channel.limits, channel.boundary
+    if move.kind != Kind.DWELL and (limits or boundary is not None):
+        travel = Travel(channel, move)
+        if limits:
+            for machine in travel.machine[1:]:
+                check_point(channel, machine)
+        if boundary is not None:
+            boundary.check(channel, travel)
+
+
+def check_straight(channel: Channel, kind: Kind, start: list[float], end: list[float]) -> None:
+    """The same for a straight move that no stage changes; most of them are through with their ends."""
+    if channel.boundary is None and channel.coordinates.transformation is None:
+        check_point(channel, channel.coordinates.to_machine(end))
+    else:
+        check_travel(channel, Move(kind, start, end, context=channel.context_number()))
+
+
+def check_point(channel: Channel, machine: list[float]) -> None:
+    """The control's alarm for a machine position out of the travel that the machine gives an axis."""
+    for i, (low, high) in enumerate(channel.limits):
+        if machine[i] < low - SLACK:
+            raise channel.control.over_travel(channel.axes[i], -1)
+        if machine[i] > high + SLACK:
+            raise channel.control.over_travel(channel.axes[i], 1)

@@ -1,0 +1,72 @@
+"""The stage in which rotary axes turn along a move: it becomes as many as they need to go evenly in each.
+
+What lies between two of them is no corner of the program: the axes go through without an exact stop.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from polycnc.channel.moves.move_path import MovePath
+from polycnc.channel.moves.path import Move, Rank, Stage
+from polycnc.toolpath.modes import CornerMode
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.transformation.turning import Turning
+
+
+#: As much may the rotary axes leave their way at a knot, degrees: what its direction may be off.
+TOLERANCE_DEG = 0.02
+
+
+class TurningStage(Stage):
+    """Leads the rotary axes of moves that say how they go."""
+
+    rank = Rank.TURNING
+
+    def __init__(self, channel: Channel) -> None:
+        self._channel = channel
+
+    @property
+    def active(self) -> bool:
+        """Whether the running block turns the tool."""
+        return self._channel.turning is not None
+
+    def move(self, move: Move) -> None:
+        """Pass a move on, cut at the knots of its turning."""
+        turning = move.turning
+        if turning is None:
+            self.after.move(move)
+            return
+        path = MovePath(replace(move, turning=None), self._channel.coordinates.geometry)
+        within = self._through(move)
+        before, start = 0.0, move.start
+        for share, places in zip(turning.shares, turning.places, strict=True):
+            piece = path.between(before, share)
+            piece.start, piece.end = start, placed(piece.end, turning, places)
+            piece.context = move.context if share == 1.0 else within
+            self.after.move(piece)
+            before, start = share, piece.end
+
+    def _through(self, move: Move) -> int:
+        """The context in which the axes go through the knots within a move.
+
+        On a line the rotary axes may round them, since the tip stays on it; on an arc it would leave it.
+        """
+        toolpath = self._channel.toolpath
+        context = toolpath.contexts[move.context]
+        if not move.is_arc and not context.tolerance_mm > TOLERANCE_DEG:
+            context = replace(context, corner_mode=CornerMode.ROUNDED, tolerance_mm=TOLERANCE_DEG)
+        elif context.corner_mode is CornerMode.EXACT_STOP:
+            context = replace(context, corner_mode=CornerMode.CONTINUOUS)
+        return toolpath.context_number(context)
+
+
+def placed(position: list[float], turning: Turning, places: tuple[float, ...]) -> list[float]:
+    """A position with the rotary axes at a knot."""
+    moved = position.copy()
+    for column, place in zip(turning.columns, places, strict=True):
+        moved[column] = place
+    return moved

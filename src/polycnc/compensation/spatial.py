@@ -1,0 +1,334 @@
+"""The stage of radius compensation in space: the tip moves by the radius across path and tool.
+
+With the tool along v and the path along t the tool stands to the left by v × t. At a corner both blocks see the
+same tool v, so their offset lines, looked at along v, meet at `r (n1 + n2) / (1 + n1 · n2)` from the corner. Where the
+control turns the tool at a corner (`Rules.turns`), it does that before the arc about it or along with it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import acos, degrees, sin, sqrt
+from typing import TYPE_CHECKING, Protocol
+
+from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
+from polycnc.geometry.arcs import parts_for_chord_error
+from polycnc.geometry.vectors import cross, dot, times
+from polycnc.messages import AlarmError
+from polycnc.toolpath.kinds import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.geometry.frames import Vector
+
+PARALLEL = 1e-6
+INTERSECTION, INTERSECTION_FIRST, ARC_FIRST = 0, 1, 2
+#: The tool turns at a corner: not at all, before the arc about it, or along with it.
+TURNS_NOT, TURNS_BEFORE, TURNS_ALONG = 0, 1, 2
+#: Chords of an arc along which the tool turns may be this far off it, mm.
+CHORD_ERROR_MM = 0.001
+
+
+class Directions(Protocol):
+    """What says how the tool stands."""
+
+    def tool_at(self, position: Sequence[float]) -> Vector:
+        """Direction along the tool at a position of the path, of length 1."""
+
+
+@dataclass(frozen=True, slots=True)
+class Corners:
+    """How outer corners are passed, and the corner angles of the work at which the way changes (degrees)."""
+
+    way: int = INTERSECTION
+    least_intersection_deg: float = 0.0
+    most_arc_deg: float = 180.0
+
+    def is_arc(self, angle_deg: float) -> bool:
+        """Whether a corner of the work with this angle gets an arc."""
+        if self.way == INTERSECTION_FIRST:
+            return angle_deg < self.least_intersection_deg
+        return self.way == ARC_FIRST and angle_deg <= self.most_arc_deg
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """How controls differ.
+
+    Attributes:
+        no_corner: Alarm where two blocks have no corner.
+        changes: Alarm where a turn of the tool makes an inner corner an outer one; empty where none does.
+        idle: Alarm for too many blocks that cannot be computed, and how many may be; empty for no limit.
+        most_idle: That number.
+        square_start: The first block leads square onto the second one.
+        turns: When the tool turns at an outer corner.
+    """
+
+    no_corner: str
+    changes: str = ""
+    idle: str = ""
+    most_idle: int = 0
+    square_start: bool = False
+    turns: int = TURNS_NOT
+
+
+@dataclass(slots=True)
+class _Held:
+    """A block whose end waits for the next one: its move, the normal at its end, the tool there, its direction.
+
+    What it has of the stage holds for the corner at its end: how corners are passed, and the depth.
+    """
+
+    move: Move
+    normal: Vector
+    tool: Vector
+    tangent: Vector
+    starts: bool
+    corners: Corners
+    rules: Rules
+    depth: float
+
+
+class SpatialStage(Stage):
+    """Offsets straight moves of the tip.
+
+    Args:
+        geometry: Columns of X, Y, Z.
+        posture: How the tool stands on the work.
+        radius: Offset, mm; negative changes sides.
+        side: 1 left, -1 right.
+        corners: What happens at outer corners.
+        rules: How the control does it.
+
+    Attributes:
+        depth: How far down the tool its tip lies from the programmed point, from the next block on, mm.
+    """
+
+    rank = Rank.SPATIAL_COMPENSATION
+
+    def __init__(
+        self,
+        geometry: tuple[int, int, int],
+        posture: Directions,
+        radius: float,
+        side: int,
+        corners: Corners,
+        rules: Rules,
+    ) -> None:
+        self.side = side
+        self.corners = corners
+        self.rules = rules
+        self.depth = 0.0
+        self._depth = 0.0
+        self._geometry = geometry
+        self._posture = posture
+        self.radius = radius
+        self._starts = rules.square_start
+        self._held: _Held | None = None
+        self._shift: Vector = (0.0, 0.0, 0.0)
+        self._at: list[float] | None = None
+        self._idle = 0
+        self._queue: list[Move | PlacedEvent] = []
+
+    def move(self, move: Move) -> None:
+        """Take the next move."""
+        start, end = self._point(move.start), self._point(move.end)
+        way = (end[0] - start[0], end[1] - start[1], end[2] - start[2])
+        tool = self._posture.tool_at(move.end)
+        tangent = _unit(way)
+        normal = None if tangent is None else self._normal(tool, tangent)
+        if tangent is None or normal is None:
+            self._later(move)
+            return
+        self._idle = 0
+        self._join(tangent)
+        self._held = _Held(move, normal, tool, tangent, self._starts, self.corners, self.rules, self.depth)
+        self._starts = False
+
+    def _later(self, item: Move | PlacedEvent) -> None:
+        """Pass something on behind the block that waits, or at once where none does."""
+        self._queue.append(item)
+        if self._held is None:
+            self._run_queue()
+
+    def _run_queue(self) -> None:
+        queue, self._queue = self._queue, []
+        for item in queue:
+            if isinstance(item, Move):
+                self._emit(item, self._shift)
+            else:
+                self.after.event(item)
+
+    def _join(self, tangent: Vector) -> None:
+        """End the block that waits at its corner with one of this direction."""
+        held, self._held = self._held, None
+        if held is None:
+            return
+        self._depth = held.depth
+        turned = self._tool_behind(held)
+        first, second = held.normal, self._normal(turned, tangent)
+        if second is None or (dot(first, second) < -1.0 + PARALLEL and not held.starts):
+            raise AlarmError(held.rules.no_corner, line=held.move.line)
+        if held.starts:
+            self._emit(held.move, self._beside(second, turned))
+            self._run_queue()
+            return
+        outer = self._is_outer(held, second, turned, tangent)
+        cosine = min(1.0, dot(first, second))
+        if outer and held.corners.is_arc(180.0 - degrees(acos(max(-1.0, cosine)))):
+            self._emit(held.move, self._beside(first, held.tool))
+            self._round(held, second, turned)
+            return
+        factor = 1.0 / (1.0 + cosine)
+        x, y, z = (factor * (a + b) for a, b in zip(first, second, strict=True))
+        self._emit(held.move, self._beside((x, y, z), held.tool))
+        self._run_queue()
+
+    def _tool_behind(self, held: _Held) -> Vector:
+        """The tool as the moves that wait behind a block leave it."""
+        if held.rules.turns == TURNS_NOT:
+            return held.tool
+        turned = [move for move in self._queue if isinstance(move, Move)]
+        return self._posture.tool_at(turned[-1].end) if turned else held.tool
+
+    def _is_outer(self, held: _Held, second: Vector, turned: Vector, tangent: Vector) -> bool:
+        outer = dot(second, held.tangent) * self.radius
+        unturned = self._normal(held.tool, tangent)
+        if held.rules.changes and unturned is not None and turned != held.tool:
+            before = dot(unturned, held.tangent) * self.radius
+            if min(outer, before) < -PARALLEL and max(outer, before) > PARALLEL:
+                raise AlarmError(held.rules.changes, line=held.move.line)
+        return outer > PARALLEL
+
+    def _round(self, held: _Held, second: Vector, turned: Vector) -> None:
+        """About an outer corner, with what waits there in front, behind or along."""
+        if turned == held.tool and held.rules.turns != TURNS_BEFORE:
+            self._around(held.move, second, turned)
+            self._run_queue()
+            return
+        if held.rules.turns == TURNS_ALONG:
+            self._turn_along(held, second)
+            return
+        queue, self._queue = self._queue, []
+        for item in queue:
+            if not isinstance(item, Move):
+                self.after.event(item)
+                continue
+            tool = self._posture.tool_at(item.end)
+            normal = self._normal(tool, held.tangent)
+            self._emit(item, self._shift if normal is None else self._beside(normal, tool))
+            held.move = item
+        self._around(held.move, second, turned)
+
+    def _around(self, move: Move, normal: Vector, tool: Vector) -> None:
+        """An arc about the corner where a move ends, across the tool."""
+        shift = self._beside(normal, tool)
+        end = self._shifted(move.end, shift)
+        if self._at is None or _near(self._shift, shift):
+            return
+        self._shift = shift
+        clockwise = self.side * self.radius > 0.0
+        kind = Kind.CW if clockwise else Kind.CCW
+        x, y, z = (a - self._depth * b for a, b in zip(self._point(move.end), tool, strict=True))
+        arc = replace(move, kind=kind, start=self._at, end=end, center=(x, y, z), normal=tool)
+        self._at = end
+        self.after.move(arc)
+
+    def _turn_along(self, held: _Held, second: Vector) -> None:
+        """The arc in chords, each with the part of the turns that lies on it, by their angles (ORIC)."""
+        queue, self._queue = self._queue, []
+        ways = [self._angle_of(item) if isinstance(item, Move) else 0.0 for item in queue]
+        total, sweep, done = sum(ways), acos(max(-1.0, min(1.0, dot(held.normal, second)))), 0.0
+        for item, way in zip(queue, ways, strict=True):
+            if not isinstance(item, Move):
+                self.after.event(item)
+                continue
+            share = way / total
+            radius = max(abs(self.radius), PARALLEL)
+            count = parts_for_chord_error(radius, sweep * share, CHORD_ERROR_MM)
+            for k in range(1, count + 1):
+                part = k / count
+                place = [a + part * (b - a) for a, b in zip(item.start, item.end, strict=True)]
+                normal = _between(held.normal, second, sweep, done + share * part)
+                chord = replace(item, kind=Kind.SPLINE, end=place)
+                self._emit(chord, self._beside(normal, self._posture.tool_at(place)))
+            done += share
+
+    def _angle_of(self, move: Move) -> float:
+        """How far a move turns the tool, radians; never quite nothing."""
+        a, b = self._posture.tool_at(move.start), self._posture.tool_at(move.end)
+        return max(acos(max(-1.0, min(1.0, dot(a, b)))), PARALLEL)
+
+    def _beside(self, normal: Vector, tool: Vector) -> Vector:
+        """From the programmed point to the tip: by the radius along a normal, and the depth down the tool."""
+        x, y, z = (self.radius * a - self._depth * b for a, b in zip(normal, tool, strict=True))
+        return (x, y, z)
+
+    def _emit(self, move: Move, shift: Vector) -> None:
+        end = self._shifted(move.end, shift)
+        self._shift = shift
+        moved = replace(move, start=self._at or move.start, end=end)
+        self._at = end
+        self.after.move(moved)
+
+    def _normal(self, tool: Vector, tangent: Vector) -> Vector | None:
+        left = _unit(cross(tool, tangent))
+        return None if left is None else times(left, float(self.side))
+
+    def _point(self, position: list[float]) -> Vector:
+        x, y, z = self._geometry
+        return position[x], position[y], position[z]
+
+    def _shifted(self, position: list[float], shift: Vector) -> list[float]:
+        moved = list(position)
+        for axis, value in zip(self._geometry, shift, strict=True):
+            moved[axis] += value
+        return moved
+
+    def _release(self) -> None:
+        """End the block that waits square on itself."""
+        held, self._held = self._held, None
+        if held is not None:
+            self._depth = held.depth
+            self._emit(held.move, self._beside(held.normal, held.tool))
+        self._run_queue()
+
+    def change(self, side: int, radius: float) -> None:
+        """The other side, or another radius, from the next block on; between the two is no corner."""
+        self._release()
+        self.side, self.radius = side, radius
+
+    def event(self, event: PlacedEvent) -> None:
+        """Take an event; it comes behind the block that waits."""
+        self._later(event)
+
+    def block(self) -> None:
+        """Count blocks that cannot be computed; a computable one has set the count to zero."""
+        self._idle += 1
+        if self.rules.idle and self._at is not None and self._idle > self.rules.most_idle:
+            raise AlarmError(self.rules.idle)
+        self.after.block()
+
+    def flush(self) -> None:
+        """Pass on what waits."""
+        self._release()
+        self.after.flush()
+
+
+def _unit(v: Vector) -> Vector | None:
+    size = sqrt(dot(v, v))
+    return None if size < PARALLEL else (v[0] / size, v[1] / size, v[2] / size)
+
+
+def _near(a: Vector, b: Vector) -> bool:
+    return all(abs(x - y) < PARALLEL for x, y in zip(a, b, strict=True))
+
+
+def _between(a: Vector, b: Vector, sweep: float, share: float) -> Vector:
+    """A direction between two on their great circle."""
+    if sweep < PARALLEL:
+        return b
+    p, q = sin((1.0 - share) * sweep) / sin(sweep), sin(share * sweep) / sin(sweep)
+    x, y, z = (p * s + q * t for s, t in zip(a, b, strict=True))
+    return (x, y, z)

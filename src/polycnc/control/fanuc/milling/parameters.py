@@ -1,0 +1,47 @@
+"""The parameters of the control as attributes; written from parameters.toml by `control/parameter_module.py`."""
+
+from __future__ import annotations
+
+from polycnc.control.fanuc.parameters import FanucAxisParameters, FanucParameters
+from polycnc.control.parameters import Bit, Number, Whole
+
+
+class FanucMillingAxisParameters(FanucAxisParameters):
+    """The parameters that every axis has."""
+
+    #: 5148: G76, G87: axis of the shift with the sign of its direction, for each drilling axis; 0: by RD1 and
+    #: RD2.
+    shift_direction = Whole(5148, delivered=0)
+    #: 5440: G60: overrun of the axis, with the sign of the last direction [mm].
+    overrun = Number(5440, delivered=0.0)
+
+
+class FanucMillingParameters(FanucParameters["FanucMillingAxisParameters"]):
+    """The parameters of the control."""
+
+    axis_class = FanucMillingAxisParameters
+
+    #: 3404#7: of several M codes in a block the last acts (0) or up to three act (1).
+    M3B = Bit(3404, 7, delivered=False)
+    #: 3451#2: a decimal point in S is PS0007 (0) or allowed (1).
+    SDP = Bit(3451, 2, delivered=False)
+    #: 5001#6: a length that G28, G30 or G53 has cancelled comes back with the next G43, G44 or H (0) or the
+    #: next absolute word (1).
+    EVO = Bit(5001, 6, delivered=True)
+    #: 5008#1: the interference check of compensation compares directions (0) or not (1).
+    CNC = Bit(5008, 1, delivered=False)
+    #: 5101#0: drilling cycles run along Z (0) or the third axis of the plane (1).
+    FXY = Bit(5101, 0, delivered=False)
+    #: 5101#4: G76, G87: the shift is along plus (0) or minus (1).
+    RD1 = Bit(5101, 4, delivered=False)
+    #: 5101#5: G76, G87: the shift is along the first (0) or second (1) axis of the plane.
+    RD2 = Bit(5101, 5, delivered=False)
+    #: 5200#0: G74 and G84 are rigid tapping without M29.
+    G84 = Bit(5200, 0, delivered=False)
+    #: 5400#0: the angle of G68 is absolute (0) or incremental by G91 (1).
+    RIN = Bit(5400, 0, delivered=False)
+    #: 5400#7: factors of scaling without a point count 0.00001 (0) or 0.001 (1).
+    SCR = Bit(5400, 7, delivered=False)
+    #: 11600#5: an axis that the block behind G68 does not name keeps its coordinate from before (0) or its
+    #: position (1).
+    AX1 = Bit(11600, 5, delivered=True)

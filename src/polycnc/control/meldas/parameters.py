@@ -1,0 +1,58 @@
+"""The parameters of the control as attributes; written from parameters.toml by `control/parameter_module.py`."""
+
+from __future__ import annotations
+
+from polycnc.control.parameters import Number, Whole, WholeRun
+from polycnc.control.word_address.parameters import MacroAxisParameters, MacroParameters
+
+
+class MeldasAxisParameters(MacroAxisParameters):
+    """The parameters that every axis has."""
+
+    #: 2037: G53ofs: first reference point, machine coordinates [mm].
+    reference_point_1 = Number(2037, delivered=None)
+    #: 2038: #2_rfp: second reference point, machine coordinates [mm].
+    reference_point_2 = Number(2038, delivered=None)
+    #: 2039: #3_rfp: third reference point, machine coordinates [mm].
+    reference_point_3 = Number(2039, delivered=None)
+    #: 2040: #4_rfp: fourth reference point, machine coordinates [mm].
+    reference_point_4 = Number(2040, delivered=None)
+    #: 8209: G60 SHIFT: overrun of the axis, with the sign of the last direction [mm].
+    overrun = Number(8209, delivered=0.0)
+
+
+class MeldasParameters(MacroParameters["MeldasAxisParameters"]):
+    """The parameters of the control."""
+
+    axis_class = MeldasAxisParameters
+
+    #: 1084: RadErr: allowed difference of the radii of an arc; 0: no check [mm].
+    arc_tolerance = Number(1084, delivered=0.1)
+    #: 1086: G0Intp: rapids run on a line (0), or every axis by itself (1).
+    rapids_by_axis = Whole(1086, delivered=1)
+    #: 1522: Rotary axis of normal line control.
+    normal_axis = Whole(1522, delivered=None)
+    #: 1523: Normal line control: feed of turns; 0 for that of the cut [degrees/min].
+    normal_turn_feed = Number(1523, delivered=0.0)
+    #: 7001: M codes that call: the code of each of ten.
+    m_call_codes = WholeRun(7001, 10, step=10, delivered=0)
+    #: 7002: M codes that call: 0 as M98, 1 as G65, 2 as G66, 3 as G66.1.
+    m_call_types = WholeRun(7002, 10, step=10, delivered=0)
+    #: 7003: M codes that call: number of the program; 0 for none.
+    m_call_programs = WholeRun(7003, 10, step=10, delivered=0)
+    #: 7201: G codes that call: the code of each of ten.
+    g_call_codes = WholeRun(7201, 10, step=10, delivered=0)
+    #: 7202: G codes that call: 0 as M98, 1 as G65, 2 as G66, 3 as G66.1.
+    g_call_types = WholeRun(7202, 10, step=10, delivered=0)
+    #: 7203: G codes that call: number of the program; 0 for none.
+    g_call_programs = WholeRun(7203, 10, step=10, delivered=0)
+    #: 7312: T that calls: 0 as M98, 1 as G65, 2 as G66, 3 as G66.1.
+    t_call_type = Whole(7312, delivered=0)
+    #: 7313: T that calls: number of the program; 0 for none.
+    t_call_program = Whole(7313, delivered=0)
+    #: 8012: G73 n: retract of high speed pecking [mm].
+    peck_retract = Number(8012, delivered=0.0)
+    #: 8013: G83 n: clearance of deep hole pecking [mm].
+    peck_clearance = Number(8013, delivered=0.0)
+    #: 8081: Gcode Rotat: angle of G68 without R [degrees].
+    rotation_angle = Number(8081, delivered=0.0)

@@ -1,0 +1,94 @@
+"""The channel while its actions run: what their compiled effects call (10.4)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from polycnc.control.sinumerik.actions import polynomials
+from polycnc.control.sinumerik.actions.cycles import RunningCycle
+from polycnc.control.sinumerik.actions.procedures import PROCEDURES
+from polycnc.control.sinumerik.actions.run import Running
+from polycnc.control.sinumerik.actions.words import WORDS
+from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from polycnc.language.sinumerik.actions.code import Cycle
+    from polycnc.language.sinumerik.interface import SystemVariable
+
+#: Variables that go on by themselves: writing the same value again is a change.
+_GOING = ("$AC_TIMER", "$AC_FIFO", "$AA_OFF", "$AC_OVR", "$AA_OVR", "$AC_VC")
+
+
+class ActionRun(Running):
+    """A look at the actions; satisfies the language's `Acting`."""
+
+    # ---- variables -----------------------------------------------------------------------------------------
+
+    def store(self, variable: SystemVariable, indices: tuple[Any, ...], value: Any) -> None:
+        """Write a system variable."""
+        if not self.changed:
+            name = variable.name
+            if name.startswith("$A") and not name.startswith(_GOING):
+                self.changed = variable.read(self.channel, indices) != value
+            else:
+                self.changed = not name.startswith(("$AC_OVR", "$AA_OVR", "$AC_VC"))
+        main_run, self.channel.main_run = self.channel.main_run, None  # it is written at once
+        try:
+            variable.write(self.channel, indices, value)
+        finally:
+            self.channel.main_run = main_run
+
+    def store_item(self, values: list[Any], index: int, value: Any) -> None:
+        """Write an R parameter, or an element of a variable."""
+        if values[index] != value:
+            values[index] = value
+            self.changed = True
+
+    def store_all(self, variable: SystemVariable, indices: tuple[Any, ...], values: tuple[Any, ...]) -> None:
+        """Fill an array from an element on."""
+        for place, value in enumerate(values, indices[0]):
+            self.store(variable, (place, *indices[1:]), value)
+
+    # ---- words ---------------------------------------------------------------------------------------------
+
+    def word(self, address: str, index: Any, modifier: str, value: Any) -> None:
+        """`POS[X]=IC(10)`, `M3`, `S2=500`, `SPOS=90`."""
+        word = WORDS.get(address)
+        if word is None:
+            raise not_supported(address)
+        word(self, index, modifier, value)
+
+    # ---- procedures and functions --------------------------------------------------------------------------
+
+    def procedure(self, name: str, args: tuple[Any, ...]) -> None:
+        """`DELDTG(X)`, `LOCK(1)`, `RDISABLE`."""
+        procedure = PROCEDURES.get(name)
+        if procedure is None:
+            raise not_supported(name)
+        procedure(self, args)
+
+    def function(self, name: str, args: tuple[Any, ...]) -> Any:
+        """A function that the main run answers."""
+        if name != "POSRANGE":
+            return self.channel.control.function(self.channel, name, args, 0)
+        column = arguments.column(self.channel, args[0])
+        system = 0 if args[3] is None else arguments.whole(args[3])
+        if system not in range(4):
+            raise AlarmError("14020", text=name)
+        here = self.channel.actual.work[column] if system == 3 else self.clocked.machine(column)
+        return bool(abs(here - args[1]) <= abs(args[2]))
+
+    def polynomial(self, number: int, value: float) -> float:
+        """The value of a function of FCTDEF."""
+        return polynomials.value(self.channel, number, value)
+
+    def call(self, cycle: Cycle, args: tuple[Any, ...]) -> None:
+        """Run a technology cycle, behind those that were called before in this action."""
+        self.action.cycles.append(RunningCycle(cycle, list(args)))
+
+
+def is_executed(word: str) -> bool:
+    """Whether an address or procedure of an action is executed; a variable's name stands for writing it."""
+    return word in WORDS or word.removesuffix("()") in PROCEDURES or word.startswith("SYG_")

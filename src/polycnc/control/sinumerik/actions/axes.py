@@ -1,0 +1,167 @@
+"""Axes that synchronised actions command, and how the program has them again (10.4.12, 10.4.15, 10.4.18).
+
+An axis belongs to the program or to actions. When the program names one that actions may have moved, preparation is
+reorganised: the block waits until everything before it is executed and the axis stands, and goes on from there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from polycnc.channel.states.state import Lifetime, State
+from polycnc.channel.waits import PreprocessingStop
+from polycnc.control.sinumerik import tables
+from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.feed.path_feed import PathFeed
+from polycnc.geometry.tolerances import NO_WAY
+from polycnc.language.sinumerik.names.values import Type
+from polycnc.messages import AlarmError
+from polycnc.toolpath.events import Deed
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from polycnc.control.sinumerik.block.arguments import Arguments
+    from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
+
+#: `$AA_AXCHANGE_TYP`: of the program, commanded by an action, neutral.
+PROGRAM, COMMANDED, NEUTRAL = 0, 1, 3
+#: `$AA_TYP` of the same.
+_TYPES = {PROGRAM: 1, COMMANDED: 8, NEUTRAL: 2}
+
+
+@dataclass(slots=True)
+class ActionAxes(State, lifetime=Lifetime.RESET):
+    """Axes and actions.
+
+    Attributes:
+        may_move: Columns of axes that some action may command.
+        states: Who has an axis, by column, where it is not the program.
+        speeds: FA of actions, mm/s or degrees/s, by column.
+        held: Columns of axes that oscillate: they are not free, though they rest at reversal points.
+    """
+
+    may_move: set[int] = field(default_factory=set)
+    states: dict[int, int] = field(default_factory=dict)
+    speeds: dict[int, float] = field(default_factory=dict)
+    held: set[int] = field(default_factory=set)
+
+
+def expect(channel: SinumerikChannel, columns: Iterable[int]) -> None:
+    """Actions may command these axes from now on."""
+    axes, memory = ActionAxes.of(channel), channel.memory
+    axes.may_move.update(columns)
+    if not memory.shares_axes:
+        memory.shares_axes = True
+        channel.modes.forget_plans()  # they do not say which axes a block moves
+
+
+def check_target(channel: SinumerikChannel, column: int, target: float) -> None:
+    """Refuse a target beyond a software limit switch (20070), or beyond a working area by setting data (20071).
+
+    WALIMON and WALIMOF of the program mean nothing here (10.4.17).
+    """
+    data, name, axis = channel.memory.data, channel.axes[column], channel.axis_data[column]
+    for side, sign, travel in (("MINUS", -1, axis.limit_minus), ("PLUS", 1, axis.limit_plus)):
+        switch = f"$MA_POS_LIMIT_{side}"
+        limit = data.number(switch, name) if data.is_set(switch, name) else travel
+        if sign * (target - limit) > NO_WAY:
+            raise AlarmError("20070", axis=name, side="+" if sign > 0 else "-")
+        area = data.number(f"$SA_WORKAREA_LIMIT_{side}", name)
+        if data.number(f"$SA_WORKAREA_{side}_ENABLE", name) and sign * (target - area) > NO_WAY:
+            raise AlarmError("20071", axis=name, side="+" if sign > 0 else "-")
+
+
+def speed_of(channel: SinumerikChannel, column: int) -> float:
+    """Speed of a commanded axis: FA, else MD32060."""
+    own = ActionAxes.of(channel).speeds.get(column) or PathFeed.of(channel).of_axes.get(column)
+    return own or channel.memory.data.number("$MA_POS_AX_VELO", channel.axes[column]) / tables.MINUTE
+
+
+def give_back(channel: SinumerikChannel, columns: Iterable[int]) -> None:
+    """The program is about to move axes: those that actions may have moved come back to it, when they stand.
+
+    Raises:
+        PreprocessingStop: The main run is behind, or an axis moves.
+    """
+    axes = ActionAxes.of(channel)
+    taken = [column for column in columns if column in axes.may_move]
+    clocked = channel.actual.clocked
+    if not taken or clocked is None:
+        return
+    channel.flush()
+    channel.synchronise()
+    if any(column in axes.held or clocked.commanded(column).moves for column in taken):
+        raise PreprocessingStop
+    machine = channel.coordinates.machine
+    before = machine.copy()
+    for column in taken:
+        axes.states.pop(column, None)
+        machine[column] = clocked.take_back(column)
+    if machine != before:
+        channel.coordinates.arrive_machine(machine)
+
+
+def position_beside(channel: SinumerikChannel, column: int, end: list[float]) -> None:
+    """POS, POSA: where the program is executed in time, an axis goes to its place in `end` beside the path."""
+    clocked, coordinates = channel.actual.clocked, channel.coordinates
+    if clocked is None:
+        return
+    before, after = coordinates.machine, coordinates.to_machine(end)
+    moved = [i for i, (a, b) in enumerate(zip(before, after, strict=True)) if abs(a - b) > NO_WAY]
+    if moved != [column]:
+        return  # none, or a frame turns the way of the axis into one of several: the path has it
+    expect(channel, (column,))
+    target, speed = after[column], speed_of(channel, column)
+
+    def start() -> None:
+        clocked.position_beside(column, target, speed)
+
+    channel.event(Deed("POS", None, start, is_silent=False, places=((column, target),)))
+
+
+def await_rest(channel: SinumerikChannel, columns: Iterable[int]) -> None:
+    """The block ends when these axes stand."""
+    clocked = channel.actual.clocked
+    awaited = [column for column in columns if column in ActionAxes.of(channel).may_move]
+    if clocked is None or not awaited:
+        return
+
+    def moves() -> bool:
+        held = ActionAxes.of(channel).held
+        return any(column in held or clocked.commanded(column).moves for column in awaited)
+
+    channel.event(Deed("WAITP", None, _nothing, is_silent=False, awaits=moves))
+
+
+def _nothing() -> None:
+    """Nothing but waiting."""
+
+
+def release(channel: SinumerikChannel, args: Arguments) -> None:
+    """RELEASE: the axes are neutral."""
+    for axis in args:
+        ActionAxes.of(channel).states[arguments.column(channel, axis)] = NEUTRAL
+
+
+def get(channel: SinumerikChannel, args: Arguments) -> None:
+    """GET: the axes are the program's."""
+    for axis in args:
+        ActionAxes.of(channel).states.pop(arguments.column(channel, axis), None)
+
+
+def _state(channel: SinumerikChannel, indices: Indices) -> int:
+    column = arguments.column(channel, indices[0] if indices else None)
+    clocked = channel.actual.clocked
+    state = ActionAxes.of(channel).states.get(column, PROGRAM)
+    if state == COMMANDED and clocked is not None and not clocked.commanded(column).moves:
+        return NEUTRAL
+    return state
+
+
+EXCHANGE_VARIABLES: dict[str, RowWithStop] = {
+    "$AA_AXCHANGE_TYP": (Type.INT, _state, None, True),
+    "$AA_TYP": (Type.INT, lambda channel, indices: _TYPES[_state(channel, indices)], None, True),
+}

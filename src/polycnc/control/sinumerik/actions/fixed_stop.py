@@ -1,0 +1,76 @@
+"""Travel to fixed stop and torque from actions: FXS, FXST, FXSW, FOCON, FOCOF (10.4.27).
+
+No machine of polycnc has a fixed stop: the selection is kept with its torque and window, and the stop never comes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.sinumerik.block import arguments
+from polycnc.language.sinumerik.names.values import Type
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.control.sinumerik.actions.run import Running
+    from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
+
+#: `$AA_FXS`: not selected; selected, the stop has not come.
+OFF, SELECTED = 0, 3
+DATA = {"FXST": "$SA_FIXED_STOP_TORQUE", "FXSW": "$SA_FIXED_STOP_WINDOW"}
+
+
+@dataclass(slots=True)
+class FixedStops(State, lifetime=Lifetime.RESET):
+    """Columns of axes that travel to a fixed stop, and of those whose torque is limited."""
+
+    selected: set[int] = field(default_factory=set)
+    limited: set[int] = field(default_factory=set)
+
+
+def select(run: Running, index: Any, _modifier: str, value: float) -> None:
+    """FXS: 1 selects, 0 ends it; 20092 for an axis that has it already."""
+    column, selected = arguments.column(run.channel, index), FixedStops.of(run.channel).selected
+    if value and column in selected:
+        raise AlarmError("20092", axis=run.channel.axes[column])
+    run.changed = True
+    if value:
+        selected.add(column)
+    else:
+        selected.discard(column)
+
+
+def datum(name: str) -> Callable[[Running, Any, str, Any], None]:
+    """FXST, FXSW: clamping torque in percent, width of the window, as setting data."""
+
+    def write(run: Running, index: Any, _modifier: str, value: float) -> None:
+        arguments.column(run.channel, index)
+        run.channel.memory.data.write(DATA[name], (index,), float(value))
+
+    return write
+
+
+def limit_torque(*, on: bool) -> Callable[[Running, Any, str, Any], None]:
+    """FOCON, FOCOF: the torque of an axis is limited, or no more."""
+
+    def switch(run: Running, index: Any, _modifier: str, _value: Any) -> None:
+        column, limited = arguments.column(run.channel, index), FixedStops.of(run.channel).limited
+        if on:
+            limited.add(column)
+        else:
+            limited.discard(column)
+
+    return switch
+
+
+def _state(channel: SinumerikChannel, indices: Indices) -> int:
+    column = arguments.column(channel, indices[0] if indices else None)
+    return SELECTED if column in FixedStops.of(channel).selected else OFF
+
+
+FIXED_STOP_VARIABLES: dict[str, RowWithStop] = {"$AA_FXS": (Type.INT, _state, None, True)}

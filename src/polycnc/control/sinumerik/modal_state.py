@@ -1,0 +1,38 @@
+"""The modal functions of a channel and what they chose, noted and put back: SAVE, contours that are only read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from polycnc.control.sinumerik import gcodes, tables
+from polycnc.control.sinumerik.feed.path_feed import PathFeed
+from polycnc.control.sinumerik.frames import active as frames
+from polycnc.control.sinumerik.tools import selection
+
+if TYPE_CHECKING:
+    from polycnc.channel.mode import Mode
+    from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.language.sinumerik.names.frame import NcFrame
+
+
+@dataclass(frozen=True, slots=True)
+class ModalState:
+    """All modal functions, and the programmable frame (job planning 1.25.1.3, SAVE)."""
+
+    mode: Mode
+    programmable: NcFrame
+
+    def restore(self, channel: SinumerikChannel) -> None:
+        """Put it back, with what hangs on it: the zero offset, the feed, the lengths of the tool."""
+        before, memory = channel.mode, channel.memory
+        mode = self.mode.with_code("transformation", before["transformation"])  # that is no modal function
+        channel.mode = mode
+        memory.frames.programmable = self.programmable
+        if mode["wcs"] != before["wcs"]:
+            memory.frames.select(gcodes.number_of(mode["wcs"]) - 1)
+        if mode["feed"] != before["feed"]:
+            PathFeed.of(channel).mode = tables.feed_type(mode).mode
+        selection.follow(channel)
+        frames.changed(channel)
+        channel.context_changed()

@@ -1,0 +1,178 @@
+"""The words of oscillation: OS, OSP1, OSP2, OST1, OST2, OSNSC, OSE, OSB, OSCTRL, OSCILL with POSP (11.1, 11.2)."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from polycnc.control.sinumerik.actions import axes as action_axes
+from polycnc.control.sinumerik.block.draft import axis_column
+from polycnc.control.sinumerik.block.positions import number
+from polycnc.control.sinumerik.oscillation import strokes
+from polycnc.control.sinumerik.oscillation.infeed import Infeed, parts
+from polycnc.control.sinumerik.oscillation.strokes import Oscillations
+from polycnc.control.sinumerik.tables import length_factor
+from polycnc.language.sinumerik.names.values import Axis
+from polycnc.language.sinumerik.words import WordAlarm
+from polycnc.toolpath.events import Deed
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.control.sinumerik.block.draft import Draft, Step, Values
+    from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.language.sinumerik.words import WordShape
+
+#: Setting data of positions and of numbers, by their words.
+POSITIONS = {
+    "OSP1": strokes.REVERSAL[0],
+    "OSP2": strokes.REVERSAL[1],
+    "OSE": strokes.END,
+    "OSB": strokes.START,
+}
+NUMBERS = {"OST1": strokes.DWELL[0], "OST2": strokes.DWELL[1], "OSNSC": strokes.SPARKS}
+#: Axes that OSCILL feeds in at most.
+MOST_INFEEDS = 3
+
+
+def datum(draft: Draft, position: int, shape: WordShape) -> Step:
+    """A position or a number of an oscillating axis: its setting datum; OSE asks for the end position too."""
+    column = axis_column(draft, position, shape)
+    name = POSITIONS.get(shape.address) or NUMBERS[shape.address]
+    is_position = shape.address in POSITIONS
+    rotary = draft.channel.axis_data[column].rotary
+    factor = length_factor(draft.mode) if is_position and not rotary else 1.0
+    adds = shape.modifier == "IC" or (is_position and not shape.modifier and draft.mode["distance"] == "G91")
+
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        data, axis = channel.memory.data, Axis(channel.axes[column])
+        value = number(values, position) * factor
+        if adds:
+            value += data.number(name, axis.name)
+        data.write(name, (axis,), value)
+        if shape.address == "OSE":
+            options = data.integer(strokes.OPTIONS, axis.name)
+            data.write(strokes.OPTIONS, (axis,), options | strokes.TO_END)
+
+    return run
+
+
+def options(draft: Draft, position: int, shape: WordShape) -> Step:
+    """OSCTRL[axis]=(set,reset): bits of the options."""
+    column = axis_column(draft, position, shape)
+
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        listed = list(values[position]) if isinstance(values[position], tuple) else [values[position]]
+        if not 1 <= len(listed) <= 2 or any(int(value) != value or value < 0 for value in listed):
+            raise WordAlarm("12560", position, text="OSCTRL")
+        on, off = (int(value) for value in (*listed, 0)[:2])
+        data, axis = channel.memory.data, Axis(channel.axes[column])
+        data.write(strokes.OPTIONS, (axis,), data.integer(strokes.OPTIONS, axis.name) & ~off | on)
+
+    return run
+
+
+def switch(draft: Draft, position: int, shape: WordShape) -> Step:
+    """OS[axis]=1, 0: when the axes are there, oscillation begins or ends; the program goes on."""
+    column = axis_column(draft, position, shape)
+    draft.channel.on_clock()
+
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        value = number(values, position)
+        if value not in (0.0, 1.0):
+            raise WordAlarm("12560", position, text="OS")
+        _begin(channel, column)
+        oscillations = Oscillations.of(channel)
+
+        def do() -> None:
+            (oscillations.switch_on if value else oscillations.switch_off)(column)
+
+        channel.event(Deed("OS", None, do, is_silent=False))
+
+    return run
+
+
+def _begin(channel: SinumerikChannel, column: int) -> None:
+    """An axis is about to leave the path; its velocity is FA."""
+    oscillations = Oscillations.of(channel)
+    channel.on_clock().watch(oscillations)
+    action_axes.expect(channel, (column,))
+    name = channel.axes[column]
+    speed = action_axes.speed_of(channel, column) * 60.0
+    channel.memory.data.write(strokes.VELOCITY, (Axis(name),), speed)
+
+
+def oscillate(draft: Draft) -> Step | None:
+    """`OSCILL[axis]=(in1,in2,in3) POSP[in1]=(end,partial,mode)`: the block ends when all is fed in."""
+    found = draft.take_shape("OSCILL")
+    if found is None:
+        return None
+    position, shape = found
+    column = axis_column(draft, position, shape)
+    feeds = [(place, word) for place, word in draft.open_words() if word.address == "POSP"]
+    infeeds = {axis_column(draft, place, word): place for place, word in feeds}
+    for place, _ in feeds:
+        draft.close(place)
+    draft.channel.on_clock()
+
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        listed = values[position] if isinstance(values[position], tuple) else (values[position],)
+        if not 1 <= len(listed) <= MOST_INFEEDS or not all(isinstance(axis, Axis) for axis in listed):
+            raise WordAlarm("12560", position, text="OSCILL")
+        if {channel.memory.column(axis.name) for axis in listed} != set(infeeds):
+            raise WordAlarm("12560", position, text="POSP")
+        _begin(channel, column)
+        action_axes.expect(channel, infeeds)
+        action_axes.give_back(channel, infeeds)
+        made, ends = _infeeds(channel, infeeds, values)
+        oscillations = Oscillations.of(channel)
+
+        def do() -> None:
+            for infeed in made:
+                channel.on_clock().shift_path(infeed.column, ends[infeed.column])
+            oscillations.infeeds.extend(made)
+            oscillations.switch_on(column)
+
+        places = tuple(ends.items())
+        awaits = partial(_is_fed_in, oscillations)
+        channel.event(Deed("OSCILL", None, do, is_silent=False, awaits=awaits, places=places))
+        machine = channel.coordinates.machine
+        for each, end in ends.items():
+            machine[each] = end
+        channel.coordinates.arrive_machine(machine)
+
+    return run
+
+
+def _is_fed_in(oscillations: Oscillations) -> bool:
+    """Whether something is still to be fed in."""
+    return bool(oscillations.infeeds)
+
+
+def _infeeds(
+    channel: SinumerikChannel, infeeds: dict[int, int], values: Values
+) -> tuple[list[Infeed], dict[int, float]]:
+    """The infeeds with their targets on the machine, and where each ends."""
+    made, ends = [], {}
+    machine, work = channel.coordinates.machine, channel.coordinates.position
+    factor = length_factor(channel.mode)
+    for column, place in infeeds.items():
+        listed = values[place]
+        right = isinstance(listed, tuple) and 2 <= len(listed) <= 3 and listed[1] > 0
+        if not right or (len(listed) == 3 and listed[2] not in (0, 1)):
+            raise WordAlarm("12560", place, text="POSP")
+        way = float(listed[0]) * factor - work[column]
+        targets, at = [], machine[column]
+        for length in parts(way, float(listed[1]) * factor, int(listed[2]) if len(listed) == 3 else 0):
+            at += length
+            targets.append(at)
+        made.append(Infeed(column, action_axes.speed_of(channel, column), targets))
+        ends[column] = at
+    return made, ends
+
+
+OSCILLATION_WORDS: dict[str, Callable[[Draft, int, WordShape], Step]] = {
+    **dict.fromkeys((*POSITIONS, *NUMBERS), datum),
+    "OSCTRL": options,
+    "OS": switch,
+}

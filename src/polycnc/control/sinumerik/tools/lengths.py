@@ -1,0 +1,142 @@
+"""Tool lengths along X, Y, Z: by plane and type, mirrored, and with wear by sign and coordinate system.
+
+Setting data, the functions TOWSTD … and the frame count as they were when the edge was selected: another value acts
+with the next T or D (job planning 7.3). The plane acts at once, but for wear that lies in a system of its own: that
+keeps the axes which it had at the selection (Function Manual W1).
+
+Source: job planning 7.3 (SD42900 to SD42960, TOWSTD …); Function Manual W1 (bits of SD42935, which sign acts where).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.control.sinumerik.tools.edges import (
+    COARSE,
+    DP_BASE_LENGTH,
+    DP_LENGTH,
+    DP_TIP,
+    DP_WEAR_LENGTH,
+    FINE,
+)
+from polycnc.geometry.frames import IDENTITY, Frame, Vector
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.control.sinumerik.tools.edges import Edge
+
+#: Geometry axis (0 X, 1 Y, 2 Z) of lengths L1, L2, L3 (job planning 7.3, SD42940); a minus sign is a value of
+#: its own.
+TURNING_LENGTHS = {
+    17: (1, 0, 2),
+    18: (0, 2, 1),
+    19: (2, 1, 0),
+    -17: (0, 1, 2),
+    -18: (2, 0, 1),
+    -19: (1, 2, 0),
+}
+OTHER_LENGTHS = {17: (2, 1, 0), 18: (1, 0, 2), 19: (0, 2, 1), -17: (2, 0, 1), -18: (1, 2, 0), -19: (0, 1, 2)}
+#: Edge positions for which SD42920 turns the sign of wear round, of length 1 and of length 2.
+TURNED_BY_TIP = (frozenset({3, 4, 8}), frozenset({2, 3, 7}))
+#: The system in which wear is a part of the tool's length.
+WITH_TOOL = "TOWSTD"
+#: Systems in which wear goes with an orientable carrier, and those that a frame turns.
+WITH_CARRIER, OF_WORK = "TOWTCS", "TOWWCS"
+
+
+class Rules(NamedTuple):
+    """What says how the parameters of an edge become lengths along the axes.
+
+    Attributes:
+        plane: Plane in which the edge was selected.
+        constant: SD42940, 0 where lengths follow the plane.
+        as_turning: SD42950 makes every tool a turning tool.
+        mirrors_lengths: SD42900.
+        mirrors_wear: SD42910.
+        sign_by_tip: SD42920.
+        inverts_wear: SD42930.
+        apart: SD42935: parts of the wear that lie in `system`; bit 0 wear, bit 1 fine, bit 2 coarse additive offset.
+        temperature: SD42960 along X, Y, Z, mm.
+        system: Function of group 56.
+        mirrored: Axes that the frame mirrors.
+        work: From the work to the basic coordinate system, without scale.
+    """
+
+    plane: str = "G17"
+    constant: int = 0
+    as_turning: bool = False
+    mirrors_lengths: bool = False
+    mirrors_wear: bool = False
+    sign_by_tip: bool = False
+    inverts_wear: bool = False
+    apart: int = 0
+    temperature: Vector = (0.0, 0.0, 0.0)
+    system: str = WITH_TOOL
+    mirrored: tuple[bool, bool, bool] = (False, False, False)
+    work: Frame = IDENTITY
+
+
+class Lengths(NamedTuple):
+    """Lengths along X, Y, Z, mm: what a carrier turns with the tool, and wear that stays as it is."""
+
+    turning: Vector
+    fixed: Vector
+
+
+def axes_of(edge: Edge, rules: Rules, plane: str) -> tuple[int, int, int]:
+    """Geometry axes (0 X, 1 Y, 2 Z) of lengths 1, 2 and 3."""
+    turning = edge.is_turning or rules.as_turning
+    table = TURNING_LENGTHS if turning else OTHER_LENGTHS
+    return table.get(rules.constant or int(plane[1:]), table[18 if turning else 17])
+
+
+def along_axes(edge: Edge, rules: Rules, plane: str, location: int, added: Sequence[float]) -> Lengths:
+    """The lengths of an edge along X, Y, Z.
+
+    Args:
+        edge: The edge.
+        rules: How it is evaluated.
+        plane: Plane that holds now.
+        location: DL, 0 for none.
+        added: What TOFFL adds to lengths 1, 2 and 3, mm.
+    """
+    turning, apart = list(rules.temperature), [0.0, 0.0, 0.0]
+    kept = axes_of(edge, rules, rules.plane)
+    for i, axis in enumerate(axes_of(edge, rules, plane)):
+        mirrored = rules.mirrored[axis]
+        measured = edge.values[DP_LENGTH + i] + edge.values[DP_BASE_LENGTH + i]
+        turning[axis] += (-measured if mirrored and rules.mirrors_lengths else measured) + added[i]
+        sign = -1.0 if mirrored and rules.mirrors_wear else 1.0
+        sign = -sign if rules.inverts_wear else sign
+        if rules.sign_by_tip and edge.is_turning and i < 2 and edge.values[DP_TIP] in TURNED_BY_TIP[i]:
+            turning_sign = -sign
+        else:
+            turning_sign = sign
+        for bit, wear in enumerate(_wear(edge, i, location)):
+            if rules.system == WITH_TOOL or not rules.apart >> bit & 1:
+                turning[axis] += turning_sign * wear
+            else:
+                apart[kept[i]] += _sign_apart(rules, kept[i]) * wear
+    return _sorted(rules, turning, apart)
+
+
+def _wear(edge: Edge, i: int, location: int) -> tuple[float, float, float]:
+    """Wear of a length: its own, fine and coarse additive offsets."""
+    fine, coarse = (edge.added(kind, location, DP_LENGTH + i) for kind in (FINE, COARSE))
+    return edge.values[DP_WEAR_LENGTH + i], fine, coarse
+
+
+def _sign_apart(rules: Rules, axis: int) -> float:
+    """Sign of wear in a system of its own: edge positions do not count, a mirror not where the frame leads it."""
+    mirrored = rules.mirrored[axis] and rules.mirrors_wear and rules.system != OF_WORK
+    return -1.0 if mirrored != rules.inverts_wear else 1.0
+
+
+def _sorted(rules: Rules, turning: list[float], apart: list[float]) -> Lengths:
+    """Wear that lies in a system of its own comes to the lengths that turn, or to those that do not."""
+    x, y, z = turning
+    a, b, c = apart
+    if rules.system == WITH_CARRIER:
+        return Lengths((x + a, y + b, z + c), (0.0, 0.0, 0.0))
+    return Lengths((x, y, z), rules.work.direct(a, b, c) if rules.system == OF_WORK else (a, b, c))

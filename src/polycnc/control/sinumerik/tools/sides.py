@@ -1,0 +1,27 @@
+"""What words say of a compensated contour: side, allowance, depth, DISC."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from polycnc.channel.states.state import Lifetime, State
+from polycnc.geometry.frames import IDENTITY, Matrix
+
+SIDES = {"G41": 1, "G42": -1}
+
+
+@dataclass(slots=True)
+class Contour(State, lifetime=Lifetime.POWER):
+    """What words say of the compensated contour.
+
+    Attributes:
+        allowance_mm: OFFN.
+        depth_mm: ISD.
+        disc: DISC, 0 to 100.
+        linear: Rotation, scale and mirror of the frames under which compensation began.
+    """
+
+    allowance_mm: float = 0.0
+    depth_mm: float = 0.0
+    disc: float = 0.0
+    linear: Matrix = IDENTITY.m

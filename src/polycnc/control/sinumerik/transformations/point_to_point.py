@@ -1,0 +1,133 @@
+"""PTP, CP, STAT, TU: straight blocks that go with the axes of the machine, not with the tip (6.9)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.sinumerik.block.positions import number
+from polycnc.control.sinumerik.tools import stages
+from polycnc.control.sinumerik.transformations import data_sets, seat
+from polycnc.control.sinumerik.transformations.orientation import is_point_to_point
+from polycnc.control.sinumerik.transformations.posture import Orienting
+from polycnc.geometry.frames import IDENTITY
+from polycnc.language.sinumerik.words import WordAlarm
+from polycnc.messages import AlarmError
+from polycnc.transformation.polar import PolarPlane
+
+if TYPE_CHECKING:
+    from polycnc.control.sinumerik.block.draft import Draft, Step, Values
+    from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.toolpath import Kind
+    from polycnc.transformation.contract import Transformation
+
+#: TU says something of so many rotary axes, and STAT and TU have so many bits.
+MOST_AXES, BITS = 3, 8
+TURN = 360.0
+
+
+@dataclass(slots=True)
+class PointToPoint(State, lifetime=Lifetime.RESET):
+    """What a block that goes with the axes does.
+
+    Attributes:
+        turns: TU of the running block; None where it is not programmed.
+        shown_by: What shows its end while it is written.
+    """
+
+    turns: int | None = None
+    shown_by: Transformation | None = None
+
+
+def plan(draft: Draft) -> None:
+    """Take STAT and TU; a straight block under PTP goes with the axes.
+
+    Raises:
+        AlarmError: 14140 for STAT and TU without a transformation, 14144 for PTP under radius compensation, for arcs
+            and for positioning axes of the transformation.
+    """
+    words = [(address, draft.take(address)) for address in ("STAT", "TU")]
+    given = [(address, place) for address, place in words if place is not None]
+    if given and not draft.mode[seat.GROUP]:
+        raise AlarmError("14140")
+    if given:
+        draft.steps.append(_noted(dict(given)))
+    if not draft.mode[seat.GROUP]:
+        return
+    if draft.mode["point_to_point"] == "PTP" and draft.mode["compensation"] != "G40":
+        raise AlarmError("14144")
+    if is_point_to_point(draft.mode):
+        draft.by_axes = True
+
+
+def _noted(places: dict[str, int]) -> Step:
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        for address, place in places.items():
+            value = number(values, place)
+            if value != int(value) or not 0 <= value < 1 << BITS:
+                raise WordAlarm("12560", place, text=address)
+            if address == "STAT":
+                Orienting.of(channel).stat = int(value)
+            else:
+                PointToPoint.of(channel).turns = int(value)
+
+    return run
+
+
+def finish(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    """TU holds for its block alone."""
+    PointToPoint.of(channel).turns = None
+
+
+def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> None:
+    """Go to a point of the work with all axes at once, straight for each of them; its row holds their positions."""
+    coordinates, state = channel.coordinates, PointToPoint.of(channel)
+    transformation = coordinates.transformation
+    assert transformation is not None
+    if stages.active_cutter(channel) is not None:
+        raise AlarmError("14144")
+    machine = _configured(channel, transformation, end)
+    channel.flush()
+    geometry, width = coordinates.geometry, len(channel.axes)
+    coordinates.transform(None, data_sets.native(channel), (IDENTITY, [0.0] * width))
+    state.shown_by = transformation
+    channel.context_changed()
+    try:
+        channel.straight(kind, machine, feed)
+    finally:
+        coordinates.transformation, coordinates.geometry = transformation, geometry
+        state.shown_by = None
+        channel.context_changed()
+    back = transformation.to_work(machine)
+    same = all(abs(a - b) < 1e-6 for a, b in zip(back, end, strict=True))
+    coordinates.arrive(end if same else back)
+
+
+def _configured(channel: SinumerikChannel, transformation: Transformation, end: list[float]) -> list[float]:
+    """Positions of the axes: by STAT of two solutions, by TU on the turn that it names, else the shortest way."""
+    here, machine = channel.coordinates.machine, transformation.to_machine(end)
+    inner = seat.Transformations.of(channel).build
+    if inner is not None and isinstance(_first(inner.inner), PolarPlane) and Orienting.of(channel).stat & 1:
+        machine = transformation.solutions(end)[1]
+    turns = PointToPoint.of(channel).turns
+    rotary = [i for i, axis in enumerate(channel.axis_data) if axis.rotary and i in seat.transformed(channel)]
+    is_polar = seat.centre_point(channel) is None
+    for bit, column in enumerate(rotary[:MOST_AXES]):
+        if turns is not None and not is_polar:
+            angle = machine[column] % TURN
+            machine[column] = angle - TURN if turns >> bit & 1 and angle > 0.0 else angle
+        elif is_polar or turns is None:
+            machine[column] = _shortest(machine[column], here[column], free=is_polar)
+    return machine
+
+
+def _shortest(angle: float, here: float, *, free: bool) -> float:
+    """A rotary axis of a polar plane goes the shorter way; one that a block names goes where it says."""
+    return here + (angle - here + TURN / 2.0) % TURN - TURN / 2.0 if free else angle
+
+
+def _first(transformation: Transformation) -> Transformation:
+    links = getattr(transformation, "links", (transformation,))
+    first: Transformation = links[0]
+    return first

@@ -1,0 +1,234 @@
+"""The seat of a transformation: frames in front of it, the tool in it or behind it, and what words then name.
+
+Frames belong to the work, in front of the transformation; the tool counts in it or behind it. So while one acts it
+holds both (`transformation.seated`), and nothing else lies between the display and the machine. Whoever changes frames
+or the tool calls `stand`, by way of `frames.active.apply`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import inf
+from typing import TYPE_CHECKING, Any
+
+from polycnc.channel.states.state import Lifetime, State, lasting
+from polycnc.control.sinumerik import axis_names
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.transformations import data_sets
+from polycnc.control.sinumerik.transformations.data_sets import Build
+from polycnc.geometry.frames import IDENTITY
+from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES
+from polycnc.messages import AlarmError
+from polycnc.transformation.chain import Chain
+from polycnc.transformation.seated import Seated
+from polycnc.transformation.tool_centre import ToolCentrePoint
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.geometry.frames import Frame
+    from polycnc.language.sinumerik.names.frame import NcFrame
+
+#: Modal state that says which kind of transformation acts; empty for none.
+GROUP = "transformation"
+
+
+@dataclass(slots=True)
+class Transformations(State, lifetime=Lifetime.RESET):
+    """The transformation that acts.
+
+    Attributes:
+        kind: The procedure that has selected it; empty for none.
+        build: What it makes of the axes.
+        seated: The same with frames and tool.
+        angles: The last angle of TRAANG by its data set.
+    """
+
+    kind: str = ""
+    build: Build | None = None
+    seated: Seated | None = None
+    angles: dict[int, float] = lasting(Lifetime.POWER, factory=dict)
+
+
+def centre_point(channel: SinumerikChannel) -> ToolCentrePoint | None:
+    """The orientation transformation that acts, without frames; None for none."""
+    seated = Transformations.of(channel).seated
+    inner = seated.inner if seated is not None else None
+    if isinstance(inner, Chain):
+        inner = inner.links[0]
+    return inner if isinstance(inner, ToolCentrePoint) else None
+
+
+def frame_in_front(channel: SinumerikChannel) -> Frame:
+    """From the work to the basic system."""
+    seated = Transformations.of(channel).seated
+    return channel.coordinates.zero if seated is None else seated.frame
+
+
+# ---- frames and tool
+
+
+def stand(channel: SinumerikChannel, total: NcFrame, *, travelled: bool = False) -> None:
+    """The transformation that acts takes its seat between frames and tool; without one the axes are free.
+
+    Args:
+        channel: The channel.
+        total: The frames in front.
+        travelled: The next incremental word of an axis travels a change of frames or tool as well; under a
+            transformation none does (6.10).
+    """
+    coordinates, state = channel.coordinates, Transformations.of(channel)
+    if state.build is None:
+        zero = (total.frame, _offsets(channel, total))
+        if coordinates.transformation is not None:
+            state.seated = None
+            coordinates.transform(None, data_sets.native(channel), zero)
+            _name_axes(channel, frozenset())
+        elif zero != (coordinates.zero, coordinates.offsets):
+            coordinates.set_zero(*zero, travelled=travelled)
+        else:
+            return
+        channel.context_changed()
+        return
+    seated = _seated(channel, state.build, total)
+    if seated == state.seated:
+        return
+    state.seated = seated
+    coordinates.transform(seated, seated.geometry, (IDENTITY, [0.0] * len(channel.axes)))
+    coordinates.pending = [0.0] * len(channel.axes)
+    coordinates.owes = False
+    _name_axes(channel, state.build.used)
+    channel.context_changed()
+
+
+def is_in_place(channel: SinumerikChannel, total: NcFrame) -> bool:
+    """Whether frames and the active tool would change nothing."""
+    state, coordinates = Transformations.of(channel), channel.coordinates
+    if state.build is not None:
+        return _seated(channel, state.build, total) == state.seated
+    return (total.frame, _offsets(channel, total)) == (coordinates.zero, coordinates.offsets)
+
+
+def _offsets(channel: SinumerikChannel, total: NcFrame) -> list[float]:
+    offsets = _shifts(channel, total)
+    for column, length in zip(channel.coordinates.geometry, channel.memory.tools.lengths, strict=True):
+        if column >= 0:
+            offsets[column] += length
+    return offsets
+
+
+def _shifts(channel: SinumerikChannel, total: NcFrame) -> list[float]:
+    """Shifts of the axes beside the geometry by the frames."""
+    shifts = [0.0] * len(channel.axes)
+    for axis, part in total.others.items():
+        if part.factor != 1.0:
+            raise not_supported(f"SCALE, MIRROR {axis}")
+        if axis in channel.memory.columns or axis in channel.memory.machine_columns:
+            shifts[channel.memory.column(axis)] += part.coarse + part.fine
+    return shifts
+
+
+def _seated(channel: SinumerikChannel, build: Build, total: NcFrame) -> Seated:
+    x, y, z = lengths = channel.memory.tools.lengths
+    inner, shifts, offsets = build.inner, _shifts(channel, total), [0.0] * len(channel.axes)
+    if build.lengths == "tip":
+        inner = _with_tip(inner, (-x, -y, -z))
+    elif build.lengths == "before":
+        for column, length in zip(inner.geometry, lengths, strict=True):
+            if column >= 0:
+                shifts[column] += length
+    else:
+        native = data_sets.native(channel)
+        if y and native[1] < 0:
+            raise not_supported(f"{Transformations.of(channel).kind}: $TC_DP")
+        for column, length in zip(native, lengths, strict=True):
+            if column >= 0:
+                offsets[column] += length
+    frame = total.frame
+    return Seated(
+        inner,
+        IDENTITY if frame.is_identity else frame,
+        tuple(shifts) if any(shifts) else (),
+        tuple(offsets) if any(offsets) else (),
+    )
+
+
+def _with_tip(inner: Any, tip: tuple[float, float, float]) -> Any:
+    """The transformation with another tool; of a chain it is the first link that has the tool."""
+    if isinstance(inner, Chain):
+        first, *others = inner.links
+        return Chain((_with_tip(first, tip), *others))
+    return replace(inner, tip=tip)
+
+
+# ---- names
+
+
+def _name_axes(channel: SinumerikChannel, used: frozenset[int]) -> None:
+    """Which column a word of an axis means, and what kind of axis it is."""
+    memory, geometry = channel.memory, channel.coordinates.geometry
+    acts = Transformations.of(channel).build is not None
+    names = {name: column for name, column in axis_names.columns(channel).items() if column not in used}
+    lettered = zip(GEOMETRY_AXES, geometry, strict=True)
+    memory.columns = {**names, **{letter: column for letter, column in lettered if column >= 0}}
+    memory.axes = tuple(
+        replace(axis, rotary=False, modulo=False, limit_minus=-inf, limit_plus=inf)
+        if acts and axis.rotary and column in geometry
+        else axis
+        for column, axis in enumerate(channel.axis_data)
+    )
+
+
+def shown_names(channel: SinumerikChannel) -> tuple[str, ...]:
+    """What the work display calls the columns under the transformation; empty where the channel's names hold."""
+    build = Transformations.of(channel).build
+    if build is None or not build.used:
+        return ()
+    names = ["" if column in build.used else name for column, name in enumerate(channel.axes)]
+    for letter, column in zip(GEOMETRY_AXES, build.inner.geometry, strict=True):
+        if column >= 0:
+            names[column] = letter
+    return tuple(names)
+
+
+def transformed(channel: SinumerikChannel) -> frozenset[int]:
+    """Columns of the axes that take part in the transformation."""
+    build = Transformations.of(channel).build
+    if build is None:
+        return frozenset()
+    found = {column for column in (*build.inner.geometry, *data_sets.native(channel)) if column >= 0}
+    point = centre_point(channel)
+    if point is not None:
+        found |= {point.axes.index(axis) for axis in point.kinematics.axes}
+    return frozenset(found | build.used)
+
+
+def wall_column(channel: SinumerikChannel) -> int:
+    """Column by which a linear axis is led square to the walls of a groove; -1 where none is."""
+    build = Transformations.of(channel).build
+    return -1 if build is None else build.walls
+
+
+def refuse_transformed(channel: SinumerikChannel, columns: Iterable[int], code: str) -> None:
+    """The alarm for axes that take part in the transformation that acts (6.10)."""
+    for column in columns:
+        if column in transformed(channel):
+            raise AlarmError(code, axis=channel.axes[column])
+
+
+def check_positioning(channel: SinumerikChannel, column: int, *, by_axes: bool) -> None:
+    """17610 for a positioning axis that the transformation uses up; of point to point travel for any of its axes."""
+    build = Transformations.of(channel).build
+    if build is not None and (column in build.used or (by_axes and column in transformed(channel))):
+        raise AlarmError("17610", axis=channel.axes[column])
+
+
+def check_named(channel: SinumerikChannel, address: str) -> None:
+    """Alarms for a word that no axis takes: 17610 for one that the transformation uses up, 12050 for a virtual one."""
+    build = Transformations.of(channel).build
+    used = axis_names.columns(channel).get(address)
+    if build is not None and used in build.used:
+        raise AlarmError("17610", axis=address)
+    if address in channel.machine.channel(channel.number).virtual:
+        raise AlarmError("12050", axis=address)

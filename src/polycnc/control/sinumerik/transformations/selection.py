@@ -1,0 +1,221 @@
+"""TRAORI, TRANSMIT, TRACYL, TRAANG, TRACON, TRAFOOF: which transformation acts (job planning 6.8 to 6.12).
+
+A change of transformation deselects the frames (6.10; MD10602 keeps them), the working area and protection zones.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.channel.failure import stand_at_last_row
+from polycnc.compensation.corner import CornerStage
+from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.limits import protection, working_area
+from polycnc.control.sinumerik.motion import splines
+from polycnc.control.sinumerik.tools import selection as lengths_of_edge
+from polycnc.control.sinumerik.tools import stages
+from polycnc.control.sinumerik.tools.holders.active import ActiveCarrier
+from polycnc.control.sinumerik.transformations import data_sets, seat
+from polycnc.control.sinumerik.transformations.data_sets import Build
+from polycnc.control.sinumerik.transformations.seat import Transformations
+from polycnc.language.sinumerik.names.frame import NEUTRAL
+from polycnc.messages import AlarmError
+from polycnc.transformation.chain import Chain
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
+    from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.control.sinumerik.frames.memory import Frames
+
+#: A working diameter of TRACYL is greater; an angle of TRAANG smaller, degrees.
+LEAST_DIAMETER, SQUARE = 1.0, 90.0
+#: Frames by which one sees that CYCLE800 has turned plane and tool.
+OF_SWIVEL = ("$P_PARTFRAME", "$P_WPFRAME")
+
+
+def orientation(channel: SinumerikChannel, args: Arguments) -> None:
+    """TRAORI(n, X, Y, Z, A, B): the tip is programmed; basic direction of the tool and offsets of its axes."""
+    number, *rest = _numbers(args, 6, "TRAORI")
+    _select(channel, "TRAORI", number, lambda found: _oriented(channel, found, rest))
+
+
+def _oriented(channel: SinumerikChannel, found: data_sets.DataSet, rest: list[float | None]) -> Build:
+    x, y, z, a, b = (*rest, *[None] * 5)[:5]
+    along = None if x is y is z is None else (x or 0.0, y or 0.0, z or 0.0)
+    return data_sets.orientation(channel, found, along, (a or 0.0, b or 0.0))
+
+
+def face(channel: SinumerikChannel, args: Arguments) -> None:
+    """TRANSMIT(n): the end face of a turned part in Cartesian coordinates."""
+    (number,) = _numbers(args, 1, "TRANSMIT")
+    _select(channel, "TRANSMIT", number, lambda found: data_sets.polar(channel, found))
+
+
+def surface(channel: SinumerikChannel, args: Arguments) -> None:
+    """TRACYL(d, n, walls): the unrolled surface of a cylinder; 14404 for a diameter of 1 or less."""
+    diameter, number, walls = _numbers(args, 3, "TRACYL")
+    _select(channel, "TRACYL", number, lambda found: _unrolled(channel, found, diameter, walls))
+
+
+def _unrolled(
+    channel: SinumerikChannel, found: data_sets.DataSet, diameter: float | None, walls: float | None
+) -> Build:
+    if diameter is None or diameter <= LEAST_DIAMETER:
+        raise AlarmError("14404", text="TRACYL")
+    if walls not in (None, 0, 1) or (walls and found.type != data_sets.WALLS_BY_ARGUMENT):
+        raise AlarmError("14404", text="TRACYL")
+    by_type = found.type == data_sets.WITH_WALLS
+    return data_sets.cylinder(channel, found, diameter, walls=by_type or bool(walls))
+
+
+def oblique(channel: SinumerikChannel, args: Arguments) -> None:
+    """TRAANG(angle, n): an oblique axis; without an angle the one programmed last, at first that of the machine data.
+
+    14404 for an angle of 90 degrees or more.
+    """
+    angle, number = _numbers(args, 2, "TRAANG")
+    _select(channel, "TRAANG", number, lambda found: _leaning(channel, found, angle))
+
+
+def _leaning(channel: SinumerikChannel, found: data_sets.DataSet, angle: float | None) -> Build:
+    angles = Transformations.of(channel).angles
+    if angle is None:
+        angle = angles.get(found.number, data_sets.angle_of_machine(channel, found))
+    if not -SQUARE < angle < SQUARE:
+        raise AlarmError("14404", text="TRAANG")
+    angles[found.number] = angle
+    return data_sets.inclined(channel, angle)
+
+
+def chained(channel: SinumerikChannel, args: Arguments) -> None:
+    """TRACON(n, …): two transformations one after the other, their parameters behind n; 14404 for n beyond 2."""
+    number, *rest = _numbers(args, 8, "TRACON")
+    if number not in (None, 0, 1, 2):
+        raise AlarmError("14404", text="TRACON")
+    _select(channel, "TRACON", number or 1, lambda found: _linked(channel, found, rest))
+
+
+def _linked(channel: SinumerikChannel, found: data_sets.DataSet, rest: list[float | None]) -> Build:
+    """MD24995 and its like name the links; 14404 where they are no transformation followed by TRAANG."""
+    n = data_sets.order(channel, found)
+    numbers = [int(data_sets.number_of(channel, f"$MC_TRACON_CHAIN_{n}", i, 0.0)) for i in range(2)]
+    data = channel.memory.data
+    links = []
+    for each in numbers:
+        name = f"$MC_TRAFO_TYPE_{each}"
+        type_ = data.integer(name) if each and data.is_set(name) else 0
+        kind = next((kind for kind, types in data_sets.TYPES.items() if type_ in types), "")
+        links.append(data_sets.DataSet(kind, type_, each))
+    if links[0].kind in ("", "TRACON") or links[1].kind != "TRAANG":
+        raise AlarmError("14404", text="TRACON")
+    own = {"TRACYL": 1, "TRAANG": 1}.get(links[0].kind, 0)
+    parameters = [*rest, *[None] * 2]
+    first = _first_link(channel, links[0], parameters[0])
+    second = _leaning(channel, links[1], parameters[own])
+    inner = Chain((first.inner, second.inner))
+    return Build(inner, first.used | second.used, first.lengths)
+
+
+def _first_link(channel: SinumerikChannel, found: data_sets.DataSet, parameter: float | None) -> Build:
+    if found.kind == "TRAORI":
+        return _oriented(channel, found, [])
+    if found.kind == "TRANSMIT":
+        return data_sets.polar(channel, found)
+    if found.kind == "TRACYL":
+        return _unrolled(channel, found, parameter, None)
+    return _leaning(channel, found, parameter)
+
+
+def off(channel: SinumerikChannel, args: Arguments) -> None:
+    """TRAFOOF: no transformation acts, the frames are deselected; nothing where none acted."""
+    if args:
+        raise AlarmError("14020", text="TRAFOOF")
+    if Transformations.of(channel).build is not None:
+        _check_change(channel)
+        _change(channel, "", None)
+    channel.memory.frames.system["$P_TRAFRAME"] = NEUTRAL
+
+
+def _numbers(args: Arguments, most: int, name: str) -> list[float | None]:
+    """The arguments of a call as numbers, None for those left out; 14020 for too many."""
+    if len(args) > most:
+        raise AlarmError("14020", text=name)
+    given = [None if each is None else arguments.real(each) for each in args]
+    return [*given, *[None] * (most - len(given))]
+
+
+def _select(
+    channel: SinumerikChannel,
+    kind: str,
+    number: float | None,
+    build: Callable[[data_sets.DataSet], Build],
+) -> None:
+    """Let a transformation act in place of the one that acted.
+
+    Raises:
+        AlarmError: 14404 for a number that is no whole one, 14401 for a transformation that is not configured, and
+            what `_check_change` finds.
+    """
+    if number is not None and number != int(number):
+        raise AlarmError("14404", text=kind)
+    made = build(data_sets.find(channel, kind, 1 if number is None else int(number)))
+    _check_change(channel)
+    _change(channel, kind, made)
+
+
+def _check_change(channel: SinumerikChannel) -> None:
+    """6.10: 14400 under radius compensation, 14402 under a spline, PC0014 at an open corner or under FTOCON."""
+    mode = channel.mode
+    if mode["compensation"] != "G40":
+        raise AlarmError("14400")
+    if mode["motion"] in splines.SPLINES:
+        raise AlarmError("14402")
+    corner = channel.path.find(CornerStage)
+    if corner is not None and not corner.settle():
+        raise AlarmError("PC0014", text="CHF CHR RND")
+    if mode["fine_tool_offset"] == "FTOCON":
+        raise AlarmError("PC0014", text="FTOCON")
+    channel.flush()
+    if stages.active_cutter(channel) is not None:  # G40 has not led back: the tool stands beside the path
+        stand_at_last_row(channel)
+        channel.path.take(*stages.OF_PLANE)
+
+
+def _change(channel: SinumerikChannel, kind: str, build: Build | None) -> None:
+    """A transformation acts, or none: frames, working area and protection zones are deselected, nothing moves."""
+    state, memory = Transformations.of(channel), channel.memory
+    state.kind, state.build = kind, build
+    swivelled = any(memory.frames.system[name] != NEUTRAL for name in OF_SWIVEL)
+    if swivelled and not ActiveCarrier.of(channel).number:
+        memory.tools.carrier = None  # the transformation turns the tool now
+    if not memory.data.integer("$MN_FRAME_GEOAX_CHANGE_MODE"):
+        _deselect_frames(channel)
+    if build is not None:
+        channel.mode = channel.mode.with_code("working_area", "WALIMOF")
+        protection.deselect(channel)
+    channel.mode = channel.mode.with_code(seat.GROUP, kind)
+    lengths_of_edge.follow(channel)
+    seat.stand(channel, memory.frames.total())
+    working_area.refresh(channel)
+    channel.context_changed()
+
+
+def _deselect_frames(channel: SinumerikChannel) -> None:
+    frames: Frames = channel.memory.frames
+    channel.mode = channel.mode.with_code("wcs", "G500")
+    frames.select(0)
+    frames.programmable = NEUTRAL
+    for name in ("$P_PARTFRAME", "$P_TOOLFRAME", "$P_WPFRAME", "$P_TRAFRAME", "$P_CYCFRAME"):
+        frames.system[name] = NEUTRAL
+
+
+PROCEDURES: dict[str, Procedure] = {
+    "TRAORI": orientation,
+    "TRANSMIT": face,
+    "TRACYL": surface,
+    "TRAANG": oblique,
+    "TRACON": chained,
+    "TRAFOOF": off,
+}

@@ -1,0 +1,41 @@
+"""The shared object that lies in this installation: kernels as machine code, made when it was built.
+
+No compiler is needed when it runs, and only this file is ever loaded. A source tree has one of its own, made by
+`make kernels`.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+from enum import Enum, auto
+from functools import cache
+from pathlib import Path
+
+#: Where this variable of the environment says `python`, kernels run as they are written.
+CHOICE = "POLYCNC_KERNELS"
+_SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
+FILE = Path(__file__).with_name(f"compiled{_SUFFIX}")
+
+
+class Lack(Enum):
+    """Why kernels run as they are written."""
+
+    CHOSEN = auto()  # by the environment
+    MISSING = auto()  # polycnc was built without
+    STALE = auto()  # the sources have changed since
+
+
+@cache
+def load(file: Path) -> ctypes.CDLL | None:
+    """A shared object; None where there is none, none that can be loaded here, or where plain kernels are chosen."""
+    try:
+        return ctypes.CDLL(str(file)) if is_wanted() else None
+    except OSError:
+        return None
+
+
+def is_wanted() -> bool:
+    """Whether nobody chose plain kernels."""
+    return os.environ.get(CHOICE) != "python"

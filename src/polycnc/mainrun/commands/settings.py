@@ -1,0 +1,79 @@
+"""What the operator has set: switches of the panel, overrides, locked axes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import inf
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun.preparation.items import Rates
+from polycnc.mainrun.reading.snapshot import PanelSwitches
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.machine.model import Axis
+    from polycnc.machine.setup.values import Switches as SetupSwitches
+    from polycnc.mainrun.execution.channel_run import ChannelRun
+    from polycnc.toolpath.motion_settings import DryRun
+
+#: Jog rate at a feed override of 100 %, mm/min or degrees/min (Hartford manual).
+JOG_RATE = 1000.0
+SINGLE_BLOCK_KINDS = ("", "SBL1", "SBL2", "SBL3")
+
+
+class Switches:
+    """What the operator has set.
+
+    Args:
+        start: Switches at power-on.
+
+    Attributes:
+        panel: Switches of the panel.
+        dials: Where the override switches stand.
+        rates: What acts on the speeds: these, feed hold, dry run.
+        locked_at: Where locked axes stand, by channel and their column in it.
+    """
+
+    def __init__(self, start: SetupSwitches) -> None:
+        self.panel = PanelSwitches(start.single_block, start.optional_stop, start.block_skip)
+        self.dials, self.rates = Rates(), Rates()
+        self.locked_at: dict[int, dict[int, float]] = {}
+
+    def jog_speed(self, axis: Axis) -> float:
+        """Speed of an axis in jog, mm/s or degrees/s."""
+        return min(JOG_RATE / 60.0 * self.dials.feed, axis.max_feed or inf)
+
+    def rapid_speed(self, axis: Axis) -> float:
+        """Speed of an axis in rapid traverse, mm/s or degrees/s."""
+        return (axis.rapid or 1e9) * self.rates.rapid
+
+    def set_rates(self, *, feed_is_100: bool, dry_run: DryRun | None) -> None:
+        """The speeds follow the dials; a soft key of the machine holds the feed at 100 %."""
+        dials, rates = self.dials, self.rates
+        rates.feed_cancelled = feed_is_100
+        rates.feed = 1.0 if feed_is_100 else dials.feed
+        rates.rapid, rates.spindle, rates.dry_run = dials.rapid, dials.spindle, dry_run
+
+    def lock(self, run: ChannelRun) -> dict[int, float]:
+        """Axes of a channel that are to be locked stand where they are; gives those that are locked no more."""
+        position, before = run.machine_position, self.locked_at.get(run.number, {})
+        z = run.channel.machine.geometry_indices(run.number)[2]
+        panel = self.panel
+        wanted = range(len(position)) if panel.machine_lock else [z] if panel.z_lock and z >= 0 else []
+        self.locked_at[run.number] = {i: before.get(i, position[i]) for i in wanted}
+        return {i: place for i, place in before.items() if i not in wanted}
+
+    def apply_to(self, channel: Channel, *, typed: bool) -> None:
+        """Let a channel prepare its blocks as the switches are; `typed`: its program runs in MDI."""
+        panel, skip = self.panel, self.panel.block_skip
+        switches = replace(
+            channel.setup.switches,
+            single_block=panel.single_block or SINGLE_BLOCK_KINDS[1],  # so that blocks are run one by one
+            block_skip=skip,
+            optional_stop=panel.optional_stop,
+            mode="mdi" if typed else "memory",
+        )
+        channel.setup = replace(channel.setup, switches=switches)
+        channel.skip_levels = switches.block_skip_mask(plain=1)
+        # Whether to halt is decided when the block is executed, not when it is prepared.
+        channel.single_block = channel.block_by_block = channel.optional_stop = True

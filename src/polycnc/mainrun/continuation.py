@@ -1,0 +1,115 @@
+"""A calculation goes on in time: a program that has run so far without a clock needs one from some block on.
+
+Its channels stay what they are, with their rows, variables and program levels; from here on a main run executes what
+they write, and actions of the program act on it. So a program that never asks for the clock never pays for one.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun.commands.programs import Programs
+from polycnc.mainrun.commands.settings import Switches
+from polycnc.mainrun.commands.states import State
+from polycnc.mainrun.execution.clock import Clock
+from polycnc.mainrun.execution.main_loop import LONGEST_RUN_S, MainLoop
+from polycnc.mainrun.execution.operation import Operation
+from polycnc.mainrun.signals.image import SignalImage
+from polycnc.mainrun.signals.interlocks import Interlocks
+from polycnc.mainrun.status import Status
+from polycnc.memory.retained import ALARM_HISTORY, InMemoryStore
+from polycnc.messages import AlarmError
+from polycnc.motion.frames import laid_of
+
+if TYPE_CHECKING:
+    from polycnc.channel.group import ChannelGroup
+
+#: A program that has written no row for so long, nor moves on its path, waits for something that never comes: where
+#: other axes move, and where none does. It is looked at as often.
+LONGEST_WAIT_S, LONGEST_REST_S, LOOK_S = 300.0, 60.0, 30.0
+#: Halts behind which the program does not go on.
+OVER = frozenset({"end", "alarm"})
+
+
+class Continuation:
+    """The main run of a calculation, from the block on that needs the clock.
+
+    Args:
+        group: The channels; one of them waits for the clock.
+
+    Attributes:
+        halts: Where single block has halted, as N words.
+    """
+
+    def __init__(self, group: ChannelGroup) -> None:
+        first = group.first
+        control, machine, setup = first.control, first.machine, first.setup
+        signals = {
+            name: float(value)
+            for name, value in setup.switches.signals.items()
+            if isinstance(value, int | float)
+        }
+        plc, self._clock = machine.plc(control.id), Clock(machine.interpolation_cycle_s)
+        image = SignalImage(signals, plc.rules, self._clock)
+        interlocks = Interlocks(plc, image)
+        retained = InMemoryStore()
+        status = Status(control.id, self._clock, image, retained.table(ALARM_HISTORY))
+        programs = Programs(control.form, (), {}, {})
+        programs.store = first.store
+        self._operation = Operation(
+            control, machine, setup, programs, self._clock, Switches(setup.switches), image, interlocks, status,
+            retained, group,
+        )  # fmt: skip
+        self._group = group
+        self.halts: list[str] = []
+
+    @property
+    def seconds(self) -> float:
+        """How long it has lasted, s."""
+        return self._clock.time
+
+    def run(self) -> None:
+        """Run to the end of the program or to an alarm; programmed stops are started again."""
+        operation, runs = self._operation, self._operation.runs
+        operation.mains = {runs.first.number}
+        for channel in self._group.channels:
+            run = runs[channel.number]
+            place = laid_of(channel.coordinates.machine, channel.context, channel.coordinates.geometry)
+            run.execution.position, run.execution.place = place, channel.context
+            channel.share_after, channel.standstill, channel.bulk = None, None, None
+            for level in channel.stack:
+                level.scanner = None
+            operation.switches.apply_to(channel, typed=False)
+        runs.go_on()
+        operation.set_rates()
+        operation.resume()
+        loop = MainLoop(operation, self._clock)
+        execution, toolpath = runs.first.execution, runs.first.channel.toolpath
+        since, rows = 0.0, -1
+        while self._clock.time < LONGEST_RUN_S:
+            loop.run(LOOK_S)
+            if execution.halt in OVER:
+                break
+            if len(toolpath) != rows or not execution.rests or execution.knows_when:
+                since, rows = self._clock.time, len(toolpath)
+            if operation.status.state is State.STOPPED:
+                operation.resume()
+            elif not loop.is_busy:
+                break
+            elif self._clock.time - since >= (LONGEST_WAIT_S if runs.move_beside_path else LONGEST_REST_S):
+                runs.first.interpolator.end(reset=False)
+                execution.abandon()
+                runs.first.preprocessing.refuse(AlarmError("PC0013"))
+                execution.start()
+        self._stand()
+
+    def _stand(self) -> None:
+        """Axes that were moved beside the path stand where that has led them."""
+        for run in self._operation.runs:
+            shares = run.interpolator.commanded_shares()
+            if any(shares.values()):
+                coordinates = run.channel.coordinates
+                machine = coordinates.machine
+                for column, share in shares.items():
+                    machine[column] += share
+                coordinates.arrive_machine(machine)

@@ -1,0 +1,339 @@
+"""What synchronised actions ask of the main run of a channel: where it is in this cycle, and what they may change.
+
+It satisfies the channel's `Interpolator`. The clock visits every interpolation cycle while it is awake; asleep it wakes
+when a block begins, something is prepared, a signal changes, or an axis comes to rest.
+"""
+
+from __future__ import annotations
+
+from math import acos, degrees, hypot, inf
+from typing import TYPE_CHECKING, Protocol
+
+from polycnc.channel.interpolator import Influence, OnPath
+from polycnc.mainrun.axes.commanded import CommandedAxis
+from polycnc.mainrun.axes.overlay import Overlay
+from polycnc.mainrun.preparation.items import UNINFLUENCED, Happening, Move
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from polycnc.channel.interpolator import Watcher
+    from polycnc.mainrun.axes.channel_axes import ChannelAxes
+    from polycnc.mainrun.execution.clock import Clock
+    from polycnc.mainrun.execution.execution import Execution
+    from polycnc.mainrun.execution.machinery import Machinery
+    from polycnc.mainrun.motion.geometry import Segment
+    from polycnc.mainrun.preparation.items import Block
+    from polycnc.messages import AlarmError
+    from polycnc.toolpath import Event
+
+
+class Led(Protocol):
+    """Where the axes of a channel are, mm (radius) and degrees."""
+
+    execution: Execution
+    machinery: Machinery
+    axes: ChannelAxes
+
+    @property
+    def path(self) -> list[float]:
+        """Where programs have led them."""
+
+    @property
+    def machine_position(self) -> list[float]:
+        """Their setpoints."""
+
+
+class ChannelInterpolator:
+    """The main run of one channel as its actions see it.
+
+    Args:
+        run: The channel in the main run.
+        clock: The time.
+
+    Attributes:
+        runs_programs: The control is in the mode in which the channel's program was started.
+    """
+
+    def __init__(self, run: Led, clock: Clock) -> None:
+        self._run, self._clock = run, clock
+        self._watchers: list[Watcher] = []
+        self._awake = False
+        self._block_since = 0.0
+        self._static: set[int] = set()
+        self._looks = False
+        self.runs_programs = True
+        self._commanded: dict[int, CommandedAxis] = {}
+        self._overlays: dict[int, Overlay] = {}
+        self._seen: tuple[float, list[float]] = (-1.0, [])
+        self._before: tuple[float, list[float]] = (-1.0, [])
+
+    # ---- who looks -----------------------------------------------------------------------------------------
+
+    def watch(self, watcher: Watcher) -> None:
+        """From now on somebody is told of cycles and blocks."""
+        if watcher not in self._watchers:
+            self._watchers.append(watcher)
+        self._run.execution.lingers = self._lingers
+        self._run.execution.preprocessing.on_step = self.wake
+        self.wake()
+
+    def wake(self) -> None:
+        """Look in every cycle from the next one on."""
+        if not self._awake and self._watchers:
+            self._awake = self._run.execution.attention = True
+            self._clock.arm(self)
+
+    def sleep(self) -> None:
+        """Look in none before something happens."""
+        if self._awake:
+            self._awake = False
+            self._clock.disarm(self)
+
+    def look(self, time: float) -> None:  # noqa: ARG002 - the clock stands at it
+        """An interpolation cycle has come; satisfies the clock's `Watch`."""
+        self._look(lambda watcher: watcher.look())
+
+    def _look(self, do: Callable[[Watcher], None]) -> None:
+        if self._seen[0] != self._clock.time:
+            self._before = self._seen
+        self._looks, self._seen = True, (-1.0, [])
+        try:
+            for watcher in self._watchers:
+                do(watcher)
+        finally:
+            self._looks = False
+        if all(watcher.is_quiet for watcher in self._watchers):
+            self.sleep()
+
+    def enter(self, block: Block) -> None:
+        """A block begins."""
+        for watcher in self._watchers:
+            watcher.block_ends()
+        if not block.is_silent:
+            self._block_since = self._clock.time
+            self._look(lambda watcher: watcher.block_begins())
+        self.wake()
+
+    def end(self, *, reset: bool) -> None:
+        """The program has ended, or was given up by a reset: no action holds the path any more."""
+        for watcher in self._watchers:
+            watcher.abandon(reset=reset)
+        self._run.execution.influence(UNINFLUENCED)
+
+    def hold(self) -> None:
+        """Feed hold has come, or gone: axes that are not moved by static actions wait."""
+        self._set_overrides()
+
+    def stop_axes(self) -> None:
+        """An alarm stops motions: those of actions too."""
+        for axis in self._commanded.values():
+            axis.stop()
+
+    def _lingers(self) -> bool:
+        return any(watcher.lingers for watcher in tuple(self._watchers))
+
+    # ---- where it is ---------------------------------------------------------------------------------------
+
+    @property
+    def time(self) -> float:
+        """Simulated time, s."""
+        return self._clock.time
+
+    @property
+    def cycle_s(self) -> float:
+        """Interpolation cycle, s."""
+        return self._clock.cycle_s
+
+    @property
+    def on_path(self) -> OnPath:
+        """Where the block in execution is."""
+        execution, time = self._run.execution, self._clock.time
+        seconds, motion = time - self._block_since, execution.motion
+        if motion is None:
+            front = execution.preprocessing.items[0] if execution.preprocessing.items else None
+            left = front.total * (1.0 - front.done) if isinstance(front, Move) else 0.0
+            return OnPath(seconds, 0.0, left, 0.0)
+        piece = motion.piece
+        length = piece.length / piece.share if piece.share else piece.length
+        done = motion.done(time) + piece.first * length
+        return OnPath(seconds, done, max(length - done, 0.0), execution.speed)
+
+    @property
+    def modal(self) -> Mapping[str, str]:
+        """Active codes in the block in execution."""
+        return self._run.execution.modal
+
+    def machine(self, column: int) -> float:
+        """Commanded position of an axis on the machine."""
+        return self._positions()[column]
+
+    def _positions(self) -> list[float]:
+        if self._seen[0] != self._clock.time:
+            self._seen = (self._clock.time, self._run.machine_position)
+        return self._seen[1]
+
+    @property
+    def seen(self) -> list[float] | None:
+        """Setpoints of all axes while somebody looks, worked out once; None at other times: nothing is kept then."""
+        return self._positions() if self._looks else None
+
+    def left(self, column: int) -> float:
+        """Way of an axis to where it goes, signed: by what commands it, or in the move in execution."""
+        commanded = self._commanded.get(column)
+        if commanded is not None and commanded.moves:
+            return commanded.left
+        execution = self._run.execution
+        return execution.row_end[column] - execution.machine[column]
+
+    def is_on_path(self, column: int) -> bool:
+        """Whether the move in execution moves an axis."""
+        motion = self._run.execution.motion
+        return motion is not None and motion.piece.way.start[column] != motion.piece.way.end[column]
+
+    def speed(self, column: int) -> float:
+        """Speed of an axis, mm/s or degrees/s, signed: what it has gone since the last look."""
+        now = self._positions()
+        since, before = self._before
+        if since < 0.0 or since >= self._clock.time:
+            return 0.0
+        return (now[column] - before[column]) / (self._clock.time - since)
+
+    def corner_angle(self) -> float | None:
+        """Angle between the end of the move in execution and the next one, degrees; None where none is prepared."""
+        execution = self._run.execution
+        ahead = next((item for item in execution.preprocessing.items if isinstance(item, Move)), None)
+        if execution.motion is None or ahead is None:
+            return None
+        axes = [axis for axis in execution.preprocessing.channel.coordinates.geometry if axis >= 0]
+        out, into = _direction(execution.motion.piece.way, 1.0, axes), _direction(ahead.way, 0.0, axes)
+        cosine = sum(a * b for a, b in zip(out, into, strict=True))
+        return degrees(acos(min(max(cosine, -1.0), 1.0)))
+
+    @property
+    def is_still(self) -> bool:
+        """Whether no axis of the channel moves."""
+        turning = any(axis.is_turning for axis in self._commanded.values())
+        shifting = any(overlay.due < inf for overlay in self._overlays.values())
+        return not turning and not shifting and self._run.execution.rests
+
+    # ---- what they change ----------------------------------------------------------------------------------
+
+    def influence(self, influence: Influence) -> None:
+        """Let these speeds hold until the next look."""
+        self._run.execution.influence(influence)
+        self._set_overrides()
+
+    def _set_overrides(self) -> None:
+        rates = self._run.execution.rates
+        for column, axis in self._commanded.items():
+            waits = rates.hold and column not in self._static
+            axis.set_override(0.0 if waits else rates.influence.of_axes.get(column, 1.0))
+
+    def move_static(self, column: int, *, static: bool) -> None:
+        """Whether what moves an axis beside the path goes on while the program is held."""
+        (self._static.add if static else self._static.discard)(column)
+
+    def gate(self, *, closed: bool) -> None:
+        """Whether every block ends in an exact stop."""
+        self._run.execution.gate(closed=closed)
+
+    def stop_behind_next(self) -> None:
+        """Preparation waits behind the next block that does something."""
+        self._run.execution.preprocessing.stop_behind_next = True
+
+    def release(self) -> None:
+        """Preparation need not wait for the end of the block in execution."""
+        execution = self._run.execution
+        if execution.preprocessing.release() and execution.running:
+            execution.preprocessing.fill(one_block=execution.single_block)
+            execution.revise()
+
+    def drop_rest(self) -> float:
+        """Brake on the path and drop what is left of the block in execution; gives the way dropped, mm."""
+        left = self.on_path.left
+        return left if self._run.execution.drop_rest() else 0.0
+
+    def put_out(self, event: Event) -> None:
+        """An auxiliary function goes out to the machine."""
+        run = self._run
+        run.execution.preprocessing.note(event, run.execution.block)
+        run.machinery.perform(Happening(event, run.execution.context, stands=False))
+
+    def fail(self, error: AlarmError, *, program: str, line: int) -> None:
+        """An action raises an alarm: the program ends behind what is prepared."""
+        preprocessing = self._run.execution.preprocessing
+        error.program, error.line = preprocessing.toolpath.program_number(program), line
+        preprocessing.fail(error)
+        self._run.execution.revise()
+
+    # ---- axes beside the path ------------------------------------------------------------------------------
+
+    def commanded(self, column: int) -> CommandedAxis:
+        """An axis that is moved beside the path."""
+        found = self._commanded.get(column)
+        if found is None:
+            axis, place = self._run.axes[column], self._run.path[column]
+            found = CommandedAxis(axis.data, axis.ramp, place, lambda: self._clock.time, self.wake)
+            self._commanded[column] = found
+            axis.command(found)
+        elif not found.moves:
+            share, path = found.at(self._clock.time), self._run.path[column]
+            found.stand(path + share, path)
+        return found
+
+    def commanded_shares(self) -> dict[int, float]:
+        """How far commanded axes are from where the path has them, by column."""
+        return {column: axis.at(self._clock.time) for column, axis in self._commanded.items()}
+
+    def position_beside(self, column: int, target: float, speed: float) -> None:
+        """An axis goes to a target beside the path, which has it there from now on; nothing moves on the path."""
+        self.shift_path(column, target)
+        self.commanded(column).move_to(target, speed)
+
+    def shift_path(self, column: int, place: float) -> None:
+        """The path has an axis elsewhere from now on; the axis stays, and nothing moves on the path."""
+        axis = self.commanded(column)
+        axis.base = self._run.execution.position[column] = place
+
+    def take_back(self, column: int) -> float:
+        """The program has a commanded axis again, which stands: gives its machine position."""
+        axis = self._commanded.get(column)
+        if axis is None:
+            return self._run.path[column]
+        place = self._run.path[column] + axis.at(self._clock.time)
+        self._seen = (-1.0, [])
+        axis.stand(place, place)
+        self._run.execution.place_axis(column, place)
+        return place
+
+    def overlay(self, column: int, value: float, speed: float) -> None:
+        """Shift an axis beside everything else, no faster than a speed."""
+        found = self._overlays.get(column)
+        if found is None:
+            found = self._overlays[column] = Overlay()
+            self._run.axes[column].add(found)
+        found.go(value, speed, self._clock.time)
+
+    def take_in_overlay(self, column: int) -> float:
+        """The shift of an axis, which stands, becomes a part of the path: gives its machine position."""
+        found = self._overlays.pop(column, None)
+        place = self._run.path[column]
+        if found is not None:
+            self._run.axes[column].remove(found)
+            place += found.at(self._clock.time)
+            self._run.execution.place_axis(column, place)
+        return place
+
+
+#: A share of a way over which its direction is taken.
+_NEAR = 1e-6
+
+
+def _direction(way: Segment, share: float, axes: Sequence[int]) -> list[float]:
+    """Unit vector of a way at its start (0) or its end (1), on some axes; all zero where none of them moves."""
+    first, last = (0.0, _NEAR) if share == 0.0 else (1.0 - _NEAR, 1.0)
+    start, end = way.at(first), way.at(last)
+    along = [end[axis] - start[axis] for axis in axes]
+    length = hypot(*along)
+    return [value / length for value in along] if length else along

@@ -1,0 +1,138 @@
+"""What is prepared as a queue: its pieces are taken one by one, and laid out again for other overrides."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from polycnc.mainrun.preparation.items import Move, Piece
+from polycnc.mainrun.preparation.layout import Layout
+from polycnc.motion.kernels.columns import PieceRecord
+
+if TYPE_CHECKING:
+    from array import array
+    from collections import deque
+    from collections.abc import Callable
+
+    from polycnc.mainrun.preparation.items import ChannelRates, Item
+    from polycnc.mainrun.preparation.piece_buffer import PieceBuffer
+
+
+class Queue:
+    """What is prepared, and the piece that has been taken last.
+
+    Args:
+        items: What is prepared.
+        buffer: The pieces of its moves.
+
+    Attributes:
+        layout: What its rows are laid out for.
+        lay_back: Undoes what `lay_again` has done last.
+    """
+
+    def __init__(self, items: deque[Item], buffer: PieceBuffer) -> None:
+        self.items, self._buffer = items, buffer
+        self.layout = Layout()
+        self._front: Move | None = None
+        self.lay_back: Callable[[], None] = _nothing
+
+    def pop_piece(self) -> tuple[Piece, array[Any]]:
+        """Take the piece in front, and its record; its move leaves the queue with its last one."""
+        move, buffer = self.items[0], self._buffer
+        assert isinstance(move, Move)
+        is_last = buffer.is_last_of_row
+        record = buffer.take()
+        if is_last:
+            self.items.popleft()
+        self._front = move
+        return self._piece(move, record, is_last=is_last), record
+
+    def _piece(self, move: Move, record: array[Any], *, is_last: bool) -> Piece:
+        """The piece of a move that a record tells."""
+        share = 1.0 - move.done if is_last else record[PieceRecord.LENGTH] / move.total
+        piece = Piece(
+            move.way, move.row, move.kind, move.context, move.program, move.line, move.rapid, move.fixed,
+            move.per_revolution, move.left if is_last else 0.0, move.by_axis, move.overridden, move.held,
+            move.faster, move.largest_override, record[PieceRecord.LENGTH], move.done, share, record[PieceRecord.CAP2],
+            move.asked(move.done + 0.5 * share),
+        )  # fmt: skip
+        move.done += share
+        return piece
+
+    def suits(self, rates: ChannelRates, *, at_rest: bool) -> bool:
+        """Whether what is prepared is laid out for what the operator has set."""
+        layout = layout_for(rates, self.layout)
+        return layout == self.layout or (not at_rest and self.layout.covers(layout))
+
+    def lay_again(
+        self, rates: ChannelRates, row: float | None = None, way: float = 0.0
+    ) -> tuple[Piece, array[Any], float] | None:
+        """Lay what is prepared out for what the operator has set.
+
+        Args:
+            rates: Overrides.
+            row: The row in execution, where the axes may still change how they run it.
+            way: How far they have come since the beginning of the piece that has been taken last, mm.
+
+        Returns:
+            The piece that takes the place of the one in execution, its record, and how far the axes have come on it.
+        """
+        before, buffer_back = (self.layout, list(self.items)), self._buffer.noted()
+        front_done = self._front.done if self._front is not None else 0.0
+
+        def back() -> None:
+            buffer_back()
+            self.layout, items = before
+            self.items.clear()
+            self.items.extend(items)
+            if self._front is not None:
+                self._front.done = front_done
+
+        self.lay_back = back
+        self.layout = layout_for(rates, self.layout)
+        front = self._front if row is not None else None
+        if front is not None and front.laid is not None and front.row == row:
+            whole = front.total * front.done if self._row_is_prepared(front) else front.total
+            done = whole - self._buffer.last_length + way
+            moves = [front, *(item for item in self.items if isinstance(item, Move) and item is not front)]
+        else:
+            front, done = None, 0.0
+            moves = self._from_rest()
+        rows = [move.laid for move in moves if move.laid is not None]
+        if not rows or len(rows) < len(moves):
+            return None
+        found = self._buffer.lay_again(rows, self.layout, None if front is None else done)
+        if found is None or front is None:
+            return None
+        record, on_piece = found
+        is_prepared, is_last = self._row_is_prepared(front), not self._buffer.goes_on(front.row)
+        if is_last and is_prepared:
+            self.items.popleft()
+        elif not is_last and not is_prepared:
+            self.items.appendleft(front)
+        front.done = max(done - on_piece, 0.0) / front.total
+        return self._piece(front, record, is_last=is_last), record, on_piece
+
+    def _row_is_prepared(self, move: Move) -> bool:
+        """Whether pieces of a row are still to come."""
+        return bool(self.items) and self.items[0] is move
+
+    def _from_rest(self) -> list[Move]:
+        """The moves that are prepared from the first one on before which the axes rest."""
+        moves = [item for item in self.items if isinstance(item, Move)]
+        begins = self._buffer.rows_from_rest()
+        return next(
+            (moves[k:] for k, move in enumerate(moves) if move.row in begins and move.done == 0.0), []
+        )
+
+
+def layout_for(rates: ChannelRates, before: Layout) -> Layout:
+    """The layout for what the operator has set; at an override of 0 nothing moves, and it stays as it was."""
+    if rates.influence.addend > 0.0:  # no factor of the feed says how fast that is
+        return Layout(before.feed, before.spindle, 1.0)
+    if rates.dry_run is not None:
+        return Layout(before.feed, before.spindle, 2.0 if rates.dry_run.with_spindle else 1.0)
+    return Layout(rates.feed or before.feed, rates.spindle or before.spindle)
+
+
+def _nothing() -> None:
+    """Nothing has been laid out again."""

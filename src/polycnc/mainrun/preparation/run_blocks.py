@@ -1,0 +1,106 @@
+"""Blocks that the channel has run: where each begins and ends among the items, and what its rows mean for it.
+
+Rows may come later than their block, where a stage of the path holds them back.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from math import inf
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun.preparation.items import Block, BlockEnd
+from polycnc.motion.kernels.columns import LARGEST_OVERRIDE
+from polycnc.motion.waits import ORIENT
+from polycnc.toolpath import Kind
+from polycnc.toolpath.events import Deed, SignalWrite
+from polycnc.toolpath.table import CURVE_WIDTH
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.channel.intervention import TakesBack
+    from polycnc.mainrun.preparation.items import Item
+    from polycnc.toolpath import Event
+    from polycnc.toolpath.events import Auxiliary, BuilderCode
+    from polycnc.toolpath.table import Chunk
+
+#: Program and line.
+Key = tuple[int, int]
+
+
+class RunBlocks:
+    """Puts the beginnings and ends of blocks among the items.
+
+    Args:
+        items: What is prepared, in order.
+        programs: Names of programs by number.
+    """
+
+    def __init__(self, items: deque[Item], programs: list[str]) -> None:
+        self._items, self._programs = items, programs
+        self._run: deque[tuple[Key, str, Mapping[str, str], TakesBack]] = deque()
+        self._open: tuple[Key, str] | None = None
+
+    def clear(self) -> None:
+        """No block has been run."""
+        self._run.clear()
+        self._open = None
+
+    def note(self, key: Key, code: str, modal: Mapping[str, str], takes_back: TakesBack) -> None:
+        """The channel has run a block; `code` where single block halts behind it, as `BlockEnd` has it."""
+        self._run.append((key, code, modal, takes_back))
+
+    def enter(self, key: Key, *, is_silent: bool = False) -> None:
+        """A row of a block comes: every block run before that one is over."""
+        if self._open is not None and self._open[0] == key:
+            return
+        if not any(block[0] == key for block in self._run):
+            return  # a row that a stage has added counts for the block before it
+        self._end()
+        while self._run:
+            found, code, modal, back = self._run.popleft()
+            silent = is_silent and found == key
+            self._items.append(Block(self._programs[found[0]], found[1], modal, back, silent))
+            self._open = (found, code)
+            if found == key:
+                return
+            self._end()
+
+    def _end(self) -> None:
+        if self._open is not None and self._open[1]:
+            self._items.append(BlockEnd(self._open[1]))
+        self._open = None
+
+    def close(self) -> None:
+        """Nothing is held back: every block that was run is over."""
+        if self._run:
+            self.enter(self._run[-1][0])
+        self._end()
+
+
+def is_silent(event: Event | None) -> bool:
+    """Whether a row only begins or ends an action, or writes a variable."""
+    return isinstance(event, SignalWrite) or (isinstance(event, Deed) and event.is_silent)
+
+
+def acts_on_machine(chunk: Chunk, *, waits: bool) -> bool:
+    """Whether a block does something on the machine; `waits`: it is one even without rows."""
+    if not len(chunk):
+        return waits
+    return any(kind != Kind.EVENT for kind in chunk.kind) or not all(map(is_silent, chunk.events))
+
+
+def without_function(
+    delays: list[tuple[str, float]], event: Auxiliary | BuilderCode
+) -> list[tuple[str, float]]:
+    """Delays of a row without what its function takes: that is up to the machine's own controller."""
+    kept = [delay for delay in delays if delay[0] != "auxiliary_s"]
+    return kept[:-1] if event.code == ORIENT and kept else kept
+
+
+def largest_override(chunk: Chunk, row: int) -> float:
+    """Of a tap, by its record of parameters; any for other moves."""
+    if chunk.kind[row] != Kind.TAP or chunk.curve[row] < 0:
+        return inf
+    return chunk.curves[chunk.curve[row] * CURVE_WIDTH + LARGEST_OVERRIDE] or inf

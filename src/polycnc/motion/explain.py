@@ -1,0 +1,174 @@
+"""Where cycle time goes: which limit held, over which share of the time and of the path.
+
+A `TimeAccount` listens to a planner. A piece of the path is passed in three phases: up to its highest speed, along it,
+and down. What bounds the highest speed is found by comparing it with what the program asks for and with what the axes
+can do; what is lower is what corners, curves and their jerk allow, there or nearby (`kernels/hold.py`).
+"""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from math import inf, sqrt
+from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, piece_width
+from polycnc.toolpath import Kind
+from polycnc.toolpath.modes import FeedMode
+from polycnc.toolpath.table import CURVE_WIDTH
+
+if TYPE_CHECKING:
+    from array import array
+    from collections.abc import Sequence
+
+    from polycnc.motion.planner import Planner
+    from polycnc.toolpath import Context, Toolpath
+    from polycnc.toolpath.table import Chunk
+
+#: Part by which speeds that count as one may differ.
+SAME = 1e-6
+#: Part by which the squared speed on a piece of a curve may change that counts as steady.
+EVEN = 0.05
+
+
+class Cause(StrEnum):
+    """What bounds the motion."""
+
+    FEED = "feed"
+    AXES = "axes"
+    CORNERS = "corners"
+    ACCELERATION = "acceleration"
+    JERK = "jerk"
+
+
+class Part(NamedTuple):
+    """Seconds and millimetres for which one cause held."""
+
+    seconds: float
+    way: float
+
+
+class TimeAccount:
+    """Counts why a toolpath takes its time, while it is planned.
+
+    Args:
+        toolpath: The toolpath.
+        planner: Plans it; who listens to its pieces goes on listening.
+        tops: Highest velocity of every column in cuts, and in rapids.
+    """
+
+    def __init__(
+        self, toolpath: Toolpath, planner: Planner, tops: tuple[Sequence[float], Sequence[float]]
+    ) -> None:
+        self._toolpath, self._planner, self._tops = toolpath, planner, tops
+        self._n = len(toolpath.axes)
+        self._asked: dict[int, tuple[float, bool]] = {}
+        self._contexts: dict[int, Context] = {}
+        self._seconds = dict.fromkeys(Cause, 0.0)
+        self._ways = dict.fromkeys(Cause, 0.0)
+        self._next = planner.on_pieces
+        planner.on_pieces = self._pieces
+
+    @property
+    def parts(self) -> dict[Cause, Part]:
+        """Seconds and way by cause: together the time and the way of the motion."""
+        return {cause: Part(self._seconds[cause], self._ways[cause]) for cause in Cause}
+
+    def take(self, chunk: Chunk) -> None:
+        """Note what the program asks for in a chunk's rows; comes before the planner takes the chunk."""
+        for row in range(len(chunk)):
+            kind = chunk.kind[row]
+            if kind not in (Kind.EVENT, Kind.DWELL):
+                context = self._toolpath.contexts[chunk.context[row]]
+                self._asked[chunk.first + row] = self._asked_speed(chunk, row, context), kind == Kind.RAPID
+                if kind == Kind.RAPID:
+                    self._contexts[chunk.first + row] = context
+
+    def _asked_speed(self, chunk: Chunk, row: int, context: Context) -> float:
+        """Path speed that the program asks for, mm/s; 0 where that changes along the row."""
+        kind, feed, pace = chunk.kind[row], chunk.feed[row], context.pace
+        if kind == Kind.RAPID:
+            return context.rapid_speed or inf
+        if context.surface_speed or (pace is not None and pace.weights):
+            return 0.0
+        turns = self._planner.rpm(context, 0.0) / 60.0
+        if kind in (Kind.THREAD, Kind.TAP) and chunk.curve[row] >= 0:
+            return chunk.curves[chunk.curve[row] * CURVE_WIDTH] * turns
+        if context.feed_mode is FeedMode.INVERSE_TIME:
+            return 0.0
+        asked = feed * turns if context.feed_mode is FeedMode.PER_REVOLUTION else feed
+        return asked * (pace.feed if pace is not None else 1.0) if asked > 0.0 else inf
+
+    def _pieces(self, records: array[float], count: int) -> None:
+        width = piece_width(self._n)
+        for at in range(0, count * width, width):
+            self._piece(records, at)
+        done = int(records[(count - 1) * width + PieceRecord.ROW])
+        for rows in (self._asked, self._contexts):
+            for row in [row for row in rows if row < done]:
+                del rows[row]
+        if self._next is not None:
+            self._next(records, count)
+
+    def _piece(self, records: array[float], at: int) -> None:
+        """Share the seconds and the way of a piece out."""
+        pause = records[at + PieceRecord.PAUSE] - min(
+            records[at + PieceRecord.EARLY], records[at + PieceRecord.PAUSE]
+        )
+        self._count(Cause.JERK, pause, 0.0)
+        seconds, length = records[at + PieceRecord.TIME], records[at + PieceRecord.LENGTH]
+        if records[at + PieceRecord.FORM] == Form.TIMED:
+            level = min(self._level_of_rapid(records, at), seconds)
+            share = level / seconds if seconds > 0.0 else 0.0
+            self._count(Cause.AXES, level, share * length)
+            self._count(Cause.ACCELERATION, seconds - level, (1.0 - share) * length)
+            return
+        start2, peak2, end2, rate = (
+            records[at + field]
+            for field in (PieceRecord.SPEED2, PieceRecord.PEAK2, PieceRecord.END2, PieceRecord.RATE)
+        )
+        up = down = 0.0
+        curved = records[at + PieceRecord.FORM] == Form.CURVED
+        # Along a curve the speed that it allows changes from piece to piece.
+        if rate > 0.0 and not (curved and min(start2, end2) >= (1.0 - EVEN) * peak2):
+            up = min(0.5 * (peak2 - start2) / rate, length)
+            down = min(0.5 * (peak2 - end2) / rate, length - up)
+        level = length - up - down
+        even = seconds if level == length else level / sqrt(peak2) if peak2 > 0.0 else 0.0
+        self._count(self._bound(records, at, peak2), min(even, seconds), level)
+        self._count(Cause.ACCELERATION, max(seconds - even, 0.0), up + down)
+
+    def _count(self, cause: Cause, seconds: float, way: float) -> None:
+        self._seconds[cause] += seconds
+        self._ways[cause] += way
+
+    def _bound(self, records: array[float], at: int, peak2: float) -> Cause:
+        """What bounds the highest speed of a piece."""
+        asked, rapid = self._asked.get(int(records[at + PieceRecord.ROW]), (0.0, False))
+        speed = sqrt(peak2) * (1.0 + SAME)
+        if asked < inf and speed >= asked:
+            return Cause.FEED
+        curved = records[at + PieceRecord.FORM] != Form.STRAIGHT
+        here, length = at + PieceRecord.VECTORS, records[at + PieceRecord.LENGTH]
+        for i, top in enumerate(self._tops[rapid]):
+            first, last = (records[here + (PLACES + end) * self._n + i] for end in (0, 1))
+            share = abs(last - first) / length if length > 0.0 else 0.0
+            if curved:
+                share = max(share, abs(records[here + i]), abs(records[here + self._n + i]))
+            if speed * share >= top:
+                return Cause.AXES
+        return Cause.CORNERS
+
+    def _level_of_rapid(self, records: array[float], at: int) -> float:
+        """Seconds for which the slowest axis of a rapid, on which every axis runs alone, has its highest speed."""
+        here, n = at + PieceRecord.VECTORS + PLACES * self._n, self._n
+        ways = [abs(records[here + n + i] - records[here + i]) for i in range(n)]
+        context = self._contexts[int(records[at + PieceRecord.ROW])]
+        runs = self._planner.rapids(ways, context)
+        times = [
+            (
+                way / own.top + own.top / own.pull + own.ramp if way else 0.0,
+                way / own.top - own.top / own.pull,
+            )
+            for way, own in zip(ways, runs, strict=True)
+        ]
+        return max(max(times)[1], 0.0)

@@ -1,0 +1,199 @@
+"""The law of motion along a path: phases of constant acceleration, and their average over time.
+
+The interpolator runs in phases, so that the way is piecewise quadratic in time, the area below it piecewise cubic, and
+the average of the way over a window the difference of two areas. Plan, samples and main run ask the same class: a
+number for one moment, an array for many.
+"""
+
+from __future__ import annotations
+
+from array import array
+from bisect import bisect_left, bisect_right
+from math import sqrt
+from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.motion.averaging import area_after, average, way_after
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from polycnc.motion.averaging import Value
+
+#: Areas are summed in two parts, multiples of this and the rest: those of a long run are as exact as of a short one.
+GRID = 2.0**-20
+#: Steps of the search for a time: each halves what the step before has left at least.
+STEPS = 60
+
+
+class Phase(NamedTuple):
+    """Constant acceleration `pull` for `seconds` from `speed` on, over `way`."""
+
+    seconds: float
+    way: float
+    speed: float
+    pull: float
+
+
+class Law:
+    """One place over time: phases of constant acceleration, at rest before and behind them.
+
+    Args:
+        time: When it begins.
+        place: Where it is then.
+    """
+
+    def __init__(self, time: float = 0.0, place: float = 0.0) -> None:
+        # When a phase begins, where, speed and pull in it, and the area below the places before it.
+        self._start, self._place = array("d", (time,)), array("d", (place,))
+        self._speed, self._pull = array("d", (0.0,)), array("d", (0.0,))
+        self._area, self._fine = array("d", (0.0,)), array("d", (0.0,))
+        self._origin = place
+
+    @classmethod
+    def of(cls, seconds: NDArray[np.float64], ways: NDArray[np.float64], speed: NDArray[np.float64]) -> Law:
+        """A law from time 0 and place 0 on, by duration, way and first speed of many phases, (m,) each."""
+        import numpy as np
+
+        law, keep = cls(), seconds > 0.0
+        seconds, ways, speed = seconds[keep], ways[keep], speed[keep]
+        pull = 2.0 * (ways - speed * seconds) / (seconds * seconds)
+        places = np.concatenate([[0.0], np.cumsum(ways)])
+        areas = area_after(seconds, places[:-1], speed, pull)
+        coarse = np.round(areas / GRID) * GRID
+        law._start.extend(np.concatenate([[0.0], np.cumsum(seconds)]).tolist())
+        law._place.extend(places.tolist())
+        law._speed.extend([*speed.tolist(), 0.0])
+        law._pull.extend([*pull.tolist(), 0.0])
+        law._area.extend(np.concatenate([[0.0], np.cumsum(coarse)]).tolist())
+        law._fine.extend(np.concatenate([[0.0], np.cumsum(areas - coarse)]).tolist())
+        return law
+
+    def run(self, time: float, place: float, phases: Iterable[Phase]) -> None:
+        """What happens from a time on, in place of what was said before."""
+        columns = (self._start, self._place, self._speed, self._pull, self._area, self._fine)
+        while len(self._start) > 1 and self._start[-1] >= time:
+            for column in columns:
+                column.pop()
+        area, fine = self._areas(time)
+        coarse = round(fine / GRID) * GRID
+        area, fine = area + coarse, fine - coarse
+        for phase in (*phases, Phase(0.0, 0.0, 0.0, 0.0)):
+            row = time, place, phase.speed, phase.pull, area, fine
+            for column, value in zip(columns, row, strict=True):
+                column.append(value)
+            more = area_after(phase.seconds, place - self._origin, phase.speed, phase.pull)
+            coarse = round(more / GRID) * GRID
+            area, fine = area + coarse, fine + (more - coarse)
+            time, place = time + phase.seconds, place + phase.way
+
+    def forget(self, before: float) -> None:
+        """Nobody will ask for a time before this one."""
+        last = bisect_right(self._start, before) - 1
+        for column in (self._start, self._place, self._speed, self._pull, self._area, self._fine):
+            del column[: max(last, 0)]
+
+    @property
+    def phases(self) -> int:
+        """How many phases are kept."""
+        return len(self._start)
+
+    @property
+    def seconds(self) -> float:
+        """Duration."""
+        return self._start[-1] - self._start[0]
+
+    @property
+    def end(self) -> float:
+        """The place at the end."""
+        return self._place[-1]
+
+    def at(self, time: Value) -> Value:
+        """The place at a time."""
+        seconds, place, speed, pull = self._phase(time)
+        return place + way_after(seconds, speed, pull)
+
+    def speed(self, time: Value) -> Value:
+        """The speed at a time."""
+        seconds, _, speed, pull = self._phase(time)
+        return speed + pull * seconds
+
+    def pull(self, time: Value) -> Value:
+        """The acceleration at a time."""
+        return self._phase(time)[3]
+
+    def mean(self, time: Value, window: float) -> Value:
+        """The average place over the time `window` before."""
+        if window <= 0.0:
+            return self.at(time)
+        (first, fine), (last, finer) = self._areas(time - window), self._areas(time)
+        return self._origin + ((last - first) + (finer - fine)) / window
+
+    def mean_speed(self, time: Value, window: float) -> Value:
+        """The average speed over the time `window` before."""
+        return average(self.at(time - window), self.at(time), window) if window > 0.0 else self.speed(time)
+
+    def mean_pull(self, time: Value, window: float) -> Value:
+        """The average acceleration over the time `window` before."""
+        if window <= 0.0:
+            return self.pull(time)
+        return average(self.speed(time - window), self.speed(time), window)
+
+    def edges(self, first: float, last: float, window: float) -> list[float]:
+        """Times between two at which the average over the time `window` before begins to follow another rule."""
+        found: list[float] = []
+        for late in (0.0, window) if window > 0.0 else (0.0,):
+            low, high = bisect_right(self._start, first - late), bisect_left(self._start, last - late)
+            found += [time + late for time in self._start[low:high]]
+        return found
+
+    def when(self, place: float) -> float:
+        """The time at which a law that never goes back comes to a place."""
+        k = max(bisect_right(self._place, place) - 1, 0)
+        left, speed, pull = max(place - self._place[k], 0.0), self._speed[k], self._pull[k]
+        fast = sqrt(max(speed * speed + 2.0 * pull * left, 0.0)) + speed
+        return self._start[k] + (2.0 * left / fast if fast > 0.0 else 0.0)
+
+    def when_mean(self, place: float, window: float) -> float:
+        """The time at which its average over the time `window` before comes to a place."""
+        low = self.when(place)
+        if window <= 0.0:
+            return low
+        high = low + window
+        for _ in range(STEPS):
+            middle = 0.5 * (low + high)
+            if not low < middle < high:
+                break
+            low, high = (middle, high) if self.mean(middle, window) < place else (low, middle)
+        return high
+
+    def lag(self, speed: float) -> float:
+        """Seconds that getting up to a speed from rest costs against having had it."""
+        k = next((k for k, had in enumerate(self._speed) if had >= speed * (1.0 - 1e-9)), 0)
+        return self._start[k] - self._place[k] / speed if k and speed > 0.0 else 0.0
+
+    def _phase(self, time: Value) -> tuple[Value, Value, Value, Value]:
+        """How long the phase at a time has lasted, where it began, its first speed and its acceleration."""
+        if isinstance(time, float | int):
+            k = max(bisect_right(self._start, time) - 1, 0)
+            return time - self._start[k], self._place[k], self._speed[k], self._pull[k]
+        import numpy as np
+
+        start = np.asarray(self._start)
+        at = np.maximum(np.searchsorted(start, time, "right") - 1, 0)
+        place, speed, pull = (np.asarray(column)[at] for column in (self._place, self._speed, self._pull))
+        return time - start[at], place, speed, pull
+
+    def _areas(self, time: Value) -> tuple[Value, Value]:
+        """The integral of the places, counted from the origin, over the time before: in two parts."""
+        seconds, place, speed, pull = self._phase(time)
+        more = area_after(seconds, place - self._origin, speed, pull)
+        if isinstance(time, float | int):
+            k = max(bisect_right(self._start, time) - 1, 0)
+            return self._area[k], self._fine[k] + more
+        import numpy as np
+
+        at = np.maximum(np.searchsorted(np.asarray(self._start), time, "right") - 1, 0)
+        return np.asarray(self._area)[at], np.asarray(self._fine)[at] + more

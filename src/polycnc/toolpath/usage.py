@@ -1,0 +1,196 @@
+"""What a program has used: how far its cuts reach, the speeds and feeds of each tool, the work offsets.
+
+Extents are those of the controlled point, arcs included; the tool's radius is not in them.
+"""
+
+from __future__ import annotations
+
+from array import array
+from dataclasses import dataclass, field
+from itertools import product
+from math import inf
+from typing import TYPE_CHECKING
+
+from polycnc.toolpath.compiled import survey
+from polycnc.toolpath.kinds import RAPID_KINDS, Kind
+from polycnc.toolpath.modes import FeedMode
+from polycnc.toolpath.survey import CUTS, RAPIDS, STANDS, Box, Moves, empty_box
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.toolpath.context import Context
+    from polycnc.toolpath.table import Chunk
+    from polycnc.toolpath.trace import Display
+
+_UNITS = {
+    FeedMode.PER_MINUTE: "{unit}/min",
+    FeedMode.PER_REVOLUTION: "{unit}/rev",
+    FeedMode.INVERSE_TIME: "1/min",
+}
+_STANDING = frozenset((Kind.DWELL, Kind.EVENT))
+
+
+@dataclass(slots=True)
+class Extents:
+    """The least and the greatest position of each axis; `low` above `high` as long as none is known."""
+
+    low: list[float]
+    high: list[float]
+
+    @classmethod
+    def empty(cls, axes: int) -> Extents:
+        """No position yet."""
+        return cls([inf] * axes, [-inf] * axes)
+
+    @property
+    def known(self) -> bool:
+        """Whether there is a position in them."""
+        return all(low <= high for low, high in zip(self.low, self.high, strict=True))
+
+    def include(self, low: Sequence[float], high: Sequence[float]) -> None:
+        """Reach as far as two corners."""
+        self.low[:] = map(min, self.low, low)
+        self.high[:] = map(max, self.high, high)
+
+
+@dataclass(slots=True)
+class ToolUsage:
+    """What one tool has done.
+
+    Attributes:
+        tool: Number or name; 0 for none.
+        work: Extents of its cuts on the work display.
+        machine: The same on the machine display, mm.
+        units: Of the work display while it cut, `mm` or `inch`, in order of use.
+        speeds: Programmed spindle speeds (rpm), in order of use.
+        surface_speeds: Programmed surface speeds (m/min, feet/min in inches), in order of use.
+        feeds: Lowest and highest programmed feed of its cuts by unit (`mm/min`, `inch/rev`), as the display shows them.
+    """
+
+    tool: int | str
+    work: Extents
+    machine: Extents
+    units: dict[str, None] = field(default_factory=dict)
+    speeds: dict[float, None] = field(default_factory=dict)
+    surface_speeds: dict[float, None] = field(default_factory=dict)
+    feeds: dict[str, tuple[float, float]] = field(default_factory=dict)
+
+
+class Usage:
+    """Collects what a program uses while its toolpath grows: `take` fits a session's consumers.
+
+    Args:
+        display: Of the toolpath.
+
+    Attributes:
+        tools: By tool, in the order of first use; of those that cut.
+        machine: Machine extents of every move, rapids too.
+        offsets: Names of the work coordinate systems in which axes have moved, in the order of first use.
+    """
+
+    def __init__(self, display: Display) -> None:
+        self._display = display
+        self._axes = len(display.axes)
+        self.tools: dict[int | str, ToolUsage] = {}
+        self.machine = Extents.empty(self._axes)
+        self.offsets: dict[str, None] = {}
+        self._survey = survey()
+        self._last: tuple[tuple[float, ...], int] | None = None
+
+    def take(self, chunk: Chunk) -> None:
+        """Look through a chunk."""
+        if not len(chunk):
+            return
+        contexts = self._display.toolpath.contexts
+        moves = Moves(chunk.kind, chunk.context, chunk.feed, chunk.end, chunk.curve, chunk.curves)
+        before = array("d", self._last[0] if self._last is not None else ())
+        boxes: dict[tuple[int, int], Box] = {}
+        row = 0
+        while row < len(chunk):
+            context, kind = chunk.context[row], _CLASSES[chunk.kind[row]]
+            box = boxes.get((context, kind))
+            if box is None:
+                box = boxes[context, kind] = empty_box(self._axes)
+            if kind == CUTS:
+                self._start(chunk, row, contexts[context], box)
+            row = self._survey(moves, row, _CLASSES, self._geometry(contexts[context]), before, box)
+        for (context, kind), box in boxes.items():
+            if kind != STANDS:
+                self._count(contexts[context], box, is_cut=kind == CUTS)
+        self._last = tuple(chunk.end[-self._axes :]), chunk.context[-1]
+
+    def _geometry(self, context: Context) -> array[int]:
+        """Columns of X, Y and Z where arcs are."""
+        made = context.transformation
+        return array("q", self._display.layout.geometry if made is None else made.geometry)
+
+    def _count(self, context: Context, box: Box, *, is_cut: bool) -> None:
+        """Add what has been done under one context."""
+        low, high = box.low, box.high
+        machine = self._machine_box(context, low, high)
+        self.machine.include(*machine)
+        self.offsets.setdefault(context.wcs)
+        if not is_cut:
+            return
+        name = context.tool_name or context.tool
+        tool = self.tools.get(name)
+        if tool is None:
+            tool = self.tools[name] = ToolUsage(name, Extents.empty(self._axes), Extents.empty(self._axes))
+        scale = self._display.scale(context)
+        work = [
+            [value * factor for value, factor in zip(corner, scale.work, strict=True)]
+            for corner in (low, high)
+        ]
+        tool.work.include(*work)
+        tool.machine.include(*machine)
+        tool.units.setdefault(scale.unit)
+        if context.spindle_rpm and context.spindle_direction:
+            speeds = tool.surface_speeds if context.surface_speed else tool.speeds
+            speeds.setdefault(context.spindle_rpm)
+        if box.feeds[0] <= box.feeds[1]:
+            unit = _UNITS[context.feed_mode].format(unit=scale.unit)
+            least, most = tool.feeds.get(unit, (inf, -inf))
+            tool.feeds[unit] = min(least, box.feeds[0] * scale.feed), max(most, box.feeds[1] * scale.feed)
+
+    def _start(self, chunk: Chunk, row: int, context: Context, box: Box) -> None:
+        """The point from which a run of cuts begins, where the row in front shows it in the same system."""
+        n = self._axes
+        if row:
+            before, number = tuple(chunk.end[(row - 1) * n : row * n]), chunk.context[row - 1]
+        elif self._last is not None:
+            before, number = self._last
+        else:
+            return  # no row says where the axes stood before the first one
+        was = self._display.toolpath.contexts[number]
+        if (was.frame, was.offsets, was.transformation) == (
+            context.frame,
+            context.offsets,
+            context.transformation,
+        ):
+            for i, value in enumerate(before):
+                box.low[i], box.high[i] = min(box.low[i], value), max(box.high[i], value)
+
+    def _machine_box(
+        self, context: Context, low: Sequence[float], high: Sequence[float]
+    ) -> tuple[list[float], list[float]]:
+        """A box on the machine display, around the images of its corners: under a turned frame a little too large."""
+        toolpath, geometry = self._display.toolpath, self._display.layout.geometry
+        moved = [i for i in range(self._axes) if i in geometry and low[i] != high[i]]
+        corners = []
+        for sides in product((low, high), repeat=len(moved)):
+            corner = list(low)
+            for i, side in zip(moved, sides, strict=True):
+                corner[i] = side[i]
+            corners.append(toolpath.to_machine(corner, context, geometry))
+        other_end = toolpath.to_machine(list(high), context, geometry)
+        factors = self._display.scale(context).machine
+        columns = list(zip(*corners, other_end, strict=True))
+        return (
+            [min(column) * factor for column, factor in zip(columns, factors, strict=True)],
+            [max(column) * factor for column, factor in zip(columns, factors, strict=True)],
+        )
+
+
+#: What each kind is, by its number.
+_CLASSES = array("B", (STANDS if k in _STANDING else RAPIDS if k in RAPID_KINDS else CUTS for k in Kind))

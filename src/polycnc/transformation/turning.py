@@ -1,0 +1,156 @@
+"""From a way of the tool's direction to one of the rotary axes: knots between which they go evenly.
+
+The solution that is nearest to the last one is followed step by step, so the axes never leap. Near a pole one of them
+would have to turn ever faster; within a cone about it the axes go evenly from where the way enters it to where it
+leaves it, and the direction is as near to the wanted one as the cone is narrow. The tip is led by the linear axes all
+the way: it does not notice.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from math import radians
+from typing import TYPE_CHECKING
+
+from polycnc.transformation.choice import nearest
+from polycnc.transformation.directions import angle_between
+from polycnc.transformation.orientation import pole_angle, solutions_for
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from polycnc.machine.kinematics import Angles, Kinematics
+    from polycnc.transformation.directions import Way
+
+#: The direction is looked at after so much of a turn; nearer than NEAR to a pole more often, by down to CLOSEST.
+STEP, NEAR_DEG, CLOSEST = radians(1.5), 8.0, 0.1
+#: Between two knots the direction is as near as this to the wanted one.
+TOLERANCE = radians(0.02)
+#: Places at which the length of a way is looked at; steps of the search for the edge of a pole's cone.
+LOOKS, SEARCH = 16, 24
+
+
+@dataclass(frozen=True, slots=True)
+class Turning:
+    """How rotary axes go along a move: evenly from knot to knot.
+
+    Attributes:
+        columns: Columns of the axes.
+        shares: Share of the move at each knot, the last one 1.
+        places: Positions of the axes at each knot.
+    """
+
+    columns: tuple[int, ...]
+    shares: tuple[float, ...]
+    places: tuple[tuple[float, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Knot:
+    """Angles of the rotary axes after a share of a way."""
+
+    share: float
+    angles: dict[str, float]
+
+
+def follow(
+    kinematics: Kinematics, way: Way, start: Angles, reaches: Callable[[Angles], bool], cone_deg: float
+) -> list[Knot] | None:
+    """The knots of a way behind its start; None where the axes cannot follow it.
+
+    Args:
+        kinematics: The rotary joints.
+        way: Directions of the tool on the work.
+        start: Angles at its start, degrees by axis.
+        reaches: Whether the axes can stand at some angles.
+        cone_deg: Half the opening of the cones about poles.
+    """
+    joints = kinematics.axes
+    steps = [Knot(0.0, {axis: start.get(axis, 0.0) for axis in joints})]
+
+    def solve(share: float) -> Knot | None:
+        found = [s for s in solutions_for(kinematics, way(share), steps[-1].angles) if reaches(s)]
+        angles = nearest(found, steps[-1].angles)
+        return None if angles is None else Knot(share, angles)
+
+    def is_inside(knot: Knot) -> bool:
+        return pole_angle(kinematics, knot.angles) < cone_deg
+
+    length, edges = _length(way), [0]
+    share, inside = 0.0, is_inside(steps[0])
+    while share < 1.0:
+        near = pole_angle(kinematics, steps[-1].angles) / NEAR_DEG
+        ahead = STEP * min(max(near, CLOSEST), 1.0) / length if length > STEP * CLOSEST else 1.0
+        share = min(1.0, share + ahead)
+        share = 1.0 if share > 1.0 - 1e-9 else share
+        knot = solve(share)
+        if knot is None:
+            return None
+        was_inside, inside = inside, is_inside(knot)
+        if inside != was_inside:
+            edge = _edge((max(share - ahead, 0.0), share), solve, is_inside, leaves=was_inside)
+            if edge is not None:
+                edges.append(len(steps))
+                steps.append(edge)
+                knot = solve(share) or knot
+        if not inside or share == 1.0:
+            steps.append(knot)
+    return _fewer(kinematics, way, steps, [*edges, len(steps) - 1])
+
+
+def _length(way: Way) -> float:
+    """How far the direction turns along a way, radians."""
+    looks = [way(k / LOOKS) for k in range(LOOKS + 1)]
+    return sum(angle_between(a, b) for a, b in pairwise(looks))
+
+
+def _edge(
+    between: tuple[float, float],
+    solve: Callable[[float], Knot | None],
+    is_inside: Callable[[Knot], bool],
+    *,
+    leaves: bool,
+) -> Knot | None:
+    """The knot just outside a cone, where the way enters or leaves it."""
+    found: Knot | None = None
+    low, high = between
+    for _ in range(SEARCH):
+        middle = 0.5 * (low + high)
+        knot = solve(middle)
+        if knot is None:
+            return None
+        if is_inside(knot) is leaves:
+            low = middle
+        else:
+            high = middle
+        if not is_inside(knot):
+            found = knot
+    return found
+
+
+def _fewer(kinematics: Kinematics, way: Way, steps: Sequence[Knot], edges: Sequence[int]) -> list[Knot]:
+    """As few of the steps as lead the tool along the way within the tolerance; the edges of cones stay."""
+    kept: list[Knot] = []
+    if all(_off(kinematics, way, steps[0], steps[-1], step) <= TOLERANCE for step in steps[1:-1]):
+        return [steps[-1]]
+    waiting = [pair for pair in pairwise(edges) if pair[0] != pair[1]][::-1]
+    while waiting:
+        first, last = waiting.pop()
+        worst, at = TOLERANCE, 0
+        for k in range(first + 1, last):
+            off = _off(kinematics, way, steps[first], steps[last], steps[k])
+            if off > worst:
+                worst, at = off, k
+        if at:
+            waiting += [(at, last), (first, at)]
+        else:
+            kept.append(steps[last])
+    return kept
+
+
+def _off(kinematics: Kinematics, way: Way, first: Knot, last: Knot, knot: Knot) -> float:
+    """How far the tool is from the wanted direction at a knot that is left out, radians."""
+    part = (knot.share - first.share) / (last.share - first.share)
+    angles = {axis: a + (last.angles[axis] - a) * part for axis, a in first.angles.items()}
+    return angle_between(kinematics.tool_on_work(angles), way(knot.share))

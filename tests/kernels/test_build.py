@@ -1,0 +1,95 @@
+"""What the build makes: every kernel, in a wheel that says for which platform it is."""
+
+from __future__ import annotations
+
+import platform
+import re
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from build_kernels import linker, shared_object
+
+from polycnc.kernels import native
+
+if TYPE_CHECKING:
+    from build_kernels.hook import KernelHook
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def test_every_library_of_polycnc_is_compiled() -> None:
+    modules = [
+        ".".join(file.relative_to(ROOT / "src").with_suffix("").parts)
+        for file in sorted((ROOT / "src").rglob("*.py"))
+        if re.search(r"^LIBRARY = Library\(", file.read_text(encoding="utf-8"), re.MULTILINE)
+    ]
+    assert modules == sorted(shared_object.MODULES)
+
+
+def test_no_two_kernels_have_one_name() -> None:
+    names = [kernel.__name__ for library in shared_object.libraries() for kernel in library.kernels]
+    assert len(names) == len(set(names))
+
+
+@pytest.mark.parametrize(("linker_there", "needed"), [("/usr/bin/cc", 1), (None, 2)])
+def test_a_linker_is_asked_for_where_there_is_none(
+    linker_there: str | None, needed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hook = made_hook(monkeypatch, linker_there)
+    assert len(hook.dependencies()) == needed
+
+
+def test_a_pure_wheel_can_be_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("POLYCNC_PURE", "1")
+    hook = made_hook(monkeypatch, "/usr/bin/cc")
+    data: dict[str, object] = {"artifacts": []}
+    hook.initialize("standard", data)
+    assert hook.dependencies() == []
+    assert data == {"artifacts": []}
+
+
+def test_a_build_that_fails_gives_a_pure_wheel_and_says_why(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails() -> None:
+        raise OSError("no place")
+
+    warnings: list[str] = []
+    hook = made_hook(monkeypatch, "/usr/bin/cc")
+    monkeypatch.setattr(shared_object, "is_current", bool)
+    monkeypatch.setattr(shared_object, "make", fails)
+    monkeypatch.setattr(hook.app, "display_warning", warnings.append)
+    data: dict[str, object] = {"artifacts": []}
+    hook.initialize("standard", data)
+    assert data == {"artifacts": []}
+    assert "no place" in warnings[0]
+
+
+def test_the_wheel_has_the_object_and_the_tag_of_its_platform(monkeypatch: pytest.MonkeyPatch) -> None:
+    hook = made_hook(monkeypatch, "/usr/bin/cc")
+    monkeypatch.setattr(shared_object, "is_current", lambda: True)
+    data: dict[str, object] = {"artifacts": []}
+    hook.initialize("standard", data)
+    assert data["artifacts"] == [f"/src/polycnc/kernels/{native.FILE.name}"]
+    assert data["pure_python"] is False
+    assert re.fullmatch(r"py3-none-\w+", str(data["tag"]))
+    assert data["tag"] != "py3-none-any"
+
+
+def test_without_a_c_compiler_that_of_pypi_links(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(linker, "system_linker", lambda: None)
+    assert linker._command() == [sys.executable, "-m", "ziglang", "cc"]
+
+
+def made_hook(monkeypatch: pytest.MonkeyPatch, found: str | None) -> KernelHook:
+    """The hook, on a machine with some linker, of a platform that has Numba."""
+    pytest.importorskip("hatchling")
+    from build_kernels import hook
+    from hatchling.bridge.app import Application
+    from hatchling.builders.wheel import WheelBuilder
+
+    monkeypatch.setattr(hook, "system_linker", lambda: found)
+    monkeypatch.setattr(hook, "_NUMBA_FOR", {(platform.system(), platform.machine())})
+    monkeypatch.setattr(platform, "libc_ver", lambda: ("glibc", "2.36"))
+    builder = WheelBuilder(str(ROOT))
+    return hook.KernelHook(str(ROOT), {}, builder.config, builder.metadata, "", "wheel", Application())

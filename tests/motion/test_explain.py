@@ -1,0 +1,75 @@
+"""Which limit held for how long: the parts add up to the plan."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from polycnc.motion import Settings
+from polycnc.motion.explain import Cause, TimeAccount
+from polycnc.motion.planner import Planner
+from polycnc.toolpath import Context
+from polycnc.toolpath.modes import AccelerationMode, CornerMode
+from tests.motion.paths import MILL, Build
+from tests.motion.test_limits import arc, build, line, spiral, spline
+
+MODES = st.sampled_from([AccelerationMode.CONSTANT, AccelerationMode.JERK_LIMITED])
+
+
+def account_of(rows: Build, lead: Settings) -> tuple[float, float, TimeAccount]:
+    """Planned time and way, and what they go into."""
+    planner = Planner(rows.toolpath, MILL, settings=lead, compiled=False)
+    account = TimeAccount(rows.toolpath, planner, planner.top_speeds)
+    for chunk in rows.toolpath.chunks:
+        account.take(chunk)
+    plan = planner.finish()
+    return plan.total_s, plan.times.cutting_mm + plan.times.rapid_mm, account
+
+
+def seconds(rows: Build, cause: Cause, lead: Settings | None = None) -> float:
+    return account_of(rows, lead or Settings())[2].parts[cause].seconds
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.lists(st.one_of(line, arc, spiral, spline), min_size=1, max_size=5), MODES, st.booleans())
+def test_the_parts_add_up_to_time_and_way(
+    steps: list[tuple[str, float, float, float, float]], mode: AccelerationMode, by_axis: bool
+) -> None:
+    rows = build(steps, Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.02)).rapid(3.0, 40.0, 5.0)
+    total, way, account = account_of(rows, Settings(acceleration=mode, rapid_by_axis=by_axis))
+    assert sum(part.seconds for part in account.parts.values()) == pytest.approx(total, rel=1e-9)
+    assert sum(part.way for part in account.parts.values()) == pytest.approx(way, rel=1e-9)
+    assert all(part.seconds >= 0.0 for part in account.parts.values())
+
+
+def test_a_long_slow_line_runs_at_its_feed() -> None:
+    assert seconds(Build().feed(100.0, 0.0, 0.0, feed=10.0), Cause.FEED) == pytest.approx(10.0, abs=0.01)
+
+
+def test_a_line_that_is_asked_to_be_faster_than_its_axis_runs_at_the_axis() -> None:
+    top = MILL.axis["X"].max_feed
+    rows = Build().feed(2000.0, 0.0, 0.0, feed=10.0 * top)
+    assert seconds(rows, Cause.AXES) == pytest.approx(2000.0 / top, rel=0.1)
+    assert seconds(rows, Cause.FEED) == 0.0
+
+
+@pytest.mark.parametrize("by_axis", [False, True])
+def test_a_long_rapid_runs_at_the_velocity_of_its_axis(by_axis: bool) -> None:
+    rows = Build().rapid(2000.0, 0.0, 0.0)
+    found = seconds(rows, Cause.AXES, Settings(rapid_by_axis=by_axis))
+    top, pull = MILL.axis["X"].rapid, MILL.axis["X"].acceleration
+    assert found == pytest.approx(2000.0 / top - top / pull, rel=1e-6)
+
+
+def test_a_small_circle_is_bound_by_its_curve() -> None:
+    rows = Build().arc(2.0, 0.0, 0.0, center=(1.0, 0.0), feed=5000.0, turns=5.0)
+    parts = account_of(rows, Settings())[2].parts
+    assert parts[Cause.CORNERS].seconds > 0.5 * sum(part.seconds for part in parts.values())
+
+
+def test_a_short_line_only_accelerates_and_its_axis_builds_up_jerk() -> None:
+    rows = Build().feed(1.0, 0.0, 0.0, feed=5000.0)
+    parts = account_of(rows, Settings(acceleration=AccelerationMode.JERK_LIMITED))[2].parts
+    assert parts[Cause.JERK].seconds > 0.01
+    assert parts[Cause.FEED].seconds == 0.0

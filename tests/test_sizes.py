@@ -1,0 +1,33 @@
+"""No file, function or folder is longer than one reads at a sitting."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+import polycnc
+
+SOURCE = Path(polycnc.__file__).parent
+#: A file has about 600 lines at most, a function about 60, a folder about 15 modules.
+MOST_LINES, MOST_LINES_OF_FUNCTION, MOST_MODULES = 620, 65, 20
+#: Kernels that lay a row out in pieces: one loop over many numbers, which parts would hand to each other.
+LONGER = {"lay_straight", "lay_arc"}
+FILES = sorted(SOURCE.rglob("*.py"))
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(SOURCE).as_posix())
+def test_files_and_functions_are_short(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    assert text.count("\n") <= MOST_LINES
+    functions = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef)]
+    long = {node.name for node in functions if (node.end_lineno or 0) - node.lineno >= MOST_LINES_OF_FUNCTION}
+    assert long <= LONGER
+
+
+def test_folders_have_few_modules() -> None:
+    counts: dict[Path, int] = {}
+    for path in FILES:
+        counts[path.parent] = counts.get(path.parent, 0) + (path.stem != "__init__")
+    assert max(counts.values()) <= MOST_MODULES

@@ -1,0 +1,87 @@
+"""From ways of the direction to ways of the rotary axes."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import pi, radians
+from typing import TYPE_CHECKING
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from polycnc.machine import load_machine
+from polycnc.machine.kinematics import Kinematics
+from polycnc.transformation.choice import nearest
+from polycnc.transformation.directions import angle_between, great_circle, unit_of
+from polycnc.transformation.orientation import pole_angle, solutions_for
+from polycnc.transformation.turning import Knot, follow
+
+if TYPE_CHECKING:
+    from polycnc.geometry.frames import Vector
+
+CONE = 2.0
+#: What `follow` promises outside the cones, with what the chords between its looks may add.
+CLOSE = radians(0.05)
+_parts = st.floats(-1.0, 1.0)
+#: Upwards, so that every head reaches them.
+vectors = st.tuples(_parts, _parts, st.floats(0.05, 1.0)).map(unit_of).filter(lambda v: v is not None)
+MACHINES = [
+    Kinematics.of(load_machine(f"mill5-{name}")) for name in ("ca-head", "ac-table", "bc-head", "ab-head")
+]
+
+
+def anywhere(_angles: object) -> bool:
+    return True
+
+
+def start_of(kinematics: Kinematics, direction: Vector) -> dict[str, float]:
+    found = nearest(solutions_for(kinematics, direction, {}), {})
+    assert found is not None
+    return {axis: found.get(axis, 0.0) for axis in kinematics.axes}
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.sampled_from(MACHINES), vectors, vectors)
+def test_between_knots_the_tool_keeps_to_the_way_outside_the_cones(
+    kinematics: Kinematics, a: Vector, b: Vector
+) -> None:
+    assume(angle_between(a, b) < pi - 0.1)
+    way, start = great_circle(a, b), start_of(kinematics, a)
+    assert way is not None
+    knots = follow(kinematics, way, start, anywhere, CONE)
+    assert knots is not None
+    assert knots[-1].share == 1.0
+    assert kinematics.tool_on_work(knots[-1].angles) == pytest.approx(b, abs=1e-6)
+    for first, last in pairwise([Knot(0.0, start), *knots]):
+        for part in (0.25, 0.5, 0.75):
+            share = first.share + part * (last.share - first.share)
+            angles = {k: v + part * (last.angles[k] - v) for k, v in first.angles.items()}
+            off = angle_between(kinematics.tool_on_work(angles), way(share))
+            assert off < CLOSE or pole_angle(kinematics, angles) < CONE + 1e-6
+            assert off < radians(2.0 * CONE) + CLOSE
+
+
+def test_through_the_pole_one_axis_goes_on_and_the_other_one_stays() -> None:
+    kinematics = MACHINES[0]
+    way = great_circle((0.5, 0.0, 0.8660254037844386), (-0.5, 0.0, 0.8660254037844386))
+    assert way is not None
+    (knot,) = follow(kinematics, way, {"C": 90.0, "A": 30.0}, anywhere, CONE) or []
+    assert knot.angles == pytest.approx({"C": 90.0, "A": -30.0})
+
+
+def test_from_the_pole_the_axes_go_evenly_to_the_edge_of_its_cone() -> None:
+    way = great_circle((0.0, 0.0, 1.0), (0.0, 1.0, 0.0))
+    assert way is not None
+    edge, end = follow(MACHINES[0], way, {"C": 90.0, "A": 0.0}, anywhere, 10.0) or []
+    assert edge.angles["A"] == pytest.approx(-10.0, abs=1e-5) or edge.angles["A"] == pytest.approx(
+        10.0, abs=1e-5
+    )
+    assert edge.share == pytest.approx(1.0 / 9.0, abs=1e-6)
+    assert end.angles["C"] == edge.angles["C"]
+
+
+def test_a_way_that_the_axes_cannot_follow_has_no_knots() -> None:
+    way = great_circle((0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
+    assert way is not None
+    assert follow(MACHINES[0], way, {}, lambda angles: abs(angles["A"]) < 60.0, CONE) is None
