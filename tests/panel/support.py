@@ -11,8 +11,8 @@ RUN = "O1\nM3 S1000\nG1 X100. F6000\nG0 X0\nM30\n"
 CONTROLS = ("fanuc-m", "meldas-m")
 
 
-def panel_of(text: str = RUN, control: str = "fanuc-m", **more: Any) -> Panel:
-    virtual = VirtualControl(control, **more)
+def panel_of(text: str = RUN, control: str = "fanuc-m", machine: str = "hartford", **more: Any) -> Panel:
+    virtual = VirtualControl(control, machine=machine, **more)
     virtual.load(text)
     return Panel(virtual)
 

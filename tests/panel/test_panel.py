@@ -4,15 +4,26 @@ from __future__ import annotations
 
 import pytest
 
+from polycnc.control.registry import ids
 from polycnc.mainrun import CommandRefused, State, VirtualControl
 from polycnc.panel import Panel
 
 from .support import lit, panel_of, state_of
 
 
-def test_only_the_two_machining_centres_have_a_panel() -> None:
-    with pytest.raises(CommandRefused):
-        Panel(VirtualControl("sinumerik-840d"))
+@pytest.mark.parametrize("control", ids())
+def test_every_control_has_a_panel(control: str) -> None:
+    panel = Panel(VirtualControl(control))
+    assert {"START", "HOLD", "RESET", "EMERGENCY"} <= panel.description.keys.keys()
+    panel.press("EMERGENCY")
+    assert panel.control.state is State.EMERGENCY
+    panel.release("EMERGENCY")
+    panel.press("RESET")
+    panel.turn("mode", "jog")
+    panel.press("X+")
+    panel.control.step(0.3)
+    panel.release("X+")
+    assert panel.control.positions.machine["X"] > 0.0
 
 
 @pytest.mark.parametrize("key", ["B1", "B3", "B4", "C1", "C7", "D3", "D4"])

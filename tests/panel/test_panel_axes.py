@@ -47,6 +47,16 @@ def test_rapid_mode_follows_the_rapid_override() -> None:
     assert speeds == pytest.approx([24000.0, 12000.0, 400.0])
 
 
+@pytest.mark.parametrize(("control", "speed"), [("fanuc-m", 900.0), ("meldas-m", 400.0)])
+def test_a_parameter_of_fanuc_says_the_lowest_rapid(control: str, speed: float) -> None:
+    panel = panel_of(control=control, setup={"parameters": {"1421": 900}})
+    panel.turn("mode", "rapid")
+    panel.turn("rapid", "F0")
+    panel.press("X+")
+    panel.control.step(3.0)
+    assert panel.control.feed == pytest.approx(speed)
+
+
 @pytest.mark.parametrize(("step", "way"), [("x1", 0.005), ("x10", 0.05), ("x100", 0.5)])
 def test_the_handwheel_moves_the_chosen_axis_by_its_step(step: str, way: float) -> None:
     panel = panel_of()

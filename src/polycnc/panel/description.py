@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 PANELS = {
     "fanuc-m": ("hartford.toml", "fanuc-m.toml"),
     "meldas-m": ("hartford.toml", "meldas-m.toml"),
+    "fanuc-0i-tf": ("standard.toml",),
+    "sinumerik-840d": ("standard.toml",),
+    "syntec-mill": ("standard.toml",),
 }
 
 

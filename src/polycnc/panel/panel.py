@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 
 SAFETY_KEY = "C8"
 POWER_ON = "POWER_ON"
-#: Speed of the lowest position of the rapid override, mm/min: parameter 1421, and what is delivered.
-F0_PARAMETER, F0_RATE = 1421, 400.0
 #: A setting of the control: after a block search the first start leads the axes back by itself.
 AUTOMATIC_RESTART = "RESTART_AUTOMATIC"
 
@@ -237,9 +235,10 @@ class Panel:
 
     def _f0_share(self) -> float:
         """The lowest position of the rapid override as a share of the fastest axis' rapid traverse."""
-        rate = self.control.channel.setup.parameters.number(F0_PARAMETER, default=F0_RATE)
-        fastest = max((a.rapid for a in self.control.channel.axis_data if isfinite(a.rapid)), default=0.0)
-        return min(rate / 60.0 / fastest, 1.0) if fastest > 0.0 else 1.0
+        channel = self.control.channel
+        slowest = channel.control.motion_settings(channel).slowest_rapid
+        fastest = max((a.rapid for a in channel.axis_data if isfinite(a.rapid)), default=0.0)
+        return min(slowest / fastest, 1.0) if fastest > 0.0 else 1.0
 
     # ---- programs and offsets ------------------------------------------------------------------------------
 
@@ -296,7 +295,7 @@ class Panel:
 
     def alarm_lines(self, lang: str | None = None) -> list[str]:
         """The alarm page: alarms with their numbers, then messages from the machine's controller."""
-        control, catalogue = self.control, self.control.control.catalogue
+        control, catalogue = self.control, self.control.catalogue
         alarms = [f"{alarm.code} {control.alarm_text(alarm, lang)}" for alarm in control.alarms]
         return alarms + [f"{code} {catalogue.text(code, lang)}" for code in control.notices]
 

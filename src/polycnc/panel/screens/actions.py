@@ -1,0 +1,208 @@
+"""What soft keys and keys of the MDI unit do with the key-in buffer: set, add, search, measure, select, delete."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING, TypeAlias
+
+from polycnc.mainrun import CommandRefused
+from polycnc.panel.screens.sources import SOURCES
+from polycnc.panel.screens.tables import Table
+
+if TYPE_CHECKING:
+    from polycnc.panel.screens.pages import Column
+    from polycnc.panel.screens.state import ScreenState
+
+Action: TypeAlias = Callable[["ScreenState"], None]
+
+#: An axis with a value behind it, which may be missing; a name with a number wants an equals sign (`Q1=5`).
+_AXIS_VALUE = re.compile(r"(?P<axis>[A-Z]+\d+(?==)|[A-Z])\s*=?\s*(?P<value>[+-]?\d*\.?\d*)")
+
+
+def _number(screen: ScreenState) -> float:
+    """The number that has been keyed in.
+
+    Raises:
+        CommandRefused: It is none.
+    """
+    try:
+        return float(screen.buffer)
+    except ValueError:
+        raise CommandRefused("screen.no-number", typed=screen.buffer) from None
+
+
+def _field(screen: ScreenState) -> tuple[Table, Column, int]:
+    spec = screen.table
+    if spec is None:
+        raise CommandRefused("screen.no-field")
+    row, at = screen.cursor
+    return Table(screen.control, spec), spec.columns[at], row
+
+
+def set_value(screen: ScreenState) -> None:
+    """INPUT: the field at the cursor has the value; a parameter likewise."""
+    if screen.shows("parameters"):
+        if not screen.writes_parameters:
+            raise CommandRefused("screen.write-protected")
+        known = screen.control.parameters[screen.cursor[0]]
+        screen.control.write_parameter(known.number, _number(screen))
+    else:
+        table, column, row = _field(screen)
+        is_text = isinstance(table.value(column, row), str)
+        table.write(column, row, screen.buffer if is_text else _number(screen))
+    screen.buffer = ""
+
+
+def add_value(screen: ScreenState) -> None:
+    """+INPUT: the value is added to that of the field at the cursor."""
+    table, column, row = _field(screen)
+    table.write(column, row, table.number(column, row) + _number(screen))
+    screen.buffer = ""
+
+
+def search_number(screen: ScreenState) -> None:
+    """NO.SRH: the cursor goes to the number that has been keyed in."""
+    wanted = int(_number(screen))
+    if screen.shows("parameters"):
+        found = [
+            i for i, each in enumerate(screen.control.parameters) if each.number.split("#")[0] == str(wanted)
+        ]
+        if not found:
+            raise CommandRefused("screen.no-field")
+        screen.place(found[0], 0)
+    else:
+        table, _, _ = _field(screen)
+        if wanted not in table.numbers or not table.exists(wanted):
+            raise CommandRefused("screen.no-field")
+        screen.place(wanted, screen.cursor[1])
+    screen.buffer = ""
+
+
+def _axis_field(screen: ScreenState) -> tuple[Table, Column, int, str]:
+    """The field of the axis that has been keyed in, in the row of the cursor; and what was typed behind it."""
+    match = _AXIS_VALUE.fullmatch(screen.buffer.strip().upper())
+    table, _, row = _field(screen)
+    axis = match["axis"] if match else ""
+    column = next((each for each in table.spec.columns if each.axis and each.axis == axis), None)
+    if match is None or column is None:
+        raise CommandRefused("screen.no-axis", typed=screen.buffer)
+    return table, column, row, match["value"]
+
+
+def measure(screen: ScreenState) -> None:
+    """MEASURE: the offset with which the axis reads the measured value (0i-TF Plus III.2.1.2)."""
+    _, column, row, typed = _axis_field(screen)
+    try:
+        measured = float(typed)
+    except ValueError:
+        raise CommandRefused("screen.no-number", typed=typed) from None
+    SOURCES[column.source].measure(screen.control, column, row, measured)
+    screen.buffer = ""
+
+
+def counter_input(screen: ScreenState) -> None:
+    """INP.C.: the offset is the relative coordinate, on the page that is shown alone (III.2.1.4)."""
+    table, column, row, _ = _axis_field(screen)
+    relative = screen.positions(screen.control.snapshot, "relative").get(column.axis)
+    if relative is None:
+        raise CommandRefused("screen.no-axis", typed=column.axis)
+    table.write(column, row, relative)
+    screen.buffer = ""
+
+
+def set_here(screen: ScreenState) -> None:
+    """SET: the field at the cursor is where the axis stands."""
+    _, column, row = _field(screen)
+    SOURCES[column.source].here(screen.control, column, row)
+
+
+def origin(screen: ScreenState) -> None:
+    """ORIGIN: the relative coordinate of the axis that is keyed in becomes 0, or what is keyed in behind it."""
+    snapshot = screen.control.snapshot
+    typed = screen.buffer.strip().upper()
+    match = _AXIS_VALUE.fullmatch(typed)
+    axes = [match["axis"]] if match else list(snapshot.positions.work) if not typed else []
+    axes = [screen.axis_of_relative(axis) for axis in axes]
+    if not axes or any(axis not in snapshot.positions.work for axis in axes):
+        raise CommandRefused("screen.no-axis", typed=screen.buffer)
+    value = float(match["value"]) if match and match["value"] not in ("", "+", "-", ".") else 0.0
+    for axis in axes:
+        screen.origins[axis] = snapshot.positions.machine[axis] - value
+    screen.buffer = ""
+
+
+def clear(screen: ScreenState) -> None:
+    """CLEAR: all fields of the page become 0."""
+    table, _, _ = _field(screen)
+    for row in table.numbers:
+        for column in table.spec.columns:
+            if table.exists(row) and table.number(column, row):
+                table.write(column, row, 0.0)
+
+
+def search_program(screen: ScreenState) -> None:
+    """O SEARCH: the program that has been keyed in, or the one at the cursor, becomes the main program."""
+    name = screen.buffer.strip()
+    if not name and screen.shows("listing") and screen.control.programs:
+        name = screen.control.programs[screen.cursor[0]].name
+    screen.control.select_program(name)
+    screen.buffer = ""
+
+
+def delete_program(screen: ScreenState) -> None:
+    """DELETE: the program that has been keyed in, or the one at the cursor, leaves the memory."""
+    name = screen.buffer.strip()
+    if not name and screen.shows("listing") and screen.control.programs:
+        name = screen.control.programs[screen.cursor[0]].name
+    screen.control.delete_program(name)
+    screen.buffer = ""
+
+
+def search_block(screen: ScreenState) -> None:
+    """Block search: cycle start goes on at the block number or line that has been keyed in."""
+    typed = screen.buffer.strip()
+    screen.control.block_search(int(typed) if typed.isdigit() else typed)
+    screen.buffer = ""
+
+
+def insert(screen: ScreenState) -> None:
+    """INSERT on the MDI page: what has been keyed in is the next block."""
+    if not screen.shows("mdi"):
+        raise CommandRefused("screen.no-field")
+    screen.mdi_text += screen.buffer.replace(";", "").strip() + "\n"
+    screen.buffer = ""
+
+
+def erase_mdi(screen: ScreenState) -> None:
+    """What has been typed in at MDI is erased."""
+    screen.mdi_text = ""
+
+
+def write_enable(screen: ScreenState) -> None:
+    """PARAMETER WRITE: parameters may be written, or no more."""
+    screen.writes_parameters = not screen.writes_parameters
+
+
+def clear_history(screen: ScreenState) -> None:
+    """The alarm history begins anew."""
+    screen.control.clear_alarm_history()
+
+
+ACTIONS: dict[str, Action] = {
+    "set": set_value,
+    "add": add_value,
+    "search-number": search_number,
+    "measure": measure,
+    "set-here": set_here,
+    "counter-input": counter_input,
+    "origin": origin,
+    "clear": clear,
+    "search-program": search_program,
+    "delete-program": delete_program,
+    "search-block": search_block,
+    "insert": insert,
+    "erase-mdi": erase_mdi,
+    "write-enable": write_enable,
+    "clear-history": clear_history,
+}

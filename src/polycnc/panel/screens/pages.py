@@ -1,0 +1,185 @@
+"""What the screens of a family are: pages, windows, soft keys; read from data.
+
+A file names its function keys (`[keys]`) and its pages. A soft key leads to a page (`page`), to further soft keys
+(`menu`) or does something (`action`, see `actions`). Texts have a value for each language; a plain text is the same in
+both, as real controls show it.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass, field, replace
+from functools import cache
+from importlib import resources
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+#: A text by language, or one for all.
+Text: TypeAlias = "str | Mapping[str, str]"
+#: Decimals of lengths in millimetres.
+DIGITS = 3
+#: The files of each control's screens; later ones add to earlier ones.
+SCREENS = {
+    "fanuc-m": ("fanuc.toml", "fanuc-mill.toml"),
+    "fanuc-0i-tf": ("fanuc.toml", "fanuc-lathe.toml"),
+    "meldas-m": ("meldas.toml",),
+    "sinumerik-840d": ("sinumerik.toml",),
+    "syntec-mill": ("syntec.toml",),
+}
+
+
+def in_language(text: Text, lang: str) -> str:
+    """A text in a language."""
+    return text if isinstance(text, str) else text.get(lang, text["en"])
+
+
+@dataclass(frozen=True)
+class SoftKey:
+    """A soft key: its text, and what it does. Without any of them it is dark."""
+
+    text: Text = ""
+    page: str = ""
+    menu: str = ""
+    action: str = ""
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table.
+
+    Attributes:
+        head: What stands above it.
+        variable: Name of the variable of a row. `{n}` is the number of the row times `step`, with `add` to it, and
+            the place of the axis where the column is `by_axis`, unless its name stands there as `{axis}`.
+        add: See `variable`.
+        step: See `variable`.
+        by_axis: There is such a column for every axis of the channel, with its name as the head.
+        digits: Decimals of its values.
+        axis: The axis that it belongs to, by which MEASURE and INP.C. find it.
+        source: Where its fields come from (`sources`); empty for variables.
+    """
+
+    head: Text
+    variable: str
+    add: int = 0
+    step: int = 1
+    by_axis: bool = False
+    digits: int = DIGITS
+    axis: str = ""
+    source: str = ""
+
+    def name(self, row: int) -> str:
+        """The variable of a row."""
+        return self.variable.format(n=row * self.step + self.add, axis=self.axis)
+
+    def of(self, axes: Sequence[str]) -> tuple[Column, ...]:
+        """The columns that a channel with these axes has."""
+        if not self.by_axis:
+            return (self,) if self.axis in ("", *axes) else ()
+        step = 0 if "{axis}" in self.variable else 1
+        return tuple(
+            replace(self, head=axis, axis=axis, add=self.add + step * place, by_axis=False)
+            for place, axis in enumerate(axes)
+        )
+
+
+@dataclass(frozen=True)
+class WindowSpec:
+    """A window: its kind, and what that kind wants to know."""
+
+    kind: str
+    title: Text = ""
+    of: str = ""
+    size: str = ""
+    label: str = "{n}"
+    first: int = 1
+    count: int = 0
+    shown: int = 17
+    exists: str = ""
+    columns: tuple[Column, ...] = ()
+    labels: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Page:
+    """A page: its title, its windows, the soft keys that come with it."""
+
+    id: str
+    title: Text
+    windows: tuple[WindowSpec, ...]
+    menu: str = ""
+
+    def of(self, axes: Sequence[str]) -> Page:
+        """The page of a channel with these axes."""
+        windows = (
+            replace(each, columns=tuple(one for column in each.columns for one in column.of(axes)))
+            for each in self.windows
+        )
+        return replace(self, windows=tuple(windows))
+
+
+@dataclass(frozen=True)
+class Family:
+    """All screens of a control.
+
+    Attributes:
+        start: The page after power-on.
+        rows: Soft keys that stand in a row; what is more comes with the key `MENU` (▷).
+        keys: The page that a key of the MDI unit opens.
+        letters: Keys of the MDI unit that type, in rows.
+        pages: Pages by id.
+        menus: Soft keys below the screen, by name.
+        side: Soft keys at its side, by name of the menu.
+        modes: How the status line writes modes, by mode; states likewise.
+        layout: How the halves are laid out: `crt` or `operate`.
+    """
+
+    start: str
+    rows: int
+    keys: Mapping[str, str]
+    letters: tuple[str, ...]
+    pages: Mapping[str, Page]
+    menus: Mapping[str, tuple[SoftKey, ...]]
+    side: Mapping[str, tuple[SoftKey, ...]] = field(default_factory=dict)
+    modes: Mapping[str, str] = field(default_factory=dict)
+    states: Mapping[str, str] = field(default_factory=dict)
+    layout: str = "crt"
+
+
+@cache
+def family_of(control: str) -> Family:
+    """The screens of a control; raises `KeyError` where polycnc knows none."""
+    merged: dict[str, Any] = {"page": []}
+    for file in SCREENS[control]:
+        content = resources.files("polycnc.panel.screens").joinpath(file).read_text(encoding="utf-8")
+        for name, value in tomllib.loads(content).items():
+            if name == "page":
+                merged["page"] += value
+            elif isinstance(value, dict):
+                merged[name] = {**merged.get(name, {}), **value}
+            else:
+                merged[name] = value
+    pages = [_page(row) for row in merged["page"]]
+    return Family(
+        start=merged["start"],
+        rows=merged["rows"],
+        keys=merged["keys"],
+        letters=tuple(merged["letters"]),
+        pages={page.id: page for page in pages},
+        menus={name: tuple(SoftKey(**key) for key in keys) for name, keys in merged.get("menu", {}).items()},
+        side={name: tuple(SoftKey(**key) for key in keys) for name, keys in merged.get("side", {}).items()},
+        modes=merged.get("modes", {}),
+        states=merged.get("states", {}),
+        layout=merged.get("layout", "crt"),
+    )
+
+
+def _page(row: Mapping[str, Any]) -> Page:
+    windows = []
+    for spec in row["windows"]:
+        columns = tuple(Column(**column) for column in spec.get("columns", ()))
+        rest = {name: value for name, value in spec.items() if name not in ("columns", "labels")}
+        windows.append(WindowSpec(**rest, columns=columns, labels=tuple(spec.get("labels", ()))))
+    return Page(row["id"], row["title"], tuple(windows), row.get("menu", ""))

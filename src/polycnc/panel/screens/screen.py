@@ -1,0 +1,168 @@
+"""One screen of a control: the page, the cursor, the key-in buffer. Keys go in, a `View` comes out.
+
+    screen = Screen(VirtualControl("fanuc-m"))
+    screen.press("OFS/SET")
+    screen.type("12.5")
+    screen.press("INPUT")
+    screen.view().text
+
+Whoever looks at the control looks at the same screen: all browsers share one.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun import CommandRefused, Mode
+from polycnc.messages import UserError
+from polycnc.messages.catalogue import language
+from polycnc.panel.screens.actions import ACTIONS, insert, set_value
+from polycnc.panel.screens.pages import SoftKey, in_language
+from polycnc.panel.screens.state import ScreenState
+from polycnc.panel.screens.view import Cell, SoftKeyView, View
+from polycnc.panel.screens.windows import window
+
+if TYPE_CHECKING:
+    from polycnc.mainrun.reading.snapshot import Snapshot
+
+#: Characters that the key-in buffer takes.
+LONGEST_BUFFER = 127
+#: Keys whose name is not what they type.
+_SIGNS = {"EOB": ";", "SPACE": " "}
+_MOVES = {"UP": (-1, 0), "DOWN": (1, 0), "LEFT": (0, -1), "RIGHT": (0, 1)}
+
+
+class Screen(ScreenState):
+    """The screen of a virtual control: what its keys do, and what it shows.
+
+    Raises:
+        CommandRefused: polycnc knows no screens of this control.
+    """
+
+    # ---- keys ----------------------------------------------------------------------------------------------
+
+    def press(self, key: str) -> None:
+        """Press a key of the MDI unit: a function key, a key that edits, or one that types.
+
+        What the control refuses is its message then.
+        """
+        self.message = ""
+        try:
+            self._press(key)
+        except UserError as refusal:
+            self.message = refusal.text()
+
+    def _press(self, key: str) -> None:
+        if key in self.family.keys:
+            self.show(self.family.keys[key])
+        elif key in _MOVES:
+            self.move(*_MOVES[key])
+        elif key in ("PAGE_UP", "PAGE_DOWN"):
+            shown = self.table.shown if self.table is not None else self.page.windows[0].shown
+            self.move(shown if key == "PAGE_DOWN" else -shown, 0)
+        elif key == "CAN":
+            self.buffer = self.buffer[:-1]
+        elif key == "INPUT":
+            (insert if self.shows("mdi") else set_value)(self)
+        elif key in ("INSERT", "ALTER"):
+            insert(self)
+        elif key == "DELETE":
+            ACTIONS["erase-mdi" if self.shows("mdi") else "delete-program"](self)
+        elif key in _SIGNS:
+            self.type(_SIGNS[key])
+        elif key == "RESET":
+            self.control.reset()
+            self.buffer = ""
+        elif key == "MENU":
+            self._turn_menu()
+        elif len(key) == 1:
+            self.type(key)
+        else:
+            raise CommandRefused("panel.unknown", name=key, known=", ".join(self.family.keys))
+
+    def type(self, text: str) -> None:
+        """Key a text in."""
+        self.buffer = (self.buffer + text)[:LONGEST_BUFFER]
+
+    def soft(self, index: int) -> None:
+        """Press a soft key below the screen, from 0 at the left."""
+        self._press_soft(self._visible, index)
+
+    def side(self, index: int) -> None:
+        """Press a soft key at the side of the screen, from 0 at the top."""
+        self._press_soft(self.family.side.get(self.menu, ()), index)
+
+    def _press_soft(self, keys: tuple[SoftKey, ...], index: int) -> None:
+        self.message = ""
+        if not 0 <= index < len(keys):
+            return
+        key = keys[index]
+        try:
+            if key.action:
+                ACTIONS[key.action](self)
+            if key.page:
+                self.show(key.page)
+            if key.menu:
+                self.menu, self.turned = key.menu, 0
+        except UserError as refusal:
+            self.message = refusal.text()
+
+    def _turn_menu(self) -> None:
+        """▷: the next soft keys of the row."""
+        keys = self.family.menus.get(self.menu, ())
+        self.turned = self.turned + self.family.rows if self.turned + self.family.rows < len(keys) else 0
+
+    @property
+    def _visible(self) -> tuple[SoftKey, ...]:
+        return self.family.menus.get(self.menu, ())[self.turned : self.turned + self.family.rows]
+
+    # ---- what it shows -------------------------------------------------------------------------------------
+
+    def view(self, lang: str | None = None) -> View:
+        """The screen now, in a language; the active one where none is named."""
+        lang = lang or language()
+        snapshot = self.control.snapshot
+        return View(
+            page=self.page.id,
+            title=in_language(self.page.title, lang),
+            program=snapshot.program,
+            windows=tuple(window(self, spec, snapshot, lang) for spec in self.page.windows),
+            soft_keys=self._soft_keys(self._visible, self.family.rows, lang),
+            side_keys=self._soft_keys(self.family.side.get(self.menu, ()), 8, lang)
+            if self.family.side
+            else (),
+            buffer=self.buffer,
+            message=self.message,
+            status=self._status(snapshot),
+            alarm=self._alarm(snapshot, lang),
+        )
+
+    def _soft_keys(self, keys: tuple[SoftKey, ...], count: int, lang: str) -> tuple[SoftKeyView, ...]:
+        shown = [
+            SoftKeyView(in_language(key.text, lang), bool(key.page) and key.page == self.page.id)
+            for key in keys
+        ]
+        return tuple(shown + [SoftKeyView()] * (count - len(shown)))
+
+    def _status(self, snapshot: Snapshot) -> tuple[Cell, ...]:
+        mode = self.family.modes.get(snapshot.mode, snapshot.mode.upper())
+        state = self.family.states.get(snapshot.state, snapshot.state.upper())
+        alarm = Cell("EMG" if snapshot.state == "emergency" else "ALM" if snapshot.alarms else "***",
+                     "alarm" if snapshot.alarms else "")  # fmt: skip
+        moving = any(abs(way) > 1e-6 for way in snapshot.positions.to_go.values()) and snapshot.feed > 0.0
+        return Cell(mode), Cell(state), Cell("MTN" if moving else "***"), alarm
+
+    def _alarm(self, snapshot: Snapshot, lang: str) -> str:
+        if snapshot.alarms:
+            alarm = snapshot.alarms[-1]
+            return f"{alarm.code} {self.control.alarm_text(alarm, lang)}"
+        return snapshot.messages[-1] if snapshot.messages else ""
+
+    # ---- cycle start ---------------------------------------------------------------------------------------
+
+    def takes_start(self) -> bool:
+        """Cycle start in MDI runs what has been typed in; false where it is the control's own affair."""
+        if self.control.mode is not Mode.MDI or not self.mdi_text.strip():
+            return False
+        self.control.mdi(self.mdi_text)
+        return True

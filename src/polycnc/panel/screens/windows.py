@@ -1,0 +1,277 @@
+"""What a window of each kind shows: rows of cells, from the snapshot of the control."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+from polycnc.mainrun import CommandRefused
+from polycnc.messages import text
+from polycnc.panel.screens import tables
+from polycnc.panel.screens.pages import in_language
+from polycnc.panel.screens.view import Cell, Window
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.mainrun.reading.snapshot import Snapshot
+    from polycnc.panel.screens.pages import WindowSpec
+    from polycnc.panel.screens.state import ScreenState
+
+Rows: TypeAlias = tuple[tuple[Cell, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What a window is made from: the screen, what its page says of it, the snapshot, the language."""
+
+    screen: ScreenState
+    spec: WindowSpec
+    snapshot: Snapshot
+    lang: str
+
+
+Reader: TypeAlias = Callable[[Asked], Rows]
+
+#: Blocks that a program window shows in front of the one in execution.
+_BEFORE = 3
+
+
+def window(screen: ScreenState, spec: WindowSpec, snapshot: Snapshot, lang: str) -> Window:
+    """One window of a page."""
+    return Window(
+        spec.kind, in_language(spec.title, lang), KINDS[spec.kind](Asked(screen, spec, snapshot, lang))
+    )
+
+
+# ---- positions, speeds, codes ------------------------------------------------------------------------------------
+
+
+def _positions(at: Asked) -> Rows:
+    """An axis a row: its position as `of` says, `work`, `machine`, `to_go` or `relative`."""
+    style = at.spec.size or "value"
+    shown = at.screen.positions(at.snapshot, at.spec.of)
+    return tuple(
+        (Cell(at.screen.axis_label(axis, at.spec.of), style), Cell(f"{value:.{at.screen.digits}f}", style))
+        for axis, value in shown.items()
+    )
+
+
+def _all_positions(at: Asked) -> Rows:
+    """A column for each kind of position."""
+    kinds = ("relative", "work", "machine", "to_go")
+    columns = [at.screen.positions(at.snapshot, kind) for kind in kinds]
+    head = (Cell("", "label"), *(Cell(text(f"screen.{kind}", at.lang), "label") for kind in kinds))
+    axes = at.snapshot.positions.work
+    rows = [
+        (
+            Cell(axis, "label"),
+            *(Cell(f"{column.get(axis, 0.0):.{at.screen.digits}f}", "value") for column in columns),
+        )
+        for axis in axes
+    ]
+    return (head, *rows)
+
+
+def _rates(at: Asked) -> Rows:
+    """Feed, spindle and tool, with their overrides."""
+    over, spindle, tool = at.snapshot.overrides, at.snapshot.spindle, at.snapshot.tool
+    return (
+        (Cell("F", "label"), Cell(f"{at.snapshot.feed:.1f}", "value"), Cell(f"{over.feed:.0%}", "label")),
+        (Cell("S", "label"), Cell(f"{spindle.rpm:.0f}", "value"), Cell(f"{over.spindle:.0%}", "label")),
+        (
+            Cell("T", "label"),
+            Cell(tool.name or str(tool.tool), "value"),
+            Cell(str(tool.next_tool or ""), "label"),
+        ),
+    )
+
+
+def _modal(at: Asked) -> Rows:
+    """The code that holds of every modal group."""
+    codes = [code for code in at.snapshot.modal.values() if code]
+    width = at.spec.count or 6
+    return tuple(
+        tuple(Cell(code, "value") for code in codes[i : i + width]) for i in range(0, len(codes), width)
+    )
+
+
+def _counters(at: Asked) -> Rows:
+    """Parts and times."""
+    minutes, seconds = divmod(int(at.snapshot.time), 60)
+    hours, minutes = divmod(minutes, 60)
+    shown = f"{hours}H{minutes:2d}M{seconds:2d}S"
+    return (
+        (Cell(text("screen.parts", at.lang), "label"), Cell(str(at.snapshot.parts), "value")),
+        (Cell(text("screen.run-time", at.lang), "label"), Cell(shown, "value")),
+    )
+
+
+# ---- programs ----------------------------------------------------------------------------------------------------
+
+
+def _program(at: Asked) -> Rows:
+    """The program, with the block in execution in sight."""
+    block = at.snapshot.block
+    name = block.program or at.snapshot.program
+    if not name:
+        return ()
+    try:
+        lines, first = at.screen.control.program_lines(name), at.screen.control.first_line(name)
+    except CommandRefused:
+        return ((Cell(block.text, "active"),),)
+    active = block.line - first if block.program == name else -1
+    top = max(0, min(active - _BEFORE, len(lines) - at.spec.shown))
+    shown = range(top, min(top + at.spec.shown, len(lines)))
+    return tuple((Cell(lines[index], "active" if index == active else "code"),) for index in shown)
+
+
+def _listing(at: Asked) -> Rows:
+    """The programs of the memory; the cursor chooses one."""
+    entries = at.screen.control.programs
+    row, _ = at.screen.cursor
+    row = max(0, min(row, len(entries) - 1))
+    at.screen.place(row, 0)
+    first = row // at.spec.shown * at.spec.shown
+    return tuple(
+        (
+            Cell(entry.name, "value", cursor=index == row),
+            Cell(entry.directory, "label"),
+            Cell(text("screen.blocks", at.lang, count=entry.blocks), "label"),
+        )
+        for index, entry in enumerate(entries[first : first + at.spec.shown], first)
+    )
+
+
+def _mdi(at: Asked) -> Rows:
+    """What has been typed in, with the block in execution in sight."""
+    typed = at.screen.mdi_text.splitlines()
+    active = at.snapshot.block.text
+    return tuple((Cell(line, "active" if line.strip() == active and active else "code"),) for line in typed)
+
+
+# ---- alarms and messages -----------------------------------------------------------------------------------------
+
+
+def _alarms(at: Asked) -> Rows:
+    control = at.screen.control
+    rows: list[tuple[Cell, ...]] = [
+        (
+            Cell(alarm.code, "alarm"),
+            Cell(control.alarm_text(alarm, at.lang), "alarm"),
+            Cell(_place(alarm.program, alarm.line), "label"),
+        )
+        for alarm in at.snapshot.alarms
+    ]
+    rows += [
+        (Cell(code, "note"), Cell(control.catalogue.text(code, at.lang), "note"))
+        for code in at.snapshot.notices
+    ]
+    return tuple(rows)
+
+
+def _history(at: Asked) -> Rows:
+    control = at.screen.control
+    alarms = control.alarm_history[: at.spec.shown]
+    return tuple(
+        (Cell(alarm.code, "value"), Cell(control.alarm_text(alarm, at.lang), "label")) for alarm in alarms
+    )
+
+
+def _messages(at: Asked) -> Rows:
+    shown = [(Cell(message, "note"),) for message in at.snapshot.messages]
+    notices = [
+        (Cell(code, "note"), Cell(at.screen.control.catalogue.text(code, at.lang), "note"))
+        for code in at.snapshot.notices
+    ]
+    return (*shown, *notices)
+
+
+def _place(program: str, line: int) -> str:
+    return f"{program}:{line}" if program else ""
+
+
+# ---- data --------------------------------------------------------------------------------------------------------
+
+
+def _table(at: Asked) -> Rows:
+    return tables.rows_of(at.screen, at.spec, at.lang)
+
+
+def _parameters(at: Asked) -> Rows:
+    """The parameters of the control, on the page of the list where the cursor stands."""
+    known = at.screen.control.parameters
+    row, _ = at.screen.cursor
+    row = max(0, min(row, len(known) - 1))
+    at.screen.place(row, 0)
+    first = row // at.spec.shown * at.spec.shown
+    return tuple(
+        (
+            Cell(each.number, "label"),
+            Cell(
+                "" if (value := at.screen.control.read_parameter(each.number)) is None else f"{value}",
+                "value",
+                cursor=i == row,
+            ),
+            Cell(each.unit, "label"),
+            Cell(each.texts.get(at.lang, each.texts["en"]), "label"),
+        )
+        for i, each in enumerate(known[first : first + at.spec.shown], first)
+    )
+
+
+def _signals(at: Asked) -> Rows:
+    """The signals of the machine's controller, to read."""
+    on = sorted(name for name, value in at.snapshot.signals.items() if value)
+    return tuple(tuple(Cell(name, "value") for name in on[i : i + 3]) for i in range(0, len(on), 3))
+
+
+def _switches(at: Asked) -> Rows:
+    """What the panel's switches say, and whether parameters may be written."""
+    switches = at.snapshot.switches
+    shown = {
+        "SINGLE BLOCK": bool(switches.single_block), "OPTIONAL STOP": switches.optional_stop,
+        "BLOCK SKIP": bool(switches.block_skip), "DRY RUN": switches.dry_run, "MACHINE LOCK": switches.machine_lock,
+        "PARAMETER WRITE": at.screen.writes_parameters,
+    }  # fmt: skip
+    return tuple((Cell(name, "label"), Cell(str(int(on)), "value")) for name, on in shown.items())
+
+
+def _restart(at: Asked) -> Rows:
+    """Program restart: where the axes go on, and the way that is left."""
+    rows: Mapping[str, tuple[float, float]] = at.screen.control.restart
+    return tuple(
+        (
+            Cell(axis, "label"),
+            Cell(f"{stands:.{at.screen.digits}f}", "value"),
+            Cell(f"{left:.{at.screen.digits}f}", "value"),
+        )
+        for axis, (stands, left) in rows.items()
+    )
+
+
+def _graph(at: Asked) -> Rows:
+    """The way of the tool so far, a point a row, mm in machine coordinates."""
+    return tuple(tuple(Cell(f"{value:.3f}") for value in point) for point in at.screen.trail)
+
+
+KINDS: dict[str, Reader] = {
+    "positions": _positions,
+    "all-positions": _all_positions,
+    "rates": _rates,
+    "modal": _modal,
+    "counters": _counters,
+    "program": _program,
+    "listing": _listing,
+    "mdi": _mdi,
+    "alarms": _alarms,
+    "history": _history,
+    "messages": _messages,
+    "table": _table,
+    "parameters": _parameters,
+    "signals": _signals,
+    "restart": _restart,
+    "switches": _switches,
+    "graph": _graph,
+}

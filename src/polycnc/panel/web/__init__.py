@@ -1,0 +1,9 @@
+"""The panel in a browser: what stands on the page, and the server. Needs the extra `panel` (NiceGUI).
+
+desk      a control with its screen and its machine panel, and the time that passes for them
+markup    a screen as HTML
+page      the page: screen, keyboard, machine panel
+messages  the JSON interface: commands in, snapshots out
+guard     who may come in: token, origin
+server    all of it together
+"""

@@ -1,0 +1,88 @@
+"""A control with its screen and its machine panel, and the time that passes for them; all browsers share one desk."""
+
+from __future__ import annotations
+
+from time import monotonic
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun import State
+from polycnc.messages import UserError
+from polycnc.panel.panel import Panel
+from polycnc.panel.screens.screen import Screen
+
+if TYPE_CHECKING:
+    from polycnc.mainrun import VirtualControl
+
+#: No longer than this passes at once, s: a browser that has slept does not make the machine jump.
+LONGEST_TICK_S = 0.25
+#: The key of the machine panel that starts what was typed in at MDI.
+_START = "START"
+
+
+class Desk:
+    """What an operator sits at.
+
+    Args:
+        control: The control.
+        speed: Simulated seconds in a second.
+
+    Attributes:
+        control: The control.
+        screen: Its screen.
+        panel: Its machine panel.
+        speed: Simulated seconds in a second.
+    """
+
+    def __init__(self, control: VirtualControl, speed: float = 1.0) -> None:
+        self.control = control
+        self.screen = Screen(control)
+        self.panel = Panel(control)
+        self.speed = speed
+        self._then = monotonic()
+
+    def tick(self) -> None:
+        """Let the time pass that has passed since the last call."""
+        now = monotonic()
+        seconds, self._then = min(now - self._then, LONGEST_TICK_S) * self.speed, now
+        cycle = self.control.machine.interpolation_cycle_s
+        if seconds < cycle:
+            self._then = now - seconds / self.speed
+            return
+        self.control.step(seconds)
+        self.screen.follow()
+
+    def press(self, *keys: str) -> None:
+        """Press keys of the machine panel together; what is refused is the screen's message."""
+        self.screen.message = ""
+        try:
+            if (
+                _START in {key.upper() for key in keys}
+                and self.control.state is State.READY
+                and self.screen.takes_start()
+            ):
+                return
+            self.panel.press(*keys)
+        except UserError as refusal:
+            self.screen.message = refusal.text()
+
+    def release(self, *keys: str) -> None:
+        """Let keys of the machine panel go."""
+        try:
+            self.panel.release(*keys)
+        except UserError as refusal:
+            self.screen.message = refusal.text()
+
+    def turn(self, switch: str, position: str) -> None:
+        """Turn a switch of the machine panel."""
+        self.screen.message = ""
+        try:
+            self.panel.turn(switch, position)
+        except UserError as refusal:
+            self.screen.message = refusal.text()
+
+    def wheel(self, notches: int) -> None:
+        """Turn the handwheel."""
+        try:
+            self.panel.wheel(notches)
+        except UserError as refusal:
+            self.screen.message = refusal.text()

@@ -1,0 +1,306 @@
+"""The page of a control: its screen with soft keys and keyboard at the left, the machine panel at the right.
+
+What stands on it comes from the family's data and the panel's description. What changes is sent when it has changed.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from nicegui import ui
+
+from polycnc.messages import text
+from polycnc.messages.catalogue import LANGUAGES
+from polycnc.panel.panel import Light
+from polycnc.panel.screens.pages import in_language
+from polycnc.panel.web.markup import of_view
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from nicegui.events import KeyEventArguments
+
+    from polycnc.panel.web.desk import Desk
+
+#: How often a page looks for what has changed, s.
+REFRESH_S = 0.05
+#: Keys of a keyboard, and the key of the MDI unit that each one is.
+TYPED = {
+    "Enter": "INPUT", "Backspace": "CAN", "Insert": "INSERT", "Delete": "DELETE", "PageUp": "PAGE_UP",
+    "PageDown": "PAGE_DOWN", "ArrowUp": "UP", "ArrowDown": "DOWN", "ArrowLeft": "LEFT", "ArrowRight": "RIGHT",
+    "Escape": "RESET", "Home": "MENU",
+}  # fmt: skip
+#: Keys of a keyboard, and the key of the machine panel that each one is.
+OPERATED = {"F9": "START", "F10": "HOLD"}
+#: Keys that edit, and what stands on each.
+EDITING = {
+    "MENU": "▷", "CAN": "CAN", "INPUT": "INPUT", "INSERT": "INSERT", "DELETE": "DELETE", "PAGE_UP": "PAGE↑",
+    "PAGE_DOWN": "PAGE↓", "UP": "↑", "DOWN": "↓", "LEFT": "←", "RIGHT": "→",
+}  # fmt: skip
+_LOOK = {"START": "start", "HOLD": "hold", "RESET": "reset", "EMERGENCY": "emergency"}
+_RED = frozenset({"E13", "E14", "E11", "E15"})
+
+
+class Page:
+    """One browser's page of a desk.
+
+    Args:
+        desk: What it shows.
+        lang: Its language at first.
+    """
+
+    def __init__(self, desk: Desk, lang: str) -> None:
+        self._desk = desk
+        self._lang = lang
+        self._shown: dict[str, str] = {}
+        self._refreshers: list[Callable[[], None]] = []
+        self._held: set[str] = set()
+        self._body = ui.element("main").classes("desk")
+        self._build()
+        ui.keyboard(on_key=self._typed, ignore=["input", "select", "textarea"])
+        ui.timer(REFRESH_S, self._refresh)
+
+    def _build(self) -> None:
+        self._refreshers.clear()
+        self._shown.clear()
+        self._body.clear()
+        with self._body:
+            with ui.element("div").classes("half"):
+                self._screen()
+                self._keyboard()
+            with ui.element("div").classes("half"):
+                self._machine_panel()
+        self._refresh()
+
+    def _refresh(self) -> None:
+        for refresh in self._refreshers:
+            refresh()
+
+    def _changed(self, name: str, value: str) -> bool:
+        """Whether something looks otherwise than when it was last sent."""
+        if self._shown.get(name) == value:
+            return False
+        self._shown[name] = value
+        return True
+
+    # ---- parts ---------------------------------------------------------------------------------------------
+
+    def _key(self, label: str, act: Callable[[], object], look: str = "", hint: str = "") -> ui.element:
+        """A key that acts when it is pressed."""
+        key = (
+            ui.element("button")
+            .classes(f"k {look}")
+            .props(f'type="button" aria-label="{_quoted(hint or label)}"')
+        )
+        with key:
+            ui.label(label)
+
+        def clicked() -> None:
+            act()
+            self._refresh()
+
+        key.on("click", clicked)
+        if hint:
+            key.props(f'title="{_quoted(hint)}"')
+        return key
+
+    # ---- the screen ----------------------------------------------------------------------------------------
+
+    def _screen(self) -> None:
+        desk, family = self._desk, self._desk.screen.family
+        with ui.element("div").classes("crt"):
+            content = (
+                ui.html("", sanitize=False).classes("crt-body").props('role="region" aria-label="screen"')
+            )
+            side: list[ui.element] = []
+            if family.side:
+                with ui.element("div").classes("sidekeys"):
+                    side = [self._key("", partial(desk.screen.side, i)) for i in range(8)]
+        with ui.element("div").classes("softkeys"):
+            below = [self._key("", partial(desk.screen.soft, i)) for i in range(family.rows)]
+
+        def refresh() -> None:
+            view = desk.screen.view(self._lang)
+            markup = of_view(view)
+            if self._changed("screen", markup):
+                content.set_content(markup)
+            for name, keys, shown in (("soft", below, view.soft_keys), ("side", side, view.side_keys)):
+                for i, (key, soft) in enumerate(zip(keys, shown, strict=False)):
+                    if self._changed(f"{name}{i}", f"{soft.text}{soft.active}"):
+                        key.clear()
+                        with key:
+                            ui.label(soft.text)
+                        key.classes(
+                            add="chosen" if soft.active else "", remove="" if soft.active else "chosen"
+                        )
+                        key.props(f'aria-label="{_quoted(soft.text or "soft key " + str(i + 1))}"')
+
+        self._refreshers.append(refresh)
+
+    def _keyboard(self) -> None:
+        """Function keys and keys that type."""
+        screen = self._desk.screen
+        with ui.element("div").classes("keys"):
+            with ui.element("div").classes("row"):
+                for name in screen.family.keys:
+                    self._key(name, partial(screen.press, name))
+            with ui.element("div").classes("row"):
+                for name, label in EDITING.items():
+                    self._key(label, partial(screen.press, name), hint=name)
+            for letters in screen.family.letters:
+                with ui.element("div").classes("row"):
+                    for letter in letters.split():
+                        self._key(letter, partial(screen.press, letter))
+
+    # ---- the machine panel ---------------------------------------------------------------------------------
+
+    def _machine_panel(self) -> None:
+        desk, description = self._desk, self._desk.panel.description
+        with ui.element("div").classes("bar"):
+            ui.label(f"polycnc · {desk.control.control.id} · {desk.control.machine.id}")
+            with ui.element("div").classes("flow"):
+                for lang in LANGUAGES:
+                    self._key({"en": "EN", "zh-TW": "中"}.get(lang, lang), partial(self._speak, lang))
+                self._key("☀", self._day, hint=text("panel.theme", self._lang))
+                self._key("?", self._help, hint=text("panel.help", self._lang))
+        with self._group("panel.mode-switch"), ui.element("div").classes("flow"):
+            modes = {
+                name: self._key(in_language(mode.name, self._lang), partial(desk.turn, "mode", name))
+                for name, mode in description.modes.items()
+            }
+        with self._group("panel.overrides"), ui.element("div").classes("dials"):
+            for name, switch in description.switches.items():
+                self._dial(name, in_language(switch.name, self._lang), switch.positions)
+            self._dial("handle_axis", text("panel.handle-axis", self._lang), desk.control.channel.axes)
+        with self._group("panel.axes"):
+            self._axis_keys()
+        commands = [name for name, key in description.keys.items() if key.command]
+        with self._group("panel.keys"), ui.element("div").classes("grid"):
+            keys = {
+                name: self._machine_key(name, in_language(key.name, self._lang))
+                for name, key in description.keys.items()
+                if not key.command
+            }
+        with ui.element("div").classes("row commands"):
+            for name in commands:
+                keys[name] = self._machine_key(name, in_language(description.keys[name].name, self._lang))
+        with ui.element("div").classes("lamps"):
+            lamps = {
+                name: ui.label(in_language(lamp.name, self._lang)).classes(
+                    "lamp red" if name in _RED else "lamp"
+                )
+                for name, lamp in description.lamps.items()
+            }
+        self._refreshers.append(lambda: self._light(modes, {**keys, **lamps}))
+
+    def _group(self, title: str) -> ui.element:
+        group = ui.element("section").classes("group")
+        with group:
+            ui.html(f"<h3>{text(title, self._lang)}</h3>", sanitize=False)
+        return group
+
+    def _machine_key(self, name: str, label: str) -> ui.element:
+        desk, key = self._desk, self._desk.panel.description.keys[name]
+        if key.hold and (key.command == "emergency" or name == "C8"):
+            # The emergency stop latches; the safety key is held with a finger that a mouse does not have.
+            return self._key(label, partial(self._latch, name), _LOOK.get(name, ""), f"{name} {label}")
+        if not key.hold:
+            return self._key(label, partial(desk.press, name), _LOOK.get(name, ""), f"{name} {label}")
+        made = self._key(label, lambda: None, _LOOK.get(name, ""), f"{name} {label}")
+        made.on("pointerdown", lambda: desk.press(name))
+        made.on("pointerup", lambda: desk.release(name))
+        made.on("pointerleave", lambda: desk.release(name))
+        return made
+
+    def _latch(self, name: str) -> None:
+        if name in self._held:
+            self._held.discard(name)
+            self._desk.release(name)
+        else:
+            self._held.add(name)
+            self._desk.press(name)
+
+    def _axis_keys(self) -> None:
+        desk = self._desk
+        with ui.element("div").classes("flow"):
+            for axis in desk.control.channel.axes:
+                for sign in "+-":
+                    name = f"{axis}{sign}"
+                    key = self._key(name, lambda: None, hint=f"{text('panel.jog', self._lang)} {name}")
+                    key.on("pointerdown", partial(desk.press, name))
+                    key.on("pointerup", partial(desk.release, name))
+                    key.on("pointerleave", partial(desk.release, name))
+            wheel = self._key("◎", lambda: None, hint=text("panel.wheel", self._lang))
+            wheel.on(
+                "wheel.prevent",
+                lambda event: desk.wheel(-1 if event.args.get("deltaY", 0) > 0 else 1),
+                ["deltaY"],
+            )
+
+    def _dial(self, name: str, label: str, positions: tuple[str, ...]) -> None:
+        desk = self._desk
+        with ui.element("label"):
+            ui.label(label)
+            dial = ui.element("select").classes("dial").props(f'aria-label="{_quoted(label)}"')
+            with dial:
+                for position in positions:
+                    chosen = " selected" if desk.panel.positions[name] == position else ""
+                    ui.element("option").props(f'value="{position}"{chosen}').add_slot("default", position)
+        dial.on(
+            "change", lambda event: desk.turn(name, str(event.args)), js_handler="(e) => emit(e.target.value)"
+        )
+
+    def _light(self, modes: Mapping[str, ui.element], lights: Mapping[str, ui.element]) -> None:
+        """Lamps, and the position of the mode switch."""
+        panel = self._desk.panel
+        for name, key in modes.items():
+            chosen = panel.positions["mode"] == name
+            if self._changed(f"mode-{name}", str(chosen)):
+                key.classes(add="chosen" if chosen else "", remove="" if chosen else "chosen")
+        for name, light in panel.lamps().items():
+            element = lights.get(name)
+            if element is not None and self._changed(f"lamp-{name}", light):
+                element.classes(remove="lit blinking")
+                element.classes(add={Light.ON: "lit", Light.BLINKING: "blinking"}.get(light, ""))
+
+    # ---- the page itself -----------------------------------------------------------------------------------
+
+    def _typed(self, event: KeyEventArguments) -> None:
+        if not event.action.keydown or event.modifiers.ctrl or event.modifiers.alt or event.modifiers.meta:
+            return
+        name = str(event.key.name)
+        if name == "?":
+            self._help()
+        elif name in OPERATED:
+            self._desk.press(OPERATED[name])
+        elif name in TYPED:
+            self._desk.screen.press(TYPED[name])
+        elif name[:1] == "F" and name[1:].isdigit():
+            self._desk.screen.soft(int(name[1:]) - 1)
+        elif len(name) == 1:
+            self._desk.screen.type(name.upper())
+        self._refresh()
+
+    def _speak(self, lang: str) -> None:
+        self._lang = lang
+        self._build()
+
+    def _day(self) -> None:
+        ui.run_javascript("document.body.classList.toggle('day')")
+
+    def _help(self) -> None:
+        """The sheet of keys."""
+        with ui.dialog() as dialog, ui.card():
+            ui.label(text("panel.help", self._lang))
+            for key, meaning in (
+                *TYPED.items(),
+                *OPERATED.items(),
+                ("F1 … F8", text("panel.soft-keys", self._lang)),
+            ):
+                ui.label(f"{key}: {meaning}")
+        dialog.open()
+
+
+def _quoted(value: str) -> str:
+    return value.replace("&", "&amp;").replace('"', "&quot;")

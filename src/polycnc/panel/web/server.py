@@ -1,0 +1,83 @@
+"""The server: every control under its own address, an index of them, and the JSON interface of each."""
+
+from __future__ import annotations
+
+from importlib import resources
+from typing import TYPE_CHECKING
+
+from fastapi import WebSocket, WebSocketDisconnect
+from nicegui import app, ui
+
+from polycnc.messages import text
+from polycnc.panel.web.guard import LOOPBACK, Guard
+from polycnc.panel.web.messages import answer
+from polycnc.panel.web.page import Page
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from polycnc.panel.web.desk import Desk
+
+#: How often the time of the controls goes on, s.
+TICK_S = 0.02
+
+
+def build(desks: Mapping[str, Desk], lang: str, token: str = "") -> None:
+    """Put the pages of all desks into NiceGUI's application.
+
+    Args:
+        desks: The desks by the name in their address.
+        lang: Language of pages at first.
+        token: What a browser must know; empty where none is needed.
+    """
+    style = resources.files("polycnc.panel.web").joinpath("panel.css").read_text(encoding="utf-8")
+
+    def page_of(desk: Desk) -> Callable[[], None]:
+        def show() -> None:
+            ui.add_css(style)
+            Page(desk, lang)
+
+        return show
+
+    def index() -> None:
+        ui.add_css(style)
+        with ui.element("main").classes("half"):
+            ui.label(text("panel.index", lang))
+            for name, desk in desks.items():
+                ui.link(f"{name}: {desk.control.control.id}", f"/{name}")
+
+    async def talk(socket: WebSocket, name: str) -> None:
+        if name not in desks:
+            await socket.close(4404)
+            return
+        await socket.accept()
+        try:
+            while True:
+                await socket.send_text(answer(desks[name], await socket.receive_text()))
+        except WebSocketDisconnect:
+            return
+
+    ui.page("/", title="polycnc")(page_of(next(iter(desks.values()))) if len(desks) == 1 else index)
+    for name, desk in desks.items():
+        ui.page(f"/{name}", title=f"polycnc {name}")(page_of(desk))
+    app.add_api_websocket_route("/api/{name}", talk)
+    app.add_middleware(Guard, token=token)
+
+    def tick() -> None:
+        for desk in desks.values():
+            desk.tick()
+
+    app.timer(TICK_S, tick)
+
+
+def needs_token(host: str) -> bool:
+    """Whether a server at this address is reached from elsewhere."""
+    return host not in LOOPBACK
+
+
+def serve(*, host: str, port: int, opens: bool) -> None:
+    """Run the server until it is interrupted."""
+    ui.run(
+        host=host, port=port, show=opens, reload=False, title="polycnc", favicon="⚙", show_welcome_message=False,
+        binding_refresh_interval=None,
+    )  # fmt: skip

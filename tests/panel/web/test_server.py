@@ -1,0 +1,98 @@
+"""The server as a user starts it: the page, the JSON interface, the memory, Ctrl-C."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import urllib.error
+import urllib.request
+from contextlib import closing
+from time import monotonic, sleep
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+pytest.importorskip("nicegui")
+#: A busy machine starts slowly.
+PATIENCE_S = 60.0
+
+
+def free_port() -> int:
+    with closing(socket.socket()) as found:
+        found.bind(("127.0.0.1", 0))
+        port: int = found.getsockname()[1]
+        return port
+
+
+@pytest.fixture
+def address(tmp_path: Path) -> Iterator[str]:
+    """A server of a FANUC control with a program and a memory; ended by Ctrl-C."""
+    (tmp_path / "a.nc").write_text("O0007\n#500=4.\nG0 X5.\nM30\n", encoding="utf-8")
+    port = free_port()
+    words = ["panel", "a.nc", "--control", "fanuc-m", "--memory", "shop.db", "--no-open", "--port", str(port)]
+    command = [sys.executable, "-m", "polycnc", *words, "--speed", "100"]
+    # NiceGUI behaves otherwise where it believes that it is tested.
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
+    process = subprocess.Popen(
+        command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
+    )
+    address = f"127.0.0.1:{port}"
+    until = monotonic() + PATIENCE_S
+    while monotonic() < until and status(address) == 0:
+        assert process.poll() is None, process.communicate()
+        sleep(0.2)
+    yield address
+    process.send_signal(signal.SIGINT)
+    told, errors = process.communicate(timeout=PATIENCE_S)
+    assert process.returncode == 130
+    assert address in told
+    assert "Traceback" not in errors
+
+
+def status(address: str, **headers: str) -> int:
+    """The status of the page; 0 while nobody answers."""
+    try:
+        with urllib.request.urlopen(
+            urllib.request.Request(f"http://{address}/", headers=headers), timeout=5
+        ) as page:
+            return int(page.status)
+    except urllib.error.HTTPError as error:
+        return error.code
+    except OSError:
+        return 0
+
+
+async def talk(address: str, *messages: object) -> list[object]:
+    from websockets.asyncio.client import connect
+
+    answers = []
+    async with connect(f"ws://{address}/api/fanuc-m") as wire:
+        for message in messages:
+            await wire.send(json.dumps(message))
+            answers.append(json.loads(await wire.recv()))
+    return answers
+
+
+def test_the_panel_is_served_and_answers(address: str, tmp_path: Path) -> None:
+    assert status(address) == 200
+    assert status(address, Origin="http://elsewhere.example") == 403
+    started, _ = asyncio.run(talk(address, {"do": "cycle_start"}, {"do": "snapshot"}))
+    assert started == {"ok": None}
+    until, x = monotonic() + PATIENCE_S, 0.0
+    while monotonic() < until and x != 5.0:
+        (shown,) = asyncio.run(talk(address, {"do": "snapshot"}))
+        assert isinstance(shown, dict)
+        x = shown["ok"]["positions"]["work"]["X"]
+    assert x == 5.0
+    assert asyncio.run(talk(address, {"do": "read_variable", "with": {"name": "#500"}})) == [{"ok": 4.0}]
+    assert asyncio.run(talk(address, {"do": "nothing"}))[0] != {"ok": None}
+    assert (tmp_path / "shop.db").exists()
