@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import asin, atan2, ceil, cos, hypot, pi, sin, sqrt, tan
 
-import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -222,7 +221,6 @@ def test_most_jagged_contours_have_a_way_round() -> None:
     assert deepest_cut(recorder, contour, 1, 4.0, 8) < 1e-3
 
 
-@pytest.mark.xfail(strict=True, reason="an arc in front of a step as long as itself is cut by 1.6 µm")
 def test_an_arc_in_front_of_a_short_step_is_not_cut() -> None:
     points = [
         (-20, 0),

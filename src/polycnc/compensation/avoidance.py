@@ -65,7 +65,7 @@ class Detour:
         Args:
             known: The steps read, and those passed on last.
         """
-        if self.is_outer or self.first.runs_back:
+        if self.is_outer or self.first.runs_back or self.first.leaves_its_circle:
             return Violation.AVOIDANCE_DANGEROUS
         if any(cuts(step, known) for step in (self.first, *self.between)):
             return Violation.AVOIDANCE_DANGEROUS
@@ -156,9 +156,10 @@ def detours(window: Sequence[Step], number: int) -> Iterator[Detour]:
         before, after = _altered(first), _altered(last)
         if leave_out_crossing_vectors(before, after):
             yield Detour(before, [after], replace(following), between)
-    before, after = _altered(first), _altered(last)
-    if _meets_arc_behind(before, after):
-        yield Detour(before, [after], replace(following), between)
+    for lead_over in (_meets_arc_behind, _by_two_arcs):
+        before, after = _altered(first), _altered(last)
+        if lead_over(before, after):
+            yield Detour(before, [after], replace(following), between)
     if first.distance * following.distance <= 0.0:
         return
     yield from _by_arc_in_front(first, following, between)
@@ -215,6 +216,20 @@ def _altered(step: Step) -> Step:
     """A copy of a step for a detour, with vectors of its own."""
     corner = step.corner and Corner(list(step.corner.vectors), step.corner.joint)
     return replace(step, corner=corner, altered=True)
+
+
+def _by_two_arcs(previous: Step, step: Step) -> bool:
+    """Let the arc about the corner in front of a step too short for the tool lead to the one behind it."""
+    one, two = previous.joint_arc, step.joint_arc
+    if one is None or two is None or previous.corner is None or step.corner is None:
+        return False
+    point = _on(two, _on(one, offset.meet(one, two, 0.0, 0.0)))
+    if point is None:
+        return False
+    previous.corner = Corner([previous.corner.vectors[0], arcs.minus(point, previous.edge.end)], Joint.ARC)
+    previous.lead_to(step)
+    step.corner.vectors[0] = arcs.minus(point, step.edge.end)
+    return True
 
 
 def _on(arc: Edge, point: Point | None) -> Point | None:

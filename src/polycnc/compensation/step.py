@@ -30,6 +30,10 @@ class Role(Enum):
     GAP = "straight way past blocks that were left out"
 
 
+#: Radii of one circle differ by no more than rounding, mm.
+_SAME_RADIUS_MM = 1e-6
+
+
 @dataclass(slots=True)
 class Step:
     """A plane move in the window.
@@ -101,6 +105,17 @@ class Step:
     def runs_back_by(self, way: float) -> bool:
         """Whether it would run against the programmed direction by more than a way, mm."""
         return self.corner is not None and offset.reverses(self.edge, self.first, self.corner.vectors[0], way)
+
+    @property
+    def leaves_its_circle(self) -> bool:
+        """Whether its way as an arc would not begin and end on one circle, after a detour has moved its start."""
+        center, corner = self.edge.center, self.corner
+        if center is None or self.straight or corner is None:
+            return False
+        start, end = arcs.plus(self.edge.start, self.first), arcs.plus(self.edge.end, corner.vectors[0])
+        if arcs.radius_of(start, end) <= NO_WAY:
+            return False
+        return abs(arcs.radius_of(center, start) - arcs.radius_of(center, end)) > _SAME_RADIUS_MM
 
     @property
     def joint_arc(self) -> Edge | None:
