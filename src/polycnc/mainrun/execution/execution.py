@@ -490,8 +490,9 @@ class Execution:
         self._blocked = False
         motion = self.motion
         if motion is None:
-            if not self.preprocessing.queue.suits(self.rates, at_rest=self._x2 == 0.0):
-                self.preprocessing.queue.lay_again(self.rates)
+            at_rest = self._x2 == 0.0
+            if not self.preprocessing.queue.suits(self.rates, at_rest=at_rest):
+                self.preprocessing.queue.lay_again(self.rates, at_rest=at_rest)
             self._look_ahead()
             return
         if not self.preprocessing.queue.suits(self.rates, at_rest=False) and self._lay_again(motion):

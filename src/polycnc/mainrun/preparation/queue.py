@@ -64,7 +64,7 @@ class Queue:
         return layout == self.layout or (not at_rest and self.layout.covers(layout))
 
     def lay_again(
-        self, rates: ChannelRates, row: float | None = None, way: float = 0.0
+        self, rates: ChannelRates, row: float | None = None, way: float = 0.0, *, at_rest: bool = False
     ) -> tuple[Piece, array[Any], float] | None:
         """Lay what is prepared out for what the operator has set.
 
@@ -72,6 +72,7 @@ class Queue:
             rates: Overrides.
             row: The row in execution, where the axes may still change how they run it.
             way: How far they have come since the beginning of the piece that has been taken last, mm.
+            at_rest: The axes stand in front of what is prepared.
 
         Returns:
             The piece that takes the place of the one in execution, its record, and how far the axes have come on it.
@@ -96,7 +97,7 @@ class Queue:
             moves = [front, *(item for item in self.items if isinstance(item, Move) and item is not front)]
         else:
             front, done = None, 0.0
-            moves = self._from_rest()
+            moves = self._from_rest(at_rest=at_rest)
         rows = [move.laid for move in moves if move.laid is not None]
         if not rows or len(rows) < len(moves):
             return None
@@ -116,9 +117,11 @@ class Queue:
         """Whether pieces of a row are still to come."""
         return bool(self.items) and self.items[0] is move
 
-    def _from_rest(self) -> list[Move]:
+    def _from_rest(self, *, at_rest: bool) -> list[Move]:
         """The moves that are prepared from the first one on before which the axes rest."""
         moves = [item for item in self.items if isinstance(item, Move)]
+        if at_rest and moves and moves[0].done == 0.0:
+            return moves
         begins = self._buffer.rows_from_rest()
         return next(
             (moves[k:] for k, move in enumerate(moves) if move.row in begins and move.done == 0.0), []

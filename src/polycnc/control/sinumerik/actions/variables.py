@@ -10,7 +10,6 @@ from polycnc.control.sinumerik.actions.axes import EXCHANGE_VARIABLES
 from polycnc.control.sinumerik.actions.run import Deleted
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
-from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.language.sinumerik.names.values import Type
 
@@ -64,9 +63,7 @@ def _added_feed(channel: SinumerikChannel, _indices: Indices) -> float:
 
 
 def _add_feed(channel: SinumerikChannel, _indices: Indices, value: float) -> None:
-    if value:  # rows that lie ahead are not laid out for it yet
-        raise not_supported("$AC_VC")
-    _influence(channel).addend = 0.0
+    _influence(channel).addend = value / MINUTE
 
 
 def _axis_override(channel: SinumerikChannel, indices: Indices) -> float:
