@@ -171,6 +171,15 @@ LATE = [
 ]
 
 
+MISSING = [
+    *polyline((10, 0))[:2],
+    Piece((10.0, 0.0), (10.625, 1.0), 0.03584952830141509),
+    Piece((10.625, 1.0), (11.312, 1.625), -0.27634587661055493),
+    Piece((11.312, 1.625), (21.312, 1.625)),
+    Piece((21.312, 1.625), (31.312, 1.625)),
+]
+
+
 @settings(derandomize=True, max_examples=150, deadline=None)
 @given(
     jagged(),
@@ -187,6 +196,8 @@ LATE = [
 # The third step of the contour is an arc that the first move would have to keep off: with three blocks it is not read.
 @example(LATE, 1, 7.0, 3, ARCS)
 @example(LATE, 1, 7.0, 4, ARCS)
+# The parallels of two arcs that miss each other by a few micrometres do not meet.
+@example(MISSING, 1, 0.8, 3, POLICIES[-1])
 def test_a_tool_that_avoids_interference_never_cuts_what_is_read(
     contour: list[Piece], side: int, radius: float, read_blocks: int, policy: Policy
 ) -> None:

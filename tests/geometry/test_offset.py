@@ -70,6 +70,18 @@ def test_when_a_parallel_runs_backwards(edge: Edge, first: Point, last: Point, r
     assert offset.reverses(edge, first, last) == reversed_
 
 
+@pytest.mark.parametrize(
+    ("center", "radius", "meets"),
+    [(10.1, 0.1, True), (10.1005, 0.1, True), (10.102, 0.1, False), (9.9, 0.1, True), (9.898, 0.1, False)],
+)
+def test_a_small_circle_beside_a_large_one_meets_it_by_its_gap(
+    center: float, radius: float, *, meets: bool
+) -> None:
+    large = offset.arc((0.0, -10.0), (10.0, 0.0), (0.0, 0.0), ccw=True)
+    small = offset.arc((center - radius, 0.0), (center + radius, 0.0), (center, 0.0), ccw=True)
+    assert bool(offset.crossings(large, small, 0.0, 0.0)) is meets
+
+
 def test_no_vector_for_an_inner_corner_that_does_not_exist() -> None:
     # Two bows of radius 8, centres 12 apart, meet in a dent that a tool of 5 does not reach.
     height = (64 - 36) ** 0.5

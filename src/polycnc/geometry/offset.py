@@ -192,11 +192,11 @@ def _circle_circle(a: Edge, b: Edge, offset_a: float, offset_b: float) -> list[P
     distance = hypot(du, dv)
     if distance < NO_WAY:
         return []
+    if max(distance - (r1 + r2), abs(r1 - r2) - distance) > ROUNDED_MM:
+        return []
     du, dv = du / distance, dv / distance
     along = (distance * distance + r1 * r1 - r2 * r2) / (2.0 * distance)
-    half = _half_chord(r1, abs(along))
-    if half is None:
-        return []
+    half = sqrt(max(r1 * r1 - along * along, 0.0))
     foot = (c1[0] + along * du, c1[1] + along * dv)
     return [(foot[0] + half * dv, foot[1] - half * du), (foot[0] - half * dv, foot[1] + half * du)]
 
