@@ -100,11 +100,16 @@ class ChannelRuns:
             self._make(channel.number, setup, channel)
 
     def go_on(self) -> None:
-        """The channels that were adopted go on with what they run."""
-        for number, (under_way, wait) in self.group.drive(self._further, self._supervisor.started).items():
-            run = self._runs[number]
+        """The channels that were adopted go on with what they run; one that has run nothing yet is switched on."""
+        under_way = self.group.drive(self._further, self._supervisor.started)
+        for number, run in self._runs.items():
+            if run.channel.memory is None:
+                self.switch_on(run)
+                continue
             self._use(run)
-            run.preprocessing.go_on(under_way, run.execution.position, wait)
+            if number in under_way:
+                waits, wait = under_way[number]
+                run.preprocessing.go_on(waits, run.execution.position, wait)
 
     def __iter__(self) -> Iterator[ChannelRun]:
         return iter(tuple(self._runs.values()))

@@ -286,6 +286,8 @@ class PieceBuffer:
         first, end = self._taken * self._width, self.state.run.pieces * self._width
         planned = self._planned = self._records[first:end]
         self._next = 0
+        if not planned:
+            return
         for at, entry2 in entries(planned, self._width):
             planned[at + PieceRecord.ENTRY2] = entry2
         self._kernels.backward(planned, len(self), self._axes, self.limits)

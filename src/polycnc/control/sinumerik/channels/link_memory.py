@@ -49,7 +49,7 @@ def _bytes(channel: SinumerikChannel, name: str) -> bytearray:
     if key not in values:
         is_linked = name.startswith(_LINKED)
         values[key] = bytearray(
-            channel.memory.data.integer("$MN_MM_SIZEOF_LINKVAR_DATA") if is_linked else _PLC_BYTES
+            max(channel.memory.data.integer("$MN_MM_SIZEOF_LINKVAR_DATA"), 0) if is_linked else _PLC_BYTES
         )
     memory: bytearray = values[key]
     return memory
