@@ -34,6 +34,7 @@ BENCHMARKS = (
     planner.speed,
     planner.optimum,
     mainrun.real_time,
+    mainrun.actions,
     snapshots.milling,
 )
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from benchmarks.measure import Figure, rate
 from polycnc import VirtualControl
+from polycnc.machine import load_machine
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -25,6 +26,16 @@ PROGRAMS = {
     "arcs of 1 mm": ("fanuc-m", f"O1\nG1 F6000.\n{ARCS}\nM30\n"),
     "drilling": ("fanuc-m", f"O1\nG81 Z-5. R2. F500.\n{HOLES}\nG80\nM30\n"),
 }
+#: Modal synchronised actions, and the program in which they are looked at in every interpolation cycle.
+ACTIONS = 20
+ACTING = "\n".join(
+    f"ID={k} WHENEVER $AA_IM[X]>{5 * k} DO $AC_MARKER[{k % 8}]=$AC_MARKER[{k % 8}]+1"
+    if k % 2
+    else f"ID={k} EVERY $AC_TIMER[1]>{k} DO $R{k}=$AA_IM[X]*2"
+    for k in range(1, ACTIONS + 1)
+)
+#: Cycles a second of the processor: 20 s of machine time at a cycle of 2 ms.
+CYCLES_A_SECOND = 10_000
 #: Simulated seconds of the run that is read in every cycle.
 READ_S = 3.0
 
@@ -43,6 +54,16 @@ def real_time() -> Iterator[Figure]:
         virtual.machine_position  # noqa: B018 - what a panel reads
     seconds = time.process_time() - begin
     yield rate("main run, SOFT, read in every cycle", READ_S / seconds, 1.0, "times real time")
+
+
+def actions() -> Iterator[Figure]:
+    """Interpolation cycles a second of the processor while modal synchronised actions are looked at in each."""
+    virtual = _started("sinumerik-840d", f"$AC_TIMER[1]=0\n{ACTING}\nG1 X100 F300\nM30\n")
+    begin = time.process_time()
+    virtual.run()
+    cycles = virtual.time / load_machine("mill3").interpolation_cycle_s
+    rated = cycles / (time.process_time() - begin)
+    yield rate(f"main run, {ACTIONS} modal synchronised actions", rated, CYCLES_A_SECOND, "cycles/s")
 
 
 def _started(control: str, text: str) -> VirtualControl:

@@ -63,10 +63,10 @@ class Running:
         """The main run."""
         return self.channel.on_clock()
 
-    def begin(self, action: Action) -> None:
-        """An action is looked at: in its own measuring system, or in that of the block in execution."""
+    def begin(self, action: Action, unit: str) -> None:
+        """An action is looked at: in its own measuring system, or in that of the block in execution, `unit`."""
         self.action, self._kept = action, self.channel.mode
-        self.use_unit(action.code.unit or self.clocked.modal.get("unit", ""))
+        self.use_unit(action.code.unit or unit)
 
     def use_unit(self, code: str) -> None:
         """`G70` … hold for what follows in this action; empty for those of the program."""

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from polycnc.machine.setup.values import ParameterKey, Parameters
 
 Index = int | str
+#: Where a datum stands that is named without an index.
+_WITHOUT_INDEX: tuple[tuple[Index, ...], ...] = ((), (0,))
 Key = tuple[str, tuple[Index, ...]]
 
 
@@ -121,10 +123,14 @@ class MachineData(State, lifetime=Lifetime.POWER):
         Raises:
             AlarmError: PC0001 for a datum that polycnc does not keep.
         """
-        key = tuple(self._index(index) for index in indices)
-        for wanted in (key, key[-1:] if len(key) > 1 else key, () if key else (0,)):
-            if (name, wanted) in self.values:
-                return self.values[name, wanted]
+        if not indices:
+            wanted: tuple[tuple[Index, ...], ...] = _WITHOUT_INDEX
+        else:
+            key = tuple(self._index(index) for index in indices)
+            wanted = (key, key[-1:], ())
+        for place in wanted:
+            if (name, place) in self.values:
+                return self.values[name, place]
         if name in DELIVERED:
             return DELIVERED[name]
         raise not_supported(name)
