@@ -9,6 +9,7 @@ import pytest
 from polycnc.machine import MFunction
 from polycnc.machine.text import Text
 from polycnc.motion import Settings
+from polycnc.motion.waits import rpm_at
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.events import Auxiliary, Message, ToolSelection
 from polycnc.toolpath.modes import CornerMode, FeedMode, StopWindow
@@ -182,3 +183,9 @@ def test_the_spindle_follows_a_cut_under_constant_surface_speed_without_a_wait()
     rows.set(spindle_direction=-1).feed(60.0, -3.0)
     ramp = LATHE.spindles[0].acceleration_rpm_s
     assert rows.plan(LATHE).times.spindle_s == pytest.approx((1000.0 + 1000.0) / ramp)
+
+
+@pytest.mark.parametrize("speed", [0.0, -100.0])
+def test_a_surface_speed_that_is_none_turns_no_spindle(speed: float) -> None:
+    context = Context(surface_speed=True, spindle_rpm=speed, spindle_direction=1)
+    assert rpm_at(context, 0.0, MILL.spindles[0]) == 0.0

@@ -111,7 +111,7 @@ def context_fields(
     highest = spindle.max_rpm if spindle else inf
     if context.spindle_limit_rpm > 0.0:
         highest = min(highest, context.spindle_limit_rpm)
-    surface = context.surface_m_min * 1000.0 / 60.0 if context.surface_speed else 0.0
+    surface = max(context.surface_m_min, 0.0) * 1000.0 / 60.0 if context.surface_speed else 0.0
     (a, b, c), (d, e, f), (g, h, i) = context.frame.m
     return [
         context.feed_mode is FeedMode.PER_REVOLUTION,

@@ -54,6 +54,8 @@ def rpm_at(context: Context, radius_mm: float, spindle: Spindle | None) -> float
         return min(context.spindle_rpm, highest)
     around_m = 2.0 * pi * radius_mm / 1000.0
     speed = context.surface_m_min
+    if speed <= 0.0:
+        return 0.0
     return highest if around_m * highest <= speed else speed / around_m
 
 
