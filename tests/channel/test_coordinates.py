@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from polycnc.channel.coordinates import Coordinates
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
-from polycnc.transformation.feature import FeatureFrame
+from polycnc.transformation.planes.feature import FeatureFrame
 
 LENGTH = st.floats(-1000.0, 1000.0)
 

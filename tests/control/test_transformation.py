@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from polycnc.transformation.inclined import InclinedAxis
+from polycnc.transformation.kinematic.inclined import InclinedAxis
 from tests.support import run
 
 INCLINED = InclinedAxis(0, 2, 60.0, (0, 1, 2))

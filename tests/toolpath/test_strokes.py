@@ -10,7 +10,7 @@ from polycnc.geometry.frames import translation
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.events import Auxiliary
 from polycnc.toolpath.strokes import arc_points, strokes
-from polycnc.transformation.parallel import ParallelAxes
+from polycnc.transformation.kinematic.parallel import ParallelAxes
 from tests.toolpath.paths import Z_UP, Draft
 
 XYZ = (0, 1, 2)

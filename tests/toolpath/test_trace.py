@@ -7,8 +7,8 @@ from polycnc.machine.layout import AxisLayout
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.events import Auxiliary, Message, Raised
 from polycnc.toolpath.modes import FeedMode
-from polycnc.transformation.cylinder import Cylinder
-from polycnc.transformation.parallel import ParallelAxes
+from polycnc.transformation.kinematic.cylinder import Cylinder
+from polycnc.transformation.kinematic.parallel import ParallelAxes
 from tests.toolpath.paths import MILL, Z_UP, Draft
 
 

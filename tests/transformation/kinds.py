@@ -11,14 +11,14 @@ from polycnc.geometry.frames import IDENTITY, rotation, translation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.machine.model import Joint
 from polycnc.transformation.chain import Chain
-from polycnc.transformation.cylinder import Cylinder
-from polycnc.transformation.feature import FeatureFrame
-from polycnc.transformation.groove import GrooveCylinder
-from polycnc.transformation.inclined import InclinedAxis
-from polycnc.transformation.parallel import ParallelAxes
-from polycnc.transformation.polar import PolarPlane
+from polycnc.transformation.kinematic.cylinder import Cylinder
+from polycnc.transformation.kinematic.groove import GrooveCylinder
+from polycnc.transformation.kinematic.inclined import InclinedAxis
+from polycnc.transformation.kinematic.parallel import ParallelAxes
+from polycnc.transformation.kinematic.polar import PolarPlane
+from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
+from polycnc.transformation.planes.feature import FeatureFrame
 from polycnc.transformation.seated import Seated
-from polycnc.transformation.tool_centre import ToolCentrePoint
 
 if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector

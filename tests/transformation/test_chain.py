@@ -3,9 +3,9 @@ from __future__ import annotations
 import pytest
 
 from polycnc.transformation.chain import Chain
-from polycnc.transformation.inclined import InclinedAxis
-from polycnc.transformation.parallel import ParallelAxes
-from polycnc.transformation.polar import PolarPlane
+from polycnc.transformation.kinematic.inclined import InclinedAxis
+from polycnc.transformation.kinematic.parallel import ParallelAxes
+from polycnc.transformation.kinematic.polar import PolarPlane
 
 POLAR, INCLINED = PolarPlane(0, 2, (0, 2, 1)), InclinedAxis(0, 1, 60.0, (0, -1, 1))
 

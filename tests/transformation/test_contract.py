@@ -9,9 +9,9 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from polycnc.transformation.parallel import ParallelAxes
+from polycnc.transformation.kinematic.parallel import ParallelAxes
+from polycnc.transformation.kinematic.standing import StandingAxes
 from polycnc.transformation.rows import jacobian_rows, machine_rows, work_rows
-from polycnc.transformation.standing import StandingAxes
 from tests.transformation.kinds import ROTARY, WIDTH, XYZ, away_from_pole, every, points
 
 if TYPE_CHECKING:

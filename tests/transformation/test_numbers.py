@@ -37,7 +37,7 @@ def test_quarter_turns_are_exact() -> None:
 def test_a_single_point_loads_no_numpy() -> None:
     code = (
         "import sys\n"
-        "from polycnc.transformation.polar import PolarPlane\n"
+        "from polycnc.transformation.kinematic.polar import PolarPlane\n"
         "from polycnc.transformation.rows import machine_rows\n"
         "plane = PolarPlane(0, 1, (0, 1, 2))\n"
         "plane.jacobian(plane.to_work(plane.to_machine([1.0, 2.0, 3.0])))\n"

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from polycnc.geometry.frames import rotation, translation
-from polycnc.transformation.polar import PolarPlane
+from polycnc.transformation.kinematic.polar import PolarPlane
 from polycnc.transformation.seated import Seated
 
 XYZ = (0, 1, 2)

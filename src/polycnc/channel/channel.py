@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     from polycnc.messages import Alarm
     from polycnc.program import Program
     from polycnc.program.store import ProgramStore
-    from polycnc.transformation.turning import Turning
+    from polycnc.transformation.orientation.turning import Turning
 
 DEFAULT_BLOCK_LIMIT = 100_000_000
 #: A simulated control prepares a block as a whole; one with more rows is taken for a mistake.

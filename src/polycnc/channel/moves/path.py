@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.geometry.frames import Vector
     from polycnc.toolpath import Event
-    from polycnc.transformation.turning import Turning
+    from polycnc.transformation.orientation.turning import Turning
 
 
 class Rank(IntEnum):

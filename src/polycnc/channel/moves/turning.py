@@ -14,7 +14,7 @@ from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.transformation.turning import Turning
+    from polycnc.transformation.orientation.turning import Turning
 
 
 #: As much may the rotary axes leave their way at a knot, degrees: what its direction may be off.

@@ -15,7 +15,7 @@ from polycnc.machine import load_machine
 from polycnc.machine.kinematics import Kinematics
 from polycnc.motion.planner import Planner
 from polycnc.motion.sampling.samples import Sampler, Samples
-from polycnc.transformation.tool_centre import ToolCentrePoint
+from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 
 if TYPE_CHECKING:
     from polycnc.machine import Machine

@@ -26,8 +26,9 @@ from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, NcFra
 from polycnc.machine.kinematics import Kinematics
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
-from polycnc.transformation import choice, tilted
-from polycnc.transformation.orientation import solutions_for
+from polycnc.transformation.orientation import choice
+from polycnc.transformation.orientation.solutions import solutions_for
+from polycnc.transformation.planes import tilted
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -21,7 +21,7 @@ from polycnc.control.sinumerik.tools.holders.stored import (
 from polycnc.machine.kinematics import Kinematics
 from polycnc.machine.model import Joint
 from polycnc.messages import AlarmError
-from polycnc.transformation import tilted
+from polycnc.transformation.planes import tilted
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel

@@ -26,7 +26,7 @@ from polycnc.control.sinumerik.tools.sides import SIDES, Contour
 from polycnc.machine.kinematics import unit
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain
-from polycnc.transformation.tool_centre import ToolCentrePoint
+from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.machine.kinematics import Kinematics, unit
 from polycnc.messages import AlarmError
-from polycnc.transformation.cylinder import Cylinder
-from polycnc.transformation.groove import GrooveCylinder
-from polycnc.transformation.inclined import InclinedAxis
+from polycnc.transformation.kinematic.cylinder import Cylinder
+from polycnc.transformation.kinematic.groove import GrooveCylinder
+from polycnc.transformation.kinematic.inclined import InclinedAxis
+from polycnc.transformation.kinematic.polar import PolarPlane
 from polycnc.transformation.numbers import RADIAN
-from polycnc.transformation.polar import PolarPlane
-from polycnc.transformation.tool_centre import ToolCentrePoint
+from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel

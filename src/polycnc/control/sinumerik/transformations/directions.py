@@ -24,7 +24,7 @@ from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.geometry.vectors import dot, minus
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
-from polycnc.transformation.directions import (
+from polycnc.transformation.orientation.directions import (
     about,
     angle_between,
     axis_of_opening,
@@ -37,7 +37,7 @@ from polycnc.transformation.directions import (
     polynomial,
     unit_of,
 )
-from polycnc.transformation.tilted import by_own_axes
+from polycnc.transformation.planes.tilted import by_own_axes
 
 if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.transformations.words import Words
     from polycnc.geometry.frames import Vector
     from polycnc.machine.kinematics import Angles
-    from polycnc.transformation.directions import Way
+    from polycnc.transformation.orientation.directions import Way
 
     Ends = tuple[list[float], list[float]]
 

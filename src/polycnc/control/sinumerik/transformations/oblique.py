@@ -13,7 +13,7 @@ from polycnc.control.sinumerik.transformations import seat
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.chain import Chain
-from polycnc.transformation.inclined import InclinedAxis
+from polycnc.transformation.kinematic.inclined import InclinedAxis
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values

@@ -25,9 +25,9 @@ from polycnc.control.sinumerik.transformations.words import (
 )
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
-from polycnc.transformation.choice import nearest
-from polycnc.transformation.directions import angle_between, tangent_at_end, unit_of
-from polycnc.transformation.turning import Knot, Turning, follow
+from polycnc.transformation.orientation.choice import nearest
+from polycnc.transformation.orientation.directions import angle_between, tangent_at_end, unit_of
+from polycnc.transformation.orientation.turning import Knot, Turning, follow
 
 if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.frames import Vector
     from polycnc.machine.kinematics import Angles
-    from polycnc.transformation.directions import Way
+    from polycnc.transformation.orientation.directions import Way
 
 #: Half the opening of the cone about a pole in which the axes go evenly, degrees (MD24540 as delivered).
 POLE_LIMIT = 2.0

@@ -14,7 +14,7 @@ from polycnc.control.sinumerik.transformations.posture import Orienting
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
-from polycnc.transformation.polar import PolarPlane
+from polycnc.transformation.kinematic.polar import PolarPlane
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, NamedTuple
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.messages import AlarmError
-from polycnc.transformation.choice import is_within
-from polycnc.transformation.directions import unit_of
-from polycnc.transformation.orientation import solutions_for
+from polycnc.transformation.orientation.choice import is_within
+from polycnc.transformation.orientation.directions import unit_of
+from polycnc.transformation.orientation.solutions import solutions_for
 
 if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.frames import Vector
     from polycnc.machine.kinematics import Angles
+    from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
     from polycnc.transformation.seated import Seated
-    from polycnc.transformation.tool_centre import ToolCentrePoint
 
 
 @dataclass(slots=True)

@@ -20,8 +20,8 @@ from polycnc.geometry.frames import IDENTITY
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain
+from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 from polycnc.transformation.seated import Seated
-from polycnc.transformation.tool_centre import ToolCentrePoint
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -14,9 +14,9 @@ from polycnc.control.sinumerik.transformations.words import ANGLES
 from polycnc.geometry.vectors import cross, dot, minus, times
 from polycnc.machine.kinematics import turn_about, unit
 from polycnc.messages import AlarmError
-from polycnc.transformation.choice import on_nearest_turn
-from polycnc.transformation.directions import angle_between, polynomial, unit_of
-from polycnc.transformation.turning import Knot
+from polycnc.transformation.orientation.choice import on_nearest_turn
+from polycnc.transformation.orientation.directions import angle_between, polynomial, unit_of
+from polycnc.transformation.orientation.turning import Knot
 
 if TYPE_CHECKING:
     from polycnc.channel.mode import Mode

@@ -17,9 +17,9 @@ from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
-from polycnc.transformation import choice
-from polycnc.transformation.orientation import solutions_for
-from polycnc.transformation.tilted import about_tip, table_turn
+from polycnc.transformation.orientation import choice
+from polycnc.transformation.orientation.solutions import solutions_for
+from polycnc.transformation.planes.tilted import about_tip, table_turn
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel

@@ -14,7 +14,7 @@ from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.machine.kinematics import Kinematics
-from polycnc.transformation.orientation import Posture
+from polycnc.transformation.orientation.solutions import Posture
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel

@@ -16,7 +16,7 @@ from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.transformations.tilted_plane import named_point
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.machine.kinematics import Kinematics
-from polycnc.transformation.tilted import by_euler, by_rotary_axes, square_on
+from polycnc.transformation.planes.tilted import by_euler, by_rotary_axes, square_on
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel

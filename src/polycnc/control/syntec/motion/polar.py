@@ -18,7 +18,7 @@ from polycnc.control.word_address.transformations.polar_interpolation import (
     leave_polar,
     length_word,
 )
-from polycnc.transformation.polar import PolarPlane
+from polycnc.transformation.kinematic.polar import PolarPlane
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel

@@ -11,7 +11,7 @@ from polycnc.control.word_address.coordinates.frames import turns_plane
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations import cylinder
 from polycnc.geometry.planes import PLANES
-from polycnc.transformation.parallel import ParallelAxes
+from polycnc.transformation.kinematic.parallel import ParallelAxes
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words

@@ -14,7 +14,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
 from polycnc.geometry.planes import PLANES
-from polycnc.transformation.cylinder import Cylinder
+from polycnc.transformation.kinematic.cylinder import Cylinder
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.numbers import Convert

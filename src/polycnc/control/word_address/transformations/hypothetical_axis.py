@@ -14,7 +14,7 @@ from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.geometry import arcs
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS
-from polycnc.transformation.standing import StandingAxes
+from polycnc.transformation.kinematic.standing import StandingAxes
 
 if TYPE_CHECKING:
     from polycnc.channel.moves.path import Move

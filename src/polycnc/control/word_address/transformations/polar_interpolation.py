@@ -15,7 +15,7 @@ from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.cylinder import CylinderState
 from polycnc.geometry.planes import PLANES
-from polycnc.transformation.polar import PolarPlane
+from polycnc.transformation.kinematic.polar import PolarPlane
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.numbers import Convert

@@ -19,8 +19,8 @@ from polycnc.geometry.frames import IDENTITY, Frame, translation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
-from polycnc.transformation.orientation import angles_for
-from polycnc.transformation.tilted import by_directions, by_euler, by_fixed_axes, by_points, table_turn
+from polycnc.transformation.orientation.solutions import angles_for
+from polycnc.transformation.planes.tilted import by_directions, by_euler, by_fixed_axes, by_points, table_turn
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words

@@ -20,8 +20,8 @@ from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import TiltState
 from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
-from polycnc.transformation.orientation import angles_for
-from polycnc.transformation.tool_centre import ToolCentrePoint
+from polycnc.transformation.orientation.solutions import angles_for
+from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step

@@ -23,7 +23,7 @@ from polycnc.language.sinumerik.names.frame import NEUTRAL, NcFrame
 from polycnc.machine.kinematics import Kinematics, unit
 from polycnc.machine.model import Joint
 from polycnc.messages import AlarmError
-from polycnc.transformation.orientation import solutions_for
+from polycnc.transformation.orientation.solutions import solutions_for
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

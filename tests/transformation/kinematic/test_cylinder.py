@@ -4,7 +4,7 @@ from math import tau
 
 import pytest
 
-from polycnc.transformation.cylinder import Cylinder
+from polycnc.transformation.kinematic.cylinder import Cylinder
 
 
 def test_once_round_is_the_circumference() -> None:

@@ -3,7 +3,7 @@
 For any chain of rotary joints in the head and in the table, in any direction and with any offsets. The programming
 system is fixed to the table and turns with it. A point of the path holds the tip and the positions of the rotary axes,
 which the transformation leaves alone; so its Jacobian never degenerates (its determinant is 1). Poles belong to the
-orientation: they matter where rotary positions are *found* for a direction (`orientation`).
+orientation: they matter where rotary positions are *found* for a direction (`solutions`).
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from polycnc.machine.kinematics import unit
 from polycnc.transformation.contract import unchanged
 from polycnc.transformation.numbers import RADIAN, cosine_and_sine_deg
-from polycnc.transformation.orientation import solutions_for
+from polycnc.transformation.orientation.solutions import solutions_for
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

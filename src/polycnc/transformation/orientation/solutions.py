@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING
 
 from polycnc.geometry.vectors import cross, dot, times
 from polycnc.machine.kinematics import turn_about, unit
-from polycnc.transformation.choice import nearest, on_nearest_turn
 from polycnc.transformation.numbers import RADIAN
+from polycnc.transformation.orientation.choice import nearest, on_nearest_turn
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

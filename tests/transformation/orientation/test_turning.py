@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 from polycnc.machine import load_machine
 from polycnc.machine.kinematics import Kinematics
-from polycnc.transformation.choice import nearest
-from polycnc.transformation.directions import angle_between, great_circle, unit_of
-from polycnc.transformation.orientation import pole_angle, solutions_for
-from polycnc.transformation.turning import Knot, follow
+from polycnc.transformation.orientation.choice import nearest
+from polycnc.transformation.orientation.directions import angle_between, great_circle, unit_of
+from polycnc.transformation.orientation.solutions import pole_angle, solutions_for
+from polycnc.transformation.orientation.turning import Knot, follow
 
 if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector

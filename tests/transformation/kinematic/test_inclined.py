@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from polycnc.geometry.vectors import times
 from polycnc.machine import load_machine
-from polycnc.transformation.inclined import InclinedAxis
+from polycnc.transformation.kinematic.inclined import InclinedAxis
 from tests.transformation.kinds import places
 
 

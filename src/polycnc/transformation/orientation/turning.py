@@ -13,15 +13,15 @@ from itertools import pairwise
 from math import radians
 from typing import TYPE_CHECKING
 
-from polycnc.transformation.choice import nearest
-from polycnc.transformation.directions import angle_between
-from polycnc.transformation.orientation import pole_angle, solutions_for
+from polycnc.transformation.orientation.choice import nearest
+from polycnc.transformation.orientation.directions import angle_between
+from polycnc.transformation.orientation.solutions import pole_angle, solutions_for
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.machine.kinematics import Angles, Kinematics
-    from polycnc.transformation.directions import Way
+    from polycnc.transformation.orientation.directions import Way
 
 #: The direction is looked at after so much of a turn; nearer than NEAR to a pole more often, by down to CLOSEST.
 STEP, NEAR_DEG, CLOSEST = radians(1.5), 8.0, 0.1

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from polycnc.transformation import choice
+from polycnc.transformation.orientation import choice
 
 turns = st.floats(-2000.0, 2000.0)
 

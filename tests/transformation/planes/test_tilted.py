@@ -7,9 +7,9 @@ from polycnc.geometry.frames import IDENTITY, Frame, rotation
 from polycnc.geometry.vectors import dot
 from polycnc.machine import load_machine
 from polycnc.machine.kinematics import Kinematics
-from polycnc.transformation import tilted
-from polycnc.transformation.orientation import angles_for
-from polycnc.transformation.tool_centre import ToolCentrePoint
+from polycnc.transformation.orientation.solutions import angles_for
+from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
+from polycnc.transformation.planes import tilted
 from tests.transformation.kinds import XYZ, angles, offsets
 
 FIVE_AXES = ("mill5-ac-table", "mill5-bc-head", "mill5-ca-head", "mill5-ab-head")

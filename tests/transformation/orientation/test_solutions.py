@@ -7,7 +7,13 @@ from hypothesis import strategies as st
 from polycnc.machine import load_machine
 from polycnc.machine.kinematics import Kinematics
 from polycnc.machine.model import Joint
-from polycnc.transformation.orientation import Posture, angles_for, pole_angle, slopes, solutions_for
+from polycnc.transformation.orientation.solutions import (
+    Posture,
+    angles_for,
+    pole_angle,
+    slopes,
+    solutions_for,
+)
 from tests.transformation.kinds import angles, kinematics
 
 FIVE_AXES = ("mill5-ac-table", "mill5-bc-head", "mill5-ca-head", "mill5-ab-head")

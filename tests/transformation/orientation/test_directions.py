@@ -10,7 +10,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from polycnc.geometry.vectors import cross, dot
-from polycnc.transformation.directions import (
+from polycnc.transformation.orientation.directions import (
     about,
     angle_between,
     axis_of_opening,

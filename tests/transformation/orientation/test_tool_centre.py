@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from polycnc.geometry.vectors import minus
 from polycnc.machine import load_machine
 from polycnc.machine.kinematics import Kinematics
-from polycnc.transformation.tool_centre import ToolCentrePoint
+from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 from tests.transformation.kinds import AXES, XYZ, points, tips
 
 FIVE_AXES = ("mill5-ac-table", "mill5-bc-head", "mill5-ca-head", "mill5-ab-head")

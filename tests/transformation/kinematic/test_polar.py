@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from polycnc.transformation.polar import CLOSEST_MM, PolarPlane
+from polycnc.transformation.kinematic.polar import CLOSEST_MM, PolarPlane
 from tests.transformation.kinds import angles, places
 
 PLANE = PolarPlane(0, 2, (0, 2, 1))

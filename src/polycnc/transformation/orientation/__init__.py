@@ -1,0 +1,6 @@
+"""How the tool stands on the work, and which positions of the rotary axes stand it so.
+
+`tool_centre` is the transformation that leads the tip (G43.4, TRAORI). `solutions` finds the rotary positions for a
+direction of the tool, `choice` says which of several; `directions` are ways of a direction, `turning` makes ways of the
+rotary axes of them.
+"""
