@@ -1,7 +1,7 @@
 """Tilted planes: how they are told, and what turning rotary axes do to them (G68.2, G68.3, G53.1, G53.6, CYCLE800).
 
-A tilted plane is a frame from the plane to the work. To stand the tool on it the rotary axes turn (`orientation/`). What
-the table turns takes the plane with it: it is worked out anew. What the head turns takes the tool's length with it.
+A tilted plane is a frame from the plane to the work. To stand the tool on it the rotary axes turn (`orientation/`).
+What the table turns takes the plane with it: it is worked out anew. What the head turns takes the tool's length along.
 """
 
 from __future__ import annotations
